@@ -1,0 +1,1 @@
+"""One file per equation of the paper, and the command line."""

@@ -1,0 +1,87 @@
+"""The shape of a derivation: what every ``eqNN_…`` module states, and what running it yields."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+import sympy
+
+from symbolic.kernel import Ruling, Verdict
+
+
+@dataclass(frozen=True)
+class Step:
+    """One line of reasoning: a reason in plain words (Unicode) and the formula that it gives."""
+
+    reason: str
+    formula: sympy.Basic | None = None
+
+
+@dataclass(frozen=True)
+class Claim:
+    """Something that a decision procedure rules on."""
+
+    name: str
+    decide: Callable[[], Ruling]
+
+
+@dataclass(frozen=True)
+class Witness:
+    """A check of another kind: exact or high-precision numbers drawn with a seed."""
+
+    name: str
+    run: Callable[[int], Ruling]
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """One numbered equation of the paper: what is printed, why it holds, and how it is checked.
+
+    ``steps`` and ``decide`` are functions so that importing a derivation proves nothing and
+    costs nothing. ``decide`` rules on a candidate for the printed equations, one by one in
+    ``printed``; it is the same procedure for the true equation and for its mutants.
+    """
+
+    number: int
+    name: str
+    title: str
+    symbols: tuple[tuple[sympy.Basic, str], ...]
+    assumptions: tuple[str, ...]
+    premises: tuple["Derivation", ...]
+    printed: tuple[sympy.Eq, ...]
+    steps: Callable[[], Iterable[Step]]
+    decide: Callable[[int, sympy.Eq], Ruling]
+    claims: tuple[Claim, ...] = ()
+    witnesses: tuple[Witness, ...] = ()
+    remarks: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Check:
+    """A claim or a witness that has been run."""
+
+    kind: str  # "proof" or "witness"
+    name: str
+    verdict: Verdict
+    seconds: float
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """A printed equation with one mechanical change, and what the checker said of it."""
+
+    change: str
+    equation: sympy.Eq
+    ruling: Ruling
+    equivalent: bool
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """All that running one derivation found."""
+
+    derivation: Derivation
+    verdict: Verdict
+    checks: tuple[Check, ...]
+    mutants: tuple[Mutant, ...] = field(default=())
+    seconds: float = 0.0

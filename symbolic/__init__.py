@@ -1,0 +1,1 @@
+"""What is exactly true: symbols, lattice, linear forms in δr, force balance, weights, verdicts."""
