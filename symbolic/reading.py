@@ -169,16 +169,22 @@ class Reader:
         if len(series.limits) > 1:
             raise NotExact("nest sums instead of giving several limits")
         bounds = affine.from_sympy(low), affine.from_sympy(high)
-        if isinstance(body, sympy.Piecewise) or body.has(sympy.Piecewise):
+        if body.has(sympy.Piecewise):
             total = LinearForm()
             for part, first, last in split_by_cases(body, index, *bounds):
-                total = total + self._summed(self.scalar(part), index, first, last)
+                inner = self._within(index, affine.to_sympy(first))
+                total = total + self._summed(inner.scalar(part), index, first, last)
             return total
-        value = self.read(body)
+        value = self._within(index, low).read(body)
         if isinstance(value, tuple):
             first, second = (self._summed(part, index, *bounds) for part in value)
             return first, second
         return self._summed(value, index, *bounds)
+
+    def _within(self, index: sympy.Symbol, low: sympy.Expr) -> "Reader":
+        if self.region is None:
+            return self
+        return Reader(Region({**self.region.lower_bounds, index: low}), self.basis)
 
     def _summed(
         self, form: LinearForm, index: sympy.Symbol, low: Affine, high: Affine
