@@ -15,12 +15,13 @@ _RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim"}
 
 _HEAD = r"""\documentclass[10pt]{article}
 \usepackage[a4paper,margin=27mm]{geometry}
-\usepackage{amsmath}
+\usepackage{amsmath,array}
 \setlength{\parindent}{0pt}
 \setlength{\parskip}{4pt plus 1pt}
 \setlength{\emergencystretch}{4em}
 \renewcommand{\labelitemi}{$\bullet$}
-\title{Forces in nearly-ordered packings of frictionless discs:\\ the equations, derived and checked}
+\title{Forces in nearly-ordered packings of frictionless discs:\\
+  the equations, derived and checked}
 \author{}
 \date{}
 \begin{document}
@@ -58,19 +59,22 @@ def _list(kind: str, items: Iterable[str]) -> str:
     lines = [f"\\item {item}" for item in items]
     if not lines:
         return ""
-    spacing = r"\setlength{\itemsep}{1pt}\setlength{\parskip}{0pt}"
+    spacing = r"\setlength{\itemsep}{1pt}\setlength{\parskip}{0pt}\setlength{\topsep}{0pt}"
     return f"\\begin{{{kind}}}{spacing}\n" + "\n".join(lines) + f"\n\\end{{{kind}}}\n"
 
 
 def _part(title: str, body: str) -> str:
-    return f"\\paragraph*{{{title}}}\\mbox{{}}\\par\n{body}" if body else ""
+    return f"\\smallskip\\noindent\\textbf{{{title}}}\\nopagebreak\n{body}" if body else ""
 
 
 def _sentence(words: str) -> str:
-    return words[:1].upper() + words[1:] + ("" if words.endswith((".", "!", "?")) else ".")
+    """Words with a capital letter, where they start with a word, and a full stop."""
+    first = words.split(" ", 1)[0]
+    capital = first[:1].upper() + words[1:] if first.isalpha() and len(first) > 1 else words
+    return capital + ("" if words.endswith((".", "!", "?", ":")) else ".")
 
 
-def _noted(verdict: Verdict, name: str, note: str) -> str:
+def _noted(verdict: str, name: str, note: str) -> str:
     text = f"\\emph{{{verdict}}}: {prose_latex(_sentence(name))}"
     return f"{text} {prose_latex(_sentence(note))}" if note else text
 
@@ -86,20 +90,30 @@ def _steps(derivation: Derivation) -> str:
 
 
 def _mutants(outcome: Outcome) -> str:
+    if not outcome.mutants:
+        return ""
     counts = mutant_counts(outcome)
     text = (
-        f"{counts['made']} made, {counts['refuted']} refuted, "
+        f"\\par {counts['made']} made, {counts['refuted']} refuted, "
         f"{counts['equivalent']} equivalent rewritings.\n"
     )
-    ranked = sorted(outcome.mutants, key=lambda mutant: mutant.ruling.verdict is Verdict.REFUTED)
-    items = [
-        _noted(Verdict.REFUTED, mutant.change, "")
-        if mutant.ruling.verdict is Verdict.REFUTED
-        else f"\\emph{{{'equivalent' if mutant.equivalent else mutant.ruling.verdict}}}: "
-        f"{prose_latex(_sentence(mutant.change))} {prose_latex(_sentence(mutant.ruling.note))}"
-        for mutant in ranked
-    ]
-    return text + "{\\small\n" + _list("itemize", items) + "}\n" if items else ""
+    survivors = [m for m in outcome.mutants if m.ruling.verdict is not Verdict.REFUTED]
+    text += _list(
+        "itemize",
+        (
+            _noted(
+                "equivalent" if mutant.equivalent else mutant.ruling.verdict,
+                mutant.change,
+                mutant.ruling.note,
+            )
+            for mutant in survivors
+        ),
+    )
+    refuted = [m.change for m in outcome.mutants if m.ruling.verdict is Verdict.REFUTED]
+    if refuted:
+        listed = "; ".join(map(prose_latex, refuted))
+        text += f"{{\\small\\par\\emph{{refuted}}: {listed}.\\par}}\n"
+    return text
 
 
 def section_latex(outcome: Outcome) -> str:
@@ -107,14 +121,15 @@ def section_latex(outcome: Outcome) -> str:
     derivation = outcome.derivation
     symbols = [f"${latex(symbol)}$: {prose_latex(words)}" for symbol, words in derivation.symbols]
     rests = ", ".join(f"({premise.number})" for premise in derivation.premises)
+    plural = "s" if len(derivation.premises) > 1 else ""
     checks = [_noted(check.verdict, check.name, check.note) for check in outcome.checks]
     return "".join(
         [
             f"\\section*{{Eq.\\ ({derivation.number}): {prose_latex(derivation.title)}}}\n",
             f"\\setcounter{{equation}}{{{derivation.number - 1}}}\n",
-            f"\\input{{{fragment_name(derivation).removesuffix('.tex')}}}\n",
+            f"\\input{{{fragment_name(derivation).removesuffix('.tex')}}}%\n",
             f"Verdict: \\textbf{{{outcome.verdict}}}."
-            + (f" Rests on Eqs.\\ {rests}.\n" if rests else "\n"),
+            + (f" Rests on Eq{plural}.\\ {rests}.\n" if rests else "\n"),
             _part("Symbols", _list("itemize", symbols)),
             _part("Assumptions", _list("itemize", map(prose_latex, derivation.assumptions))),
             _part("Steps", _steps(derivation)),
@@ -136,7 +151,7 @@ def _overview(outcomes: Sequence[Outcome]) -> str:
             f"{counts['made']} & {counts['refuted']} & {counts['equivalent']} \\\\\n"
         )
     return (
-        "\\begin{center}\\small\n\\begin{tabular}{rp{46mm}lrrrrr}\n\\hline\n"
+        "\\begin{center}\\small\n\\begin{tabular}{r>{\raggedright}p{46mm}lrrrrr}\n\\hline\n"
         " & & & & & \\multicolumn{3}{c}{mutants} \\\\\n"
         "Eq. & title & verdict & proofs & witnesses & made & refuted & equivalent \\\\\n\\hline\n"
         + "".join(rows)

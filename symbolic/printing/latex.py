@@ -73,7 +73,7 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
         return f"{matrix} {self.set_brackets(text) if vector.is_Add else text}"
 
     def _print_MatrixBase(self, expr: Any) -> str:
-        rows = r" \\ ".join(" & ".join(map(self._print, row)) for row in expr.tolist())
+        rows = r" \\[2pt] ".join(" & ".join(map(self._print, row)) for row in expr.tolist())
         return rf"\begin{{pmatrix}} {rows} \end{{pmatrix}}"
 
     _print_ImmutableDenseMatrix = _print_MutableDenseMatrix = _print_MatrixBase
