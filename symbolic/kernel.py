@@ -17,7 +17,7 @@ from symbolic import symbols as sy
 from symbolic.affine import Region
 from symbolic.exact import Domain, NotExact
 from symbolic.reading import Reader
-from symbolic.vectors import LINE_SUM, Basis
+from symbolic.vectors import CARTESIAN, LINE_SUM, Basis
 
 
 class Verdict(StrEnum):
@@ -141,6 +141,25 @@ def decide_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
     if difference.is_zero():
         return proved("the difference is the zero rational function")
     return refuted(f"the difference is {difference.to_sympy()}, not zero")
+
+
+def decide_vector_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
+    """Rule on an equality of vectors that may be multiplied by unknown numbers, by components."""
+    rulings = []
+    for axis in range(2):
+        image: dict[sympy.Basic, sympy.Expr] = {
+            symbol: _cartesian(symbol)[axis] for symbol in sy.VECTORS
+        }
+        for atom in left.atoms(sy.SiteFunction) | right.atoms(sy.SiteFunction):
+            if atom.is_vector:
+                image[atom] = sympy.Symbol(f"{atom}_{'xy'[axis]}")
+        rulings.append(decide_identity(left.xreplace(image), right.xreplace(image)))
+    return all_of(*rulings)
+
+
+def _cartesian(symbol: sympy.Symbol) -> tuple[sympy.Expr, sympy.Expr]:
+    components = CARTESIAN.vectors[symbol]
+    return components[0].to_sympy(), components[1].to_sympy()
 
 
 def all_of(*rulings: Ruling) -> Ruling:

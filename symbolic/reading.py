@@ -107,6 +107,8 @@ class Reader:
             total: Vector = (LinearForm(), LinearForm())
             for value, term in zip(values, terms, strict=True):
                 if not isinstance(value, tuple):
+                    if value.is_zero():
+                        continue  # the number 0 stands for the zero vector as well
                     raise NotExact(f"{term} is a number, added to a vector")
                 total = (total[0] + value[0], total[1] + value[1])
             return total
@@ -190,6 +192,8 @@ class Reader:
         self, form: LinearForm, index: sympy.Symbol, low: Affine, high: Affine
     ) -> LinearForm:
         if self.region is not None:
+            if self.region.below(high, low):
+                return LinearForm()  # empty everywhere in the region
             length = affine.shifted(affine.add(high, low, -1), 1)
             if not self.region.nonnegative(length):
                 raise UnsafeBounds(
