@@ -64,7 +64,7 @@ def _list(kind: str, items: Iterable[str]) -> str:
 
 
 def _part(title: str, body: str) -> str:
-    return f"\\smallskip\\noindent\\textbf{{{title}}}\\nopagebreak\n{body}" if body else ""
+    return f"\\par\\smallskip\\noindent\\textbf{{{title}}}\\nopagebreak\n{body}" if body else ""
 
 
 def _sentence(words: str) -> str:
@@ -151,7 +151,7 @@ def _overview(outcomes: Sequence[Outcome]) -> str:
             f"{counts['made']} & {counts['refuted']} & {counts['equivalent']} \\\\\n"
         )
     return (
-        "\\begin{center}\\small\n\\begin{tabular}{r>{\raggedright}p{46mm}lrrrrr}\n\\hline\n"
+        "\\begin{center}\\small\n\\begin{tabular}{r>{\\raggedright}p{46mm}lrrrrr}\n\\hline\n"
         " & & & & & \\multicolumn{3}{c}{mutants} \\\\\n"
         "Eq. & title & verdict & proofs & witnesses & made & refuted & equivalent \\\\\n\\hline\n"
         + "".join(rows)

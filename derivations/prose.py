@@ -46,7 +46,9 @@ def _is_mathematics(word: str) -> bool:
 
 
 def _lowered(found: re.Match[str]) -> str:
-    return f"_{{{found[1] or found[2]}}}"
+    name = found[1] or found[2]
+    upright = name.isalpha() and len(name) > 2  # a word, as in f_load
+    return rf"_{{\rm {name}}}" if upright else f"_{{{name}}}"
 
 
 def _run(found: re.Match[str]) -> str:

@@ -8,7 +8,7 @@ that no line is overfull, which the compilation of the document checks.
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from sympy import Add, Basic, Eq, Expr, Mul, Piecewise, Tuple
+from sympy import Add, Basic, Eq, Expr, Mul, Tuple
 from sympy.core.relational import Relational
 
 from symbolic.printing.latex import PaperLatex
@@ -142,10 +142,7 @@ def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) 
         return ["&" + line for line in pack(pieces.of(equation, room), room, room)]
     lhs = printer.doprint(equation.lhs)
     sign = relation if isinstance(equation, Eq) else _latex_sign(equation)
-    if isinstance(equation.rhs, Piecewise):
-        rhs = [(_cases(printer, equation.rhs), 0.0)]
-    else:
-        rhs = pieces.of(equation.rhs, room)
+    rhs = pieces.of(equation.rhs, room)
     if width(lhs) > room / 3 and len(equation.lhs.args) > 1:
         left = pack(pieces.of(equation.lhs, room), room, room)
         if len(left) > 1 or width(lhs) + sum(size for _, size in rhs) > room:
@@ -162,19 +159,6 @@ def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) 
 
 def _latex_sign(relation: Relational) -> str:
     return {"<=": r"\leq", ">=": r"\geq", "!=": r"\neq"}.get(relation.rel_op, relation.rel_op)
-
-
-def _cases(printer: PaperLatex, expr: Piecewise) -> str:
-    rows = [
-        f"{printer.doprint(value)} & "
-        + (
-            r"\mbox{otherwise}"
-            if condition == True
-            else rf"\mbox{{if }} {printer.doprint(condition)}"
-        )  # noqa: E712
-        for value, condition in expr.args
-    ]
-    return r"\begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
 
 
 def _single(formulas: Iterable[Basic]) -> Iterator[Basic]:
