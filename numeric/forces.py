@@ -74,9 +74,7 @@ def sweep_down(packing: Packing, rows: tuple[Layer, ...], loads: Loads) -> Force
 
         plus = tuple(here(v, packing.region.rows[j]) for v in packing.plus[j])
         minus = tuple(here(v, packing.region.rows[j]) for v in packing.minus[j])
-        Fp, Fm, sum_plus, sum_minus = _from_above(
-            packing, rows, j, ordered=ordered, change=change
-        )
+        Fp, Fm, sum_plus, sum_minus = _from_above(packing, rows, j, ordered=ordered, change=change)
         Lp, Lm = loads.plus[j], loads.minus[j]
         Fp = Fp if Lp is None else Fp + Lp
         Fm = Fm if Lm is None else Fm + Lm

@@ -123,7 +123,7 @@ def pick(values: Array, source: Layer, wanted: Layer, width: int | None, zero: A
     without a ``zero`` they raise ``LookupError``.
     """
     offset = (wanted.first - source.first) // 2
-    if 0 <= offset and offset + wanted.count <= source.count:
+    if offset >= 0 and offset + wanted.count <= source.count:
         return values[..., offset : offset + wanted.count]
     index = np.arange(offset, offset + wanted.count)
     if width is not None:

@@ -5,7 +5,6 @@ same orientation straight below it. A vertical unit load has L⁺ = L⁻ = 1/(2 
 """
 
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import Any
 
 from numeric.forces import Loads

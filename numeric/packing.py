@@ -193,4 +193,6 @@ def _check_rest(placed: Placed, layer: Layer, system: NumberSystem) -> None:
             raise UnbuildableError((layer.first + 2 * q, layer.j), reason)
         open_question |= not good.all()
     if open_question:
-        raise UndecidedError(f"layer {layer.j}: the enclosures are too wide to tell whether beads rest")
+        raise UndecidedError(
+            f"layer {layer.j}: the enclosures are too wide to tell whether beads rest"
+        )

@@ -72,7 +72,9 @@ def deposit(n_x: Fraction, rho: tuple[Array, ...], system: NumberSystem) -> Plai
         good, _ = system.signs(high)
         if not good.all():
             q = int(np.argwhere(~good)[0][0])
-            raise UnbuildableError((layer.first + 2 * q, j), "its supports are too far apart to hold it")
+            raise UnbuildableError(
+                (layer.first + 2 * q, j), "its supports are too far apart to hold it"
+            )
         up = system.sqrt(high)
         x = A.x + along * dx - up * dy
         y = A.y + along * dy + up * dx

@@ -16,7 +16,9 @@ ORDER = 2
 
 
 def solved(case: Case, order: int = ORDER) -> taylor.TaylorPacking:
-    return taylor.solve(case.width, case.height, n=case.n, rho=case.rho, loads=case.loads, order=order)
+    return taylor.solve(
+        case.width, case.height, n=case.n, rho=case.rho, loads=case.loads, order=order
+    )
 
 
 def times(a: list[Fraction], b: list[Fraction]) -> list[Fraction]:
