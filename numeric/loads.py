@@ -17,6 +17,7 @@ Components = tuple[Any, Any]
 def components(fx: Any, fy: Any, n_x: Any, n_y: Any) -> Components:
     """Turn a Cartesian load (fx, fy) into (L⁺, L⁻).
 
+    >>> from fractions import Fraction
     >>> components(0, -1, Fraction(3, 5), Fraction(4, 5))
     (Fraction(5, 8), Fraction(5, 8))
     """

@@ -176,7 +176,7 @@ def deposit(n_x: Fraction, region: Region, rho: tuple[Array, ...], system: Numbe
 
 
 def _check_rest(placed: Placed, layer: Layer, system: NumberSystem) -> None:
-    """Raise ``UnbuildableError`` or ``UndecidedError`` unless every bead surely rests on its supports."""
+    """Raise ``UnbuildableError`` or ``UndecidedError`` unless every bead surely rests."""
     open_question = False
     for values, reason in zip(
         placed.rests,

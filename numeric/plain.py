@@ -47,8 +47,8 @@ def axes(n_x: Fraction, system: NumberSystem) -> tuple[Any, Any]:
 def deposit(n_x: Fraction, rho: tuple[Array, ...], system: NumberSystem) -> PlainPacking:
     """Deposit a periodic packing by intersecting circles around the supports.
 
-    ``rho[j]``: δr/r of the W beads of layer j. Raises ``UnbuildableError`` naming the bead. The caller
-    activates ``system``.
+    ``rho[j]``: δr/r of the W beads of layer j. Raises ``UnbuildableError`` naming the bead.
+    The caller activates ``system``.
     """
     width, height = len(rho[0]), len(rho) - 1
     nx, ny = axes(n_x, system)
