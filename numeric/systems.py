@@ -33,6 +33,16 @@ class NumberSystem(Protocol):
     def number(self, value: Fraction) -> Any:
         """Turn a rational into the nearest number (balls: into an enclosure)."""
 
+    def from_float(self, value: float) -> Any:
+        """Turn a float64 into a number, exactly."""
+
+    def from_ball(self, value: Any) -> Any:
+        """Turn an arb ball into a number: its midpoint, or the ball itself for balls."""
+
+    @property
+    def bits(self) -> int:
+        """Bits of working precision."""
+
     def scalar(self, value: Fraction) -> Any:
         """Turn a rational into a factor that arrays can be multiplied by."""
 
@@ -65,6 +75,17 @@ def zeros(system: NumberSystem, *shape: int) -> Array:
     return result
 
 
+def from_floats(system: NumberSystem, values: Array) -> Array:
+    """Turn float64 values into the number system, exactly (balls: of radius zero)."""
+    if system.dtype is not object:
+        return values.astype(system.dtype)
+    result = np.empty(values.shape, dtype=object)
+    flat = result.reshape(-1)
+    for q, value in enumerate(values.reshape(-1).tolist()):
+        flat[q] = system.from_float(value)
+    return result
+
+
 @dataclass(frozen=True)
 class Hardware:
     """float64, or the platform's long double (80 bits on x86, maybe no more than 64 elsewhere)."""
@@ -82,6 +103,14 @@ class Hardware:
         if self.dtype is np.float64:
             return np.float64(value.numerator / value.denominator)
         return _longdouble(value)
+
+    def from_float(self, value: float) -> Any:
+        """Convert without loss."""
+        return self.dtype(value)
+
+    def from_ball(self, value: Any) -> Any:
+        """Round the midpoint."""
+        return self.number(midpoint(value))
 
     def scalar(self, value: Fraction) -> Any:
         """Give the same as ``number``."""
@@ -118,6 +147,16 @@ def _longdouble(value: Fraction) -> Any:
     return np.ldexp(whole if scaled > 0 else -whole, -shift)
 
 
+def midpoint(ball: Any) -> Fraction:
+    """Give the exact midpoint of an arb ball.
+
+    >>> midpoint(flint.arb(0.375))
+    Fraction(3, 8)
+    """
+    mantissa, exponent = ball.mid().man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
 FLOAT64 = Hardware("float64", np.float64)
 LONGDOUBLE = Hardware("longdouble", np.longdouble)
 
@@ -145,6 +184,19 @@ class BigFloat:
     def number(self, value: Fraction) -> Any:
         """Divide numerator by denominator, rounded once."""
         return self.context.mpf(value.numerator) / value.denominator
+
+    @property
+    def bits(self) -> int:
+        """Bits of the significand."""
+        return int(self.context.prec)
+
+    def from_float(self, value: float) -> Any:
+        """Convert without loss."""
+        return self.context.mpf(value)
+
+    def from_ball(self, value: Any) -> Any:
+        """Round the midpoint."""
+        return self.number(midpoint(value))
 
     def scalar(self, value: Fraction) -> Any:
         """Give the same as ``number``."""
@@ -184,6 +236,14 @@ class Balls:
     def number(self, value: Fraction) -> Any:
         """Enclose a rational."""
         return flint.arb(flint.fmpq(value.numerator, value.denominator))
+
+    def from_float(self, value: float) -> Any:
+        """Give a ball of radius zero."""
+        return flint.arb(value)
+
+    def from_ball(self, value: Any) -> Any:
+        """Keep the ball."""
+        return value
 
     def scalar(self, value: Fraction) -> Any:
         """Give the same as ``number``."""
@@ -227,6 +287,19 @@ class Series:
     def number(self, value: Fraction) -> Any:
         """Give the constant series."""
         return self.series([value])
+
+    @property
+    def bits(self) -> int:
+        """Rationals are exact: 0 stands for no limit."""
+        return 0
+
+    def from_float(self, value: float) -> Any:
+        """Give the constant series."""
+        return self.number(Fraction(value))
+
+    def from_ball(self, value: Any) -> Any:
+        """Give the constant series of the midpoint."""
+        return self.number(midpoint(value))
 
     def scalar(self, value: Fraction) -> Any:
         """Give a plain rational: NumPy would take a series for a sequence of numbers."""
