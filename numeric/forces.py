@@ -15,9 +15,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from numeric.lattice import Array, Layer, pick, row
-from numeric.packing import Packing
+from numeric.lattice import Array, Layer, pick
+from numeric.packing import Packing, UndecidedError
 from numeric.systems import NumberSystem, zeros
+from numeric.work import Work
 
 
 class NotStandingError(ValueError):
@@ -45,6 +46,8 @@ class Forces:
     """Contact forces below the beads of ``rows[j]`` (empty at j = 0), indexed by the upper bead.
 
     ``ordered_*``: F^±, ``change_*``: g^± = f^± − F^±; per layer arrays of shape (count,).
+    ``stopped`` names the first tensile contact (i, j, branch) where a sweep was asked to stop
+    at one: the layers below it are then empty.
     """
 
     system: NumberSystem
@@ -53,21 +56,34 @@ class Forces:
     ordered_minus: tuple[Array, ...]
     change_plus: tuple[Array, ...]
     change_minus: tuple[Array, ...]
+    stopped: tuple[int, int, str] | None = None
 
 
-def sweep_down(packing: Packing, rows: tuple[Layer, ...], loads: Loads) -> Forces:
+def sweep_down(
+    packing: Packing,
+    rows: tuple[Layer, ...],
+    loads: Loads,
+    *,
+    stop_at_tension: bool = False,
+    work: Work | None = None,
+) -> Forces:
     """Carry loads down from the highest of ``rows`` through the beads of ``rows``, exactly.
 
     ``rows[j]`` for j = 0 … top lie within the packing's region; ``loads`` belong to them. Beads
     above or beside the rows pass no force on to them. The caller activates the number system.
-    Raises ``NotStandingError`` where two contacts are parallel within the arithmetic.
+    ``stop_at_tension`` ends the sweep below the first layer with a tensile contact. Raises
+    ``NotStandingError`` where two contacts are parallel within the arithmetic.
     """
     top = len(rows) - 1
     system, width = packing.system, packing.region.width
-    ordered: list[tuple[Array, Array]] = []
-    change: list[tuple[Array, Array]] = []
+    stopped = None
+    nothing = (zeros(system, 0), zeros(system, 0))
+    ordered: list[tuple[Array, Array]] = [nothing] * (top + 1)
+    change: list[tuple[Array, Array]] = [nothing] * (top + 1)
     for j in range(top, 0, -1):
         layer = rows[j]
+        if not layer.count:
+            break
 
         def here(values: Array, of: Layer, layer: Layer = layer) -> Array:
             return pick(values, of, layer, width)
@@ -85,11 +101,11 @@ def sweep_down(packing: Packing, rows: tuple[Layer, ...], loads: Loads) -> Force
         _check_standing(det, layer, system)
         gp = (sum_plus * (1 + minus[1]) - sum_minus * minus[0]) / det
         gm = (sum_minus * (1 + plus[0]) - sum_plus * plus[1]) / det
-        ordered.append((Fp, Fm))
-        change.append((gp, gm))
-    nothing = (zeros(system, 0), zeros(system, 0))
-    ordered = [nothing, *reversed(ordered)]
-    change = [nothing, *reversed(change)]
+        if work is not None:
+            work.did("balanced", layer, gp.size // layer.count)
+        ordered[j], change[j] = (Fp, Fm), (gp, gm)
+        if stop_at_tension and (stopped := first_tension(layer, Fp + gp, Fm + gm, system)):
+            break
     return Forces(
         system,
         rows,
@@ -97,7 +113,25 @@ def sweep_down(packing: Packing, rows: tuple[Layer, ...], loads: Loads) -> Force
         tuple(f[1] for f in ordered),
         tuple(g[0] for g in change),
         tuple(g[1] for g in change),
+        stopped,
     )
+
+
+def first_tension(
+    layer: Layer, plus: Array, minus: Array, system: NumberSystem
+) -> tuple[int, int, str] | None:
+    """Name the leftmost contact (i, j, branch) below ``layer`` that surely pulls, or None.
+
+    Raises ``UndecidedError`` where balls leave a sign open.
+    """
+    for values, branch, step in ((plus, "+", -1), (minus, "-", 1)):
+        pulls, holds = system.signs(-values)
+        if pulls.any():
+            q = int(np.argwhere(pulls)[0][-1])
+            return layer.first + 2 * q + step, layer.j - 1, branch
+        if not holds.all():
+            raise UndecidedError(f"layer {layer.j}: balls are too wide for the sign of a force")
+    return None
 
 
 def _from_above(
@@ -123,8 +157,8 @@ def _from_above(
     def get(values: Array, of: Layer, at: Layer) -> Array:
         return pick(values, of, at, width, zero)
 
-    Fp, gp = get(ordered[-1][0], above, right), get(change[-1][0], above, right)
-    Fm, gm = get(ordered[-1][1], above, left), get(change[-1][1], above, left)
+    Fp, gp = get(ordered[j + 1][0], above, right), get(change[j + 1][0], above, right)
+    Fm, gm = get(ordered[j + 1][1], above, left), get(change[j + 1][1], above, left)
     ap, bp = (get(v, packed, right) for v in packing.plus[j + 1])
     am, bm = (get(v, packed, left) for v in packing.minus[j + 1])
     fp, fm = Fp + gp, Fm + gm
@@ -136,8 +170,3 @@ def _check_standing(det: Array, layer: Layer, system: NumberSystem) -> None:
     if not good.all():
         wrong = ~good if not bad.any() else bad
         raise NotStandingError((layer.first + 2 * int(np.argwhere(wrong)[0][-1]), layer.j))
-
-
-def point_rows(k: int, layer: int, width: int | None) -> tuple[Layer, ...]:
-    """Give the rows of beads that a load on bead (k, layer) can reach: its downward cone."""
-    return tuple(row(j, k - (layer - j), k + (layer - j), width) for j in range(layer + 1))

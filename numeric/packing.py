@@ -19,6 +19,7 @@ import numpy as np
 
 from numeric.lattice import Array, Layer, Region, pick, shifted
 from numeric.systems import NumberSystem, zeros
+from numeric.work import Work
 
 
 class Metric(NamedTuple):
@@ -135,7 +136,13 @@ class UndecidedError(ArithmeticError):
     """Balls have grown so wide that it is open whether a bead can rest: more bits are needed."""
 
 
-def deposit(n_x: Fraction, region: Region, rho: tuple[Array, ...], system: NumberSystem) -> Packing:
+def deposit(
+    n_x: Fraction,
+    region: Region,
+    rho: tuple[Array, ...],
+    system: NumberSystem,
+    work: Work | None = None,
+) -> Packing:
     """Deposit beads layer by layer on the ordered base, exactly (no linearisation).
 
     ``rho[j]`` holds δr/r of the beads of ``region.rows[j]`` (shape (count,), or (…, count) for a
@@ -144,6 +151,8 @@ def deposit(n_x: Fraction, region: Region, rho: tuple[Array, ...], system: Numbe
     too wide to tell.
     """
     m = metric(n_x, system)
+    if work is not None:
+        work.did("deposited", region.rows[0], rho[0].size // region.rows[0].count)
     nothing = zeros(system, 0)
     base = zeros(system, *rho[0].shape)
     c_plus, c_minus = [base], [base]
@@ -166,6 +175,8 @@ def deposit(n_x: Fraction, region: Region, rho: tuple[Array, ...], system: Numbe
             system,
         )  # fmt: skip
         _check_rest(placed, layer, system)
+        if work is not None:
+            work.did("deposited", layer, rho[j].size // layer.count)
         c_plus.append(placed.c_plus)
         c_minus.append(placed.c_minus)
         plus.append(placed.plus)
