@@ -10,15 +10,17 @@ two line sums c⁺, so that radii on three neighbouring diagonals decide the sum
 gives f⁻.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 from numeric.forces import Forces, Loads
 from numeric.lattice import Array, Layer, Region, pick, shifted
 from numeric.packing import Packing, metric, raised
 from numeric.systems import NumberSystem, zeros
+from numeric.work import Work
 
 RadiusAt = Callable[[int, int], Any]
 """δr/r of a site, already in the number system."""
@@ -31,7 +33,7 @@ def line_sum(rho: list[Any]) -> list[Any]:
     [0, 11, 121]
     """
     sums = [0 * rho[0]] if rho else []
-    for below, here in zip(rho, rho[1:], strict=False):
+    for below, here in pairwise(rho):
         sums.append(sums[-1] + below + here)
     return sums
 
@@ -67,25 +69,25 @@ class Diagonals:
 
 def contact_change(
     contact: tuple[int, int, str],
+    *,
     own: Any,
-    crossing: dict[int, Any],
+    above: Mapping[int, Any],
+    below: Mapping[int, Any],
     radius_at: RadiusAt,
     n_x: Fraction,
     system: NumberSystem,
 ) -> tuple[Any, int]:
     """Give g^±_ij to first order, and the number of beads read.
 
-    ``own`` is the ordered force F^±_ij, or None where it is zero. ``crossing[m]`` is the ordered force
-    of the other orientation in the contact *below* the bead y of layer m (m = j + 1 … M), and that
-    *above* y is ``crossing[m, "above"]``; absent entries are zero.
+    ``own`` is the ordered force F^±_ij, or None where it is zero. ``above[m]`` (``below[m]``) is
+    the ordered force, of the other orientation, in the contact above (below) the bead y of layer m
+    that lies straight up the contact; layers that are absent have none.
     """
     i, j, branch = contact
     side = 1 if branch == "+" else -1
     m = metric(n_x, system)
     lines = Diagonals(i, j, side, radius_at, {})
     total = system.number(Fraction(0))
-    above = {layer: f for (layer, where), f in crossing.items() if where == "above"}
-    below = {layer: f for (layer, where), f in crossing.items() if where == "below"}
     if above:
         top = max(above)
         outer, main = lines.along(-2 * side, top + 1), lines.along(0, top)
@@ -124,7 +126,11 @@ def contact_beads(j: int, height: int) -> int:
 
 
 def displace(
-    n_x: Fraction, region: Region, rho: tuple[Array, ...], system: NumberSystem
+    n_x: Fraction,
+    region: Region,
+    rho: tuple[Array, ...],
+    system: NumberSystem,
+    work: Work | None = None,
 ) -> Packing:
     """Solve Eqs. 2–5 to first order over a region; arrays as in ``packing.deposit``."""
     m = metric(n_x, system)
@@ -144,6 +150,8 @@ def displace(
         cp, cm = at(c_plus[-1], left) + rho_plus, at(c_minus[-1], right) + rho_minus
         beta_plus = (cm - at(c_minus[-1], left) - m.phi * rho_plus) / 2
         beta_minus = (cp - at(c_plus[-1], right) - m.phi * rho_minus) / 2
+        if work is not None:
+            work.did("summed", layer, cp.size // layer.count)
         c_plus.append(cp)
         c_minus.append(cm)
         plus.append(raised(0, beta_plus, m))

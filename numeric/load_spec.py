@@ -103,7 +103,7 @@ class LoadSpec:
         which = 0 if branch == "+" else 1
         total = system.number(Fraction(0))
         single = self._single_components(n_x, system) if self.kind == "file" else {}
-        unit = self.components(n_x, system)[which] if self.kind != "file" else None
+        unit = self.components(n_x, system)[which]
         for count, site in self.ordered_contact(i, j, branch, width):
             total = total + (unit if site is None else single[site][which]) * count
         return total

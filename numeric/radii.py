@@ -17,6 +17,7 @@ import numpy as np
 from numeric.lattice import Array, Layer
 from numeric.normal import normal_deviates
 from numeric.systems import NumberSystem, array, from_floats, zeros
+from numeric.work import Work
 
 # Columns of a slab may be negative; counters must not be.
 _OFFSET = 2**62
@@ -57,7 +58,7 @@ class Monodisperse:
 
 @dataclass(frozen=True)
 class DrawnRadii:
-    """Independent radii; ``kind`` is "uniform", "normal" or "two-point", width as of the packing."""
+    """Independent draws: ``kind`` "uniform", "normal" or "two-point", width of the packing."""
 
     kind: str
     std: Fraction
@@ -90,10 +91,10 @@ class DrawnRadii:
         words = generator.random_raw(4 * count).reshape(count, 4)
         first = np.ascontiguousarray(words[:, 0])
         if self.kind == "two-point":
-            return np.where(first >> np.uint64(63), 1.0, -1.0)
+            return np.asarray(np.where(first >> np.uint64(63), 1.0, -1.0))
         if self.kind == "uniform":
             odd = ((first >> np.uint64(11)) << np.uint64(1)).astype(np.int64) + 1 - 2**53
-            return odd.astype(np.float64) * 2.0**-53 * np.sqrt(3.0)
+            return np.asarray(odd.astype(np.float64) * 2.0**-53 * np.sqrt(3.0))
         return normal_deviates(first, np.ascontiguousarray(words[:, 1]))
 
     def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
@@ -150,7 +151,16 @@ def _root(square: Fraction) -> Fraction:
 
 
 def rows_of(
-    radii: Radii, layers: Sequence[Layer], realisations: Sequence[int], system: NumberSystem
+    radii: Radii,
+    layers: Sequence[Layer],
+    realisations: Sequence[int],
+    system: NumberSystem,
+    work: Work | None = None,
 ) -> tuple[Any, ...]:
     """Give δr/r of several rows, one array a row."""
-    return tuple(radii.row(layer, realisations, system) for layer in layers)
+    rows = []
+    for layer in layers:
+        rows.append(radii.row(layer, realisations, system))
+        if work is not None:
+            work.did("radii", layer, len(realisations))
+    return tuple(rows)
