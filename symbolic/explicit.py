@@ -115,11 +115,9 @@ def _read(expression: sympy.Expr, values: Values) -> Weights | Vector:  # noqa: 
         return {_CONSTANT: value} if value else {}
     if isinstance(expression, sympy.Sum):
         return _total(list(_terms(expression, values)))
-    if isinstance(expression, sympy.Piecewise):
-        for piece, condition in expression.args:
-            if _holds(condition, values):
-                return _read(piece, values)
-        return {}
+    if isinstance(expression, sy.Braces):
+        first, second, index, last = expression.args
+        return _read(first if number(index, values) <= number(last, values) else second, values)
     if isinstance(expression, sy.Dot):
         u, v = (vector_weights(argument, values) for argument in expression.args)
         return _total([_product([u[0], v[0]]), _product([u[1], v[1]])])
@@ -193,20 +191,10 @@ def _product(parts: list[Weights | Vector]) -> Weights | Vector:
 
 
 def _terms(series: sympy.Sum, values: Values) -> Iterator[Weights | Vector]:
-    index, low, high = series.limits[0]
+    index, low, high = series.limits[-1]
+    inner_limits = series.limits[:-1]
+    body = sympy.Sum(series.function, *inner_limits) if inner_limits else series.function
     first, last = number(low, values), number(high, values)
     for value in range(int(first), int(last) + 1):
-        yield _read(series.function, {**values, index: value})
+        yield _read(body, {**values, index: value})
 
-
-def _holds(condition: sympy.Basic, values: Values) -> bool:
-    if condition in (sympy.true, sympy.false):
-        return bool(condition)
-    left, right = (number(side, values) for side in condition.args)
-    outcomes = {
-        sympy.Le: left <= right,
-        sympy.Lt: left < right,
-        sympy.Ge: left >= right,
-        sympy.Gt: left > right,
-    }
-    return outcomes[type(condition)]

@@ -9,7 +9,6 @@ n⁺ with n⁻, b⁺ with b⁻, δn⁺ with δn⁻, f⁺ with f⁻. The right-ha
 from collections.abc import Callable, Iterator
 
 import sympy
-from sympy.functions.elementary.piecewise import ExprCondPair
 
 from symbolic import symbols as sy
 
@@ -55,11 +54,6 @@ def _changes(node: sympy.Basic) -> Iterator[Change]:
         for change, body in _changes(node.function):
             yield change, sympy.Sum(body, *node.limits)
         return
-    if isinstance(node, ExprCondPair):
-        yield from _shifted_condition(node)
-        for change, expression in _changes(node.expr):
-            yield change, ExprCondPair(expression, node.cond)
-        return
     for number, argument in enumerate(node.args):
         for change, changed in _changes(argument):
             yield change, _with_argument(node, number, changed)
@@ -84,6 +78,11 @@ def _here(node: sympy.Basic) -> Iterator[Change]:
     elif type(node) in _SWAPPED_FUNCTIONS:
         changed = _SWAPPED_FUNCTIONS[type(node)](*node.args)
         yield f"{_brief(node)} replaced by {_brief(changed)}", changed
+    elif isinstance(node, sy.Braces):
+        first, second, index, last = node.args
+        for by in (1, -1):
+            yield f"case {index} ≤ {last} shifted to {last + by}", node.func(
+                first, second, index, last + by)
     elif isinstance(node, sympy.Sum | sy.Dot):
         yield f"sign of {_brief(node)} flipped", sympy.Mul(-1, node, evaluate=False)
 
@@ -92,8 +91,6 @@ def _with_argument(node: sympy.Basic, number: int, changed: sympy.Basic) -> symp
     arguments = (*node.args[:number], changed, *node.args[number + 1 :])
     if isinstance(node, sympy.Add | sympy.Mul | sympy.Pow):
         return node.func(*arguments, evaluate=False)
-    if isinstance(node, sympy.Piecewise):
-        return sympy.Piecewise(*arguments, evaluate=False)
     return node.func(*arguments)
 
 
@@ -116,14 +113,6 @@ def _shifted_bounds(node: sympy.Sum) -> Iterator[Change]:
             f"upper bound {index} = {high} shifted to {high + by}",
             sympy.Sum(node.function, (index, low, high + by)),
         )
-
-
-def _shifted_condition(node: ExprCondPair) -> Iterator[Change]:
-    if isinstance(node.cond, sympy.core.relational.Relational):
-        left, right = node.cond.args
-        for by in (1, -1):
-            changed = node.cond.func(left, right + by)
-            yield f"case {node.cond} shifted to {changed}", ExprCondPair(node.expr, changed)
 
 
 def _brief(node: sympy.Basic) -> str:

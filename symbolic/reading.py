@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 
 import sympy
-from sympy.functions.elementary.piecewise import ExprCondPair
 
 from symbolic import affine
 from symbolic.affine import Affine, Region
 from symbolic.exact import FIELD, NotExact, RationalFunction
-from symbolic.linear_forms import CONSTANT, LinearForm
+from symbolic.linear_forms import LinearForm
 from symbolic.symbols import (
+    Braces,
     DeltaNMinus,
     DeltaNPlus,
     Dot,
@@ -166,12 +166,11 @@ class Reader:
         return x.scaled(a) + y.scaled(b), x.scaled(c) + y.scaled(d)
 
     def _series(self, series: sympy.Sum) -> LinearForm | Vector:
-        index, low, high = series.limits[0]
-        body = series.function
-        if len(series.limits) > 1:
-            raise NotExact("nest sums instead of giving several limits")
+        index, low, high = series.limits[-1]
+        inner_limits = series.limits[:-1]
+        body = sympy.Sum(series.function, *inner_limits) if inner_limits else series.function
         bounds = affine.from_sympy(low), affine.from_sympy(high)
-        if body.has(sympy.Piecewise):
+        if body.has(Braces):
             total = LinearForm()
             for part, first, last in split_by_cases(body, index, *bounds):
                 inner = self._within(index, affine.to_sympy(first))
@@ -207,32 +206,12 @@ def split_by_cases(
     body: sympy.Expr, index: sympy.Symbol, low: Affine, high: Affine
 ) -> list[tuple[sympy.Expr, Affine, Affine]]:
     """Split Σ over braces {a : index ≤ e; b : index > e} into one sum for each case."""
-    (braces,) = body.atoms(sympy.Piecewise)
-    if len(braces.args) != 2:  # noqa: PLR2004
-        raise NotExact("braces with two cases are expected")
-    pieces: tuple[ExprCondPair, ExprCondPair] = braces.args
-    last_of_first = _threshold(pieces[0].cond, index, upper=True)
-    first_of_second = _threshold(pieces[1].cond, index, upper=False)
-    gap = affine.add(first_of_second, last_of_first, -1)
-    if gap != affine.constant(gap[-1]):
-        raise NotExact("the two cases of the braces do not meet")
-    if gap[-1] < 1:  # the first case that holds is taken
-        first_of_second = affine.shifted(last_of_first, 1)
+    (braces,) = body.atoms(Braces)
+    first, second, braced_index, last = braces.args
+    if braced_index != index:
+        raise NotExact(f"braces over {braced_index} in a sum over {index}")
+    last_of_first = affine.from_sympy(last)
     return [
-        (body.xreplace({braces: pieces[0].expr}), low, last_of_first),
-        (body.xreplace({braces: pieces[1].expr}), first_of_second, high),
+        (body.xreplace({braces: first}), low, last_of_first),
+        (body.xreplace({braces: second}), affine.shifted(last_of_first, 1), high),
     ]
-
-
-def _threshold(condition: sympy.Basic, index: sympy.Symbol, *, upper: bool) -> Affine:
-    """Largest (or smallest) value of the index that a condition such as m ≤ j allows."""
-    kinds = {sympy.Le: (True, 0), sympy.Lt: (True, -1), sympy.Ge: (False, 0), sympy.Gt: (False, 1)}
-    if type(condition) not in kinds or condition.args[0] != index:
-        raise NotExact(f"{condition} is not a bound on {index}")
-    is_upper, shift = kinds[type(condition)]
-    if is_upper != upper:
-        raise NotExact(f"{condition} bounds {index} from the wrong side")
-    return affine.shifted(affine.from_sympy(condition.args[1]), shift)
-
-
-__all__ = ["CONSTANT", "Reader", "UnsafeBounds", "Vector", "split_by_cases"]

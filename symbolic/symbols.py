@@ -6,7 +6,7 @@ the indices of a bead (r, s); here the bead's are ``site_r`` and ``site_s``.
 
 from typing import Any
 
-from sympy import Function, Integer, Symbol
+from sympy import Function, Piecewise, Symbol
 
 # geometry: radius, horizontal spacing (a length), base vectors' components and mutual cosine
 r = Symbol("r", positive=True)
@@ -127,4 +127,15 @@ class MatrixTimes(Function):  # type: ignore[misc]
     nargs = 5
 
 
-ZERO_VECTOR = Integer(0)
+class Braces(Function):  # type: ignore[misc]
+    """Braces with two cases: Braces(a, b, m, e) is a for m ≤ e and b for m > e.
+
+    SymPy's Piecewise rewrites its conditions when an expression is rebuilt; this keeps them.
+    """
+
+    nargs = 4
+
+    def doit(self, **hints: Any) -> Any:
+        """Return the same as a Piecewise."""
+        first, second, index, last = self.args
+        return Piecewise((first, index <= last), (second, True))

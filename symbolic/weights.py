@@ -69,7 +69,7 @@ def take_apart(form: LinearForm, region: Region) -> Pieces:
     for a, one in enumerate(runs):
         for other in runs[:a]:
             crossing = _crossing(one.ray, other.ray)
-            if crossing and _inside(crossing, one, region) and _inside(crossing, other, region):
+            if crossing and not any(_outside(crossing, run, region) for run in (one, other)):
                 sites[crossing] = None
     _assert_distinct(list(sites), region)
     special = {}
@@ -129,12 +129,16 @@ def _on_line(site: Site, ray: Ray) -> bool:
     return site == ray.site(site.j) and site.family == ray.family
 
 
+def _outside(site: Site, run: Run, region: Region) -> bool:
+    return region.below(site.j, run.first) or region.below(run.last, site.j)
+
+
 def _inside(site: Site, run: Run, region: Region) -> bool:
     above = affine.add(site.j, run.first, -1)
     below = affine.add(run.last, site.j, -1)
     if region.nonnegative(above) and region.nonnegative(below):
         return True
-    if region.below(site.j, run.first) or region.below(run.last, site.j):
+    if _outside(site, run, region):
         return False
     raise Undetermined(
         f"layer {affine.to_sympy(site.j)} against "

@@ -1,0 +1,197 @@
+"""The first-order theory by line sums (Eqs. 2–12): no quadratic, no nonlinear solver.
+
+For any loads, with F the ordered forces and A the contact f⁺_ij itself, β^±_y = n^∓·δn^±_y,
+a^+ = −φ β⁺/(1 − φ²), a^- = β⁻/(1 − φ²),
+
+    g⁺_A = −F⁺_A a⁺_A + Σ_y [F⁻_y a⁻_y − F⁻_(y − e₋) a⁻_(y − e₋)],    y = x, x + e₊, x + 2e₊, …
+
+with x the upper bead of the contact. Terms of F⁺ telescope for every load. β⁻ is a difference of
+two line sums c⁺, so that radii on three neighbouring diagonals decide the sum. The mirror image
+gives f⁻.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+from numeric.forces import Forces, Loads
+from numeric.lattice import Array, Layer, Region, pick, shifted
+from numeric.packing import Packing, metric, raised
+from numeric.systems import NumberSystem, zeros
+from numeric.work import Work
+
+RadiusAt = Callable[[int, int], Any]
+"""δr/r of a site, already in the number system."""
+
+
+def line_sum(rho: list[Any]) -> list[Any]:
+    """Give c of every bead up a diagonal from its δr/r, base first: c = 0 at the base (Eq. 3).
+
+    >>> line_sum([1, 10, 100])
+    [0, 11, 121]
+    """
+    sums = [0 * rho[0]] if rho else []
+    for below, here in pairwise(rho):
+        sums.append(sums[-1] + below + here)
+    return sums
+
+
+@dataclass
+class Diagonals:
+    """The diagonals parallel to a contact, and its two cross diagonals, read bead by bead.
+
+    A diagonal's offset is that of its i from the contact's own diagonal in the same layer. Each
+    bead is read once; ``read`` counts them.
+    """
+
+    i: int
+    j: int
+    side: int  # +1 for f⁺, −1 for f⁻
+    radius_at: RadiusAt
+    known: dict[tuple[int, int], Any]
+
+    def _rho(self, i: int, m: int) -> Any:
+        if (i, m) not in self.known:
+            self.known[i, m] = self.radius_at(i, m)
+        return self.known[i, m]
+
+    def along(self, offset: int, top: int) -> list[Any]:
+        """δr/r up a diagonal parallel to the contact, layers 0 … top."""
+        start = self.i - self.side * self.j + offset
+        return [self._rho(start + self.side * m, m) for m in range(top + 1)]
+
+    def across(self, i: int, top: int) -> list[Any]:
+        """δr/r up the other diagonal through bead (i, top), layers 0 … top."""
+        return [self._rho(i + self.side * (top - m), m) for m in range(top + 1)]
+
+
+def contact_change(
+    contact: tuple[int, int, str],
+    *,
+    own: Any,
+    above: Mapping[int, Any],
+    below: Mapping[int, Any],
+    radius_at: RadiusAt,
+    n_x: Fraction,
+    system: NumberSystem,
+) -> tuple[Any, int]:
+    """Give g^±_ij to first order, and the number of beads read.
+
+    ``own`` is the ordered force F^±_ij, or None where it is zero. ``above[m]`` (``below[m]``) is
+    the ordered force, of the other orientation, in the contact above (below) the bead y of layer m
+    that lies straight up the contact; layers that are absent have none.
+    """
+    i, j, branch = contact
+    side = 1 if branch == "+" else -1
+    m = metric(n_x, system)
+    lines = Diagonals(i, j, side, radius_at, {})
+    total = system.number(Fraction(0))
+    if above:
+        top = max(above)
+        outer, main = lines.along(-2 * side, top + 1), lines.along(0, top)
+        c_outer, c_main = line_sum(outer), line_sum(main)
+        for layer, f in above.items():
+            rho = outer[layer + 1] + main[layer]
+            beta = (c_outer[layer + 1] - c_main[layer] - m.phi * rho) / 2
+            total = total + f * beta * m.inverse_det
+    if below:
+        top = max(below)
+        main, inner = lines.along(0, top), lines.along(2 * side, top - 1)
+        c_main, c_inner = line_sum(main), line_sum(inner)
+        for layer, f in below.items():
+            rho = main[layer] + inner[layer - 1]
+            beta = (c_main[layer] - c_inner[layer - 1] - m.phi * rho) / 2
+            total = total - f * beta * m.inverse_det
+    if own is not None:
+        upper, lower = lines.across(i + side, j + 1), lines.across(i, j)
+        rho = upper[-1] + lower[-1]
+        beta = (line_sum(upper)[-1] - line_sum(lower)[-1] - m.phi * rho) / 2
+        total = total + own * m.phi * beta * m.inverse_det
+    return total, len(lines.known)
+
+
+def contact_beads(j: int, height: int) -> int:
+    """Count the beads on which the first-order f^±_ij depends (surface or bulk load).
+
+    Three diagonals of M + 1, M + 1 and M beads, and what the two cross diagonals add.
+
+    >>> contact_beads(0, 1), contact_beads(5, 64), contact_beads(63, 64)
+    (3, 203, 254)
+    """
+    cross = j + max(j - 1, 0)
+    parallel = 3 * height + 2 if j <= height - 2 else 2 * height + 1
+    return parallel + cross
+
+
+def displace(
+    n_x: Fraction,
+    region: Region,
+    rho: tuple[Array, ...],
+    system: NumberSystem,
+    work: Work | None = None,
+) -> Packing:
+    """Solve Eqs. 2–5 to first order over a region; arrays as in ``packing.deposit``."""
+    m = metric(n_x, system)
+    nothing = zeros(system, 0)
+    base = zeros(system, *rho[0].shape)
+    c_plus, c_minus = [base], [base]
+    plus, minus = [(nothing, nothing)], [(nothing, nothing)]
+    for j in range(1, region.top + 1):
+        layer, under = region.rows[j], region.rows[j - 1]
+        left, right = Layer(j - 1, layer.first - 1, layer.count), shifted(layer, -1)
+
+        def at(values: Array, wanted: Layer, under: Layer = under) -> Array:
+            return pick(values, under, wanted, region.width)
+
+        rho_plus = rho[j] + at(rho[j - 1], left)
+        rho_minus = rho[j] + at(rho[j - 1], right)
+        cp, cm = at(c_plus[-1], left) + rho_plus, at(c_minus[-1], right) + rho_minus
+        beta_plus = (cm - at(c_minus[-1], left) - m.phi * rho_plus) / 2
+        beta_minus = (cp - at(c_plus[-1], right) - m.phi * rho_minus) / 2
+        if work is not None:
+            work.did("summed", layer, cp.size // layer.count)
+        c_plus.append(cp)
+        c_minus.append(cm)
+        plus.append(raised(0, beta_plus, m))
+        minus.append(raised(beta_minus, 0, m))
+    return Packing(
+        n_x, system, region, rho, tuple(c_plus), tuple(c_minus), tuple(plus), tuple(minus)
+    )
+
+
+def forces(packing: Packing, rows: tuple[Layer, ...], loads: Loads) -> Forces:
+    """Carry loads down to first order: sums along the diagonals, nothing to invert (Eqs. 6–11)."""
+    system, width = packing.system, packing.region.width
+    zero = zeros(system, 1)[0]
+    top = len(rows) - 1
+    nothing = (zeros(system, 0), zeros(system, 0))
+    ordered, change = [nothing] * (top + 1), [nothing] * (top + 1)
+    for j in range(top, 0, -1):
+        layer = rows[j]
+        if not layer.count:
+            break
+        Fp, Fm, gp, gm = (zeros(system, layer.count) for _ in range(4))
+        if j < top:
+            right, left = shifted(layer, 1), Layer(j + 1, layer.first - 1, layer.count)
+            above, packed = rows[j + 1], packing.region.rows[j + 1]
+            Fp, gp = (pick(v[j + 1][0], above, right, width, zero) for v in (ordered, change))
+            Fm, gm = (pick(v[j + 1][1], above, left, width, zero) for v in (ordered, change))
+            ap, bp = (pick(v, packed, right, width, zero) for v in packing.plus[j + 1])
+            am, bm = (pick(v, packed, left, width, zero) for v in packing.minus[j + 1])
+            gp, gm = gp + (Fp * ap + Fm * am), gm + (Fp * bp + Fm * bm)
+        if (Lp := loads.plus[j]) is not None and (Lm := loads.minus[j]) is not None:
+            Fp, Fm = Fp + Lp, Fm + Lm
+        a = [pick(v, packing.region.rows[j], layer, width) for v in packing.plus[j]]
+        b = [pick(v, packing.region.rows[j], layer, width) for v in packing.minus[j]]
+        ordered[j] = (Fp, Fm)
+        change[j] = (gp - (Fp * a[0] + Fm * b[0]), gm - (Fp * a[1] + Fm * b[1]))
+    return Forces(
+        system,
+        rows,
+        tuple(f[0] for f in ordered),
+        tuple(f[1] for f in ordered),
+        tuple(g[0] for g in change),
+        tuple(g[1] for g in change),
+    )

@@ -1,0 +1,172 @@
+"""Contact forces on a solved packing, as additive changes g = f − F of the ordered forces F.
+
+Forces are in units of the load's magnitude, loads in components of the *supporting* direction:
+F_load = −(L⁺ n⁺ + L⁻ n⁻). A contact is indexed by its upper bead (i, j): ``plus`` has the lower
+bead (i − 1, j − 1) and is the paper's f⁺_(i−1, j−1), ``minus`` has (i + 1, j − 1), f⁻_(i+1, j−1).
+At every bead (Eq. 6, exact, N = n + δn)
+
+    g⁺N⁺ + g⁻N⁻ (lower) = Σ g N (upper) + Σ F δn (upper) − Σ F δn (lower),
+
+where the load and all that is ordered have dropped out by themselves. Components are taken along
+n⁺ and n⁻, so that the linear part of a layer is a shift and an addition.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from numeric.lattice import Array, Layer, pick
+from numeric.packing import Packing, UndecidedError
+from numeric.systems import NumberSystem, zeros
+from numeric.work import Work
+
+
+class NotStandingError(ValueError):
+    """The two contacts below a bead are parallel: no forces can hold it up; ``site`` names it."""
+
+    def __init__(self, site: tuple[int, int]) -> None:
+        """Name the bead."""
+        super().__init__(f"bead {site}: the two contacts below it are parallel")
+        self.site = site
+
+
+@dataclass(frozen=True)
+class Loads:
+    """Loads on the beads of rows[j] (j = 0 … top): components L^± (units of the magnitude).
+
+    Rows that carry no load may be None; shape of the others: (rows[j].count,).
+    """
+
+    plus: tuple[Array | None, ...]
+    minus: tuple[Array | None, ...]
+
+
+@dataclass(frozen=True)
+class Forces:
+    """Contact forces below the beads of ``rows[j]`` (empty at j = 0), indexed by the upper bead.
+
+    ``ordered_*``: F^±, ``change_*``: g^± = f^± − F^±; per layer arrays of shape (count,).
+    ``stopped`` names the first tensile contact (i, j, branch) where a sweep was asked to stop
+    at one: the layers below it are then empty.
+    """
+
+    system: NumberSystem
+    rows: tuple[Layer, ...]
+    ordered_plus: tuple[Array, ...]
+    ordered_minus: tuple[Array, ...]
+    change_plus: tuple[Array, ...]
+    change_minus: tuple[Array, ...]
+    stopped: tuple[int, int, str] | None = None
+
+
+def sweep_down(
+    packing: Packing,
+    rows: tuple[Layer, ...],
+    loads: Loads,
+    *,
+    stop_at_tension: bool = False,
+    work: Work | None = None,
+) -> Forces:
+    """Carry loads down from the highest of ``rows`` through the beads of ``rows``, exactly.
+
+    ``rows[j]`` for j = 0 … top lie within the packing's region; ``loads`` belong to them. Beads
+    above or beside the rows pass no force on to them. The caller activates the number system.
+    ``stop_at_tension`` ends the sweep below the first layer with a tensile contact. Raises
+    ``NotStandingError`` where two contacts are parallel within the arithmetic.
+    """
+    top = len(rows) - 1
+    system, width = packing.system, packing.region.width
+    stopped = None
+    nothing = (zeros(system, 0), zeros(system, 0))
+    ordered: list[tuple[Array, Array]] = [nothing] * (top + 1)
+    change: list[tuple[Array, Array]] = [nothing] * (top + 1)
+    for j in range(top, 0, -1):
+        layer = rows[j]
+        if not layer.count:
+            break
+
+        def here(values: Array, of: Layer, layer: Layer = layer) -> Array:
+            return pick(values, of, layer, width)
+
+        plus = tuple(here(v, packing.region.rows[j]) for v in packing.plus[j])
+        minus = tuple(here(v, packing.region.rows[j]) for v in packing.minus[j])
+        Fp, Fm, sum_plus, sum_minus = _from_above(packing, rows, j, ordered=ordered, change=change)
+        Lp, Lm = loads.plus[j], loads.minus[j]
+        Fp = Fp if Lp is None else Fp + Lp
+        Fm = Fm if Lm is None else Fm + Lm
+        sum_plus = sum_plus - Fp * plus[0] - Fm * minus[0]
+        sum_minus = sum_minus - Fp * plus[1] - Fm * minus[1]
+        # Cramer for g⁺(1 + a⁺, b⁺) + g⁻(a⁻, 1 + b⁻) = (sum_plus, sum_minus)
+        det = 1 + (plus[0] + minus[1] + (plus[0] * minus[1] - minus[0] * plus[1]))
+        _check_standing(det, layer, system)
+        gp = (sum_plus * (1 + minus[1]) - sum_minus * minus[0]) / det
+        gm = (sum_minus * (1 + plus[0]) - sum_plus * plus[1]) / det
+        if work is not None:
+            work.did("balanced", layer, gp.size // layer.count)
+        ordered[j], change[j] = (Fp, Fm), (gp, gm)
+        if stop_at_tension and (stopped := first_tension(layer, Fp + gp, Fm + gm, system)):
+            break
+    return Forces(
+        system,
+        rows,
+        tuple(f[0] for f in ordered),
+        tuple(f[1] for f in ordered),
+        tuple(g[0] for g in change),
+        tuple(g[1] for g in change),
+        stopped,
+    )
+
+
+def first_tension(
+    layer: Layer, plus: Array, minus: Array, system: NumberSystem
+) -> tuple[int, int, str] | None:
+    """Name the leftmost contact (i, j, branch) below ``layer`` that surely pulls, or None.
+
+    Raises ``UndecidedError`` where balls leave a sign open.
+    """
+    for values, branch, step in ((plus, "+", -1), (minus, "-", 1)):
+        pulls, holds = system.signs(-values)
+        if pulls.any():
+            q = int(np.argwhere(pulls)[0][-1])
+            return layer.first + 2 * q + step, layer.j - 1, branch
+        if not holds.all():
+            raise UndecidedError(f"layer {layer.j}: balls are too wide for the sign of a force")
+    return None
+
+
+def _from_above(
+    packing: Packing,
+    rows: tuple[Layer, ...],
+    j: int,
+    *,
+    ordered: list[tuple[Array, Array]],
+    change: list[tuple[Array, Array]],
+) -> tuple[Array, Array, Array, Array]:
+    """Collect (F⁺, F⁻) and the components of Σ g N + Σ F δn of the contacts above layer j."""
+    system, width, layer = packing.system, packing.region.width, rows[j]
+    zero = zeros(system, 1)[0]
+    if j == len(rows) - 1:
+        nothing = zeros(system, layer.count)
+        return nothing, nothing, nothing, nothing
+    above = rows[j + 1]
+    # The contact above and to the right of (i, j) has the upper bead (i + 1, j + 1).
+    right = Layer(j + 1, layer.first + 1, layer.count)
+    left = Layer(j + 1, layer.first - 1, layer.count)
+    packed = packing.region.rows[j + 1]
+
+    def get(values: Array, of: Layer, at: Layer) -> Array:
+        return pick(values, of, at, width, zero)
+
+    Fp, gp = get(ordered[j + 1][0], above, right), get(change[j + 1][0], above, right)
+    Fm, gm = get(ordered[j + 1][1], above, left), get(change[j + 1][1], above, left)
+    ap, bp = (get(v, packed, right) for v in packing.plus[j + 1])
+    am, bm = (get(v, packed, left) for v in packing.minus[j + 1])
+    fp, fm = Fp + gp, Fm + gm
+    return Fp, Fm, gp + (fp * ap + fm * am), gm + (fp * bp + fm * bm)
+
+
+def _check_standing(det: Array, layer: Layer, system: NumberSystem) -> None:
+    good, bad = system.signs(det * det)
+    if not good.all():
+        wrong = ~good if not bad.any() else bad
+        raise NotStandingError((layer.first + 2 * int(np.argwhere(wrong)[0][-1]), layer.j))

@@ -1,0 +1,156 @@
+"""Where the beads are: sites, layers and finite regions of the (periodic or infinite) lattice.
+
+A bead sits at site (i, j) with i + j even; it rests on x − e₊ = (i − 1, j − 1) and
+x − e₋ = (i + 1, j − 1). A layer of a periodic packing has ``width`` = W beads, and column
+q of layer j is i = 2q + (j mod 2), 0 ≤ i < 2W. Lengths are in units of the mean radius r.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[Any]
+
+
+def lowest_column(j: int) -> int:
+    """Give the smallest i ≥ 0 of layer j, which is its parity.
+
+    >>> lowest_column(3)
+    1
+    """
+    return j % 2
+
+
+def column(i: int, j: int, width: int) -> int:
+    """Give the column q of site (i, j) in a periodic layer of ``width`` beads (0 ≤ q < W).
+
+    Raises ``ValueError`` where no bead sits, that is where i + j is odd.
+
+    >>> column(-1, 1, 4)
+    3
+    """
+    if (i + j) % 2:
+        raise ValueError(f"({i}, {j}) is no lattice site: i + j must be even")
+    return (i - lowest_column(j)) // 2 % width
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A row of neighbouring beads: sites (first, j), (first + 2, j), … , ``count`` of them."""
+
+    j: int
+    first: int
+    count: int
+
+    @property
+    def last(self) -> int:
+        """The largest i of the row."""
+        return self.first + 2 * (self.count - 1)
+
+    def sites(self) -> range:
+        """All i of the row, from left to right."""
+        return range(self.first, self.first + 2 * self.count, 2)
+
+
+def full_layer(j: int, width: int) -> Layer:
+    """Give the whole of layer j of a periodic packing."""
+    return Layer(j, lowest_column(j), width)
+
+
+def row(j: int, first: int, last: int, width: int | None) -> Layer:
+    """Give the row from ``first`` to ``last``; the whole layer where it would meet its image."""
+    count = (last - first) // 2 + 1
+    if width is not None and count >= width:
+        return full_layer(j, width)
+    return Layer(j, first, max(count, 0))
+
+
+def hull(a: Layer, b: Layer, width: int | None) -> Layer:
+    """Give the shortest row that holds both rows of one layer."""
+    if not a.count or not b.count:
+        return a if a.count else b
+    if width is not None and width in (a.count, b.count):
+        return full_layer(a.j, width)
+    return row(a.j, min(a.first, b.first), max(a.last, b.last), width)
+
+
+def supports(layer: Layer, width: int | None) -> Layer:
+    """Give the row of beads on which ``layer`` rests."""
+    if width is not None and layer.count == width:
+        return full_layer(layer.j - 1, width)
+    return row(layer.j - 1, layer.first - 1, layer.last + 1, width)
+
+
+@dataclass(frozen=True)
+class Region:
+    """Rows of beads, one a layer from the base (``rows[0]``) up; ``width`` None: infinite slab."""
+
+    width: int | None
+    rows: tuple[Layer, ...]
+
+    @property
+    def top(self) -> int:
+        """The highest layer."""
+        return len(self.rows) - 1
+
+    @property
+    def beads(self) -> int:
+        """How many beads the region holds."""
+        return sum(layer.count for layer in self.rows)
+
+
+def whole(width: int, height: int) -> Region:
+    """Give all (M + 1) W beads of a periodic packing."""
+    return Region(width, tuple(full_layer(j, width) for j in range(height + 1)))
+
+
+def standing_on_base(rows: Sequence[Layer], width: int | None) -> Region:
+    """Close ``rows`` (one for each layer 0, 1, …) downwards: every bead's supports are added."""
+    closed = [rows[-1]]
+    for layer in reversed(rows[:-1]):
+        closed.append(hull(layer, supports(closed[-1], width), width))
+    return Region(width, tuple(reversed(closed)))
+
+
+def pick(values: Array, source: Layer, wanted: Layer, width: int | None, zero: Any = None) -> Array:
+    """Read ``values`` of row ``source`` at the sites of ``wanted`` (its i may lie one off).
+
+    Shapes: (…, source.count) → (…, wanted.count). Sites that ``source`` lacks read ``zero``;
+    without a ``zero`` they raise ``LookupError``.
+    """
+    offset = (wanted.first - source.first) // 2
+    if offset >= 0 and offset + wanted.count <= source.count:
+        return values[..., offset : offset + wanted.count]
+    index = np.arange(offset, offset + wanted.count)
+    if width is not None:
+        index %= width
+    missing = (index < 0) | (index >= source.count)
+    if not missing.any():
+        return values[..., index]
+    if zero is None:
+        raise LookupError(f"layer {source.j} lacks supports of layer {wanted.j}")
+    picked = np.empty((*values.shape[:-1], wanted.count), dtype=values.dtype)
+    picked[...] = zero
+    picked[..., ~missing] = values[..., index[~missing]]
+    return picked
+
+
+def shifted(layer: Layer, by: int) -> Layer:
+    """Give the row one step up (by = +1) or down (by = −1) and right: sites (i + 1, j + by)."""
+    return Layer(layer.j + by, layer.first + 1, layer.count)
+
+
+def lattice_direction(spacing: Fraction, radius: Fraction) -> Fraction:
+    """Give n_x = s/4r, checked to lie within the range where ordered beads don't overlap (Eq. 1).
+
+    Raises ``ValueError`` unless 2r < s < 2√3 r.
+    """
+    if radius <= 0 or not 4 * radius**2 < spacing**2 < 12 * radius**2 or spacing < 0:
+        raise ValueError(
+            f"spacing {spacing} must lie strictly between 2 r and 2*sqrt(3) r, r = {radius}"
+        )
+    return spacing / (4 * radius)

@@ -1,0 +1,166 @@
+"""Where radii come from: drawn from a counter-based generator, or measured and read from a file.
+
+A drawn radius is a pure function of (seed, realisation, i, j): the counter (column, layer) is put
+through Philox under the key (seed, realisation), so that any region can be asked for alone, in any
+order. A deviate is a double, and δr/r = relative_std × deviate is an exact rational: every number
+system solves the very same packing.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Protocol
+
+import numpy as np
+
+from numeric.lattice import Array, Layer
+from numeric.normal import normal_deviates
+from numeric.systems import NumberSystem, array, from_floats, zeros
+from numeric.work import Work
+
+# Columns of a slab may be negative; counters must not be.
+_OFFSET = 2**62
+
+
+class RadiusError(ValueError):
+    """A radius is missing or not positive; ``site`` names the bead."""
+
+    def __init__(self, site: tuple[int, int], reason: str) -> None:
+        """Name the bead and what is wrong."""
+        super().__init__(f"bead {site}: {reason}")
+        self.site = site
+
+
+class Radii(Protocol):
+    """A source of δr/r for the beads of a row."""
+
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+        """Give δr/r; shape (count,) for one realisation, (realisations, count) for more."""
+
+    def relative_std(self) -> Fraction:
+        """σ_δr/r: of the distribution, or as measured."""
+
+
+@dataclass(frozen=True)
+class Monodisperse:
+    """No disorder: δr = 0 everywhere."""
+
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+        """Zeros."""
+        shape = (layer.count,) if len(realisations) == 1 else (len(realisations), layer.count)
+        return zeros(system, *shape)
+
+    def relative_std(self) -> Fraction:
+        """Zero."""
+        return Fraction(0)
+
+
+@dataclass(frozen=True)
+class DrawnRadii:
+    """Independent draws: ``kind`` "uniform", "normal" or "two-point", width of the packing."""
+
+    kind: str
+    std: Fraction
+    seed: int
+    width: int | None
+
+    def relative_std(self) -> Fraction:
+        """σ_δr/r of the distribution."""
+        return self.std
+
+    def deviates(self, layer: Layer, realisation: int) -> Array:
+        """Give deviates of zero mean and unit variance; shape (count,), float64."""
+        q = (layer.first - layer.j % 2) // 2
+        if self.width is None:
+            return self._columns(q, layer.count, layer.j, realisation)
+        parts = []
+        left = layer.count
+        while left:
+            start = q % self.width
+            n = min(left, self.width - start)
+            parts.append(self._columns(start, n, layer.j, realisation))
+            q, left = q + n, left - n
+        return np.concatenate(parts) if parts else np.empty(0)
+
+    def _columns(self, q: int, count: int, j: int, realisation: int) -> Array:
+        # NumPy's Philox steps its counter before each block of four words.
+        generator = np.random.Philox(
+            counter=[q + _OFFSET - 1, j, 0, 0], key=[self.seed, realisation]
+        )
+        words = generator.random_raw(4 * count).reshape(count, 4)
+        first = np.ascontiguousarray(words[:, 0])
+        if self.kind == "two-point":
+            return np.asarray(np.where(first >> np.uint64(63), 1.0, -1.0))
+        if self.kind == "uniform":
+            odd = ((first >> np.uint64(11)) << np.uint64(1)).astype(np.int64) + 1 - 2**53
+            return np.asarray(odd.astype(np.float64) * 2.0**-53 * np.sqrt(3.0))
+        return normal_deviates(first, np.ascontiguousarray(words[:, 1]))
+
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+        """Scale the deviates; a radius that is not positive raises ``RadiusError``."""
+        rows = [self.deviates(layer, k) for k in realisations]
+        for deviates in rows:
+            if deviates.size and deviates.min() * float(self.std) < -0.999:
+                self._check(deviates, layer)
+        values = rows[0] if len(rows) == 1 else np.stack(rows)
+        return np.asarray(from_floats(system, values) * system.scalar(self.std))
+
+    def _check(self, deviates: Array, layer: Layer) -> None:
+        for i, u in zip(layer.sites(), deviates, strict=True):
+            if self.std * Fraction(float(u)) <= -1:
+                shown = float(1 + self.std * Fraction(float(u)))
+                raise RadiusError((i, layer.j), f"the drawn radius is {shown:.3g} r, not positive")
+
+
+@dataclass(frozen=True)
+class MeasuredRadii:
+    """Radii read from a file: {(i, j): δr/r}, exact."""
+
+    rho: Mapping[tuple[int, int], Fraction]
+    width: int | None
+
+    def relative_std(self) -> Fraction:
+        """Give the root of the measured mean square deviation, to 30 digits."""
+        if not self.rho:
+            return Fraction(0)
+        n = len(self.rho)
+        mean = sum(self.rho.values(), Fraction(0)) / n
+        square = sum(((v - mean) ** 2 for v in self.rho.values()), Fraction(0)) / n
+        return _root(square)
+
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+        """Look the radii up; a bead that the file lacks raises ``RadiusError``."""
+        values = []
+        for i in layer.sites():
+            site = (i if self.width is None else i % (2 * self.width), layer.j)
+            if site not in self.rho:
+                raise RadiusError(site, "the radii file has no line for it")
+            values.append(self.rho[site])
+        one = array(system, values)
+        return one if len(realisations) == 1 else np.stack([one] * len(realisations))
+
+
+def _root(square: Fraction) -> Fraction:
+    """Give a square root to 30 digits, of numbers far outside a float's range too."""
+    if not square:
+        return Fraction(0)
+    shift = 100 - (square.numerator.bit_length() - square.denominator.bit_length()) // 2
+    scaled = square * Fraction(4) ** shift
+    return Fraction(math.isqrt(int(scaled))) / Fraction(2) ** shift
+
+
+def rows_of(
+    radii: Radii,
+    layers: Sequence[Layer],
+    realisations: Sequence[int],
+    system: NumberSystem,
+    work: Work | None = None,
+) -> tuple[Any, ...]:
+    """Give δr/r of several rows, one array a row."""
+    rows = []
+    for layer in layers:
+        rows.append(radii.row(layer, realisations, system))
+        if work is not None:
+            work.did("radii", layer, len(realisations))
+    return tuple(rows)

@@ -1,0 +1,130 @@
+"""The exact packing in every number system: agreement, symmetry, balance, order of remainder."""
+
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from numeric import taylor
+from numeric.exact import Solution, deviation_form, plain_form
+from numeric.loads import sites
+from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
+from tests.numeric.strategies import Case, cases
+
+STRENGTH = Fraction(1, 10**6)  # far below M* of these heights: every packing can be built
+mp = BigFloat(60).context
+
+
+def solved(case: Case, system: NumberSystem, strength: Fraction = STRENGTH) -> Solution:
+    return deviation_form(
+        case.width, case.height, n_x=case.n[0], rho=case.rho, loads=case.loads,
+        strength=strength, system=system,
+    )  # fmt: skip
+
+
+def contacts(case: Case) -> list[tuple[int, int, str]]:
+    return [(i, j, b) for i, j in sites(case.width, case.height - 1) for b in "+-"]
+
+
+def scale(case: Case) -> Fraction:
+    """Bound |change| loosely: loads times radii times the number of terms."""
+    load = sum(abs(fx) + abs(fy) for fx, fy in case.loads.values())
+    radii = sum(map(abs, case.rho.values()), Fraction(0))
+    return 4 * load * radii
+
+
+def as_mpf(value: object) -> mpmath.mpf:
+    """Widen a hardware float without loss (long double: as high part and remainder)."""
+    high = float(value)  # type: ignore[arg-type]
+    return mp.mpf(high) + mp.mpf(float(value - high))  # type: ignore[operator]
+
+
+@given(cases())
+def test_number_systems_agree(case: Case) -> None:
+    """float64 and long double stay within rounding of 60 digits; balls contain the 60 digits.
+
+    Rounding: each layer adds a few roundings of terms no larger than ``scale``; up and down
+    through at most 5 layers, 200 units in the last place are ample and still far from chance.
+    """
+    reference = solved(case, BigFloat(60))
+    ball = solved(case, Balls(256))
+    for system in (FLOAT64, LONGDOUBLE):
+        unit = scale(case) * STRENGTH * Fraction(2) ** -system.bits
+        rounded = solved(case, system)
+        for contact in contacts(case):
+            error = abs(as_mpf(rounded.change(*contact)) - reference.change(*contact))
+            assert error <= 200 * mp.mpf(unit.numerator) / unit.denominator
+    for contact in contacts(case):
+        enclosure = ball.change(*contact)
+        value = reference.change(*contact)
+        assert abs(mp.mpf(str(enclosure.mid().str(70, radius=False))) - value) <= mp.mpf(10) ** -55
+        assert enclosure.rad() < 1e-60
+
+
+@given(cases())
+def test_plain_form_agrees_at_sixty_digits(case: Case) -> None:
+    """Positions of order 10 carry 60 digits; 1e-52 leaves room for ~1e6 roundings of them."""
+    system = BigFloat(60)
+    one = solved(case, system)
+    other = plain_form(
+        case.width, case.height, n_x=case.n[0], rho=case.rho, loads=case.loads,
+        strength=STRENGTH, system=system,
+    )  # fmt: skip
+    for i, j in sites(case.width, case.height):
+        for a, b in zip(one.displacement(i, j), other.displacement(i, j), strict=True):
+            assert abs(a - b) < mp.mpf(10) ** -52
+    for contact in contacts(case):
+        assert abs(one.force(*contact) - other.force(*contact)) < mp.mpf(10) ** -52
+        assert abs(one.change(*contact) - other.change(*contact)) < mp.mpf(10) ** -52
+
+
+@given(cases(), st.sampled_from(["1e-6", "1e-12", "1e-20"]))
+def test_remainder_after_first_order_falls_as_the_square(case: Case, strength: str) -> None:
+    """ε → ε/2 divides exact − first order by 4, up to a relative O(ε) from the third order."""
+    t = taylor.solve(case.width, case.height, n=case.n, rho=case.rho, loads=case.loads, order=3)
+    full, half = (solved(case, BigFloat(90), Fraction(strength) / d) for d in (1, 2))
+    eps = mp.mpf(strength)
+    for contact in contacts(case):
+        _, first, second, third = (mp.mpf(c.numerator) / c.denominator for c in t.force(*contact))
+        r1 = full.change(*contact) - eps * first
+        r2 = half.change(*contact) - eps / 2 * first
+        if second:
+            # r1/r2 = 4 (1 + ε c/2 + …) with c = third/second; twice that, and rounding, as room.
+            room = 8 * eps * abs(third / second) + mp.mpf(10) ** -20
+            assert abs(r1 / r2 - 4) <= room + 1000 * eps
+        else:
+            assert abs(r1) <= (abs(third) + 1) * 1000 * eps**3
+
+
+@given(cases(), st.integers(-300, 300))
+def test_scale_and_translation_change_no_bit(case: Case, shift: int) -> None:
+    """Moving everything by two columns moves the answer, bit for bit; so do whole periods."""
+    moved = Case(
+        case.width,
+        case.height,
+        case.n,
+        {(i + 2 * shift, j): v for (i, j), v in case.rho.items()},
+        {(i + 2 * shift, j): v for (i, j), v in case.loads.items()},
+    )
+    a, b = solved(case, FLOAT64), solved(moved, FLOAT64)
+    for i, j, branch in contacts(case):
+        x, y = a.change(i, j, branch), b.change(i + 2 * shift, j, branch)
+        assert np.array_equal(x, y)
+
+
+@given(cases(), st.integers(-900, 900))
+def test_loads_scaled_by_a_power_of_two(case: Case, power: int) -> None:
+    """Force balance is linear in the load: a power of two changes exponents only."""
+    factor = Fraction(2) ** power
+    scaled = Case(
+        case.width, case.height, case.n, case.rho,
+        {s: (fx * factor, fy * factor) for s, (fx, fy) in case.loads.items()},
+    )  # fmt: skip
+    a, b = solved(case, FLOAT64), solved(scaled, FLOAT64)
+    for contact in contacts(case):
+        expected = a.force(*contact)
+        got = b.force(*contact)
+        if 1e-250 < abs(expected * 2.0**power) < 1e250:  # clear of under- and overflow
+            assert got == expected * 2.0**power
