@@ -10,7 +10,7 @@ from derivations import eq12_delta_weights as eq12
 from derivations.asymptotics import compare_leading_order, explicit_variances
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
-from symbolic.as_printed import equation, terms, times
+from symbolic.as_printed import equation, power, terms, times
 from symbolic.certified_sums import certified_sum
 from symbolic.exact import FIELD
 from symbolic.kernel import Ruling, all_of, decide_identity, from_test
@@ -22,7 +22,7 @@ RELATIVE_VARIANCE = sympy.Symbol(r"\sigma_f^2(z)/\langle f\rangle^2")
 PRINTED = equation(
     RELATIVE_VARIANCE,
     times(2 * M**3 / (1 - phi**2) ** 2, terms(1, -z) ** 2, terms(times(2, z), 1),
-          (sigma / r) ** 2),
+          power(times(sigma, 1 / r), 2)),
 )
 
 
@@ -116,6 +116,7 @@ DERIVATION = Derivation(
                  "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M"),
     premises=(eq11.DERIVATION, eq12.DERIVATION),
     printed=(PRINTED,),
+    relation="∼",
     steps=steps,
     decide=decide,
     claims=(

@@ -21,6 +21,13 @@ _SYMBOLS = {
     sy.e_y: r"\hat{\bf e}_{y}",
 }
 
+_LOCAL = {  # symbols of a single derivation
+    "delta_x": r"\Delta x",
+    "delta_y": r"\Delta y",
+    "nu_plus": r"\nu^{+}",
+    "nu_minus": r"\nu^{-}",
+    "nu_in": r"\nu_{\rm in}",
+}
 _SIGNS = {"==": "=", "<=": r"\leq", "!=": r"\neq"}
 _TALL = re.compile(r"\\frac|\\sum|\\begin|\\left")
 _SUBSCRIPT = re.compile(r"_\{[^{}]*\}")
@@ -36,8 +43,7 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
         if "\\" in expr.name:  # given as LaTeX; a quotient becomes a fraction
             over, slash, under = expr.name.partition("/")
             return self.set_fraction(over, under, alone=True) if slash else over
-        local = {"delta_x": r"\Delta x", "delta_y": r"\Delta y"}  # of a single derivation
-        return local.get(expr.name) or str(super()._print_Symbol(expr, style))
+        return _LOCAL.get(expr.name) or str(super()._print_Symbol(expr, style))
 
     def set_fraction(self, over: str, under: str, *, alone: bool) -> str:
         return rf"\frac{{{over}}}{{{under}}}"

@@ -20,9 +20,16 @@ _SYMBOLS = {
     sy.b_minus: "b⁻",
 }
 _SIGNS = {"==": "=", "<=": "≤", "!=": "≠"}
-_ONE_FACTOR = re.compile(r"[\w⁺⁻]+(_\([^()]*\))?|\([^()]*\)\w?")
+_ONE_FACTOR = re.compile(r"[\w⁺⁻⟨⟩]+(_\([^()]*\))?|\([^()]*\)\w?|√\w+")
 _INDEX = re.compile(r"_\([^()]*\)|Σ\([^()]*\)")
-_LOCAL = {"delta_x": "Δx", "delta_y": "Δy", "rho": "ρ"}  # symbols of a single derivation
+_LOCAL = {  # symbols of a single derivation
+    "delta_x": "Δx",
+    "delta_y": "Δy",
+    "rho": "ρ",
+    "nu_plus": "ν⁺",
+    "nu_minus": "ν⁻",
+    "nu_in": "ν_in",
+}
 _RAISED = str.maketrans("0123456789+-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻")
 
 
@@ -109,6 +116,12 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
             text += f"Σ({self._print(index)}={self.index(lower)}…{self.index(upper)}) "
         inner = self._print(expr.function)
         return text + (self.set_brackets(inner) if expr.function.is_Add else inner)
+
+    def _print_Derivative(self, expr: Any) -> str:
+        (variable, times), *_ = expr.variable_count
+        power = "" if times == 1 else str(times).translate(_RAISED)
+        inner = self.set_brackets(self._print(expr.expr))
+        return f"d{power}/d{self._print(variable)}{power} {inner}"
 
     def _print_Braces(self, expr: Any) -> str:
         first, second, index, last = (self._print(arg) for arg in expr.args)
