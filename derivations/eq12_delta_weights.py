@@ -4,8 +4,9 @@ from collections.abc import Iterator
 
 import sympy
 
+from derivations import witnesses
 from derivations import eq11_total_force as eq11
-from derivations.record import Claim, Derivation, Step
+from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region
 from symbolic.as_printed import equation, minus, terms, times
@@ -76,21 +77,36 @@ def variance_ignored(candidate: sympy.Expr) -> tuple[int, sympy.Expr]:
     return order(difference), at_fixed_z(difference)
 
 
+def dropped_variance() -> sympy.Expr:
+    """Variance of what Eq. 12 drops, exact for j ≥ 6 and M ≥ j + 6."""
+    return variance(exact_fluctuation() - PRINTED.rhs, DEEP).to_sympy()
+
+
 def steps() -> Iterator[Step]:
     """Put in Eqs. 4 and 5, keep the sums, count how often each Δ occurs."""
-    yield Step("In Eq. 11 the sum over n compares neighbouring contacts; with Eq. 5 each term is "
-               "half a second difference for every radius below the branch on three neighbouring "
-               "diagonals, twice over: Δ = 2δr_rs − δr_(r−2,s) − δr_(r+2,s).",
-               equation(SecondDifference(i, j), SecondDifference(i, j).doit()))
-    yield Step("Keeping the sums of Eq. 5 alone, and one more term n = M − j:",
-               minus(times(PREFACTOR, DOUBLE_SUM)))
-    yield Step("Exchanging the sums, Δ in layer m occurs for n = max(1, m−j), …, M−j: M − j times "
-               "for m ≤ j, and M − m + 1 times for m > j.",
-               minus(times(PREFACTOR, sympy.Sum(times(FULL_COUNT, ON_DIAGONAL), (m, 1, M)))))
-    yield Step("Dropping the 1 beside M − m, which is of the order that is dropped anyway:",
-               PRINTED)
-    yield Step("The largest dropped term stands on the base, with a weight of order M on three "
-               "radii; all other dropped weights are of order 1.", minus(BASE_TERM))
+    yield Step(
+        "In Eq. 11 the sum over n compares neighbouring contacts; with Eq. 5 each term is "
+        "half a second difference for every radius below the branch on three neighbouring "
+        "diagonals, twice over: Δ = 2δr_rs − δr_(r−2,s) − δr_(r+2,s).",
+        equation(SecondDifference(i, j), SecondDifference(i, j).doit()),
+    )
+    yield Step(
+        "Keeping the sums of Eq. 5 alone, and one more term n = M − j:",
+        minus(times(PREFACTOR, DOUBLE_SUM)),
+    )
+    yield Step(
+        "Exchanging the sums, Δ in layer m occurs for n = max(1, m−j), …, M−j: M − j times "
+        "for m ≤ j, and M − m + 1 times for m > j.",
+        minus(times(PREFACTOR, sympy.Sum(times(FULL_COUNT, ON_DIAGONAL), (m, 1, M)))),
+    )
+    yield Step(
+        "Dropping the 1 beside M − m, which is of the order that is dropped anyway:", PRINTED
+    )
+    yield Step(
+        "The largest dropped term stands on the base, with a weight of order M on three "
+        "radii; all other dropped weights are of order 1.",
+        minus(BASE_TERM),
+    )
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
@@ -100,10 +116,14 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     except (NotExact, Undetermined, ValueError) as reason:
         return undecided(str(reason))
     if power < LEADING_ORDER:
-        return proved(f"what is dropped has a variance of order M^{power}, against M³ kept: "
-                      f"{coefficient} · M^{power}")
-    return refuted(f"the difference from Eq. 11 has a variance of order M^{power}, not below M³: "
-                   f"{coefficient} · M^{power}")
+        return proved(
+            f"what is dropped has a variance of order M^{power}, against M³ kept: "
+            f"{coefficient} · M^{power}"
+        )
+    return refuted(
+        f"the difference from Eq. 11 has a variance of order M^{power}, not below M³: "
+        f"{coefficient} · M^{power}"
+    )
 
 
 def _count() -> Ruling:
@@ -121,15 +141,18 @@ def _braces_are_not_the_count() -> Ruling:
 def _dropped() -> Ruling:
     dropped = exact_fluctuation() - PRINTED.rhs
     rest = dropped + BASE_TERM
-    orders = (largest_weight(fluctuation(dropped, DEEP), DEEP),
-              largest_weight(fluctuation(rest, DEEP), DEEP))
+    orders = (
+        largest_weight(fluctuation(dropped, DEEP), DEEP),
+        largest_weight(fluctuation(rest, DEEP), DEEP),
+    )
     end = minus(times(1 / (1 - phi**2), Dot(n_plus, DeltaNMinus(i + M - j + 1, M - 1))))
     end_order = largest_weight(fluctuation(eq11.in_radii(end), DEEP), DEEP)
     return from_test(
         orders == (1, 0) and end_order == 0,
         "dropped weights are of order M on the three base radii of ½(M−j−1)Δ and of order 1 "
         "elsewhere; the end term of Eq. 11 has weights of order 1",
-        f"orders found: {orders}, end term {end_order}")
+        f"orders found: {orders}, end term {end_order}",
+    )
 
 
 def _independent() -> Ruling:
@@ -161,18 +184,30 @@ DERIVATION = Derivation(
     assumptions=("first order in δr", "M → ∞ at fixed z = j/M, 0 < z < 1"),
     premises=(eq11.DERIVATION,),
     printed=(PRINTED,),
+    relation="≈",
     steps=steps,
     decide=decide,
     claims=(
-        Claim("the double sum counts M − j for m ≤ j and M − m + 1 for m > j; the printed braces "
-              "leave out Δ once for every m > j", _consistent),
+        Claim(
+            "the double sum counts M − j for m ≤ j and M − m + 1 for m > j; the printed braces "
+            "leave out Δ once for every m > j",
+            _consistent,
+        ),
         Claim("orders of the dropped terms", _dropped),
         Claim("Δ of different layers share no radius", _independent),
     ),
-    remarks=("The double sum printed just before Eq. 12 counts M − m + 1 for m > j; the braces "
-             "say M − m. The difference is of the order that Eq. 12 drops.",
-             "The sum over n in Eq. 11 ends at M − j − 1, the one printed before Eq. 12 at M − j: "
-             "again a difference of dropped order."),
+    witnesses=(
+        Witness(
+            "weights of the exact packing less the printed ones: squares sum as stated",
+            lambda seed: witnesses.dropped_weights(PRINTED.rhs, dropped_variance(), seed),
+        ),
+    ),
+    remarks=(
+        "The double sum printed just before Eq. 12 counts M − m + 1 for m > j; the braces "
+        "say M − m. The difference is of the order that Eq. 12 drops.",
+        "The sum over n in Eq. 11 ends at M − j − 1, the one printed before Eq. 12 at M − j: "
+        "again a difference of dropped order.",
+    ),
 )
 
 if __name__ == "__main__":

@@ -141,16 +141,12 @@ class RationalFunction:
         return self + (-other)
 
     def __mul__(self, other: Self) -> Self:
-        return self._same(
-            self.numerator * other.numerator, self.denominator * other.denominator
-        )
+        return self._same(self.numerator * other.numerator, self.denominator * other.denominator)
 
     def __truediv__(self, other: Self) -> Self:
         if other.numerator == 0:
             raise NotExact("division by zero")
-        return self._same(
-            self.numerator * other.denominator, self.denominator * other.numerator
-        )
+        return self._same(self.numerator * other.denominator, self.denominator * other.numerator)
 
     def __pow__(self, exponent: int) -> Self:
         if exponent < 0:
@@ -196,7 +192,7 @@ class RationalFunction:
         return sympy.Add(
             *(
                 sympy.Rational(int(c.p), int(c.q))
-                * sympy.Mul(*(g**int(e) for g, e in zip(self.domain.generators, x, strict=True)))
+                * sympy.Mul(*(g ** int(e) for g, e in zip(self.domain.generators, x, strict=True)))
                 for x, c in polynomial.to_dict().items()
             )
         )

@@ -197,4 +197,3 @@ def _terms(series: sympy.Sum, values: Values) -> Iterator[Weights | Vector]:
     first, last = number(low, values), number(high, values)
     for value in range(int(first), int(last) + 1):
         yield _read(body, {**values, index: value})
-

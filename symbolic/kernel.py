@@ -74,10 +74,12 @@ def counterexample(
     left: sympy.Expr, right: sympy.Expr, region: Region, *, is_vector: bool = False
 ) -> str | None:
     """Look for a small packing on which two linear expressions have different weights."""
-    free = tuple(sorted(
-        (left.free_symbols | right.free_symbols) & set(sy.INDICES) - set(region.lower_bounds),
-        key=str,
-    ))
+    free = tuple(
+        sorted(
+            (left.free_symbols | right.free_symbols) & set(sy.INDICES) - set(region.lower_bounds),
+            key=str,
+        )
+    )
     for geometry in GEOMETRIES:
         for point in _samples(region, free):
             values = {**geometry, **_OTHERS, **point}
@@ -114,9 +116,7 @@ def decide_linear(
             return refuted(found)
         reader = Reader(region, basis)
         if is_vector:
-            forms = [
-                a - b for a, b in zip(reader.vector(left), reader.vector(right), strict=True)
-            ]
+            forms = [a - b for a, b in zip(reader.vector(left), reader.vector(right), strict=True)]
         else:
             forms = [reader.scalar(left) - reader.scalar(right)]
     except (NotExact, explicit.Ambiguous) as reason:
@@ -130,8 +130,11 @@ def decide_linear(
 def decide_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
     """Rule on left = right as rational functions of their symbols, n_x² + n_y² = 1 given."""
     unknowns = sorted(
-        left.free_symbols | right.free_symbols | left.atoms(sy.SiteFunction)
-        | right.atoms(sy.SiteFunction), key=str,
+        left.free_symbols
+        | right.free_symbols
+        | left.atoms(sy.SiteFunction)
+        | right.atoms(sy.SiteFunction),
+        key=str,
     )
     field = Domain(dict.fromkeys([*unknowns, sy.n_x, sy.n_y, sy.phi]))
     try:

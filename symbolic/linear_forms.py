@@ -226,9 +226,7 @@ def _sum_ray(
         ray_from(affine.add(at_zero, low, -1), between(lower, -layer - FIELD.one))
 
 
-def combination(
-    form: LinearForm, replacement: Callable[[Site], LinearForm | None]
-) -> LinearForm:
+def combination(form: LinearForm, replacement: Callable[[Site], LinearForm | None]) -> LinearForm:
     """Replace the quantities at single sites by other forms (None leaves one as it is)."""
     result = LinearForm({}, dict(form.rays))
     for site, weight in form.sites.items():

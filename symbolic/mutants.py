@@ -63,10 +63,13 @@ def _here(node: sympy.Basic) -> Iterator[Change]:
     if isinstance(node, sympy.Add):
         for number, term in enumerate(node.args):
             others = (*node.args[:number], *node.args[number + 1 :])
-            yield f"sign of {_brief(term)} flipped", node.func(*node.args[:number],
-                -term, *node.args[number + 1 :], evaluate=False)
-            yield f"{_brief(term)} dropped", (
-                others[0] if len(others) == 1 else node.func(*others, evaluate=False)
+            yield (
+                f"sign of {_brief(term)} flipped",
+                node.func(*node.args[:number], -term, *node.args[number + 1 :], evaluate=False),
+            )
+            yield (
+                f"{_brief(term)} dropped",
+                (others[0] if len(others) == 1 else node.func(*others, evaluate=False)),
             )
     elif isinstance(node, sympy.Integer) and node not in (sympy.S.Zero, sympy.S.NegativeOne):
         yield f"{node} changed to {node + 1}", node + 1
@@ -81,8 +84,10 @@ def _here(node: sympy.Basic) -> Iterator[Change]:
     elif isinstance(node, sy.Braces):
         first, second, index, last = node.args
         for by in (1, -1):
-            yield f"case {index} ≤ {last} shifted to {last + by}", node.func(
-                first, second, index, last + by)
+            yield (
+                f"case {index} ≤ {last} shifted to {last + by}",
+                node.func(first, second, index, last + by),
+            )
     elif isinstance(node, sympy.Sum | sy.Dot):
         yield f"sign of {_brief(node)} flipped", sympy.Mul(-1, node, evaluate=False)
 
