@@ -5,7 +5,7 @@ from fractions import Fraction
 import sympy
 
 from symbolic import explicit
-from symbolic.exact import FIELD, NotExact, RationalFunction
+from symbolic.exact import FIELD, NotExactError, RationalFunction
 from symbolic.kernel import GEOMETRIES, Ruling, Verdict, proved, refuted, undecided
 from symbolic.symbols import M, i, j, sigma, z
 from symbolic.variance import ExactForm, at_fixed_z, order, packings, value_at
@@ -15,7 +15,7 @@ def compare_leading_order(exact: RationalFunction, candidate: sympy.Expr) -> Rul
     """Rule on a candidate in M and z: exact − candidate must be of lower order than exact."""
     try:
         difference = exact - FIELD.from_sympy(candidate.xreplace({z: j / M}))
-    except NotExact as reason:
+    except NotExactError as reason:
         return undecided(str(reason))
     if difference.is_zero():
         return proved("equal at every order")

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 import sympy
 
-from derivations import witnesses
 from derivations import eq02_displacement as eq02
+from derivations import witnesses
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import sympy
 
-from derivations import witnesses
 from derivations import eq03_extrapolation as eq03
 from derivations import eq04_contact_plus as eq04
+from derivations import witnesses
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic import contacts

@@ -4,12 +4,12 @@ from collections.abc import Iterator
 
 import sympy
 
-from derivations import witnesses
 from derivations import eq04_contact_plus as eq04
 from derivations import eq05_contact_minus as eq05
+from derivations import witnesses
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
-from symbolic.as_printed import equation, minus, terms, times
+from symbolic.as_printed import equation, terms, times
 from symbolic.kernel import Ruling, all_of, decide_identity, decide_vector_identity
 from symbolic.symbols import (
     DeltaNMinus,

@@ -4,12 +4,12 @@ from collections.abc import Iterator
 
 import sympy
 
-from derivations import witnesses
 from derivations import eq04_contact_plus as eq04
 from derivations import eq05_contact_minus as eq05
 from derivations import eq07_load_split as eq07
 from derivations import eq09_straight_path as eq09
 from derivations import eq10_branched_path as eq10
+from derivations import witnesses
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region

@@ -4,13 +4,13 @@ from collections.abc import Iterator
 
 import sympy
 
-from derivations import witnesses
 from derivations import eq11_total_force as eq11
+from derivations import witnesses
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region
 from symbolic.as_printed import equation, minus, terms, times
-from symbolic.exact import NotExact
+from symbolic.exact import NotExactError
 from symbolic.kernel import (
     Ruling,
     all_of,
@@ -39,7 +39,7 @@ from symbolic.symbols import (
     r,
 )
 from symbolic.variance import at_fixed_z, fluctuation, largest_weight, order, variance
-from symbolic.weights import Undetermined
+from symbolic.weights import UndeterminedError
 
 ON_DIAGONAL = SecondDifference(i - (j - m), m)
 PREFACTOR = 1 / (r * (1 - phi**2))
@@ -113,7 +113,7 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Exact form less candidate has a variance of lower order than M³."""
     try:
         power, coefficient = variance_ignored(candidate.rhs)
-    except (NotExact, Undetermined, ValueError) as reason:
+    except (NotExactError, UndeterminedError, ValueError) as reason:
         return undecided(str(reason))
     if power < LEADING_ORDER:
         return proved(

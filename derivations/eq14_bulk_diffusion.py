@@ -10,7 +10,7 @@ from derivations import eq12_delta_weights as eq12
 from derivations.asymptotics import compare_leading_order, explicit_variances
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
-from symbolic.as_printed import equation, minus, terms, times
+from symbolic.as_printed import equation, terms, times
 from symbolic.certified_sums import certified_sum
 from symbolic.exact import FIELD
 from symbolic.kernel import Ruling, all_of, decide_identity, from_test

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
+from typing import Any
 
 import mpmath
 import sympy
@@ -183,9 +184,9 @@ def remainders(
     solution: exact.Solution,
     half: exact.Solution,
     first: list[tuple[str, Fraction]],
-    read: Callable[[exact.Solution], list[object]],
+    read: Callable[[exact.Solution], list[Any]],
     strength: str,
-) -> Iterator[object]:
+) -> Iterator[Any]:
     """Measured order log₂ R(ε)/R(ε/2) of the remainder, for each quantity whose R is not zero."""
     with mpmath.workdps(DIGITS):
         epsilon = mpmath.mpf(strength)
@@ -200,7 +201,7 @@ def remainders(
 def second_order(
     seed: int,
     first: Callable[[Truth, list[Site]], list[tuple[str, Fraction]]],
-    read: Callable[[exact.Solution, list[Site]], list[object]],
+    read: Callable[[exact.Solution, list[Site]], list[Any]],
 ) -> Ruling:
     """Measure that exact minus first order falls as ε², with the plain form at 80 digits."""
     packing = draw(seed)
@@ -418,7 +419,7 @@ def second_order_positions(printed: sympy.Expr, seed: int) -> Ruling:
             for component in truth.vector(printed, {sy.i: site[0], sy.j: site[1]})
         ]
 
-    def read(solution: exact.Solution, sites: list[Site]) -> list[object]:
+    def read(solution: exact.Solution, sites: list[Site]) -> list[Any]:
         return [component for site in sites for component in solution.displacement(*site)]
 
     return second_order(seed, first, read)
@@ -439,7 +440,7 @@ def second_order_forces(printed: sympy.Expr, seed: int) -> Ruling:
             for site in sites
         ]
 
-    def read(solution: exact.Solution, sites: list[Site]) -> list[object]:
+    def read(solution: exact.Solution, sites: list[Site]) -> list[Any]:
         return [solution.change(*site, "+") for site in sites]
 
     return second_order(seed, first, read)

@@ -122,4 +122,4 @@ def _shifted_bounds(node: sympy.Sum) -> Iterator[Change]:
 
 def _brief(node: sympy.Basic) -> str:
     text = str(node)
-    return text if len(text) <= 48 else text[:45] + "…"  # noqa: PLR2004
+    return text if len(text) <= 48 else text[:45] + "…"
