@@ -5,8 +5,9 @@ from fractions import Fraction
 import sympy
 
 from symbolic import explicit
-from symbolic.exact import FIELD, NotExact, RationalFunction
+from symbolic.exact import FIELD, NotExactError, RationalFunction
 from symbolic.kernel import GEOMETRIES, Ruling, Verdict, proved, refuted, undecided
+from symbolic.printing.text import text
 from symbolic.symbols import M, i, j, sigma, z
 from symbolic.variance import ExactForm, at_fixed_z, order, packings, value_at
 
@@ -15,12 +16,12 @@ def compare_leading_order(exact: RationalFunction, candidate: sympy.Expr) -> Rul
     """Rule on a candidate in M and z: exact − candidate must be of lower order than exact."""
     try:
         difference = exact - FIELD.from_sympy(candidate.xreplace({z: j / M}))
-    except NotExact as reason:
+    except NotExactError as reason:
         return undecided(str(reason))
     if difference.is_zero():
         return proved("equal at every order")
     power = order(difference)
-    shown = f"{at_fixed_z(difference)} · M^{power}"
+    shown = f"{text(at_fixed_z(difference))} · M^{power}"
     if power < order(exact):
         return proved(f"exact − printed is of order M^{power}: {shown}")
     return refuted(f"exact − candidate is of the leading order M^{power} itself: {shown}")

@@ -4,7 +4,8 @@ from collections.abc import Iterator
 
 import sympy
 
-from derivations.record import Claim, Derivation, Step
+from derivations import witnesses
+from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region
 from symbolic.as_printed import equation, terms, times
@@ -29,39 +30,61 @@ def positions(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
 
 def steps() -> Iterator[Step]:
     """From touching along the two lattice directions to the range of the spacing."""
-    yield Step("Bead (0, 0) is the origin; each bead touches the two above it, so one step up "
-               "moves by a full diameter along n⁺ or n⁻.",
-               equation(Position(i + 1, j + 1) - Position(i, j), 2 * r * n_plus))
+    yield Step(
+        "Bead (0, 0) is the origin; each bead touches the two above it, so one step up "
+        "moves by a full diameter along n⁺ or n⁻.",
+        equation(Position(i + 1, j + 1) - Position(i, j), 2 * r * n_plus),
+    )
     yield Step("Going (j+i)/2 steps along n⁺ and (j−i)/2 along n⁻ reaches bead (i, j).", PRINTED)
-    yield Step("In Cartesian components the bead is at (2 r i n_x, 2 r j n_y); beads of one layer "
-               "are two indices apart, which defines the spacing s.",
-               equation(spacing, 4 * r * n_x))
-    yield Step("The squared distance of two beads that are (a, b) apart, a + b even.",
-               equation(SQUARED_DISTANCE(a, b), 4 * r**2 * (a**2 * n_x**2 + b**2 * n_y**2)))
-    yield Step("Besides the four contacts (±1, ±1), every pair has |a| ≥ 2 or |b| ≥ 2; the "
-               "tightest are (2, 0) and (0, 2). They do not overlap when both of these are "
-               "positive.",
-               sympy.Tuple(equation(SQUARED_DISTANCE(2, 0) - 4 * r**2, spacing**2 - 4 * r**2),
-                           equation(SQUARED_DISTANCE(0, 2) - 4 * r**2, 12 * r**2 - spacing**2)))
-    yield Step("Hence s lies between 2r and 2√3 r, and in terms of φ = n⁺·n⁻ both bounds together "
-               "say |φ| < ½.",
-               sympy.Tuple(equation(sympy.Rational(1, 2) - phi, (spacing**2 - 4 * r**2) / (8 * r**2)),
-                           equation(sympy.Rational(1, 2) + phi, (12 * r**2 - spacing**2) / (8 * r**2))))
+    yield Step(
+        "In Cartesian components the bead is at (2 r i n_x, 2 r j n_y); beads of one layer "
+        "are two indices apart, which defines the spacing s.",
+        equation(spacing, 4 * r * n_x),
+    )
+    yield Step(
+        "The squared distance of two beads that are (a, b) apart, a + b even.",
+        equation(SQUARED_DISTANCE(a, b), 4 * r**2 * (a**2 * n_x**2 + b**2 * n_y**2)),
+    )
+    yield Step(
+        "Besides the four contacts (±1, ±1), every pair has |a| ≥ 2 or |b| ≥ 2; the "
+        "tightest are (2, 0) and (0, 2). They do not overlap when both of these are "
+        "positive.",
+        sympy.Tuple(
+            equation(SQUARED_DISTANCE(2, 0) - 4 * r**2, spacing**2 - 4 * r**2),
+            equation(SQUARED_DISTANCE(0, 2) - 4 * r**2, 12 * r**2 - spacing**2),
+        ),
+    )
+    yield Step(
+        "Hence s lies between 2r and 2√3 r, and in terms of φ = n⁺·n⁻ both bounds together "
+        "say |φ| < ½.",
+        sympy.Tuple(
+            equation(sympy.Rational(1, 2) - phi, (spacing**2 - 4 * r**2) / (8 * r**2)),
+            equation(sympy.Rational(1, 2) + phi, (12 * r**2 - spacing**2) / (8 * r**2)),
+        ),
+    )
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """The candidate is Eq. 1 when it puts bead (0, 0) at the origin and steps by 2r n^±."""
+
     def at(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
         return candidate.rhs.xreplace({i: across, j: layer})
 
     everywhere = Region({})
     zero = sympy.Integer(0)
-    rulings = [decide_linear(at(zero, zero), zero * n_plus, everywhere, is_vector=True,
-                             basis=CARTESIAN)]
+    rulings = [
+        decide_linear(at(zero, zero), zero * n_plus, everywhere, is_vector=True, basis=CARTESIAN)
+    ]
     for direction, step in ((n_plus, 1), (n_minus, -1)):
         rulings.append(
-            decide_linear(at(i + step, j + 1), terms(at(i, j), 2 * r * direction), everywhere,
-                          is_vector=True, basis=CARTESIAN))
+            decide_linear(
+                at(i + step, j + 1),
+                terms(at(i, j), 2 * r * direction),
+                everywhere,
+                is_vector=True,
+                basis=CARTESIAN,
+            )
+        )
     return all_of(*rulings)
 
 
@@ -75,10 +98,14 @@ def _spacing_bounds() -> Ruling:
     return all_of(
         decide_identity(_squared_distance(sympy.Integer(1), sympy.Integer(1)), 4 * r**2),
         decide_identity(_squared_distance(sympy.Integer(1), sympy.Integer(-1)), 4 * r**2),
-        decide_identity(_squared_distance(sympy.Integer(2), sympy.Integer(0)) - 4 * r**2,
-                        (spacing**2 - 4 * r**2).xreplace(in_spacing)),
-        decide_identity(_squared_distance(sympy.Integer(0), sympy.Integer(2)) - 4 * r**2,
-                        (12 * r**2 - spacing**2).xreplace(in_spacing)),
+        decide_identity(
+            _squared_distance(sympy.Integer(2), sympy.Integer(0)) - 4 * r**2,
+            (spacing**2 - 4 * r**2).xreplace(in_spacing),
+        ),
+        decide_identity(
+            _squared_distance(sympy.Integer(0), sympy.Integer(2)) - 4 * r**2,
+            (12 * r**2 - spacing**2).xreplace(in_spacing),
+        ),
     )
 
 
@@ -111,18 +138,31 @@ DERIVATION = Derivation(
         (n_minus, "unit vector (−n_x, n_y), up and to the left"),
         (spacing, "horizontal distance of two centres in one layer"),
     ),
-    assumptions=("all radii equal r", "bead (i, j) touches the beads (i±1, j±1)",
-                 "i + j is even; the base is j = 0"),
+    assumptions=(
+        "all radii equal r",
+        "bead (i, j) touches the beads (i±1, j±1)",
+        "i + j is even; the base is j = 0",
+    ),
     premises=(),
     printed=(PRINTED,),
     steps=steps,
     decide=decide,
     claims=(
-        Claim("contacts touch; the pairs (2, 0) and (0, 2) are apart exactly for 2r < s < 2√3 r",
-              _spacing_bounds),
-        Claim("no other pair is closer: its squared distance exceeds by non-negative terms",
-              _no_other_pair_is_closer),
+        Claim(
+            "contacts touch; the pairs (2, 0) and (0, 2) are apart exactly for 2r < s < 2√3 r",
+            _spacing_bounds,
+        ),
+        Claim(
+            "no other pair is closer: its squared distance exceeds by non-negative terms",
+            _no_other_pair_is_closer,
+        ),
         Claim("the same bounds are −½ < φ < ½, and 1 − φ² = 4 n_x² n_y² > 0", _cosine_bounds),
+    ),
+    witnesses=(
+        Witness(
+            "beads laid by circle intersection sit there, as fractions",
+            lambda seed: witnesses.ordered_positions(PRINTED.rhs, seed),
+        ),
     ),
 )
 

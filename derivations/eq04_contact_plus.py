@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import sympy
 
 from derivations import eq03_extrapolation as eq03
-from derivations.record import Claim, Derivation, Step
+from derivations import witnesses
+from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic import contacts
 from symbolic.affine import Region
@@ -36,9 +37,12 @@ PRINTED = equation(
             terms(
                 DeltaR(i + j + 2, 0),
                 minus(DeltaR(i + j, 0)),
-                times(2, sympy.Sum(
-                    terms(DeltaR(i + (j - m) + 2, m), minus(DeltaR(i + (j - m), m))), (m, 1, j)
-                )),
+                times(
+                    2,
+                    sympy.Sum(
+                        terms(DeltaR(i + (j - m) + 2, m), minus(DeltaR(i + (j - m), m))), (m, 1, j)
+                    ),
+                ),
             ),
         ),
     ),
@@ -60,16 +64,22 @@ def from_displacements(above: sympy.Expr, below: sympy.Expr) -> sympy.Expr:
 
 def steps() -> Iterator[Step]:
     """Differentiate the exact unit vector, then put in Eq. 3."""
-    yield Step("The centres of touching beads are exactly R + R′ apart, so the unit vector of the "
-               "contact is their separation over R + R′ = 2r + ερ; its derivative at ε = 0 is "
-               "(Δx − ρ n⁺)/2r.",
-               equation(times(2, r, DeltaNPlus(i, j)),
-                        from_displacements(DeltaX(*ABOVE), DeltaX(i, j))))
-    yield Step("With Eq. 3 for both beads, the b⁺ component of the difference is the sum of the "
-               "two radii alone, since both beads lie on one diagonal along n⁺; the b⁻ component "
-               "compares two neighbouring diagonals along n⁻.", PRINTED)
-    yield Step("The contact's length has been used: the change is at right angles to n⁺.",
-               equation(Dot(n_plus, DeltaNPlus(i, j)), 0))
+    yield Step(
+        "The centres of touching beads are exactly R + R′ apart, so the unit vector of the "
+        "contact is their separation over R + R′ = 2r + ερ; its derivative at ε = 0 is "
+        "(Δx − ρ n⁺)/2r.",
+        equation(times(2, r, DeltaNPlus(i, j)), from_displacements(DeltaX(*ABOVE), DeltaX(i, j))),
+    )
+    yield Step(
+        "With Eq. 3 for both beads, the b⁺ component of the difference is the sum of the "
+        "two radii alone, since both beads lie on one diagonal along n⁺; the b⁻ component "
+        "compares two neighbouring diagonals along n⁻.",
+        PRINTED,
+    )
+    yield Step(
+        "The contact's length has been used: the change is at right angles to n⁺.",
+        equation(Dot(n_plus, DeltaNPlus(i, j)), 0),
+    )
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
@@ -79,7 +89,9 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     at_base = decide_linear(
         candidate.rhs.xreplace({j: ZERO}),
         from_displacements(eq03.displacement(*ABOVE), ZERO).xreplace({j: ZERO}),
-        Region({}), is_vector=True)
+        Region({}),
+        is_vector=True,
+    )
     return all_of(above_base, at_base)
 
 
@@ -109,6 +121,12 @@ DERIVATION = Derivation(
     claims=(
         Claim("the derivative of the exact unit vector is (δx − δx′ − ρ n⁺)/2r", _unit_vector),
         Claim("n⁺·δn⁺ = 0: a unit vector to first order", _orthogonal),
+    ),
+    witnesses=(
+        Witness(
+            "Taylor coefficients of the exact packing equal it as fractions",
+            lambda seed: witnesses.geometry(PRINTED.rhs, witnesses.doubled_direction("+"), seed),
+        ),
     ),
 )
 

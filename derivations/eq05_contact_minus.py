@@ -6,7 +6,8 @@ import sympy
 
 from derivations import eq03_extrapolation as eq03
 from derivations import eq04_contact_plus as eq04
-from derivations.record import Claim, Derivation, Step
+from derivations import witnesses
+from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic import contacts
 from symbolic.affine import Region
@@ -38,9 +39,12 @@ PRINTED = equation(
             terms(
                 DeltaR(i - j - 2, 0),
                 minus(DeltaR(i - j, 0)),
-                times(2, sympy.Sum(
-                    terms(DeltaR(i - (j - m) - 2, m), minus(DeltaR(i - (j - m), m))), (m, 1, j)
-                )),
+                times(
+                    2,
+                    sympy.Sum(
+                        terms(DeltaR(i - (j - m) - 2, m), minus(DeltaR(i - (j - m), m))), (m, 1, j)
+                    ),
+                ),
             ),
         ),
     ),
@@ -62,14 +66,20 @@ def from_displacements(above: sympy.Expr, below: sympy.Expr) -> sympy.Expr:
 
 def steps() -> Iterator[Step]:
     """The same derivation for the other contact, and the mirror image of Eq. 4."""
-    yield Step("As for Eq. 4, from the exact unit vector of the contact along n⁻:",
-               equation(times(2, r, DeltaNMinus(i, j)),
-                        from_displacements(DeltaX(*ABOVE), DeltaX(i, j))))
+    yield Step(
+        "As for Eq. 4, from the exact unit vector of the contact along n⁻:",
+        equation(times(2, r, DeltaNMinus(i, j)), from_displacements(DeltaX(*ABOVE), DeltaX(i, j))),
+    )
     yield Step("Eq. 3 put in; now the b⁻ component is the two radii alone.", PRINTED)
-    yield Step("The mirror image of Eq. 4, i → −i at every bead with n⁺ ↔ n⁻ and b⁺ ↔ b⁻, is the "
-               "same equation.", mirror(eq04.PRINTED))
-    yield Step("Again the change is at right angles to the contact.",
-               equation(Dot(n_minus, DeltaNMinus(i, j)), 0))
+    yield Step(
+        "The mirror image of Eq. 4, i → −i at every bead with n⁺ ↔ n⁻ and b⁺ ↔ b⁻, is the "
+        "same equation.",
+        mirror(eq04.PRINTED),
+    )
+    yield Step(
+        "Again the change is at right angles to the contact.",
+        equation(Dot(n_minus, DeltaNMinus(i, j)), 0),
+    )
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
@@ -79,7 +89,9 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     at_base = decide_linear(
         candidate.rhs.xreplace({j: ZERO}),
         from_displacements(eq03.displacement(*ABOVE), ZERO).xreplace({j: ZERO}),
-        Region({}), is_vector=True)
+        Region({}),
+        is_vector=True,
+    )
     return all_of(above_base, at_base)
 
 
@@ -114,6 +126,12 @@ DERIVATION = Derivation(
         Claim("the derivative of the exact unit vector is (δx − δx′ − ρ n⁻)/2r", _unit_vector),
         Claim("Eq. 5 is the mirror image of Eq. 4", _mirror_image),
         Claim("n⁻·δn⁻ = 0: a unit vector to first order", _orthogonal),
+    ),
+    witnesses=(
+        Witness(
+            "Taylor coefficients of the exact packing equal it as fractions",
+            lambda seed: witnesses.geometry(PRINTED.rhs, witnesses.doubled_direction("-"), seed),
+        ),
     ),
 )
 

@@ -6,9 +6,10 @@ import sympy
 
 from derivations import eq04_contact_plus as eq04
 from derivations import eq05_contact_minus as eq05
-from derivations.record import Claim, Derivation, Step
+from derivations import witnesses
+from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
-from symbolic.as_printed import equation, minus, terms, times
+from symbolic.as_printed import equation, terms, times
 from symbolic.kernel import Ruling, all_of, decide_identity, decide_vector_identity
 from symbolic.symbols import (
     DeltaNMinus,
@@ -45,17 +46,22 @@ DISTANCE = sympy.sqrt((x - X) ** 2 + (y - Y) ** 2)
 
 def steps() -> Iterator[Step]:
     """A frictionless contact pushes along the gradient of the distance of the two centres."""
-    yield Step("A frictionless contact opposes only a change of the distance of its two centres: "
-               "its force on the bead is f times the gradient of that distance, f ≥ 0 when "
-               "compressive.",
-               sympy.Tuple(DISTANCE, sympy.diff(DISTANCE, x), sympy.diff(DISTANCE, y)))
-    yield Step("That gradient is the unit vector from the support to the bead: from (k−1, l−1) "
-               "along n⁺, from (k+1, l−1) along n⁻.",
-               sympy.Tuple(terms(n_plus, DeltaNPlus(*LEFT)), terms(n_minus, DeltaNMinus(*RIGHT))))
+    yield Step(
+        "A frictionless contact opposes only a change of the distance of its two centres: "
+        "its force on the bead is f times the gradient of that distance, f ≥ 0 when "
+        "compressive.",
+        sympy.Tuple(DISTANCE, sympy.diff(DISTANCE, x), sympy.diff(DISTANCE, y)),
+    )
+    yield Step(
+        "That gradient is the unit vector from the support to the bead: from (k−1, l−1) "
+        "along n⁺, from (k+1, l−1) along n⁻.",
+        sympy.Tuple(terms(n_plus, DeltaNPlus(*LEFT)), terms(n_minus, DeltaNMinus(*RIGHT))),
+    )
     yield Step("The load and the two forces add up to zero.", PRINTED)
-    yield Step("In the ordered packing, with the load f_load downwards, both supports carry "
-               "f_load/2n_y.",
-               equation(f_load / (2 * n_y) * terms(n_plus, n_minus), f_load * e_y))
+    yield Step(
+        "In the ordered packing, with the load f_load downwards, both supports carry f_load/2n_y.",
+        equation(f_load / (2 * n_y) * terms(n_plus, n_minus), f_load * e_y),
+    )
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
@@ -107,17 +113,27 @@ DERIVATION = Derivation(
         (ForcePlus(k - 1, l - 1), "force of the contact from (k−1, l−1), compressive when > 0"),
         (ForceMinus(k + 1, l - 1), "force of the contact from (k+1, l−1)"),
     ),
-    assumptions=("no friction; contacts push along the line of centres",
-                 "bead (k, l) carries nothing but its load"),
+    assumptions=(
+        "no friction; contacts push along the line of centres",
+        "bead (k, l) carries nothing but its load",
+    ),
     premises=(eq04.DERIVATION, eq05.DERIVATION),
     printed=(PRINTED,),
     steps=steps,
     decide=decide,
     claims=(
-        Claim("the gradient of the distance is the unit vector from the support to the bead",
-              _gradient_is_unit_vector),
+        Claim(
+            "the gradient of the distance is the unit vector from the support to the bead",
+            _gradient_is_unit_vector,
+        ),
         Claim("a force along the contact has no torque about the centre", _no_torque),
         Claim("two forces f_load/2n_y along n⁺ and n⁻ carry the load f_load", _ordered_solution),
+    ),
+    witnesses=(
+        Witness(
+            "the loaded bead of an exact packing is balanced at orders ε⁰ and ε¹",
+            witnesses.loaded_bead,
+        ),
     ),
 )
 

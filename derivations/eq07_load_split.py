@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import sympy
 
 from derivations import eq06_force_balance as eq06
-from derivations.record import Claim, Derivation, Step
+from derivations import witnesses
+from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic import balance
 from symbolic.affine import Region
@@ -36,13 +37,17 @@ ORDERED = f_load / (2 * n_y)
 PRINTED = (
     equation(
         ForcePlus(*LEFT),
-        times(ORDERED, terms(1, times(1 / (1 - phi**2),
-                                      terms(times(phi, TILT_PLUS), minus(TILT_MINUS))))),
+        times(
+            ORDERED,
+            terms(1, times(1 / (1 - phi**2), terms(times(phi, TILT_PLUS), minus(TILT_MINUS)))),
+        ),
     ),
     equation(
         ForceMinus(*RIGHT),
-        times(ORDERED, terms(1, times(1 / (1 - phi**2),
-                                      terms(times(phi, TILT_MINUS), minus(TILT_PLUS))))),
+        times(
+            ORDERED,
+            terms(1, times(1 / (1 - phi**2), terms(times(phi, TILT_MINUS), minus(TILT_PLUS)))),
+        ),
     ),
 )
 
@@ -55,21 +60,24 @@ def split_plus(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
 def solved(branch: int) -> sympy.Expr:
     """The inverted 2×2 system: ordered force times 1 plus the first-order change."""
     at_zero, slope = balance.solved("load")
-    change = slope[branch].xreplace(
-        {balance.tilt_plus: TILT_PLUS, balance.tilt_minus: TILT_MINUS})
+    change = slope[branch].xreplace({balance.tilt_plus: TILT_PLUS, balance.tilt_minus: TILT_MINUS})
     return ORDERED * (at_zero[branch] + change)
 
 
 def steps() -> Iterator[Step]:
     """Dot the balance with n⁺ and n⁻, invert, and expand in the strength ε."""
-    yield Step("A vertical load is −(f_load/2n_y)(n⁺ + n⁻). Dotted with n⁺ and n⁻, Eq. 6 is a "
-               "2×2 system for the two forces in units of f_load/2n_y; ν⁺ = n⁻·δn⁺ and "
-               "ν⁻ = n⁺·δn⁻ are all that δn^± holds, by Eqs. 4 and 5.",
-               sympy.Tuple(balance.balance_matrix(), balance.incoming("load")))
+    yield Step(
+        "A vertical load is −(f_load/2n_y)(n⁺ + n⁻). Dotted with n⁺ and n⁻, Eq. 6 is a "
+        "2×2 system for the two forces in units of f_load/2n_y; ν⁺ = n⁻·δn⁺ and "
+        "ν⁻ = n⁺·δn⁻ are all that δn^± holds, by Eqs. 4 and 5.",
+        sympy.Tuple(balance.balance_matrix(), balance.incoming("load")),
+    )
     yield Step("Inverted:", balance.balance_matrix().inv())
     at_zero, slope = balance.solved("load")
-    yield Step("At ε = 0 both forces are 1; the derivatives with respect to ε at 0 are",
-               sympy.Tuple(*(sympy.factor(part) for part in slope)))
+    yield Step(
+        "At ε = 0 both forces are 1; the derivatives with respect to ε at 0 are",
+        sympy.Tuple(*(sympy.factor(part) for part in slope)),
+    )
     assert len(at_zero) == len(PRINTED)
     yield Step("In the paper's symbols:", sympy.Tuple(*PRINTED))
 
@@ -85,13 +93,23 @@ def _solves_the_system() -> Ruling:
     order_0 = matrix.subs(epsilon, 0)
     order_1 = sympy.diff(matrix, epsilon).subs(epsilon, 0)
     zero = sympy.Integer(0)
-    return all_of(*(
-        ruling for row in range(2) for ruling in (
-            decide_identity(sum(order_0[row, c] * at_zero[c] for c in range(2)),
-                            right.subs(epsilon, 0)[row]),
-            decide_identity(sum(order_0[row, c] * slope[c] + order_1[row, c] * at_zero[c]
-                                for c in range(2)), zero),
-        )))
+    return all_of(
+        *(
+            ruling
+            for row in range(2)
+            for ruling in (
+                decide_identity(
+                    sum(order_0[row, c] * at_zero[c] for c in range(2)), right.subs(epsilon, 0)[row]
+                ),
+                decide_identity(
+                    sum(
+                        order_0[row, c] * slope[c] + order_1[row, c] * at_zero[c] for c in range(2)
+                    ),
+                    zero,
+                ),
+            )
+        )
+    )
 
 
 def _mirror_image() -> Ruling:
@@ -116,6 +134,12 @@ DERIVATION = Derivation(
     claims=(
         Claim("the expansion solves the balance at orders 0 and 1", _solves_the_system),
         Claim("the second part is the mirror image of the first", _mirror_image),
+    ),
+    witnesses=(
+        Witness(
+            "Taylor coefficients of the exact packing equal it as fractions",
+            lambda seed: witnesses.split(PRINTED, seed),
+        ),
     ),
 )
 

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import sympy
 
 from derivations import eq06_force_balance as eq06
-from derivations.record import Claim, Derivation, Step
+from derivations import witnesses
+from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic import balance
 from symbolic.affine import Region
@@ -48,27 +49,36 @@ def branching(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
 def solved(entering: str, branch: int) -> sympy.Expr:
     """The inverted 2×2 system for an incoming force along ``entering``, to first order."""
     at_zero, slope = balance.solved(entering)
-    inward = (Dot(n_minus, DeltaNPlus(*HERE)) if entering == "+"
-              else Dot(n_plus, DeltaNMinus(*HERE)))
-    return at_zero[branch] + slope[branch].xreplace({
-        balance.tilt_plus: Dot(n_minus, DeltaNPlus(*LEFT)),
-        balance.tilt_minus: Dot(n_plus, DeltaNMinus(*RIGHT)),
-        balance.tilt_incoming: inward,
-    })
+    inward = Dot(n_minus, DeltaNPlus(*HERE)) if entering == "+" else Dot(n_plus, DeltaNMinus(*HERE))
+    return at_zero[branch] + slope[branch].xreplace(
+        {
+            balance.tilt_plus: Dot(n_minus, DeltaNPlus(*LEFT)),
+            balance.tilt_minus: Dot(n_plus, DeltaNMinus(*RIGHT)),
+            balance.tilt_incoming: inward,
+        }
+    )
 
 
 def steps() -> Iterator[Step]:
     """The same 2×2 system with an incoming contact force in place of the load."""
-    yield Step("Eq. 6 holds with the load replaced by the incoming force −f⁺_rs (n⁺ + δn⁺_rs). "
-               "Dotted with n⁺ and n⁻, in units of f⁺_rs:",
-               sympy.Tuple(balance.balance_matrix(), balance.incoming("+")))
+    yield Step(
+        "Eq. 6 holds with the load replaced by the incoming force −f⁺_rs (n⁺ + δn⁺_rs). "
+        "Dotted with n⁺ and n⁻, in units of f⁺_rs:",
+        sympy.Tuple(balance.balance_matrix(), balance.incoming("+")),
+    )
     at_zero, slope = balance.solved("+")
-    yield Step("Inverted; the values at ε = 0 and the derivatives there are",
-               sympy.Tuple(sympy.Tuple(*at_zero), sympy.Tuple(*(sympy.factor(s) for s in slope))))
-    yield Step("The direction of the other support drops out, since nothing leaves along it at "
-               "order 0.", sympy.Tuple(*PRINTED))
-    yield Step("For an incoming force along n⁻ the same system gives the mirror images.",
-               sympy.Tuple(*(mirror(part) for part in PRINTED)))
+    yield Step(
+        "Inverted; the values at ε = 0 and the derivatives there are",
+        sympy.Tuple(sympy.Tuple(*at_zero), sympy.Tuple(*(sympy.factor(s) for s in slope))),
+    )
+    yield Step(
+        "The direction of the other support drops out, since nothing leaves along it at order 0.",
+        sympy.Tuple(*PRINTED),
+    )
+    yield Step(
+        "For an incoming force along n⁻ the same system gives the mirror images.",
+        sympy.Tuple(*(mirror(part) for part in PRINTED)),
+    )
 
 
 def decide(part: int, candidate: sympy.Eq) -> Ruling:
@@ -99,8 +109,16 @@ DERIVATION = Derivation(
     steps=steps,
     decide=decide,
     claims=(
-        Claim("an incoming force along n⁻ gives both mirror images, solved for and compared",
-              _other_orientation),
+        Claim(
+            "an incoming force along n⁻ gives both mirror images, solved for and compared",
+            _other_orientation,
+        ),
+    ),
+    witnesses=(
+        Witness(
+            "Taylor coefficients of the exact packing equal it as fractions",
+            lambda seed: witnesses.passage(PRINTED, seed),
+        ),
     ),
     remarks=("The paper leaves the incoming force along n⁻ to symmetry; it is solved for here.",),
 )

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import sympy
 
 from derivations import eq08_propagation as eq08
-from derivations.record import Claim, Derivation, Step
+from derivations import witnesses
+from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region
 from symbolic.as_printed import equation, minus, terms, times
@@ -27,8 +28,10 @@ from symbolic.symbols import (
 
 PRINTED = equation(
     ForcePlus(i, j) / ForcePlus(*ENTRY),
-    terms(1, times(phi / (1 - phi**2),
-                   Dot(n_minus, terms(DeltaNPlus(i, j), minus(DeltaNPlus(*ENTRY)))))),
+    terms(
+        1,
+        times(phi / (1 - phi**2), Dot(n_minus, terms(DeltaNPlus(i, j), minus(DeltaNPlus(*ENTRY))))),
+    ),
 )
 
 
@@ -45,13 +48,21 @@ def after(candidate: sympy.Expr, steps_down: sympy.Expr) -> sympy.Expr:
 
 def steps() -> Iterator[Step]:
     """Induction on the number q of beads passed."""
-    yield Step("The entry itself: no bead passed, the ratio is 1.",
-               equation(ForcePlus(*ENTRY) / ForcePlus(*ENTRY), 1))
-    yield Step("After q beads the contact reached has the lower bead (k−1−q, l−1−q).",
-               sympy.Tuple(*straight_end(q)))
-    yield Step("The next bead multiplies by Eq. 8; to first order the changes add up.",
-               equation(ForcePlus(*straight_end(q + 1)) / ForcePlus(*straight_end(q)),
-                        eq08.straight(*straight_end(q))))
+    yield Step(
+        "The entry itself: no bead passed, the ratio is 1.",
+        equation(ForcePlus(*ENTRY) / ForcePlus(*ENTRY), 1),
+    )
+    yield Step(
+        "After q beads the contact reached has the lower bead (k−1−q, l−1−q).",
+        sympy.Tuple(*straight_end(q)),
+    )
+    yield Step(
+        "The next bead multiplies by Eq. 8; to first order the changes add up.",
+        equation(
+            ForcePlus(*straight_end(q + 1)) / ForcePlus(*straight_end(q)),
+            eq08.straight(*straight_end(q)),
+        ),
+    )
     yield Step("The directions in between cancel; the ends are left.", PRINTED)
 
 
@@ -62,7 +73,8 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     step = decide_linear(
         after(candidate.rhs, q + 1),
         first_order_product(after(candidate.rhs, q), eq08.straight(*straight_end(q))),
-        Region({q: 0}))
+        Region({q: 0}),
+    )
     ruling = all_of(base, step)
     if ruling.verdict is Verdict.PROVED:
         return proved("base case q = 0 and inductive step with a symbolic number q of beads")
@@ -73,8 +85,10 @@ def _product_rule() -> Ruling:
     first, second = sympy.symbols("A B")
     product = (1 + epsilon * first) * (1 + epsilon * second)
     slope = sympy.diff(product, epsilon).subs(epsilon, 0)
-    return all_of(decide_identity(product.subs(epsilon, 0), sympy.Integer(1)),
-                  decide_identity(slope, first + second))
+    return all_of(
+        decide_identity(product.subs(epsilon, 0), sympy.Integer(1)),
+        decide_identity(slope, first + second),
+    )
 
 
 def _is_the_only_path() -> Ruling:
@@ -100,6 +114,12 @@ DERIVATION = Derivation(
     claims=(
         Claim("(1 + εA)(1 + εB) has the first-order change A + B", _product_rule),
         Claim("the straight path ends on contacts with k − i = l − j", _is_the_only_path),
+    ),
+    witnesses=(
+        Witness(
+            "Taylor coefficients of the exact packing equal it as fractions",
+            lambda seed: witnesses.straight_path(PRINTED.rhs, seed),
+        ),
     ),
 )
 

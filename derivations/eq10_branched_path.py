@@ -6,7 +6,8 @@ import sympy
 
 from derivations import eq08_propagation as eq08
 from derivations import eq09_straight_path as eq09
-from derivations.record import Claim, Derivation, Step
+from derivations import witnesses
+from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region
 from symbolic.as_printed import equation, minus, terms, times
@@ -38,10 +39,12 @@ from symbolic.symbols import (
 
 PRINTED = equation(
     ForceMinus(i, j) / ForcePlus(*ENTRY),
-    minus(times(
-        1 / (1 - phi**2),
-        Dot(n_minus, terms(DeltaNPlus(i - n - 1, j + n - 1), minus(DeltaNPlus(i - n, j + n)))),
-    )),
+    minus(
+        times(
+            1 / (1 - phi**2),
+            Dot(n_minus, terms(DeltaNPlus(i - n - 1, j + n - 1), minus(DeltaNPlus(i - n, j + n)))),
+        )
+    ),
 )
 
 
@@ -52,17 +55,26 @@ def branched_plus(across: sympy.Expr, layer: sympy.Expr, count: sympy.Expr) -> s
 
 def steps() -> Iterator[Step]:
     """Count the paths with one branch; only the branch itself is of first order."""
-    yield Step("A branch is of first order in δn^± (Eq. 8), so that a first-order calculation "
-               "needs the paths with no branch or with one. With p straight steps, a branch and "
-               "q ≥ 1 steps along n⁻, the contact reached has the lower bead",
-               sympy.Tuple(*branched_end()))
+    yield Step(
+        "A branch is of first order in δn^± (Eq. 8), so that a first-order calculation "
+        "needs the paths with no branch or with one. With p straight steps, a branch and "
+        "q ≥ 1 steps along n⁻, the contact reached has the lower bead",
+        sympy.Tuple(*branched_end()),
+    )
     solution = solve_for_path()
-    yield Step("This is (i, j) for exactly one pair (p, q): q is the paper's n.",
-               sympy.Tuple(equation(p, solution[p]), equation(q, solution[q])))
-    yield Step("A path exists when q ≥ 1 and p ≥ 0, and p = (l−j) − n − 1, so when "
-               "1 ≤ n < l − j. The branch is at the bead", sympy.Tuple(i - n, j + n))
-    yield Step("The straight pieces count at order 0, where they are 1 (Eq. 9); the branch is "
-               "Eq. 8.", PRINTED)
+    yield Step(
+        "This is (i, j) for exactly one pair (p, q): q is the paper's n.",
+        sympy.Tuple(equation(p, solution[p]), equation(q, solution[q])),
+    )
+    yield Step(
+        "A path exists when q ≥ 1 and p ≥ 0, and p = (l−j) − n − 1, so when "
+        "1 ≤ n < l − j. The branch is at the bead",
+        sympy.Tuple(i - n, j + n),
+    )
+    yield Step(
+        "The straight pieces count at order 0, where they are 1 (Eq. 9); the branch is Eq. 8.",
+        PRINTED,
+    )
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
@@ -86,8 +98,9 @@ def _one_path() -> Ruling:
 def _branching_bead() -> Ruling:
     solution = solve_for_path()
     across, layer = (index.xreplace(solution) for index in straight_end(p))
-    return all_of(decide_identity(across, i - BRANCH_COUNT),
-                  decide_identity(layer, j + BRANCH_COUNT))
+    return all_of(
+        decide_identity(across, i - BRANCH_COUNT), decide_identity(layer, j + BRANCH_COUNT)
+    )
 
 
 def _balance_everywhere() -> Ruling:
@@ -102,14 +115,19 @@ def _balance_everywhere() -> Ruling:
     below = (on_path[0] + 1, on_path[1] - 1)
     branch = decide_linear(
         PRINTED.rhs.xreplace({i: below[0], j: below[1], n: sympy.Integer(1)}),
-        eq08.branching(*on_path), Region({p: 0}))
+        eq08.branching(*on_path),
+        Region({p: 0}),
+    )
     further = decide_linear(
         PRINTED.rhs.xreplace({i: i + 1, j: j - 1, n: n + 1}).xreplace(leaving),
-        PRINTED.rhs.xreplace(leaving), Region({n: 1, p: 0}))
+        PRINTED.rhs.xreplace(leaving),
+        Region({n: 1, p: 0}),
+    )
     onward = decide_linear(
         eq09.after(eq09.PRINTED.rhs, p + 1),
         eq09.first_order_product(eq09.after(eq09.PRINTED.rhs, p), eq08.straight(*on_path)),
-        Region({p: 0}))
+        Region({p: 0}),
+    )
     return all_of(branch, further, onward)
 
 
@@ -131,8 +149,16 @@ DERIVATION = Derivation(
     claims=(
         Claim("exactly one (p, q) leads to (i, j): q = n and p = (l−j) − n − 1 ≥ 0", _one_path),
         Claim("its branching bead is (i − n, j + n)", _branching_bead),
-        Claim("Eqs. 9 and 10, and zero elsewhere, balance every bead to first order",
-              _balance_everywhere),
+        Claim(
+            "Eqs. 9 and 10, and zero elsewhere, balance every bead to first order",
+            _balance_everywhere,
+        ),
+    ),
+    witnesses=(
+        Witness(
+            "Taylor coefficients of the exact packing equal it as fractions, zero outside",
+            lambda seed: witnesses.branched_path(PRINTED.rhs, seed),
+        ),
     ),
 )
 

@@ -14,6 +14,7 @@ from symbolic.as_printed import equation, power, terms, times
 from symbolic.certified_sums import certified_sum
 from symbolic.exact import FIELD
 from symbolic.kernel import Ruling, all_of, decide_identity, from_test
+from symbolic.printing.text import text
 from symbolic.symbols import M, j, m, phi, r, sigma, z
 from symbolic.variance import ExactForm, exact_variances, leading
 
@@ -21,8 +22,12 @@ RELATIVE_VARIANCE = sympy.Symbol(r"\sigma_f^2(z)/\langle f\rangle^2")
 
 PRINTED = equation(
     RELATIVE_VARIANCE,
-    times(2 * M**3 / (1 - phi**2) ** 2, terms(1, -z) ** 2, terms(times(2, z), 1),
-          power(times(sigma, 1 / r), 2)),
+    times(
+        2 * M**3 / (1 - phi**2) ** 2,
+        terms(1, -z) ** 2,
+        terms(times(2, z), 1),
+        power(times(sigma, 1 / r), 2),
+    ),
 )
 
 
@@ -41,16 +46,20 @@ def sum_of_weights() -> sympy.Expr:
 
 def steps() -> Iterator[Step]:
     """Six radii's worth for each Δ, the squared weights summed."""
-    yield Step("Each Δ holds one radius with the weight 2 and two with the weight −1: its variance "
-               "is 6σ². Those of Eq. 12 lie in different layers and are independent.",
-               6 * (sympy.Sum((M - j) ** 2, (m, 1, j)) + sympy.Sum((M - m) ** 2, (m, j + 1, M))))
+    yield Step(
+        "Each Δ holds one radius with the weight 2 and two with the weight −1: its variance "
+        "is 6σ². Those of Eq. 12 lie in different layers and are independent.",
+        6 * (sympy.Sum((M - j) ** 2, (m, 1, j)) + sympy.Sum((M - m) ** 2, (m, j + 1, M))),
+    )
     yield Step("The sums, in closed form:", sympy.factor(sum_of_weights()))
-    yield Step("Leading order in M at fixed z = j/M, with the prefactor of Eq. 12 squared:",
-               PRINTED)
-    yield Step("Exact, for 2 ≤ j ≤ M − 2: every radius in Eq. 11 with its weight squared.",
-               equation(RELATIVE_VARIANCE, exact_forms()["interior"].expression))
-    yield Step("The next order in M at fixed z, relative to (σ/r)²/(1−φ²)²:",
-               next_order())
+    yield Step(
+        "Leading order in M at fixed z = j/M, with the prefactor of Eq. 12 squared:", PRINTED
+    )
+    yield Step(
+        "Exact, for 2 ≤ j ≤ M − 2: every radius in Eq. 11 with its weight squared.",
+        equation(RELATIVE_VARIANCE, exact_forms()["interior"].expression),
+    )
+    yield Step("The next order in M at fixed z, relative to (σ/r)²/(1−φ²)²:", next_order())
 
 
 def next_order() -> sympy.Expr:
@@ -66,8 +75,10 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
 def _weights() -> Ruling:
     total = FIELD.from_sympy(sum_of_weights() * eq12.PREFACTOR**2 * sigma**2)
     printed = FIELD.from_sympy(PRINTED.rhs.xreplace({z: j / M}))
-    return from_test((leading(total) - leading(printed)).is_zero(),
-                     "6σ² Σ w² of Eq. 12 has the printed leading order")
+    return from_test(
+        (leading(total) - leading(printed)).is_zero(),
+        "6σ² Σ w² of Eq. 12 has the printed leading order",
+    )
 
 
 def _edges() -> Ruling:
@@ -78,7 +89,8 @@ def _edges() -> Ruling:
     return from_test(
         (base - at_zero).is_zero() and (leading(forms["surface"].value) - surface).is_zero(),
         "at j = 0 the leading order is Eq. 13 at z = 0; at j = M − 1 it is 2(1+φ²) M where the "
-        "printed form, outside its limit, would give 6 M")
+        "printed form, outside its limit, would give 6 M",
+    )
 
 
 def _next_order() -> Ruling:
@@ -86,8 +98,10 @@ def _next_order() -> Ruling:
     scale = (sigma / r) ** 2 / (1 - phi**2) ** 2
     rest = value - FIELD.from_sympy((PRINTED.rhs).xreplace({z: j / M}))
     expected = FIELD.from_sympy((next_order() * scale).xreplace({z: j / M}))
-    return from_test((leading(rest) - expected).is_zero(),
-                     f"the next order is {next_order()} (σ/r)²/(1−φ²)²")
+    return from_test(
+        (leading(rest) - expected).is_zero(),
+        f"the next order is {text(next_order())} (σ/r)²/(1−φ²)²",
+    )
 
 
 def _corollaries() -> Ruling:
@@ -96,8 +110,9 @@ def _corollaries() -> Ruling:
     return all_of(
         decide_identity(slope, -6 * z * (1 - z)),
         decide_identity(slope.xreplace({z: sympy.Integer(0)}), sympy.Integer(0)),
-        decide_identity(sympy.diff(profile, z, 2).xreplace({z: sympy.Integer(1)}),
-                        sympy.Integer(6)),
+        decide_identity(
+            sympy.diff(profile, z, 2).xreplace({z: sympy.Integer(1)}), sympy.Integer(6)
+        ),
     )
 
 
@@ -112,8 +127,11 @@ DERIVATION = Derivation(
         (z, "relative height j/M"),
         (phi, "n⁺·n⁻"),
     ),
-    assumptions=("the radii are independent, of zero mean and variance σ²", "first order in δr",
-                 "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M"),
+    assumptions=(
+        "the radii are independent, of zero mean and variance σ²",
+        "first order in δr",
+        "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M",
+    ),
     premises=(eq11.DERIVATION, eq12.DERIVATION),
     printed=(PRINTED,),
     relation="∼",
@@ -123,16 +141,22 @@ DERIVATION = Derivation(
         Claim("the squared weights of Eq. 12 sum to the printed form", _weights),
         Claim("the next order in M", _next_order),
         Claim("exact forms at the base and below the surface", _edges),
-        Claim("broadening stops at the base: the slope in z is −6z(1 − z), zero at z = 0",
-              _corollaries),
+        Claim(
+            "broadening stops at the base: the slope in z is −6z(1 − z), zero at z = 0",
+            _corollaries,
+        ),
     ),
     witnesses=(
-        Witness("exact variances equal explicit sums of squared weights, all j < M ≤ 5",
-                lambda _: explicit_variances(exact_forms(), eq11.in_radii(eq11.PRINTED.rhs))),
+        Witness(
+            "exact variances equal explicit sums of squared weights, all j < M ≤ 5",
+            lambda _: explicit_variances(exact_forms(), eq11.in_radii(eq11.PRINTED.rhs)),
+        ),
     ),
-    remarks=("The limit is taken at fixed z. A fixed number of layers below the surface the "
-             "printed form does not apply: at j = M − 1 the exact variance grows as 2(1+φ²) M, "
-             "not 6 M.",),
+    remarks=(
+        "The limit is taken at fixed z. A fixed number of layers below the surface the "
+        "printed form does not apply: at j = M − 1 the exact variance grows as 2(1+φ²) M, "
+        "not 6 M.",
+    ),
 )
 
 if __name__ == "__main__":

@@ -10,10 +10,11 @@ from derivations import eq12_delta_weights as eq12
 from derivations.asymptotics import compare_leading_order, explicit_variances
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
-from symbolic.as_printed import equation, minus, power, terms, times
+from symbolic.as_printed import equation, power, terms, times
 from symbolic.certified_sums import certified_sum
 from symbolic.exact import FIELD
 from symbolic.kernel import Ruling, all_of, decide_identity, from_test
+from symbolic.printing.text import text
 from symbolic.symbols import ForcePlus, M, i, j, l, m, m_g, n_y, phi, r, sigma, z
 from symbolic.variance import ExactForm, exact_variances, leading
 
@@ -22,8 +23,12 @@ MEAN_FORCE = sympy.Symbol(r"\langle f\rangle_z")
 
 PRINTED = equation(
     RELATIVE_VARIANCE,
-    times(3 * M**3 / (10 * (1 - phi**2) ** 2), terms(1, -z) ** 2, terms(times(4, z), 1),
-          power(times(sigma, 1 / r), 2)),
+    times(
+        3 * M**3 / (10 * (1 - phi**2) ** 2),
+        terms(1, -z) ** 2,
+        terms(times(4, z), 1),
+        power(times(sigma, 1 / r), 2),
+    ),
 )
 
 
@@ -60,24 +65,34 @@ def sum_of_weights() -> sympy.Expr:
 
 def steps() -> Iterator[Step]:
     """Superpose the surface loads of all layers above the contact."""
-    yield Step("The weight of the beads in layer l acts as the surface load of a packing of "
-               "height l. The ordered forces of the layers above j add up to",
-               equation(MEAN_FORCE, (M - j) * m_g / (2 * n_y)))
-    yield Step("In units of this mean, f⁺_ij is the average of Eq. 11 over the heights "
-               "l = j+1, …, M.",
-               equation(ForcePlus(i, j) / MEAN_FORCE,
-                        times(1 / (M - j), sympy.Sum(eq11.PRINTED.rhs.xreplace({M: l}),
-                                                     (l, j + 1, M)))))
+    yield Step(
+        "The weight of the beads in layer l acts as the surface load of a packing of "
+        "height l. The ordered forces of the layers above j add up to",
+        equation(MEAN_FORCE, (M - j) * m_g / (2 * n_y)),
+    )
+    yield Step(
+        "In units of this mean, f⁺_ij is the average of Eq. 11 over the heights l = j+1, …, M.",
+        equation(
+            ForcePlus(i, j) / MEAN_FORCE,
+            times(1 / (M - j), sympy.Sum(eq11.PRINTED.rhs.xreplace({M: l}), (l, j + 1, M))),
+        ),
+    )
     below, above = bulk_weights()
-    yield Step("The weights of Δ in Eq. 12, averaged: for m ≤ j and for m > j",
-               sympy.Tuple(sympy.factor(below), sympy.factor(above)))
+    yield Step(
+        "The weights of Δ in Eq. 12, averaged: for m ≤ j and for m > j",
+        sympy.Tuple(sympy.factor(below), sympy.factor(above)),
+    )
     yield Step("Six times the sum of their squares has the leading order printed.", PRINTED)
-    yield Step("Exact, for 2 ≤ j ≤ M − 2: every radius with its weight squared.",
-               equation(RELATIVE_VARIANCE, exact_forms()["interior"].expression))
+    yield Step(
+        "Exact, for 2 ≤ j ≤ M − 2: every radius with its weight squared.",
+        equation(RELATIVE_VARIANCE, exact_forms()["interior"].expression),
+    )
     yield Step("The next order in M at fixed z, relative to (σ/r)²/(1−φ²)²:", next_order())
     profile = times(terms(1, -z) ** 2, terms(times(4, z), 1))
-    yield Step("The profile is largest at z = 1/6.",
-               equation(sympy.Derivative(profile, z), sympy.factor(sympy.diff(profile.doit(), z))))
+    yield Step(
+        "The profile is largest at z = 1/6.",
+        equation(sympy.Derivative(profile, z), sympy.factor(sympy.diff(profile.doit(), z))),
+    )
 
 
 def next_order() -> sympy.Expr:
@@ -93,15 +108,19 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
 def _weights() -> Ruling:
     total = FIELD.from_sympy(sum_of_weights() * eq12.PREFACTOR**2 * sigma**2)
     printed = FIELD.from_sympy(PRINTED.rhs.xreplace({z: j / M}))
-    return from_test((leading(total) - leading(printed)).is_zero(),
-                     "6σ² Σ w² of the averaged weights has the printed leading order")
+    return from_test(
+        (leading(total) - leading(printed)).is_zero(),
+        "6σ² Σ w² of the averaged weights has the printed leading order",
+    )
 
 
 def _mean() -> Ruling:
     ordered = certified_sum(m_g / (2 * n_y), l, j + 1, M)
     in_z = ordered.xreplace({j: z * M})
-    return all_of(decide_identity(ordered, (M - j) * m_g / (2 * n_y)),
-                  decide_identity(in_z, M * m_g * (1 - z) / (2 * n_y)))
+    return all_of(
+        decide_identity(ordered, (M - j) * m_g / (2 * n_y)),
+        decide_identity(in_z, M * m_g * (1 - z) / (2 * n_y)),
+    )
 
 
 def _edges() -> Ruling:
@@ -111,15 +130,18 @@ def _edges() -> Ruling:
     return from_test(
         (leading(forms["base"].value) - at_zero).is_zero()
         and (leading(forms["surface"].value) - surface).is_zero(),
-        "at j = 0 the leading order is Eq. 14 at z = 0; at j = M − 1 it is 2(1+φ²) M")
+        "at j = 0 the leading order is Eq. 14 at z = 0; at j = M − 1 it is 2(1+φ²) M",
+    )
 
 
 def _one_layer_below_the_surface() -> Ruling:
     from derivations import eq13_surface_diffusion as eq13
 
     difference = exact_forms()["surface"].value - eq13.exact_forms()["surface"].value
-    return from_test(difference.is_zero(),
-                     "at j = M − 1 only the surface beads load the contact: Eqs. 13 and 14 agree")
+    return from_test(
+        difference.is_zero(),
+        "at j = M − 1 only the surface beads load the contact: Eqs. 13 and 14 agree",
+    )
 
 
 def _next_order() -> Ruling:
@@ -127,8 +149,10 @@ def _next_order() -> Ruling:
     scale = (sigma / r) ** 2 / (1 - phi**2) ** 2
     rest = value - FIELD.from_sympy(PRINTED.rhs.xreplace({z: j / M}))
     expected = FIELD.from_sympy((next_order() * scale).xreplace({z: j / M}))
-    return from_test((leading(rest) - expected).is_zero(),
-                     f"the next order is {next_order()} (σ/r)²/(1−φ²)²")
+    return from_test(
+        (leading(rest) - expected).is_zero(),
+        f"the next order is {text(next_order())} (σ/r)²/(1−φ²)²",
+    )
 
 
 def _corollaries() -> Ruling:
@@ -141,8 +165,11 @@ def _corollaries() -> Ruling:
     return all_of(
         decide_identity(slope, 2 * (1 - z) * (1 - 6 * z)),
         decide_identity(slope.xreplace({z: maximum}), sympy.Integer(0)),
-        from_test(bool(negative), "the slope is 2(1−z)(1−6z): one maximum, at z = 1/6; without "
-                                  "the normalisation it is −20z(1−z)³, zero at the base"),
+        from_test(
+            bool(negative),
+            "the slope is 2(1−z)(1−6z): one maximum, at z = 1/6; without "
+            "the normalisation it is −20z(1−z)³, zero at the base",
+        ),
         decide_identity(unnormalised, -20 * z * (1 - z) ** 3),
     )
 
@@ -159,9 +186,12 @@ DERIVATION = Derivation(
         (phi, "n⁺·n⁻"),
         (m_g, "weight of a bead"),
     ),
-    assumptions=("the radii are independent, of zero mean and variance σ²", "first order in δr",
-                 "every bead above the base weighs mg, whatever its radius",
-                 "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M"),
+    assumptions=(
+        "the radii are independent, of zero mean and variance σ²",
+        "first order in δr",
+        "every bead above the base weighs mg, whatever its radius",
+        "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M",
+    ),
     premises=(eq11.DERIVATION, eq12.DERIVATION),
     printed=(PRINTED,),
     relation="∼",
@@ -173,12 +203,16 @@ DERIVATION = Derivation(
         Claim("the next order in M", _next_order),
         Claim("exact forms at the base and below the surface", _edges),
         Claim("one layer below the surface both loads agree", _one_layer_below_the_surface),
-        Claim("the maximum is at z = 1/6; the unnormalised variance is stationary at the base",
-              _corollaries),
+        Claim(
+            "the maximum is at z = 1/6; the unnormalised variance is stationary at the base",
+            _corollaries,
+        ),
     ),
     witnesses=(
-        Witness("exact variances equal explicit sums of squared weights, all j < M ≤ 5",
-                lambda _: explicit_variances(exact_forms(), eq11.in_radii(bulk_force()))),
+        Witness(
+            "exact variances equal explicit sums of squared weights, all j < M ≤ 5",
+            lambda _: explicit_variances(exact_forms(), eq11.in_radii(bulk_force())),
+        ),
     ),
 )
 

@@ -36,7 +36,9 @@ _RECIPROCAL = re.compile(r"(?<![A-Za-z\\{])b(?=\^\{[-+]|\^?\\pm)")
 _NAMES = re.compile(r"(?<![A-Za-z\\])(max|min)(?![A-Za-z])")
 _ROOT = re.compile(r"√(\d+|\([^()]*\))")
 _PUNCTUATION = re.compile(r"(?P<open>[(“\"]*)(?P<core>.*?)(?P<close>[)”\".,;:?!]*)", re.DOTALL)
-_SYMBOLIC = re.compile("[" + re.escape("".join([*_MATHS, *_RAISED, *_LOWERED, *_WORDS])) + "_^=+*/<>|0-9]")
+_SYMBOLIC = re.compile(
+    "[" + re.escape("".join([*_MATHS, *_RAISED, *_LOWERED, *_WORDS])) + "_^=+*/<>|0-9]"
+)
 
 
 def _is_mathematics(word: str) -> bool:
@@ -49,6 +51,8 @@ def _is_mathematics(word: str) -> bool:
 
 def _lowered(found: re.Match[str]) -> str:
     name = found[1] or found[2]
+    if name == "load":
+        return r"^{\rm load}"
     upright = name.isalpha() and len(name) > 2  # a word, as in f_load
     return rf"_{{\rm {name}}}" if upright else f"_{{{name}}}"
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import sympy
 
-from symbolic.exact import FIELD, NotExact, RationalFunction
+from symbolic.exact import FIELD, NotExactError, RationalFunction
 from symbolic.symbols import INDICES
 
 Affine = tuple[int, ...]
@@ -23,7 +23,7 @@ ZERO: Affine = (0,) * _SIZE
 
 def constant(value: int) -> Affine:
     """The constant affine expression."""
-    return ZERO[:-1] + (value,)
+    return (*ZERO[:-1], value)
 
 
 def add(left: Affine, right: Affine, scale: int = 1) -> Affine:
@@ -61,7 +61,7 @@ def from_sympy(expression: sympy.Expr) -> Affine:
     """Read a whole-number affine SymPy expression.
 
     Raises:
-        NotExact: when it is not one.
+        NotExactError: when it is not one.
     """
     if isinstance(expression, sympy.Integer):
         return constant(int(expression))
@@ -85,7 +85,7 @@ def from_sympy(expression: sympy.Expr) -> Affine:
             for number in numbers:
                 product *= int(number)
             return times(from_sympy(others[0]), product)
-    raise NotExact(f"{expression} is not a whole-number affine function of the indices")
+    raise NotExactError(f"{expression} is not a whole-number affine function of the indices")
 
 
 def to_field(value: Affine) -> RationalFunction:

@@ -18,9 +18,7 @@ tilt_incoming = sympy.Symbol("nu_in")  # the same of an incoming contact force
 
 def balance_matrix() -> sympy.ImmutableMatrix:
     """Columns N⁺ and N⁻, dotted with n⁺ (first row) and n⁻ (second row)."""
-    return sympy.ImmutableMatrix(
-        [[1, phi + epsilon * tilt_minus], [phi + epsilon * tilt_plus, 1]]
-    )
+    return sympy.ImmutableMatrix([[1, phi + epsilon * tilt_minus], [phi + epsilon * tilt_plus, 1]])
 
 
 def incoming(kind: str) -> sympy.ImmutableMatrix:

@@ -5,7 +5,7 @@ import sympy
 from symbolic.exact import FIELD
 
 
-class SumRefused(ValueError):
+class SumRefusedError(ValueError):
     """What SymPy returned for a sum does not telescope."""
 
 
@@ -18,7 +18,7 @@ def certified_sum(
     the two together are a proof by induction.
 
     Raises:
-        SumRefused: when either fails.
+        SumRefusedError: when either fails.
     """
     end = index  # the bound name is free outside of the sum, so it can serve as the upper end
     bound = sympy.Dummy("bound", integer=True)
@@ -26,5 +26,5 @@ def certified_sum(
     telescopes = FIELD.from_sympy(partial - partial.xreplace({index: index - 1}) - term)
     starts = FIELD.from_sympy(partial.xreplace({index: low - 1}))
     if not (telescopes.is_zero() and starts.is_zero()):
-        raise SumRefused(f"the sum of {term} over {index} fails its certificate")
+        raise SumRefusedError(f"the sum of {term} over {index} fails its certificate")
     return partial.xreplace({index: high})

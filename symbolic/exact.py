@@ -17,7 +17,7 @@ from symbolic.symbols import INDICES, PARAMETERS, M, n_x, n_y, phi
 Polynomial = Any  # flint's fmpq_mpoly, which ships no types
 
 
-class NotExact(ValueError):
+class NotExactError(ValueError):
     """The expression lies outside the domain in which equality is decided."""
 
 
@@ -54,14 +54,14 @@ class Domain:
         try:
             gen = self._gens[self.position[symbol]]
         except KeyError:
-            raise NotExact(f"{symbol} is no symbol of the exact domain") from None
+            raise NotExactError(f"{symbol} is no symbol of the exact domain") from None
         return RationalFunction(self, gen, self.context.constant(1))
 
     def from_sympy(self, expression: sympy.Expr) -> "RationalFunction":
         """Read a SymPy expression made of +, ·, integer powers, rationals and generators.
 
         Raises:
-            NotExact: for anything else, floats included.
+            NotExactError: for anything else, floats included.
         """
         if expression in self.position:
             return self.generator(expression)
@@ -79,7 +79,7 @@ class Domain:
             return product
         if isinstance(expression, sympy.Pow) and isinstance(expression.exp, sympy.Integer):
             return self.from_sympy(expression.base) ** int(expression.exp)
-        raise NotExact(f"{expression} is not a rational function of the symbols")
+        raise NotExactError(f"{expression} is not a rational function of the symbols")
 
     def vanishes(self, polynomial: Polynomial) -> bool:
         """Decide whether a polynomial is zero where n_x² + n_y² = 1 and φ = n_y² − n_x²."""
@@ -141,20 +141,17 @@ class RationalFunction:
         return self + (-other)
 
     def __mul__(self, other: Self) -> Self:
-        return self._same(
-            self.numerator * other.numerator, self.denominator * other.denominator
-        )
+        return self._same(self.numerator * other.numerator, self.denominator * other.denominator)
 
     def __truediv__(self, other: Self) -> Self:
         if other.numerator == 0:
-            raise NotExact("division by zero")
-        return self._same(
-            self.numerator * other.denominator, self.denominator * other.numerator
-        )
+            raise NotExactError("division by zero")
+        return self._same(self.numerator * other.denominator, self.denominator * other.numerator)
 
     def __pow__(self, exponent: int) -> Self:
         if exponent < 0:
-            return (self.domain.one / self) ** -exponent  # type: ignore[operator, no-any-return]
+            inverse = self._same(self.denominator, self.numerator)
+            return inverse**-exponent
         return self._same(self.numerator**exponent, self.denominator**exponent)
 
     def is_zero(self) -> bool:
@@ -165,7 +162,7 @@ class RationalFunction:
         """Degree in ``symbol``, which the denominator must not hold."""
         position = self.domain.position[symbol]
         if self.denominator.degrees()[position]:
-            raise NotExact(f"{symbol} stands in a denominator")
+            raise NotExactError(f"{symbol} stands in a denominator")
         return int(self.numerator.degrees()[position])
 
     def substitute(self, images: Mapping[sympy.Expr, "RationalFunction"]) -> "RationalFunction":
@@ -173,7 +170,7 @@ class RationalFunction:
         full = list(self.domain.context.gens())
         for symbol, image in images.items():
             if image.denominator != 1:
-                raise NotExact("only a polynomial can be put in place of a symbol")
+                raise NotExactError("only a polynomial can be put in place of a symbol")
             full[self.domain.position[symbol]] = image.numerator
         return self._same(self.numerator.compose(*full), self.denominator.compose(*full))
 
@@ -207,7 +204,7 @@ class RationalFunction:
         return sympy.Add(
             *(
                 sympy.Rational(int(c.p), int(c.q))
-                * sympy.Mul(*(g**int(e) for g, e in zip(self.domain.generators, x, strict=True)))
+                * sympy.Mul(*(g ** int(e) for g, e in zip(self.domain.generators, x, strict=True)))
                 for x, c in polynomial.to_dict().items()
             )
         )

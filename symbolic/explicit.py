@@ -21,11 +21,11 @@ Values = Mapping[sympy.Symbol, Fraction | int]
 _CONSTANT = ("", 0, 0)
 
 
-class Ambiguous(ValueError):
+class AmbiguousError(ValueError):
     """The expression has no single value here, for instance at an excluded division by zero."""
 
 
-def geometry(n_x: Fraction, n_y: Fraction, radius: Fraction) -> dict[sympy.Symbol, Fraction]:
+def geometry(n_x: Fraction, n_y: Fraction, radius: Fraction) -> dict[sympy.Symbol, Fraction | int]:
     """Values of the geometric symbols for rational base vectors n^± = (±n_x, n_y)."""
     if n_x**2 + n_y**2 != 1:
         raise ValueError(f"({n_x}, {n_y}) is not a unit vector")
@@ -44,7 +44,7 @@ def weights(expression: sympy.Expr, values: Values) -> Weights:
     if isinstance(result, tuple):
         if not result[0] and not result[1]:
             return {}
-        raise Ambiguous(f"{expression} is a vector")
+        raise AmbiguousError(f"{expression} is a vector")
     return result
 
 
@@ -55,14 +55,14 @@ def vector_weights(expression: sympy.Expr, values: Values) -> Vector:
         return result
     if not result:
         return {}, {}
-    raise Ambiguous(f"{expression} is no vector")
+    raise AmbiguousError(f"{expression} is no vector")
 
 
 def number(expression: sympy.Expr, values: Values) -> Fraction:
     """Value of an expression that holds no lattice quantity."""
     result = weights(expression, values)
     if set(result) - {_CONSTANT}:
-        raise Ambiguous(f"{expression} holds lattice quantities")
+        raise AmbiguousError(f"{expression} holds lattice quantities")
     return result.get(_CONSTANT, Fraction(0))
 
 
@@ -88,7 +88,7 @@ def _base_vectors(values: Values) -> dict[sympy.Symbol, tuple[Fraction, Fraction
     }
 
 
-def _read(expression: sympy.Expr, values: Values) -> Weights | Vector:  # noqa: PLR0911
+def _read(expression: sympy.Expr, values: Values) -> Weights | Vector:
     if isinstance(expression, sympy.Rational):
         value = Fraction(int(expression.p), int(expression.q))
         return {_CONSTANT: value} if value else {}
@@ -96,9 +96,9 @@ def _read(expression: sympy.Expr, values: Values) -> Weights | Vector:  # noqa: 
         if expression in values:
             return {_CONSTANT: Fraction(values[expression])} if values[expression] else {}
         if expression in sy.VECTORS:
-            x, y = _base_vectors(values)[expression]
-            return _scaled({_CONSTANT: Fraction(1)}, x), _scaled({_CONSTANT: Fraction(1)}, y)
-        raise Ambiguous(f"no value for {expression}")
+            one = {_CONSTANT: Fraction(1)}
+            return tuple(_scaled(one, c) for c in _base_vectors(values)[expression])  # type: ignore[return-value]
+        raise AmbiguousError(f"no value for {expression}")
     if isinstance(expression, sy.SecondDifference):
         return _read(expression.doit(), values)
     if isinstance(expression, sy.SiteFunction):
@@ -110,9 +110,9 @@ def _read(expression: sympy.Expr, values: Values) -> Weights | Vector:  # noqa: 
     if isinstance(expression, sympy.Pow):
         base, exponent = number(expression.base, values), number(expression.exp, values)
         if exponent.denominator != 1 or (base == 0 and exponent < 0):
-            raise Ambiguous(f"{expression} at {base}")
-        value = base ** int(exponent)
-        return {_CONSTANT: value} if value else {}
+            raise AmbiguousError(f"{expression} at {base}")
+        power = base ** int(exponent)
+        return {_CONSTANT: power} if power else {}
     if isinstance(expression, sympy.Sum):
         return _total(list(_terms(expression, values)))
     if isinstance(expression, sy.Braces):
@@ -123,9 +123,9 @@ def _read(expression: sympy.Expr, values: Values) -> Weights | Vector:  # noqa: 
         return _total([_product([u[0], v[0]]), _product([u[1], v[1]])])
     if isinstance(expression, sy.MatrixTimes):
         a, b, c, d = (number(entry, values) for entry in expression.args[:4])
-        x, y = vector_weights(expression.args[4], values)
-        return _add(_scaled(x, a), y, b), _add(_scaled(x, c), y, d)
-    raise Ambiguous(f"{expression} is not read here")
+        across, up = vector_weights(expression.args[4], values)
+        return _add(_scaled(across, a), up, b), _add(_scaled(across, c), up, d)
+    raise AmbiguousError(f"{expression} is not read here")
 
 
 def _scaled(form: Weights, factor: Fraction) -> Weights:
@@ -136,7 +136,7 @@ def _atom(atom: sy.SiteFunction, values: Values) -> Weights | Vector:
     i, j = (number(index, values) for index in atom.args)
     family, one = type(atom).__name__, Fraction(1)
     if i.denominator != 1 or j.denominator != 1:
-        raise Ambiguous(f"{atom} at a broken site")
+        raise AmbiguousError(f"{atom} at a broken site")
     site = (int(i), int(j))
     if not atom.is_vector:
         return {(family, *site): one}
@@ -154,7 +154,7 @@ def _total(parts: list[Weights | Vector]) -> Weights | Vector:
         for part in parts:
             if not isinstance(part, tuple):
                 if part:
-                    raise Ambiguous("a number added to a vector")
+                    raise AmbiguousError("a number added to a vector")
                 continue
             x, y = _add(x, part[0]), _add(y, part[1])
         return x, y
@@ -172,12 +172,12 @@ def _product(parts: list[Weights | Vector]) -> Weights | Vector:
     for part in parts:
         if isinstance(part, tuple):
             if vector is not None:
-                raise Ambiguous("a product of two vectors")
+                raise AmbiguousError("a product of two vectors")
             vector = part
         elif set(part) <= {_CONSTANT}:
             scale *= part.get(_CONSTANT, Fraction(0))
         elif linear is not None:
-            raise Ambiguous("a product of two lattice quantities")
+            raise AmbiguousError("a product of two lattice quantities")
         else:
             linear = part
     if vector is None:
@@ -197,4 +197,3 @@ def _terms(series: sympy.Sum, values: Values) -> Iterator[Weights | Vector]:
     first, last = number(low, values), number(high, values)
     for value in range(int(first), int(last) + 1):
         yield _read(body, {**values, index: value})
-

@@ -15,7 +15,7 @@ import sympy
 from symbolic import explicit
 from symbolic import symbols as sy
 from symbolic.affine import Region
-from symbolic.exact import Domain, NotExact
+from symbolic.exact import Domain, NotExactError
 from symbolic.reading import Reader
 from symbolic.vectors import CARTESIAN, LINE_SUM, Basis
 
@@ -63,7 +63,10 @@ _OTHERS = {sy.sigma: Fraction(3, 7), sy.f_load: Fraction(11, 5), sy.m_g: Fractio
 
 
 def _samples(region: Region, free: tuple[sympy.Symbol, ...]) -> list[dict[sympy.Symbol, int]]:
-    """Return points of the region, generic ones first, then its corners; free indices take any value."""
+    """Return points of the region, a generic one first, then its corners.
+
+    Indices that the region leaves free take any value.
+    """
     excesses = [tuple(3 + 2 * a for a in range(len(region)))]
     excesses += list(islice(product((0, 1, 2), repeat=len(region)), 9))
     anywhere = {symbol: 5 + 2 * a for a, symbol in enumerate(free)}
@@ -74,13 +77,15 @@ def counterexample(
     left: sympy.Expr, right: sympy.Expr, region: Region, *, is_vector: bool = False
 ) -> str | None:
     """Look for a small packing on which two linear expressions have different weights."""
-    free = tuple(sorted(
-        (left.free_symbols | right.free_symbols) & set(sy.INDICES) - set(region.lower_bounds),
-        key=str,
-    ))
+    free = tuple(
+        sorted(
+            (left.free_symbols | right.free_symbols) & set(sy.INDICES) - set(region.lower_bounds),
+            key=str,
+        )
+    )
     for geometry in GEOMETRIES:
         for point in _samples(region, free):
-            values = {**geometry, **_OTHERS, **point}
+            values: explicit.Values = {**geometry, **_OTHERS, **point}
             pairs: tuple[tuple[explicit.Weights, explicit.Weights], ...]
             if is_vector:
                 one, two = (explicit.vector_weights(side, values) for side in (left, right))
@@ -114,12 +119,10 @@ def decide_linear(
             return refuted(found)
         reader = Reader(region, basis)
         if is_vector:
-            forms = [
-                a - b for a, b in zip(reader.vector(left), reader.vector(right), strict=True)
-            ]
+            forms = [a - b for a, b in zip(reader.vector(left), reader.vector(right), strict=True)]
         else:
             forms = [reader.scalar(left) - reader.scalar(right)]
-    except (NotExact, explicit.Ambiguous) as reason:
+    except (NotExactError, explicit.AmbiguousError) as reason:
         return undecided(str(reason))
     if all(form.is_zero() for form in forms):
         where = f" for {region}" if len(region) else ""
@@ -130,13 +133,16 @@ def decide_linear(
 def decide_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
     """Rule on left = right as rational functions of their symbols, n_x² + n_y² = 1 given."""
     unknowns = sorted(
-        left.free_symbols | right.free_symbols | left.atoms(sy.SiteFunction)
-        | right.atoms(sy.SiteFunction), key=str,
+        left.free_symbols
+        | right.free_symbols
+        | left.atoms(sy.SiteFunction)
+        | right.atoms(sy.SiteFunction),
+        key=str,
     )
     field = Domain(dict.fromkeys([*unknowns, sy.n_x, sy.n_y, sy.phi]))
     try:
         difference = field.from_sympy(left) - field.from_sympy(right)
-    except NotExact as reason:
+    except NotExactError as reason:
         return undecided(str(reason))
     if difference.is_zero():
         return proved("the difference is the zero rational function")

@@ -12,7 +12,6 @@ normal forms are (what is normal in them is unique). Sums follow Karr's conventi
 Σ_{n=a}^{b} + Σ_{n=b+1}^{c} = Σ_{n=a}^{c}; :mod:`symbolic.reading` asserts the bounds.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import sympy
@@ -22,7 +21,7 @@ from symbolic.affine import Affine
 from symbolic.exact import (
     FIELD,
     LAYER,
-    NotExact,
+    NotExactError,
     RationalFunction,
     antidifference,
     sum_polynomial,
@@ -132,26 +131,11 @@ class LinearForm:
             return None
         return next(iter(self.sites.values()), FIELD.zero)
 
-    def map_indices(self, symbol: sympy.Symbol, image: Affine) -> "LinearForm":
-        """Put an affine expression in place of an index symbol."""
-        value = {symbol: affine.to_field(image)}
-
-        def put(expression: Affine) -> Affine:
-            return affine.replaced(expression, symbol, image)
-
-        result = LinearForm()
-        for site, weight in self.sites.items():
-            result.add_site(Site(site.family, put(site.i), put(site.j)), weight.substitute(value))
-        for ray, weight in self.rays.items():
-            moved = Ray(ray.family, ray.slope, put(ray.line), put(ray.start))
-            result.add_ray(moved, weight.substitute(value))
-        return result
-
     def summed(self, index: sympy.Symbol, low: Affine, high: Affine) -> "LinearForm":
         """Σ over ``index`` from low to high.
 
         Raises:
-            NotExact: when a site or ray does not move along one lattice diagonal, step by step.
+            NotExactError: when a site or ray does not step along one lattice diagonal.
         """
         result = LinearForm()
         for site, weight in self.sites.items():
@@ -175,7 +159,7 @@ def _sum_site(
         result.add_site(site, total)
         return
     if abs(step_i) != 1 or abs(step_j) != 1:
-        raise NotExact(f"a sum over {index} that leaves the lattice diagonals")
+        raise NotExactError(f"a sum over {index} that leaves the lattice diagonals")
     slope = step_i * step_j
     at_zero = affine.without(site.j, index)
     line = affine.add(affine.without(site.i, index), at_zero, -slope)
@@ -199,10 +183,10 @@ def _sum_ray(
     high: Affine,
 ) -> None:
     if affine.coefficient(ray.line, index):
-        raise NotExact(f"a sum over {index} that covers an area")
+        raise NotExactError(f"a sum over {index} that covers an area")
     step = affine.coefficient(ray.start, index)
     if abs(step) > 1:
-        raise NotExact(f"a sum over {index} that skips layers")
+        raise NotExactError(f"a sum over {index} that skips layers")
     at_zero = affine.without(ray.start, index)
     upper, lower = affine.to_field(high), affine.to_field(affine.shifted(low, -1))
     total = antidifference(weight, index)
@@ -224,17 +208,3 @@ def _sum_ray(
         # layer ≥ at_zero − n: the terms n = at_zero − layer … high, all of them from the first
         ray_from(affine.add(at_zero, high, -1), between(-layer - FIELD.one, upper))
         ray_from(affine.add(at_zero, low, -1), between(lower, -layer - FIELD.one))
-
-
-def combination(
-    form: LinearForm, replacement: Callable[[Site], LinearForm | None]
-) -> LinearForm:
-    """Replace the quantities at single sites by other forms (None leaves one as it is)."""
-    result = LinearForm({}, dict(form.rays))
-    for site, weight in form.sites.items():
-        other = replacement(site)
-        if other is None:
-            result.add_site(site, weight)
-        else:
-            result = result + other.scaled(weight)
-    return result

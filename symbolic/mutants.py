@@ -64,10 +64,13 @@ def _here(node: sympy.Basic) -> Iterator[Change]:
     if isinstance(node, sympy.Add):
         for number, term in enumerate(node.args):
             others = (*node.args[:number], *node.args[number + 1 :])
-            yield f"sign of {_brief(term)} flipped", node.func(*node.args[:number],
-                -term, *node.args[number + 1 :], evaluate=False)
-            yield f"{_brief(term)} dropped", (
-                others[0] if len(others) == 1 else node.func(*others, evaluate=False)
+            yield (
+                f"sign of {_brief(term)} flipped",
+                node.func(*node.args[:number], -term, *node.args[number + 1 :], evaluate=False),
+            )
+            yield (
+                f"{_brief(term)} dropped",
+                (others[0] if len(others) == 1 else node.func(*others, evaluate=False)),
             )
     elif isinstance(node, sympy.Integer) and node not in (sympy.S.Zero, sympy.S.NegativeOne):
         yield f"{node} changed to {node + 1}", node + 1
@@ -82,8 +85,10 @@ def _here(node: sympy.Basic) -> Iterator[Change]:
     elif isinstance(node, sy.Braces):
         first, second, index, last = node.args
         for by in (1, -1):
-            yield f"case {index} ≤ {_brief(last)} shifted to {_brief(last + by)}", node.func(
-                first, second, index, last + by)
+            yield (
+                f"case {index} ≤ {_brief(last)} shifted to {_brief(last + by)}",
+                node.func(first, second, index, last + by),
+            )
     elif isinstance(node, sympy.Sum | sy.Dot):
         yield f"sign of {_brief(node)} flipped", sympy.Mul(-1, node, evaluate=False)
 
@@ -118,4 +123,4 @@ def _shifted_bounds(node: sympy.Sum) -> Iterator[Change]:
 
 def _brief(node: sympy.Basic) -> str:
     shown = text(node)
-    return shown if len(shown) <= 48 else shown[:45] + "…"
+    return shown if len(shown) <= 64 else shown[:62].rsplit(" ", 1)[0] + " …"

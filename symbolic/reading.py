@@ -6,7 +6,7 @@ import sympy
 
 from symbolic import affine
 from symbolic.affine import Affine, Region
-from symbolic.exact import FIELD, NotExact, RationalFunction
+from symbolic.exact import FIELD, NotExactError, RationalFunction
 from symbolic.linear_forms import LinearForm
 from symbolic.symbols import (
     Braces,
@@ -22,7 +22,7 @@ from symbolic.vectors import LINE_SUM, Basis
 Vector = tuple[LinearForm, LinearForm]
 
 
-class UnsafeBounds(NotExact):
+class UnsafeBoundsError(NotExactError):
     """A sum's bounds are not shown to be in order everywhere in the region."""
 
 
@@ -45,13 +45,13 @@ class Reader:
         """Read a scalar.
 
         Raises:
-            NotExact: when the expression is not linear, or not in the decided class.
+            NotExactError: when the expression is not linear, or not in the decided class.
         """
         value = self.read(expression)
         if isinstance(value, tuple):
             if all(component.is_zero() for component in value):
                 return LinearForm()
-            raise NotExact(f"{expression} is a vector")
+            raise NotExactError(f"{expression} is a vector")
         return value
 
     def vector(self, expression: sympy.Expr) -> Vector:
@@ -61,7 +61,7 @@ class Reader:
             return value
         if value.is_zero():
             return LinearForm(), LinearForm()
-        raise NotExact(f"{expression} is no vector")
+        raise NotExactError(f"{expression} is no vector")
 
     def read(self, expression: sympy.Expr) -> LinearForm | Vector:
         """Read a scalar or a vector."""
@@ -94,7 +94,7 @@ class Reader:
             return LinearForm.at(family, i, j)
         if isinstance(atom, DeltaNPlus | DeltaNMinus):
             if self.basis is not LINE_SUM:
-                raise NotExact("contact directions are read in line-sum components")
+                raise NotExactError("contact directions are read in line-sum components")
             other = LinearForm.at(family, i, j)
             zero = LinearForm()
             return (zero, other) if isinstance(atom, DeltaNPlus) else (other, zero)
@@ -109,7 +109,7 @@ class Reader:
                 if not isinstance(value, tuple):
                     if value.is_zero():
                         continue  # the number 0 stands for the zero vector as well
-                    raise NotExact(f"{term} is a number, added to a vector")
+                    raise NotExactError(f"{term} is a number, added to a vector")
                 total = (total[0] + value[0], total[1] + value[1])
             return total
         result = LinearForm()
@@ -126,14 +126,14 @@ class Reader:
             value = self.read(factor)
             if isinstance(value, tuple):
                 if vector is not None:
-                    raise NotExact("a product of two vectors")
+                    raise NotExactError("a product of two vectors")
                 vector = value
                 continue
             constant = value.constant_part()
             if constant is not None:
                 scale = scale * constant
             elif linear is not None:
-                raise NotExact("a product of two lattice quantities")
+                raise NotExactError("a product of two lattice quantities")
             else:
                 linear = value
         if vector is None:
@@ -142,7 +142,7 @@ class Reader:
             return vector[0].scaled(scale), vector[1].scaled(scale)
         components = [component.constant_part() for component in vector]
         if any(component is None for component in components):
-            raise NotExact("a product of two lattice quantities")
+            raise NotExactError("a product of two lattice quantities")
         first, second = (linear.scaled(scale * c) for c in components if c is not None)
         return first, second
 
@@ -152,7 +152,7 @@ class Reader:
             left, right = right, left
         fixed = [component.constant_part() for component in left]
         if any(component is None for component in fixed):
-            raise NotExact("a dot product of two lattice quantities")
+            raise NotExactError("a dot product of two lattice quantities")
         one, zero = FIELD.one, FIELD.zero
         pair = (fixed[0] or zero, fixed[1] or zero)
         along = self.basis.dot(pair, (one, zero)), self.basis.dot(pair, (zero, one))
@@ -160,7 +160,7 @@ class Reader:
 
     def _matrix(self, *entries: sympy.Expr) -> Vector:
         if self.basis is LINE_SUM:
-            raise NotExact("a matrix acts on Cartesian components")
+            raise NotExactError("a matrix acts on Cartesian components")
         a, b, c, d = (self._coefficient(entry) for entry in entries[:4])
         x, y = self.vector(entries[4])
         return x.scaled(a) + y.scaled(b), x.scaled(c) + y.scaled(d)
@@ -178,8 +178,8 @@ class Reader:
             return total
         value = self._within(index, low).read(body)
         if isinstance(value, tuple):
-            first, second = (self._summed(part, index, *bounds) for part in value)
-            return first, second
+            one, other = (self._summed(part, index, *bounds) for part in value)
+            return one, other
         return self._summed(value, index, *bounds)
 
     def _within(self, index: sympy.Symbol, low: sympy.Expr) -> "Reader":
@@ -195,7 +195,7 @@ class Reader:
                 return LinearForm()  # empty everywhere in the region
             length = affine.shifted(affine.add(high, low, -1), 1)
             if not self.region.nonnegative(length):
-                raise UnsafeBounds(
+                raise UnsafeBoundsError(
                     f"the sum over {index} from {affine.to_sympy(low)} to "
                     f"{affine.to_sympy(high)} is not shown to be in order for {self.region}"
                 )
@@ -209,7 +209,7 @@ def split_by_cases(
     (braces,) = body.atoms(Braces)
     first, second, braced_index, last = braces.args
     if braced_index != index:
-        raise NotExact(f"braces over {braced_index} in a sum over {index}")
+        raise NotExactError(f"braces over {braced_index} in a sum over {index}")
     last_of_first = affine.from_sympy(last)
     return [
         (body.xreplace({braces: first}), low, last_of_first),

@@ -3,12 +3,13 @@
 A normal form gives a site's weight as a sum over the rays that pass through it. Here the rays
 of one line become runs of layers with one polynomial each, and the sites that need care (single
 sites, and crossings of two lines) are listed with their full weight. Every order relation used
-is decided in the region; where one is not, the region is too wide and :class:`Undetermined`
+is decided in the region; where one is not, the region is too wide and :class:`UndeterminedError`
 says which relation.
 """
 
 from dataclasses import dataclass
 from functools import cmp_to_key
+from itertools import pairwise
 
 from symbolic import affine
 from symbolic.affine import Affine, Region
@@ -16,7 +17,7 @@ from symbolic.exact import FIELD, LAYER, RationalFunction, sum_polynomial
 from symbolic.linear_forms import CONSTANT, LinearForm, Ray, Site
 
 
-class Undetermined(ValueError):
+class UndeterminedError(ValueError):
     """An order relation between layers does not hold throughout the region."""
 
 
@@ -59,7 +60,7 @@ def take_apart(form: LinearForm, region: Region) -> Pieces:
     """Disjoint pieces of a form.
 
     Raises:
-        Undetermined: when the region does not fix the order of the breakpoints.
+        UndeterminedError: when the region does not fix the order of the breakpoints.
         ValueError: when the form has a constant term or an endless ray.
     """
     if any(site.family == CONSTANT for site in form.sites):
@@ -98,13 +99,13 @@ def _runs(line: tuple[str, int, Affine], form: LinearForm, region: Region) -> li
             return -1
         if region.nonnegative(affine.add(one.start, other.start, -1)):
             return 1
-        raise Undetermined(
+        raise UndeterminedError(
             f"layers {affine.to_sympy(one.start)} and {affine.to_sympy(other.start)}"
         )
 
     rays.sort(key=cmp_to_key(order))
     runs, weight = [], FIELD.zero
-    for ray, following in zip(rays, rays[1:], strict=False):
+    for ray, following in pairwise(rays):
         weight = weight + form.rays[ray]
         if not weight.is_zero():
             runs.append(Run(ray, ray.start, affine.shifted(following.start, -1), weight))
@@ -121,7 +122,7 @@ def _crossing(one: Ray, other: Ray) -> Site | None:
     if twice[-1] % 2 and all(c % 2 == 0 for c in twice[:-1]):
         return None  # the lines pass through each other between the sites
     if any(c % 2 for c in twice):
-        raise Undetermined(f"whether {affine.to_sympy(twice)} is even")
+        raise UndeterminedError(f"whether {affine.to_sympy(twice)} is even")
     return plus.site(tuple(c // 2 for c in twice))
 
 
@@ -140,7 +141,7 @@ def _inside(site: Site, run: Run, region: Region) -> bool:
         return True
     if _outside(site, run, region):
         return False
-    raise Undetermined(
+    raise UndeterminedError(
         f"layer {affine.to_sympy(site.j)} against "
         f"{affine.to_sympy(run.first)} … {affine.to_sympy(run.last)}"
     )
@@ -152,7 +153,7 @@ def _assert_distinct(sites: list[Site], region: Region) -> None:
             if one.family == other.family and not (
                 region.differ(one.i, other.i) or region.differ(one.j, other.j)
             ):
-                raise Undetermined(
+                raise UndeterminedError(
                     f"sites ({affine.to_sympy(one.i)}, {affine.to_sympy(one.j)}) and "
                     f"({affine.to_sympy(other.i)}, {affine.to_sympy(other.j)})"
                 )
