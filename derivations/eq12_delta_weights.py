@@ -200,7 +200,7 @@ DERIVATION = Derivation(
     witnesses=(
         Witness(
             "weights of the exact packing less the printed ones: squares sum as stated",
-            lambda seed: witnesses.dropped_weights(PRINTED.rhs, dropped_variance(), seed),
+            lambda packing: witnesses.dropped_weights(PRINTED.rhs, dropped_variance(), packing),
         ),
     ),
     remarks=(

@@ -7,7 +7,8 @@ import sympy
 
 from derivations import eq11_total_force as eq11
 from derivations import eq12_delta_weights as eq12
-from derivations.asymptotics import compare_leading_order, explicit_variances
+from derivations import witnesses
+from derivations.asymptotics import compare_leading_order
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.as_printed import equation, power, terms, times
@@ -210,8 +211,8 @@ DERIVATION = Derivation(
     ),
     witnesses=(
         Witness(
-            "exact variances equal explicit sums of squared weights, all j < M ≤ 5",
-            lambda _: explicit_variances(exact_forms(), eq11.in_radii(bulk_force())),
+            "exact variances equal sums of squared weights of exact packings, all j < M ≤ 4",
+            lambda packing: witnesses.variances(exact_forms(), "bulk", packing),
         ),
     ),
 )
