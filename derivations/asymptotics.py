@@ -4,6 +4,7 @@ import sympy
 
 from symbolic.exact import FIELD, NotExactError, RationalFunction
 from symbolic.kernel import Ruling, proved, refuted, undecided
+from symbolic.printing.text import text
 from symbolic.symbols import M, j, z
 from symbolic.variance import at_fixed_z, order
 
@@ -17,7 +18,7 @@ def compare_leading_order(exact: RationalFunction, candidate: sympy.Expr) -> Rul
     if difference.is_zero():
         return proved("equal at every order")
     power = order(difference)
-    shown = f"{at_fixed_z(difference)} · M^{power}"
+    shown = f"{text(at_fixed_z(difference))} · M^{power}"
     if power < order(exact):
         return proved(f"exact − printed is of order M^{power}: {shown}")
     return refuted(f"exact − candidate is of the leading order M^{power} itself: {shown}")

@@ -11,10 +11,11 @@ from derivations import witnesses
 from derivations.asymptotics import compare_leading_order
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
-from symbolic.as_printed import equation, terms, times
+from symbolic.as_printed import equation, power, terms, times
 from symbolic.certified_sums import certified_sum
 from symbolic.exact import FIELD
 from symbolic.kernel import Ruling, all_of, decide_identity, from_test
+from symbolic.printing.text import text
 from symbolic.symbols import ForcePlus, M, i, j, l, m, m_g, n_y, phi, r, sigma, z
 from symbolic.variance import ExactForm, exact_variances, leading
 
@@ -27,7 +28,7 @@ PRINTED = equation(
         3 * M**3 / (10 * (1 - phi**2) ** 2),
         terms(1, -z) ** 2,
         terms(times(4, z), 1),
-        (sigma / r) ** 2,
+        power(times(sigma, 1 / r), 2),
     ),
 )
 
@@ -150,7 +151,8 @@ def _next_order() -> Ruling:
     rest = value - FIELD.from_sympy(PRINTED.rhs.xreplace({z: j / M}))
     expected = FIELD.from_sympy((next_order() * scale).xreplace({z: j / M}))
     return from_test(
-        (leading(rest) - expected).is_zero(), f"the next order is {next_order()} (σ/r)²/(1−φ²)²"
+        (leading(rest) - expected).is_zero(),
+        f"the next order is {text(next_order())} (σ/r)²/(1−φ²)²",
     )
 
 
