@@ -14,7 +14,7 @@ from derivations.runner import run_alone
 from symbolic.as_printed import equation, power, terms, times
 from symbolic.certified_sums import certified_sum
 from symbolic.exact import FIELD
-from symbolic.kernel import Ruling, all_of, decide_identity, from_test
+from symbolic.kernel import Ruling, all_of, decide_identity, from_test, undecided
 from symbolic.printing.text import text
 from symbolic.symbols import M, j, m, phi, r, sigma, z
 from symbolic.variance import ExactForm, exact_variances, leading
@@ -67,6 +67,8 @@ def next_order() -> sympy.Expr:
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """The exact variance less the candidate is of order M² at most."""
+    if candidate.lhs != RELATIVE_VARIANCE:
+        return undecided("the left-hand side is not σ_f²/⟨f⟩²")
     return compare_leading_order(exact_forms()["interior"].value, candidate.rhs)
 
 

@@ -5,6 +5,9 @@ from functools import cache
 
 import sympy
 
+from derivations import eq04_contact_plus as eq04
+from derivations import eq05_contact_minus as eq05
+from derivations import eq06_force_balance as eq06
 from derivations import eq11_total_force as eq11
 from derivations import eq12_delta_weights as eq12
 from derivations import eq13_surface_diffusion as eq13
@@ -12,13 +15,41 @@ from derivations import witnesses
 from derivations.asymptotics import compare_leading_order, exact_steps
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
+from symbolic import affine
+from symbolic.affine import Region
 from symbolic.as_printed import equation, power, terms, times
 from symbolic.certified_sums import certified_sum
 from symbolic.exact import FIELD
-from symbolic.kernel import Ruling, all_of, decide_identity, from_test
+from symbolic.kernel import (
+    Ruling,
+    all_of,
+    decide_identity,
+    decide_vector_identity,
+    from_test,
+    proved,
+    undecided,
+)
 from symbolic.printing.text import text
-from symbolic.symbols import ForcePlus, M, i, j, l, m, m_g, n_y, phi, r, sigma, z
+from symbolic.reading import Reader
+from symbolic.symbols import (
+    ForceMinus,
+    ForcePlus,
+    Load,
+    M,
+    i,
+    j,
+    k,
+    l,
+    m,
+    m_g,
+    n_y,
+    phi,
+    r,
+    sigma,
+    z,
+)
 from symbolic.variance import ExactForm, exact_variances, leading
+from symbolic.weights import take_apart
 
 RELATIVE_VARIANCE = sympy.Symbol(r"\sigma_f^2(z)/\langle f\rangle_z^2")
 MEAN_FORCE = sympy.Symbol(r"\langle f\rangle_z")
@@ -101,6 +132,8 @@ def next_order() -> sympy.Expr:
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """The exact variance less the candidate is of order M² at most."""
+    if candidate.lhs != RELATIVE_VARIANCE:
+        return undecided("the left-hand side is not σ_f²/⟨f⟩²")
     return compare_leading_order(exact_forms()["interior"].value, candidate.rhs)
 
 
@@ -120,6 +153,30 @@ def _mean() -> Ruling:
         decide_identity(ordered, (M - j) * m_g / (2 * n_y)),
         decide_identity(in_z, M * m_g * (1 - z) / (2 * n_y)),
     )
+
+
+def _superposition() -> Ruling:
+    """What lets a load on layer l be treated as the surface load of a packing of height l.
+
+    The balance is linear in forces and load, and the contacts that carry it, those below layer
+    l, have directions that depend on radii of layers up to l alone.
+    """
+    balance = eq06.PRINTED.lhs
+    atoms = ForcePlus(*eq06.LEFT), ForceMinus(*eq06.RIGHT), Load(k, l)
+    forces = sympy.symbols("f_1 g_1 f_2 g_2")
+    one, two = (*forces[:2], Load(0, 1)), (*forces[2:], Load(0, 2))
+    both = [a + b for a, b in zip(one, two, strict=True)]
+    carried = [balance.xreplace(dict(zip(atoms, case, strict=True))) for case in (one, two, both)]
+    linear = decide_vector_identity(carried[0] + carried[1], carried[2])
+    region = Region({j: 1})
+    top = affine.from_sympy(j + 1)
+    for direction in (eq04.contact_direction(i, j), eq05.contact_direction(i, j)):
+        for component in Reader(region).vector(direction):
+            pieces = take_apart(component, region)
+            ends = [run.last for run in pieces.runs] + [site.j for site in pieces.special]
+            if not all(region.nonnegative(affine.add(top, end, -1)) for end in ends):
+                return undecided("a contact's direction depends on a layer above it")
+    return all_of(linear, proved("a contact's direction depends on radii of layers ≤ j + 1"))
 
 
 def _edges() -> Ruling:
@@ -189,12 +246,22 @@ DERIVATION = Derivation(
         "every bead above the base weighs mg, whatever its radius",
         "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M",
     ),
-    premises=(eq11.DERIVATION, eq12.DERIVATION, eq13.DERIVATION),
+    premises=(
+        eq04.DERIVATION,
+        eq05.DERIVATION,
+        eq06.DERIVATION,
+        eq11.DERIVATION,
+        eq12.DERIVATION,
+        eq13.DERIVATION,
+    ),
     printed=(PRINTED,),
     relation="∼",
     steps=steps,
     decide=decide,
     claims=(
+        Claim(
+            "loads superpose, and one on layer l feels radii of layers ≤ l alone", _superposition
+        ),
         Claim("the mean force is M m g (1 − z)/2n_y", _mean),
         Claim("the squared weights of Eq. 12, averaged over l, sum to the printed form", _weights),
         Claim("the next order in M", _next_order),

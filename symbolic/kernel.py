@@ -171,23 +171,22 @@ def _apart(difference: RationalFunction) -> Ruling:
     return undecided("the difference is not the zero function, yet no values show it")
 
 
+def cartesian(vector: sympy.Expr, axis: int) -> sympy.Expr:
+    """One Cartesian component of a vector expression; unknown vectors get unknown components."""
+    image: dict[sympy.Basic, sympy.Expr] = {
+        symbol: CARTESIAN.vectors[symbol][axis].to_sympy() for symbol in sy.VECTORS
+    }
+    for atom in vector.atoms(sy.SiteFunction):
+        if atom.is_vector:
+            image[atom] = sympy.Symbol(f"{atom}_{'xy'[axis]}")
+    return vector.xreplace(image)
+
+
 def decide_vector_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
     """Rule on an equality of vectors that may be multiplied by unknown numbers, by components."""
-    rulings = []
-    for axis in range(2):
-        image: dict[sympy.Basic, sympy.Expr] = {
-            symbol: _cartesian(symbol)[axis] for symbol in sy.VECTORS
-        }
-        for atom in left.atoms(sy.SiteFunction) | right.atoms(sy.SiteFunction):
-            if atom.is_vector:
-                image[atom] = sympy.Symbol(f"{atom}_{'xy'[axis]}")
-        rulings.append(decide_identity(left.xreplace(image), right.xreplace(image)))
-    return all_of(*rulings)
-
-
-def _cartesian(symbol: sympy.Symbol) -> tuple[sympy.Expr, sympy.Expr]:
-    components = CARTESIAN.vectors[symbol]
-    return components[0].to_sympy(), components[1].to_sympy()
+    return all_of(
+        *(decide_identity(cartesian(left, axis), cartesian(right, axis)) for axis in range(2))
+    )
 
 
 def all_of(*rulings: Ruling) -> Ruling:
