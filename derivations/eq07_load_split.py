@@ -1,6 +1,7 @@
 """Eq. 7: how a vertical load splits between the two supports."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import sympy
 
@@ -60,6 +61,7 @@ def split_plus(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
 SUBJECTS = (ForcePlus(*LEFT), ForceMinus(*RIGHT))
 
 
+@cache
 def solved() -> balance.Solved:
     """Eq. 6 solved for a load that points straight down, in units of f_load/2n_y."""
     return eq06.solved(terms(n_plus, n_minus), k, l)

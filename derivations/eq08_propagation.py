@@ -1,6 +1,7 @@
 """Eq. 8: how a contact force passes through one bead."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import sympy
 
@@ -49,6 +50,7 @@ def branching(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
 SUBJECTS = (ForcePlus(*LEFT) / ForcePlus(*HERE), ForceMinus(*RIGHT) / ForcePlus(*HERE))
 
 
+@cache
 def solved(entering: str) -> balance.Solved:
     """Eq. 6 solved for an incoming unit force along n⁺ ("+") or n⁻ ("-")."""
     along = n_plus + DeltaNPlus(*HERE) if entering == "+" else n_minus + DeltaNMinus(*HERE)

@@ -12,7 +12,7 @@ from derivations import eq11_total_force as eq11
 from derivations import eq12_delta_weights as eq12
 from derivations import eq13_surface_diffusion as eq13
 from derivations import witnesses
-from derivations.asymptotics import compare_leading_order, exact_steps
+from derivations.asymptotics import compare_leading_order, edges_follow, exact_steps, next_order_is
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic import affine
@@ -29,7 +29,6 @@ from symbolic.kernel import (
     proved,
     undecided,
 )
-from symbolic.printing.text import text
 from symbolic.reading import Reader
 from symbolic.symbols import (
     ForceMinus,
@@ -87,6 +86,10 @@ def bulk_weights() -> tuple[sympy.Expr, sympy.Expr]:
     return below, above
 
 
+AVERAGED = times(M - m, M - m + 1) / (2 * (M - j))
+"""The weight of Δ for m > j, as a person would write it."""
+
+
 def sum_of_weights() -> sympy.Expr:
     """6 Σ w² over the second differences, by SymPy, each sum with its certificate."""
     below, above = bulk_weights()
@@ -110,10 +113,10 @@ def steps() -> Iterator[Step]:
             times(1 / (M - j), sympy.Sum(eq11.PRINTED.rhs.xreplace({M: l}), (l, j + 1, M))),
         ),
     )
-    below, above = bulk_weights()
+    below, _ = bulk_weights()
     yield Step(
         "The weights of Δ in Eq. 12, averaged: for m ≤ j and for m > j",
-        sympy.Tuple(sympy.factor(below), sympy.factor(above)),
+        sympy.Tuple(sympy.cancel(below), AVERAGED),
     )
     yield Step("Six times the sum of their squares has the leading order printed.", PRINTED)
     yield from exact_steps(RELATIVE_VARIANCE, exact_forms())
@@ -140,10 +143,11 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
 def _weights() -> Ruling:
     total = FIELD.from_sympy(sum_of_weights() * eq12.PREFACTOR**2 * sigma**2)
     printed = FIELD.from_sympy(PRINTED.rhs.xreplace({z: j / M}))
-    return from_test(
+    ordered = from_test(
         (leading(total) - leading(printed)).is_zero(),
         "6σ² Σ w² of the averaged weights has the printed leading order",
     )
+    return all_of(ordered, decide_identity(bulk_weights()[1], AVERAGED))
 
 
 def _mean() -> Ruling:
@@ -179,33 +183,11 @@ def _superposition() -> Ruling:
     return all_of(linear, proved("a contact's direction depends on radii of layers ≤ j + 1"))
 
 
-def _edges() -> Ruling:
-    forms = exact_forms()
-    at_zero = FIELD.from_sympy(PRINTED.rhs.xreplace({z: sympy.Integer(0)}))
-    surface = FIELD.from_sympy(2 * M * (1 + phi**2) * (sigma / r) ** 2 / (1 - phi**2) ** 2)
-    return from_test(
-        (leading(forms["base"].value) - at_zero).is_zero()
-        and (leading(forms["surface"].value) - surface).is_zero(),
-        "at j = 0 the leading order is Eq. 14 at z = 0; at j = M − 1 it is 2(1+φ²) M",
-    )
-
-
 def _one_layer_below_the_surface() -> Ruling:
     difference = exact_forms()["surface"].value - eq13.exact_forms()["surface"].value
     return from_test(
         difference.is_zero(),
         "at j = M − 1 only the surface beads load the contact: Eqs. 13 and 14 agree",
-    )
-
-
-def _next_order() -> Ruling:
-    value = exact_forms()["interior"].value
-    scale = (sigma / r) ** 2 / (1 - phi**2) ** 2
-    rest = value - FIELD.from_sympy(PRINTED.rhs.xreplace({z: j / M}))
-    expected = FIELD.from_sympy((next_order() * scale).xreplace({z: j / M}))
-    return from_test(
-        (leading(rest) - expected).is_zero(),
-        f"the next order is {text(next_order())} (σ/r)²/(1−φ²)²",
     )
 
 
@@ -264,8 +246,13 @@ DERIVATION = Derivation(
         ),
         Claim("the mean force is M m g (1 − z)/2n_y", _mean),
         Claim("the squared weights of Eq. 12, averaged over l, sum to the printed form", _weights),
-        Claim("the next order in M", _next_order),
-        Claim("exact forms at the base and below the surface", _edges),
+        Claim(
+            "the next order in M", lambda: next_order_is(exact_forms(), PRINTED.rhs, next_order())
+        ),
+        Claim(
+            "exact forms at the base and below the surface",
+            lambda: edges_follow(exact_forms(), PRINTED.rhs),
+        ),
         Claim("one layer below the surface both loads agree", _one_layer_below_the_surface),
         Claim(
             "the maximum is at z = 1/6; the unnormalised variance is stationary at the base",
