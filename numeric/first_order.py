@@ -18,6 +18,7 @@ from typing import Any
 
 from numeric.forces import Forces, Loads
 from numeric.lattice import Array, Layer, Region, pick, shifted
+from numeric.load_spec import LoadSpec
 from numeric.packing import Packing, metric, raised
 from numeric.systems import NumberSystem, zeros
 from numeric.work import Work
@@ -112,6 +113,42 @@ def contact_change(
     return total, len(lines.known)
 
 
+def crossing_layers(contact: tuple[int, int, str], load: LoadSpec) -> tuple[list[int], list[int]]:
+    """Say in which layers the beads straight up the contact have crossing contacts under force.
+
+    Gives the layers m of the beads y whose contact of the other orientation *above* them carries an
+    ordered force, and those where the one *below* them does.
+    """
+    i, j, branch = contact
+    side, other = (1, "-") if branch == "+" else (-1, "+")
+    if load.loaded is None:
+        return list(range(j + 1, load.height)), list(range(j + 1, load.height + 1))
+    top = max((site[1] for site in load.loaded), default=0)
+    layers = range(j + 1, top + 1)
+    return (
+        [m for m in layers if load.carries(i + side * (m - j), m, other)],
+        [m for m in layers if load.carries(i + side * (m - j + 1), m - 1, other)],
+    )
+
+
+def beads_read(contact: tuple[int, int, str], load: LoadSpec) -> int:
+    """Count the beads whose radii decide the first-order f^±_ij, for any load.
+
+    The three parallel diagonals reach as high as force crosses them; the two cross diagonals matter
+    where the contact itself carries an ordered force.
+    """
+    j = contact[1]
+    above, below = crossing_layers(contact, load)
+    outer = max(above) + 2 if above else 0
+    main = max([*above, *below]) + 1 if above or below else 0
+    inner = max(below) if below else 0
+    if not load.carries(*contact):
+        return outer + main + inner
+    # x and the contact's lower bead lie on the main diagonal, two more beads on the inner one.
+    shared = (2 if main else 0) + (min(j + 1, 2) if inner else 0)
+    return outer + main + inner + 2 * j + 3 - shared
+
+
 def contact_beads(j: int, height: int) -> int:
     """Count the beads on which the first-order f^±_ij depends (surface or bulk load).
 
@@ -161,7 +198,9 @@ def displace(
     )
 
 
-def forces(packing: Packing, rows: tuple[Layer, ...], loads: Loads) -> Forces:
+def forces(
+    packing: Packing, rows: tuple[Layer, ...], loads: Loads, work: Work | None = None
+) -> Forces:
     """Carry loads down to first order: sums along the diagonals, nothing to invert (Eqs. 6–11)."""
     system, width = packing.system, packing.region.width
     zero = zeros(system, 1)[0]
@@ -185,6 +224,8 @@ def forces(packing: Packing, rows: tuple[Layer, ...], loads: Loads) -> Forces:
             Fp, Fm = Fp + Lp, Fm + Lm
         a = [pick(v, packing.region.rows[j], layer, width) for v in packing.plus[j]]
         b = [pick(v, packing.region.rows[j], layer, width) for v in packing.minus[j]]
+        if work is not None:
+            work.did("balanced", layer, gp.size // layer.count)
         ordered[j] = (Fp, Fm)
         change[j] = (gp - (Fp * a[0] + Fm * b[0]), gm - (Fp * a[1] + Fm * b[1]))
     return Forces(

@@ -33,7 +33,7 @@ def logarithm(x: Array) -> Array:
     mantissa = np.where(low, 2 * mantissa, mantissa)
     exponent = exponent - low
     t = (mantissa - 1) / (mantissa + 1)
-    return exponent * math.log(2) + t * _polynomial(_ARTANH, t * t)
+    return np.asarray(exponent * math.log(2) + t * _polynomial(_ARTANH, t * t))
 
 
 def cosine_of_turn(turn: Array) -> Array:
@@ -50,4 +50,4 @@ def normal_deviates(first: Array, second: Array) -> Array:
     """Give standard normal deviates from two arrays of 64-bit random words (Box and Muller)."""
     unit = ((first >> np.uint64(11)).astype(np.float64) + 0.5) * 2.0**-53
     turn = (second >> np.uint64(11)).astype(np.float64) * 2.0**-53
-    return np.sqrt(-2 * logarithm(unit)) * cosine_of_turn(turn)
+    return np.asarray(np.sqrt(-2 * logarithm(unit)) * cosine_of_turn(turn))

@@ -1,0 +1,107 @@
+"""How accurate an answer is, and how many digits of it may be printed."""
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import flint
+import numpy as np
+
+from numeric.answers import Table
+from numeric.lattice import Array
+from numeric.systems import Balls, Hardware, NumberSystem
+
+# A printed decimal may be off by one unit in its last digit, which is at most 20 ball radii.
+PRINTED = 20
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """Error of the answer's small columns, relative to the largest entry of them.
+
+    ``certified``: a rigorous bound (balls). Otherwise it is estimated from a second solution with a
+    longer significand. ``bits_lost``: bits of the arithmetic that the answer lacks.
+    """
+
+    error_bound: float
+    certified: bool
+    arithmetic: str
+    bits_lost: float
+    note: str = ""
+
+
+def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:
+    """Judge an answer in balls; ``floor`` is the size below which a change counts as zero."""
+    largest, radius = flint.arb(0), flint.arb(0)
+    for name in table.small:
+        for value in table.numbers[name]:
+            if not value.is_finite():
+                return Accuracy(math.inf, True, system.name, float(system.bits))
+            largest = largest.max(value.abs_lower())
+            radius = radius.max(value.rad())
+    if radius == 0:
+        return Accuracy(0.0, True, system.name, 0.0)
+    note = ""
+    if not largest > 0:
+        if not floor:
+            return Accuracy(math.inf, True, system.name, float(system.bits))
+        largest = system.number(floor)
+        note = "no change can be told from zero; the error is relative to σ/r instead"
+    ratio = (radius / largest).upper()
+    lost = max(system.bits + float(ratio.log() / flint.arb.const_log2()), 0.0)
+    return Accuracy(_up(ratio * PRINTED), True, system.name, round(lost, 1), note)
+
+
+def _up(value: Any) -> float:
+    """Round a small positive ball up to a float that is not zero."""
+    return max(float(value.upper()) * (1 + 1e-15), 5e-324)
+
+
+def of_floats(table: Table, longer: Table, system: Hardware) -> Accuracy:
+    """Estimate the error of one float solution from one with a longer significand."""
+    largest, error = 0.0, 0.0
+    for name in table.small:
+        a, b = table.numbers[name], longer.numbers[name]
+        if not len(a):
+            continue
+        largest = max(largest, float(np.abs(a).max()))
+        error = max(error, float(max(abs(float(y - x)) for x, y in zip(a, b, strict=True))))
+    unit = 2.0**-system.bits
+    if not largest:
+        return Accuracy(0.0 if not error else math.inf, False, system.name, 0.0)
+    if not math.isfinite(largest) or not math.isfinite(error):
+        return Accuracy(math.inf, False, system.name, float(system.bits))
+    ratio = max(2 * error / largest, unit)
+    lost = max(system.bits + math.log2(ratio), 0.0)
+    return Accuracy(ratio, False, system.name, round(lost, 1), "estimated, not certified")
+
+
+def strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dict[str, list[str]]:
+    """Print the number columns, each number with the digits that its error leaves."""
+    if isinstance(system, Balls):
+        return {k: [_ball_string(v) for v in column] for k, column in table.numbers.items()}
+    largest = max(
+        (float(np.abs(table.numbers[k]).max()) for k in table.small if len(table.numbers[k])),
+        default=0.0,
+    )
+    error = accuracy.error_bound * largest
+    return {k: _float_strings(column, error) for k, column in table.numbers.items()}
+
+
+def _ball_string(value: Any) -> str:
+    if value.is_zero() or value.contains(0):
+        return "0"
+    return str(value.str(value.rel_accuracy_bits(), radius=False))
+
+
+def _float_strings(column: Array, error: float) -> list[str]:
+    result = []
+    for value in column.tolist():
+        off = error + abs(value) * 2.0**-52
+        if not value or not math.isfinite(value) or abs(value) <= off:
+            result.append("0" if math.isfinite(value) else str(value))
+            continue
+        digits = math.floor(math.log10(abs(value))) - math.floor(math.log10(off))
+        result.append(f"{value:.{min(max(digits, 1), 17)}g}")
+    return result
