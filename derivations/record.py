@@ -53,6 +53,7 @@ class Derivation:
     claims: tuple[Claim, ...] = ()
     witnesses: tuple[Witness, ...] = ()
     remarks: tuple[str, ...] = ()
+    relation: str = "="  # how the printed equation relates its sides: "=", "≈" or "∼"
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,23 @@
-"""Verdicts: what a check may say."""
+"""The checking kernel: *proved*, *refuted* or *undecided*, and on what it rests.
 
+A refutation is an explicit counterexample, found with Fractions on a small packing; a proof is
+a normal form that is zero. The two share no code, and what neither settles is undecided.
+"""
+
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
+from fractions import Fraction
+from itertools import islice, product
+
+import sympy
+
+from symbolic import explicit
+from symbolic import symbols as sy
+from symbolic.affine import Region
+from symbolic.exact import Domain, NotExactError
+from symbolic.reading import Reader
+from symbolic.vectors import CARTESIAN, LINE_SUM, Basis
 
 
 class Verdict(StrEnum):
@@ -20,3 +36,150 @@ class Ruling:
 
     verdict: Verdict
     note: str = ""
+
+
+def proved(note: str = "") -> Ruling:
+    """Return the ruling of a proof."""
+    return Ruling(Verdict.PROVED, note)
+
+
+def refuted(note: str) -> Ruling:
+    """Return the ruling of a counterexample."""
+    return Ruling(Verdict.REFUTED, note)
+
+
+def undecided(note: str) -> Ruling:
+    """Return the ruling that says why nothing was decided."""
+    return Ruling(Verdict.UNDECIDED, note)
+
+
+GEOMETRIES = (
+    explicit.geometry(Fraction(3, 5), Fraction(4, 5), Fraction(7, 3)),
+    explicit.geometry(Fraction(21, 29), Fraction(20, 29), Fraction(5, 11)),
+)
+"""Two rational lattices, with φ of either sign, on which counterexamples are looked for."""
+
+_OTHERS = {sy.sigma: Fraction(3, 7), sy.f_load: Fraction(11, 5), sy.m_g: Fraction(13, 9)}
+
+
+def _samples(region: Region, free: tuple[sympy.Symbol, ...]) -> list[dict[sympy.Symbol, int]]:
+    """Return points of the region, a generic one first, then its corners.
+
+    Indices that the region leaves free take any value.
+    """
+    excesses = [tuple(3 + 2 * a for a in range(len(region)))]
+    excesses += list(islice(product((0, 1, 2), repeat=len(region)), 9))
+    anywhere = {symbol: 5 + 2 * a for a, symbol in enumerate(free)}
+    return [{**anywhere, **region.sample(*e)} for e in excesses]
+
+
+def counterexample(
+    left: sympy.Expr, right: sympy.Expr, region: Region, *, is_vector: bool = False
+) -> str | None:
+    """Look for a small packing on which two linear expressions have different weights."""
+    free = tuple(
+        sorted(
+            (left.free_symbols | right.free_symbols) & set(sy.INDICES) - set(region.lower_bounds),
+            key=str,
+        )
+    )
+    for geometry in GEOMETRIES:
+        for point in _samples(region, free):
+            values: explicit.Values = {**geometry, **_OTHERS, **point}
+            pairs: tuple[tuple[explicit.Weights, explicit.Weights], ...]
+            if is_vector:
+                one, two = (explicit.vector_weights(side, values) for side in (left, right))
+                pairs = tuple(zip(one, two, strict=True))
+            else:
+                pairs = ((explicit.weights(left, values), explicit.weights(right, values)),)
+            for a, b in pairs:
+                if a != b:
+                    key = min(k for k in a.keys() | b.keys() if a.get(k) != b.get(k))
+                    where = ", ".join(f"{s} = {v}" for s, v in point.items())
+                    name = f"{key[0]}({key[1]}, {key[2]})" if key[0] else "the constant term"
+                    return (
+                        f"at {where or 'any site'}, φ = {values[sy.phi]}: {name} has the weight "
+                        f"{a.get(key, 0)} on the left and {b.get(key, 0)} on the right"
+                    )
+    return None
+
+
+def decide_linear(
+    left: sympy.Expr,
+    right: sympy.Expr,
+    region: Region,
+    *,
+    is_vector: bool = False,
+    basis: Basis = LINE_SUM,
+) -> Ruling:
+    """Rule on left = right, both linear in lattice quantities, for all indices in the region."""
+    try:
+        found = counterexample(left, right, region, is_vector=is_vector)
+        if found:
+            return refuted(found)
+        reader = Reader(region, basis)
+        if is_vector:
+            forms = [a - b for a, b in zip(reader.vector(left), reader.vector(right), strict=True)]
+        else:
+            forms = [reader.scalar(left) - reader.scalar(right)]
+    except (NotExactError, explicit.AmbiguousError) as reason:
+        return undecided(str(reason))
+    if all(form.is_zero() for form in forms):
+        where = f" for {region}" if len(region) else ""
+        return proved(f"the normal forms are equal{where}")
+    return undecided("the normal forms differ, yet no counterexample was found")
+
+
+def decide_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
+    """Rule on left = right as rational functions of their symbols, n_x² + n_y² = 1 given."""
+    unknowns = sorted(
+        left.free_symbols
+        | right.free_symbols
+        | left.atoms(sy.SiteFunction)
+        | right.atoms(sy.SiteFunction),
+        key=str,
+    )
+    field = Domain(dict.fromkeys([*unknowns, sy.n_x, sy.n_y, sy.phi]))
+    try:
+        difference = field.from_sympy(left) - field.from_sympy(right)
+    except NotExactError as reason:
+        return undecided(str(reason))
+    if difference.is_zero():
+        return proved("the difference is the zero rational function")
+    return refuted(f"the difference is {difference.to_sympy()}, not zero")
+
+
+def decide_vector_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
+    """Rule on an equality of vectors that may be multiplied by unknown numbers, by components."""
+    rulings = []
+    for axis in range(2):
+        image: dict[sympy.Basic, sympy.Expr] = {
+            symbol: _cartesian(symbol)[axis] for symbol in sy.VECTORS
+        }
+        for atom in left.atoms(sy.SiteFunction) | right.atoms(sy.SiteFunction):
+            if atom.is_vector:
+                image[atom] = sympy.Symbol(f"{atom}_{'xy'[axis]}")
+        rulings.append(decide_identity(left.xreplace(image), right.xreplace(image)))
+    return all_of(*rulings)
+
+
+def _cartesian(symbol: sympy.Symbol) -> tuple[sympy.Expr, sympy.Expr]:
+    components = CARTESIAN.vectors[symbol]
+    return components[0].to_sympy(), components[1].to_sympy()
+
+
+def all_of(*rulings: Ruling) -> Ruling:
+    """Return the worst of several rulings: refuted before undecided before proved."""
+    for verdict in (Verdict.REFUTED, Verdict.UNDECIDED):
+        for ruling in rulings:
+            if ruling.verdict is verdict:
+                return ruling
+    return rulings[0]
+
+
+def from_test(outcome: bool, note: str, otherwise: str = "") -> Ruling:
+    """Turn a decided yes or no into a ruling."""
+    return proved(note) if outcome else refuted(otherwise or f"not so: {note}")
+
+
+Decision = Callable[[], Ruling]

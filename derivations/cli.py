@@ -1,0 +1,212 @@
+"""The command line: a thin layer over ``deriving`` and ``shown``."""
+
+import errno
+import io
+import os
+import sys
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any, NoReturn
+
+import typer
+from typer.core import TyperGroup
+
+from derivations.catalogue import modules
+
+FAILED_OUTSIDE = 3
+INTERRUPTED = 130
+
+STATUSES = (
+    "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
+    "3 the disk or a pipe failed, 130 interrupted."
+)
+
+
+class Form(StrEnum):
+    """How ``show`` prints an equation."""
+
+    TEXT = "text"
+    LATEX = "latex"
+    SYMPY = "sympy"
+    PYTHON = "python"
+    STEPS = "steps"
+
+
+class Place(StrEnum):
+    """Which layers an exact form is for."""
+
+    INTERIOR = "interior"
+    BASE = "base"
+    NEXT = "base+1"
+    SURFACE = "surface"
+
+
+class _Commands(TyperGroup):
+    """Names the commands there are when asked for one that there isn't."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """Find the command, or say which ones exist."""
+        if args and not args[0].startswith("-") and args[0] not in self.commands:
+            ctx.fail(f"There is no command '{args[0]}'. Use {_either(list(self.commands))}.")
+        return super().resolve_command(ctx, args)
+
+
+app = typer.Typer(
+    cls=_Commands,
+    add_completion=False,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+
+@app.callback(epilog=STATUSES)
+def _about() -> None:
+    """Derive, prove and export the equations of force diffusion in packings of discs."""
+
+
+def _either(words: list[str]) -> str:
+    return ", ".join(words[:-1]) + f" or {words[-1]}" if len(words) > 1 else words[0]
+
+
+def _number(word: str) -> int:
+    """An equation's number from outside text, which is read and never evaluated."""
+    known = modules()
+    if word.isascii() and word.isdigit() and len(word) < 5 and int(word) in known:
+        return int(word)
+    raise typer.BadParameter(
+        f"'{word}' is not an equation of this package. Give a number from {min(known)} to "
+        f"{max(known)}; 'force-diffusion list' names them.",
+        param_hint="N",
+    )
+
+
+def _fail(message: str, status: int) -> NoReturn:
+    print(f"force-diffusion: {message}", file=sys.stderr)
+    raise typer.Exit(status)
+
+
+@app.command(epilog=STATUSES)
+def derive(
+    numbers: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[N]...", help="Equations to derive; all of them by default."),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Write LaTeX and a manifest into this folder."),
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the results as JSON and nothing else.")
+    ] = False,
+) -> None:
+    """Prove equations, and the ones that they rest on, and check them."""
+    from derivations.folder import NotOurFolderError
+
+    wanted = [_number(word) for word in numbers] if numbers else list(modules())
+    if out is not None and out.exists() and not out.is_dir():
+        raise typer.BadParameter(
+            f"'{out}' is a file. Give a new folder, an empty one, or one that an earlier "
+            "'derive --out' wrote.",
+            param_hint="--out",
+        )
+    try:
+        from derivations.deriving import derive as run
+
+        status = run(wanted, out, as_json)
+    except NotOurFolderError as foreign:
+        raise typer.BadParameter(
+            f"'{out}' holds files that this program did not write ({foreign}). Give a new "
+            "folder, an empty one, or one that an earlier 'derive --out' wrote.",
+            param_hint="--out",
+        ) from None
+    raise typer.Exit(status)
+
+
+@app.command()
+def show(
+    number: Annotated[str, typer.Argument(metavar="N", help="Number of the equation.")],
+    form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
+    exact: Annotated[
+        bool, typer.Option("--exact", help="The exact form at finite M (Eqs. 13 and 14).")
+    ] = False,
+    at_j: Annotated[
+        Place | None,
+        typer.Option(
+            help="Where the exact form holds: interior (2 ≤ j ≤ M − 2, the default), "
+            "base (j = 0), base+1 (j = 1) or surface (j = M − 1)."
+        ),
+    ] = None,
+) -> None:
+    """Print one equation, without deriving it."""
+    from derivations import shown
+
+    equation = _number(number)
+    if not exact:
+        if at_j is not None:
+            raise typer.BadParameter("goes with --exact only; add it.", param_hint="--at-j")
+        print(shown.view(equation, form))
+        return
+    having = shown.exact_numbers()
+    if equation not in having:
+        raise typer.BadParameter(
+            f"Eq. {equation} has no exact form at finite M of its own; "
+            f"{_either([str(one) for one in having])} has.",
+            param_hint="--exact",
+        )
+    if form is Form.STEPS:
+        raise typer.BadParameter(
+            "steps are not split by --exact; leave one of the two out.", param_hint="--as"
+        )
+    print(shown.exact_view(equation, at_j or Place.INTERIOR, form))
+
+
+@app.command("list")
+def list_equations() -> None:
+    """List the equations."""
+    from derivations import shown
+
+    for number, (name, title) in shown.titles().items():
+        print(f"{number:3}  {name:<20}  {title}")
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line; return its exit status, with a message in place of a traceback."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # δ on a terminal that can't show it
+            stream.reconfigure(errors="replace")
+    try:
+        app(args=arguments, prog_name="force-diffusion")
+    except SystemExit as done:
+        status = done.code if isinstance(done.code, int) else 1
+    except KeyboardInterrupt:
+        status = INTERRUPTED
+    except OSError as failure:
+        status = _outside(failure)
+    if status == INTERRUPTED:
+        print("force-diffusion: interrupted; no half-written file is left.", file=sys.stderr)
+    try:
+        sys.stdout.flush()
+    except OSError as failure:
+        status = _outside(failure)
+    return status
+
+
+def _outside(failure: OSError) -> int:
+    """Say what failed outside of the program, and what to do."""
+    if failure.errno in (errno.EPIPE, errno.EINVAL) or failure.filename is None:
+        # nothing more can reach standard output, not even when the interpreter closes it
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if failure.errno != errno.EPIPE:
+        where = f"'{failure.filename}'" if failure.filename else "standard output"
+        remedy = {
+            errno.ENOSPC: "Free some space, or write to another place.",
+            errno.EDQUOT: "Free some space, or write to another place.",
+        }.get(failure.errno or 0, "Choose a place that can be written to.")
+        reason = failure.strerror or str(failure)
+        print(f"force-diffusion: writing to {where} failed: {reason}. {remedy}", file=sys.stderr)
+    return FAILED_OUTSIDE
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,139 @@
+"""Eq. 5: the change of the direction of the contact along n⁻, derived, and as a mirror image."""
+
+from collections.abc import Iterator
+
+import sympy
+
+from derivations import eq03_extrapolation as eq03
+from derivations import eq04_contact_plus as eq04
+from derivations import witnesses
+from derivations.record import Claim, Derivation, Step, Witness
+from derivations.runner import run_alone
+from symbolic import contacts
+from symbolic.affine import Region
+from symbolic.as_printed import equation, minus, terms, times
+from symbolic.kernel import Ruling, all_of, decide_identity, decide_linear
+from symbolic.lattice import mirror
+from symbolic.symbols import (
+    DeltaNMinus,
+    DeltaR,
+    DeltaX,
+    Dot,
+    b_minus,
+    b_plus,
+    i,
+    j,
+    m,
+    n_minus,
+    n_x,
+    n_y,
+    r,
+)
+
+PRINTED = equation(
+    times(2, r, DeltaNMinus(i, j)),
+    terms(
+        times(terms(DeltaR(i, j), DeltaR(i - 1, j + 1)), terms(b_plus, b_minus, minus(n_minus))),
+        times(
+            b_plus,
+            terms(
+                DeltaR(i - j - 2, 0),
+                minus(DeltaR(i - j, 0)),
+                times(
+                    2,
+                    sympy.Sum(
+                        terms(DeltaR(i - (j - m) - 2, m), minus(DeltaR(i - (j - m), m))), (m, 1, j)
+                    ),
+                ),
+            ),
+        ),
+    ),
+)
+
+ZERO = sympy.Integer(0)
+ABOVE = (i - 1, j + 1)
+
+
+def contact_direction(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
+    """δn⁻ at a site, as a vector expression in the radii (Eq. 5), for layers 0 and above."""
+    return (PRINTED.rhs / (2 * r)).xreplace({i: across, j: layer})
+
+
+def from_displacements(above: sympy.Expr, below: sympy.Expr) -> sympy.Expr:
+    """2r δn⁻_ij: difference of the displacements less n⁻ times the sum of the two δr."""
+    return terms(above, minus(below), minus(times(n_minus, terms(DeltaR(i, j), DeltaR(*ABOVE)))))
+
+
+def steps() -> Iterator[Step]:
+    """The same derivation for the other contact, and the mirror image of Eq. 4."""
+    yield Step(
+        "As for Eq. 4, from the exact unit vector of the contact along n⁻:",
+        equation(times(2, r, DeltaNMinus(i, j)), from_displacements(DeltaX(*ABOVE), DeltaX(i, j))),
+    )
+    yield Step("Eq. 3 put in; now the b⁻ component is the two radii alone.", PRINTED)
+    yield Step(
+        "The mirror image of Eq. 4, i → −i at every bead with n⁺ ↔ n⁻ and b⁺ ↔ b⁻, is the "
+        "same equation.",
+        mirror(eq04.PRINTED),
+    )
+    yield Step(
+        "Again the change is at right angles to the contact.",
+        equation(Dot(n_minus, DeltaNMinus(i, j)), 0),
+    )
+
+
+def decide(_: int, candidate: sympy.Eq) -> Ruling:
+    """Compare with Eq. 3 put into the derivative: for j ≥ 1, and on the fixed base for j = 0."""
+    derived = from_displacements(eq03.displacement(*ABOVE), eq03.displacement(i, j))
+    above_base = decide_linear(candidate.rhs, derived, Region({j: 1}), is_vector=True)
+    at_base = decide_linear(
+        candidate.rhs.xreplace({j: ZERO}),
+        from_displacements(eq03.displacement(*ABOVE), ZERO).xreplace({j: ZERO}),
+        Region({}),
+        is_vector=True,
+    )
+    return all_of(above_base, at_base)
+
+
+def _unit_vector() -> Ruling:
+    change = contacts.unit_vector_change("-")
+    expected = (contacts.dx + contacts.radii * n_x, contacts.dy - contacts.radii * n_y)
+    return all_of(*(decide_identity(2 * r * change[axis], expected[axis]) for axis in range(2)))
+
+
+def _mirror_image() -> Ruling:
+    return decide_linear(mirror(eq04.PRINTED.rhs), PRINTED.rhs, Region({j: 0}), is_vector=True)
+
+
+def _orthogonal() -> Ruling:
+    return decide_linear(Dot(n_minus, PRINTED.rhs), sympy.Integer(0), Region({j: 0}))
+
+
+DERIVATION = Derivation(
+    number=5,
+    name="contact_minus",
+    title="Change of the contact direction along n⁻",
+    symbols=(
+        (DeltaNMinus(i, j), "change of the direction from (i, j) to (i−1, j+1)"),
+        (DeltaR(i, j), "deviation of the radius of bead (i, j)"),
+    ),
+    assumptions=("first order in δr", "fixed base; j ≥ 0"),
+    premises=(eq03.DERIVATION, eq04.DERIVATION),
+    printed=(PRINTED,),
+    steps=steps,
+    decide=decide,
+    claims=(
+        Claim("the derivative of the exact unit vector is (δx − δx′ − ρ n⁻)/2r", _unit_vector),
+        Claim("Eq. 5 is the mirror image of Eq. 4", _mirror_image),
+        Claim("n⁻·δn⁻ = 0: a unit vector to first order", _orthogonal),
+    ),
+    witnesses=(
+        Witness(
+            "Taylor coefficients of the exact packing equal it as fractions",
+            lambda seed: witnesses.geometry(PRINTED.rhs, witnesses.doubled_direction("-"), seed),
+        ),
+    ),
+)
+
+if __name__ == "__main__":
+    raise SystemExit(run_alone(DERIVATION))

@@ -1,0 +1,141 @@
+"""Eq. 6: force balance of the loaded bead, from the constraints that its contacts impose."""
+
+from collections.abc import Iterator
+
+import sympy
+
+from derivations import eq04_contact_plus as eq04
+from derivations import eq05_contact_minus as eq05
+from derivations import witnesses
+from derivations.record import Claim, Derivation, Step, Witness
+from derivations.runner import run_alone
+from symbolic.as_printed import equation, terms, times
+from symbolic.kernel import Ruling, all_of, decide_identity, decide_vector_identity
+from symbolic.symbols import (
+    DeltaNMinus,
+    DeltaNPlus,
+    ForceMinus,
+    ForcePlus,
+    Load,
+    e_y,
+    f_load,
+    k,
+    l,
+    n_minus,
+    n_plus,
+    n_x,
+    n_y,
+    phi,
+)
+
+LEFT, RIGHT = (k - 1, l - 1), (k + 1, l - 1)
+
+PRINTED = equation(
+    terms(
+        Load(k, l),
+        times(terms(n_plus, DeltaNPlus(*LEFT)), ForcePlus(*LEFT)),
+        times(terms(n_minus, DeltaNMinus(*RIGHT)), ForceMinus(*RIGHT)),
+    ),
+    sympy.Integer(0),
+)
+
+# a support at (X, Y) pushes on the bead at (x, y) along the gradient of their distance
+x, y, X, Y = sympy.symbols("x y X Y", real=True)
+DISTANCE = sympy.sqrt((x - X) ** 2 + (y - Y) ** 2)
+
+
+def steps() -> Iterator[Step]:
+    """A frictionless contact pushes along the gradient of the distance of the two centres."""
+    yield Step(
+        "A frictionless contact opposes only a change of the distance of its two centres: "
+        "its force on the bead is f times the gradient of that distance, f ≥ 0 when "
+        "compressive.",
+        sympy.Tuple(DISTANCE, sympy.diff(DISTANCE, x), sympy.diff(DISTANCE, y)),
+    )
+    yield Step(
+        "That gradient is the unit vector from the support to the bead: from (k−1, l−1) "
+        "along n⁺, from (k+1, l−1) along n⁻.",
+        sympy.Tuple(terms(n_plus, DeltaNPlus(*LEFT)), terms(n_minus, DeltaNMinus(*RIGHT))),
+    )
+    yield Step("The load and the two forces add up to zero.", PRINTED)
+    yield Step(
+        "In the ordered packing, with the load f_load downwards, both supports carry f_load/2n_y.",
+        equation(f_load / (2 * n_y) * terms(n_plus, n_minus), f_load * e_y),
+    )
+
+
+def decide(_: int, candidate: sympy.Eq) -> Ruling:
+    """The candidate is compared with load + Σ f ∇(distance) = 0, for any forces and directions."""
+    directions = {
+        "+": (ForcePlus(*LEFT), n_plus + DeltaNPlus(*LEFT)),
+        "-": (ForceMinus(*RIGHT), n_minus + DeltaNMinus(*RIGHT)),
+    }
+    balance = Load(k, l)
+    for force, unit in directions.values():
+        balance += force * unit
+    return decide_vector_identity(candidate.lhs - candidate.rhs, balance)
+
+
+def _gradient_is_unit_vector() -> Ruling:
+    # the square root is taken out: D ∂D/∂x = x − X, and the components' squares add up to one
+    gradient = [sympy.diff(DISTANCE, axis) for axis in (x, y)]
+    squared = DISTANCE**2
+    root = sympy.Symbol("D", positive=True)
+    in_root = [part.xreplace({DISTANCE: root, 1 / DISTANCE: 1 / root}) for part in gradient]
+    return all_of(
+        decide_identity(in_root[0] * root, x - X),
+        decide_identity(in_root[1] * root, y - Y),
+        decide_identity((in_root[0] ** 2 + in_root[1] ** 2) * root**2, squared),
+    )
+
+
+def _no_torque() -> Ruling:
+    # a force along the contact, acting at the distance R along it, has no torque
+    radius, force, across, up = sympy.symbols("R f N_x N_y", real=True)
+    arm, push = (radius * across, radius * up), (force * across, force * up)
+    return decide_identity(arm[0] * push[1] - arm[1] * push[0], sympy.Integer(0))
+
+
+def _ordered_solution() -> Ruling:
+    """The ordered forces f_load/2n_y carry the load; and n⁺·n⁻ = φ."""
+    return all_of(
+        decide_vector_identity(f_load / (2 * n_y) * (n_plus + n_minus), f_load * e_y),
+        decide_identity(n_y**2 - n_x**2, phi),
+    )
+
+
+DERIVATION = Derivation(
+    number=6,
+    name="force_balance",
+    title="Force balance of the loaded bead",
+    symbols=(
+        (Load(k, l), "load on bead (k, l)"),
+        (ForcePlus(k - 1, l - 1), "force of the contact from (k−1, l−1), compressive when > 0"),
+        (ForceMinus(k + 1, l - 1), "force of the contact from (k+1, l−1)"),
+    ),
+    assumptions=(
+        "no friction; contacts push along the line of centres",
+        "bead (k, l) carries nothing but its load",
+    ),
+    premises=(eq04.DERIVATION, eq05.DERIVATION),
+    printed=(PRINTED,),
+    steps=steps,
+    decide=decide,
+    claims=(
+        Claim(
+            "the gradient of the distance is the unit vector from the support to the bead",
+            _gradient_is_unit_vector,
+        ),
+        Claim("a force along the contact has no torque about the centre", _no_torque),
+        Claim("two forces f_load/2n_y along n⁺ and n⁻ carry the load f_load", _ordered_solution),
+    ),
+    witnesses=(
+        Witness(
+            "the loaded bead of an exact packing is balanced at orders ε⁰ and ε¹",
+            witnesses.loaded_bead,
+        ),
+    ),
+)
+
+if __name__ == "__main__":
+    raise SystemExit(run_alone(DERIVATION))

@@ -1,0 +1,127 @@
+"""Eq. 9: the contribution of a contact force to a contact straight below it."""
+
+from collections.abc import Iterator
+
+import sympy
+
+from derivations import eq08_propagation as eq08
+from derivations import witnesses
+from derivations.record import Claim, Derivation, Step, Witness
+from derivations.runner import run_alone
+from symbolic.affine import Region
+from symbolic.as_printed import equation, minus, terms, times
+from symbolic.kernel import Ruling, Verdict, all_of, decide_identity, decide_linear, proved
+from symbolic.paths import ENTRY, straight_end
+from symbolic.symbols import (
+    DeltaNPlus,
+    Dot,
+    ForcePlus,
+    epsilon,
+    i,
+    j,
+    k,
+    l,
+    n_minus,
+    phi,
+    q,
+)
+
+PRINTED = equation(
+    ForcePlus(i, j) / ForcePlus(*ENTRY),
+    terms(
+        1,
+        times(phi / (1 - phi**2), Dot(n_minus, terms(DeltaNPlus(i, j), minus(DeltaNPlus(*ENTRY))))),
+    ),
+)
+
+
+def first_order_product(left: sympy.Expr, right: sympy.Expr) -> sympy.Expr:
+    """(1 + A)(1 + B) to first order, 1 + A and 1 + B given: one plus both changes."""
+    return terms(left, right, -1)
+
+
+def after(candidate: sympy.Expr, steps_down: sympy.Expr) -> sympy.Expr:
+    """The ratio at the contact that lies ``steps_down`` straight below the entry."""
+    across, layer = straight_end(steps_down)
+    return candidate.xreplace({i: across, j: layer})
+
+
+def steps() -> Iterator[Step]:
+    """Induction on the number q of beads passed."""
+    yield Step(
+        "The entry itself: no bead passed, the ratio is 1.",
+        equation(ForcePlus(*ENTRY) / ForcePlus(*ENTRY), 1),
+    )
+    yield Step(
+        "After q beads the contact reached has the lower bead (k−1−q, l−1−q).",
+        sympy.Tuple(*straight_end(q)),
+    )
+    yield Step(
+        "The next bead multiplies by Eq. 8; to first order the changes add up.",
+        equation(
+            ForcePlus(*straight_end(q + 1)) / ForcePlus(*straight_end(q)),
+            eq08.straight(*straight_end(q)),
+        ),
+    )
+    yield Step("The directions in between cancel; the ends are left.", PRINTED)
+
+
+def decide(_: int, candidate: sympy.Eq) -> Ruling:
+    """Base case q = 0 and the inductive step with symbolic q."""
+    zero = sympy.Integer(0)
+    base = decide_linear(after(candidate.rhs, zero), sympy.Integer(1), Region({}))
+    step = decide_linear(
+        after(candidate.rhs, q + 1),
+        first_order_product(after(candidate.rhs, q), eq08.straight(*straight_end(q))),
+        Region({q: 0}),
+    )
+    ruling = all_of(base, step)
+    if ruling.verdict is Verdict.PROVED:
+        return proved("base case q = 0 and inductive step with a symbolic number q of beads")
+    return ruling
+
+
+def _product_rule() -> Ruling:
+    first, second = sympy.symbols("A B")
+    product = (1 + epsilon * first) * (1 + epsilon * second)
+    slope = sympy.diff(product, epsilon).subs(epsilon, 0)
+    return all_of(
+        decide_identity(product.subs(epsilon, 0), sympy.Integer(1)),
+        decide_identity(slope, first + second),
+    )
+
+
+def _is_the_only_path() -> Ruling:
+    # straight down, the entry's index and layer fall together: k − i = l − j and nothing else
+    across, layer = straight_end(q)
+    return decide_identity((k - across) - (l - layer), sympy.Integer(0))
+
+
+DERIVATION = Derivation(
+    number=9,
+    name="straight_path",
+    title="Straight path without a branch",
+    symbols=(
+        (ForcePlus(*ENTRY), "force entering below the loaded bead (k, l) along n⁺"),
+        (ForcePlus(i, j), "force of a contact straight below it, k − i = l − j"),
+        (q, "number of beads passed"),
+    ),
+    assumptions=("first order in δn^±", "k − i = l − j ≥ 1", "the beads passed carry no load"),
+    premises=(eq08.DERIVATION,),
+    printed=(PRINTED,),
+    steps=steps,
+    decide=decide,
+    claims=(
+        Claim("(1 + εA)(1 + εB) has the first-order change A + B", _product_rule),
+        Claim("the straight path ends on contacts with k − i = l − j", _is_the_only_path),
+    ),
+    witnesses=(
+        Witness(
+            "Taylor coefficients of the exact packing equal it as fractions",
+            lambda seed: witnesses.straight_path(PRINTED.rhs, seed),
+        ),
+    ),
+)
+
+if __name__ == "__main__":
+    raise SystemExit(run_alone(DERIVATION))

@@ -1,0 +1,193 @@
+"""Eq. 11: the contact force under a surface load, as the sum over all loads and paths."""
+
+from collections.abc import Iterator
+
+import sympy
+
+from derivations import eq04_contact_plus as eq04
+from derivations import eq05_contact_minus as eq05
+from derivations import eq07_load_split as eq07
+from derivations import eq09_straight_path as eq09
+from derivations import eq10_branched_path as eq10
+from derivations import witnesses
+from derivations.record import Claim, Derivation, Step, Witness
+from derivations.runner import run_alone
+from symbolic.affine import Region
+from symbolic.as_printed import equation, minus, terms, times
+from symbolic.kernel import Ruling, all_of, decide_identity, decide_linear
+from symbolic.symbols import (
+    DeltaNMinus,
+    DeltaNPlus,
+    Dot,
+    ForcePlus,
+    M,
+    f_load,
+    i,
+    j,
+    k,
+    l,
+    n,
+    n_minus,
+    n_plus,
+    n_y,
+    phi,
+)
+
+PRINTED = equation(
+    ForcePlus(i, j) / (f_load / (2 * n_y)),
+    terms(
+        1,
+        times(
+            1 / (1 - phi**2),
+            terms(
+                times(phi, Dot(n_minus, DeltaNPlus(i, j))),
+                minus(Dot(n_plus, DeltaNMinus(i + M - j + 1, M - 1))),
+            ),
+        ),
+        minus(
+            times(
+                1 / (1 - phi**2),
+                sympy.Sum(
+                    Dot(
+                        n_plus,
+                        terms(DeltaNMinus(i + n + 1, j + n - 1), minus(DeltaNMinus(i + n, j + n))),
+                    ),
+                    (n, 1, M - j - 1),
+                ),
+            )
+        ),
+    ),
+)
+
+INTERIOR = Region({j: 0, M: j + 1})
+
+STRAIGHT_LOAD = (i + M - j, M)
+"""The surface bead straight above the contact."""
+
+
+def branched_load(count: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
+    """The surface bead whose force turns towards the contact ``count`` beads above (i, j)."""
+    return i + 2 * count - (M - j), M
+
+
+def in_radii(expression: sympy.Expr) -> sympy.Expr:
+    """Put Eqs. 4 and 5 in for the contact directions."""
+    return expression.replace(DeltaNPlus, eq04.contact_direction).replace(
+        DeltaNMinus, eq05.contact_direction
+    )
+
+
+def contributions() -> tuple[sympy.Expr, sympy.Expr]:
+    """Straight contribution (Eq. 7 times Eq. 9) and the sum of the branched ones (Eq. 10)."""
+    at_load = {k: STRAIGHT_LOAD[0], l: STRAIGHT_LOAD[1]}
+    straight = eq09.first_order_product(
+        eq07.split_plus(*STRAIGHT_LOAD), eq09.PRINTED.rhs.xreplace(at_load)
+    )
+    branched = sympy.Sum(eq10.branched_plus(i, j, n), (n, 1, M - j - 1))
+    return straight, branched
+
+
+def steps() -> Iterator[Step]:
+    """One straight path, M − j − 1 paths with one branch."""
+    straight, branched = contributions()
+    yield Step(
+        "The surface bead straight above the contact is (i+M−j, M). Its load splits by "
+        "Eq. 7, and Eq. 9 carries the force down; the first-order changes add up.",
+        straight,
+    )
+    yield Step(
+        "The force along n⁻ below the surface bead (i−M+j+2n, M) turns into the contact at "
+        "the bead (i+n, j+n): the mirror image of Eq. 10, with the ordered force as its "
+        "source. n = 1, …, M−j−1 are all such loads.",
+        branched,
+    )
+    yield Step("Added up, the direction of the contact below the straight load cancels.", PRINTED)
+
+
+def decide(_: int, candidate: sympy.Eq) -> Ruling:
+    """Compare with the sum of all contributions, for 0 ≤ j < M (an empty sum for j = M − 1)."""
+    straight, branched = contributions()
+    return decide_linear(candidate.rhs, terms(straight, branched), INTERIOR)
+
+
+def _loads() -> Ruling:
+    # the mirror image of n = ½[(l−j) − (k−i)] at the load found must give n back, at each n
+    across, layer = branched_load(n)
+    count = ((layer - j) + (across - i)) / 2
+    ends = (branched_load(sympy.Integer(1))[0], branched_load(M - j - 1)[0])
+    return all_of(
+        decide_identity(count, n),
+        decide_identity(ends[0], i - M + j + 2),
+        decide_identity(ends[1], i + M - j - 2),
+    )
+
+
+def _next_to_the_surface() -> Ruling:
+    top = {j: M - 1}
+    left = PRINTED.rhs.xreplace(top)
+    split = eq07.split_plus(i + 1, M)
+    return decide_linear(left, split, Region({M: 1}))
+
+
+def _next_to_the_base() -> Ruling:
+    straight, branched = contributions()
+    base = {j: sympy.Integer(0)}
+    return decide_linear(
+        in_radii(PRINTED.rhs.xreplace(base)),
+        in_radii(terms(straight, branched).xreplace(base)),
+        Region({M: 1}),
+    )
+
+
+def _mean() -> Ruling:
+    from symbolic.exact import FIELD
+    from symbolic.kernel import from_test
+    from symbolic.linear_forms import CONSTANT
+    from symbolic.reading import Reader
+
+    form = Reader(INTERIOR).scalar(in_radii(PRINTED.rhs))
+    constants = [weight for site, weight in form.sites.items() if site.family == CONSTANT]
+    is_one = len(constants) == 1 and (constants[0] - FIELD.one).is_zero()
+    return from_test(is_one, "the constant part is 1, all else is linear in radii of zero mean")
+
+
+DERIVATION = Derivation(
+    number=11,
+    name="total_force",
+    title="Contact force under a surface load",
+    symbols=(
+        (ForcePlus(i, j), "force of the contact from (i, j) to (i+1, j+1)"),
+        (f_load, "load on every bead of the surface layer j = M, downwards"),
+        (M, "height of the packing in layers above the base"),
+        (n, "layers between the contact and the bead at which a force turns into it"),
+    ),
+    assumptions=(
+        "first order in δr",
+        "0 ≤ j < M",
+        "only the surface beads are loaded",
+        "no horizontal boundary is met (W > M)",
+    ),
+    premises=(eq04.DERIVATION, eq05.DERIVATION, eq07.DERIVATION, eq09.DERIVATION, eq10.DERIVATION),
+    printed=(PRINTED,),
+    steps=steps,
+    decide=decide,
+    claims=(
+        Claim("the branching loads are k = i−M+j+2, …, i+M−j−2, one for each n", _loads),
+        Claim("at j = M − 1 the sum is empty and Eq. 7 is left", _next_to_the_surface),
+        Claim("at j = 0 it holds in the radii too", _next_to_the_base),
+        Claim("the mean force is f_load/2n_y at every height", _mean),
+    ),
+    witnesses=(
+        Witness(
+            "Taylor coefficients of the exact packing equal it as fractions",
+            lambda seed: witnesses.surface_load(in_radii(PRINTED.rhs), seed),
+        ),
+        Witness(
+            "exact forces at 80 digits differ from it by a remainder of order ε²",
+            lambda seed: witnesses.second_order_forces(in_radii(PRINTED.rhs), seed),
+        ),
+    ),
+)
+
+if __name__ == "__main__":
+    raise SystemExit(run_alone(DERIVATION))

@@ -1,0 +1,214 @@
+"""Eq. 12: the same force as weights of the second differences Δ, to leading order in M."""
+
+from collections.abc import Iterator
+
+import sympy
+
+from derivations import eq11_total_force as eq11
+from derivations import witnesses
+from derivations.record import Claim, Derivation, Step, Witness
+from derivations.runner import run_alone
+from symbolic.affine import Region
+from symbolic.as_printed import equation, minus, terms, times
+from symbolic.exact import NotExactError
+from symbolic.kernel import (
+    Ruling,
+    all_of,
+    decide_linear,
+    from_test,
+    proved,
+    refuted,
+    undecided,
+)
+from symbolic.reading import Reader
+from symbolic.symbols import (
+    Braces,
+    DeltaNMinus,
+    Dot,
+    ForcePlus,
+    M,
+    SecondDifference,
+    f_load,
+    i,
+    j,
+    m,
+    n,
+    n_plus,
+    n_y,
+    phi,
+    r,
+)
+from symbolic.variance import at_fixed_z, fluctuation, largest_weight, order, variance
+from symbolic.weights import UndeterminedError
+
+ON_DIAGONAL = SecondDifference(i - (j - m), m)
+PREFACTOR = 1 / (r * (1 - phi**2))
+
+BRACES = Braces(M - j, M - m, m, j)
+FULL_COUNT = Braces(M - j, M - m + 1, m, j)
+
+PRINTED = equation(
+    terms(ForcePlus(i, j) / (f_load / (2 * n_y)), -1),
+    minus(times(PREFACTOR, sympy.Sum(times(BRACES, ON_DIAGONAL), (m, 1, M)))),
+)
+
+DOUBLE_SUM = sympy.Sum(sympy.Sum(ON_DIAGONAL, (m, 1, j + n)), (n, 1, M - j))
+"""The paper's intermediate form: Δ summed over the layers below each branch."""
+
+DEEP = Region({j: 6, M: j + 6})
+"""Away from base and surface, where all breakpoints are in order; limits are taken in it."""
+
+BASE_TERM = times((M - j - 1) / (2 * r * (1 - phi**2)), SecondDifference(i - j, 0))
+"""The largest of the dropped terms: half a Δ on the base for each branch."""
+
+LEADING_ORDER = 3  # of the variance of Eq. 11, as a power of M
+
+
+def exact_fluctuation() -> sympy.Expr:
+    """Eq. 11 less one, in the radii."""
+    return eq11.in_radii(eq11.PRINTED.rhs - 1)
+
+
+def variance_ignored(candidate: sympy.Expr) -> tuple[int, sympy.Expr]:
+    """Order in M of the variance of Eq. 11 less the candidate, and its leading coefficient."""
+    difference = variance(exact_fluctuation() - candidate, DEEP)
+    if difference.is_zero():
+        return order(difference), sympy.Integer(0)
+    return order(difference), at_fixed_z(difference)
+
+
+def dropped_variance() -> sympy.Expr:
+    """Variance of what Eq. 12 drops, exact for j ≥ 6 and M ≥ j + 6."""
+    return variance(exact_fluctuation() - PRINTED.rhs, DEEP).to_sympy()
+
+
+def steps() -> Iterator[Step]:
+    """Put in Eqs. 4 and 5, keep the sums, count how often each Δ occurs."""
+    yield Step(
+        "In Eq. 11 the sum over n compares neighbouring contacts; with Eq. 5 each term is "
+        "half a second difference for every radius below the branch on three neighbouring "
+        "diagonals, twice over: Δ = 2δr_rs − δr_(r−2,s) − δr_(r+2,s).",
+        equation(SecondDifference(i, j), SecondDifference(i, j).doit()),
+    )
+    yield Step(
+        "Keeping the sums of Eq. 5 alone, and one more term n = M − j:",
+        minus(times(PREFACTOR, DOUBLE_SUM)),
+    )
+    yield Step(
+        "Exchanging the sums, Δ in layer m occurs for n = max(1, m−j), …, M−j: M − j times "
+        "for m ≤ j, and M − m + 1 times for m > j.",
+        minus(times(PREFACTOR, sympy.Sum(times(FULL_COUNT, ON_DIAGONAL), (m, 1, M)))),
+    )
+    yield Step(
+        "Dropping the 1 beside M − m, which is of the order that is dropped anyway:", PRINTED
+    )
+    yield Step(
+        "The largest dropped term stands on the base, with a weight of order M on three "
+        "radii; all other dropped weights are of order 1.",
+        minus(BASE_TERM),
+    )
+
+
+def decide(_: int, candidate: sympy.Eq) -> Ruling:
+    """Exact form less candidate has a variance of lower order than M³."""
+    try:
+        power, coefficient = variance_ignored(candidate.rhs)
+    except (NotExactError, UndeterminedError, ValueError) as reason:
+        return undecided(str(reason))
+    if power < LEADING_ORDER:
+        return proved(
+            f"what is dropped has a variance of order M^{power}, against M³ kept: "
+            f"{coefficient} · M^{power}"
+        )
+    return refuted(
+        f"the difference from Eq. 11 has a variance of order M^{power}, not below M³: "
+        f"{coefficient} · M^{power}"
+    )
+
+
+def _count() -> Ruling:
+    full = sympy.Sum(times(FULL_COUNT, ON_DIAGONAL), (m, 1, M))
+    return decide_linear(DOUBLE_SUM, full, Region({j: 1, M: j + 1}))
+
+
+def _braces_are_not_the_count() -> Ruling:
+    """Refuting the printed count exactly, and what it differs by."""
+    braces = sympy.Sum(times(BRACES, ON_DIAGONAL), (m, 1, M))
+    by = sympy.Sum(ON_DIAGONAL, (m, j + 1, M))
+    return decide_linear(DOUBLE_SUM, terms(braces, by), Region({j: 1, M: j + 1}))
+
+
+def _dropped() -> Ruling:
+    dropped = exact_fluctuation() - PRINTED.rhs
+    rest = dropped + BASE_TERM
+    orders = (
+        largest_weight(fluctuation(dropped, DEEP), DEEP),
+        largest_weight(fluctuation(rest, DEEP), DEEP),
+    )
+    end = minus(times(1 / (1 - phi**2), Dot(n_plus, DeltaNMinus(i + M - j + 1, M - 1))))
+    end_order = largest_weight(fluctuation(eq11.in_radii(end), DEEP), DEEP)
+    return from_test(
+        orders == (1, 0) and end_order == 0,
+        "dropped weights are of order M on the three base radii of ½(M−j−1)Δ and of order 1 "
+        "elsewhere; the end term of Eq. 11 has weights of order 1",
+        f"orders found: {orders}, end term {end_order}",
+    )
+
+
+def _independent() -> Ruling:
+    """Δ in different layers share no radius: the squared weights add up, six for each Δ."""
+    braces = sympy.Sum(6 * (M - j) ** 2, (m, 1, j)) + sympy.Sum(6 * (M - m) ** 2, (m, j + 1, M))
+    form = sympy.Sum(times(BRACES, ON_DIAGONAL), (m, 1, M))
+    from symbolic.exact import FIELD
+    from symbolic.symbols import sigma
+
+    total = Reader(DEEP).scalar(braces).constant_part()
+    assert total is not None
+    difference = variance(form, DEEP) - total * FIELD.from_sympy(sigma**2)
+    return from_test(difference.is_zero(), "Var Σ wΔ = 6σ² Σ w², all weights squared site by site")
+
+
+def _consistent() -> Ruling:
+    return all_of(_count(), _braces_are_not_the_count())
+
+
+DERIVATION = Derivation(
+    number=12,
+    name="delta_weights",
+    title="Weights of the second differences",
+    symbols=(
+        (SecondDifference(i, j), "2δr_ij − δr_(i−2,j) − δr_(i+2,j)"),
+        (M, "height of the packing"),
+        (m, "layer of a bead on the diagonal through the contact along n⁺"),
+    ),
+    assumptions=("first order in δr", "M → ∞ at fixed z = j/M, 0 < z < 1"),
+    premises=(eq11.DERIVATION,),
+    printed=(PRINTED,),
+    relation="≈",
+    steps=steps,
+    decide=decide,
+    claims=(
+        Claim(
+            "the double sum counts M − j for m ≤ j and M − m + 1 for m > j; the printed braces "
+            "leave out Δ once for every m > j",
+            _consistent,
+        ),
+        Claim("orders of the dropped terms", _dropped),
+        Claim("Δ of different layers share no radius", _independent),
+    ),
+    witnesses=(
+        Witness(
+            "weights of the exact packing less the printed ones: squares sum as stated",
+            lambda seed: witnesses.dropped_weights(PRINTED.rhs, dropped_variance(), seed),
+        ),
+    ),
+    remarks=(
+        "The double sum printed just before Eq. 12 counts M − m + 1 for m > j; the braces "
+        "say M − m. The difference is of the order that Eq. 12 drops.",
+        "The sum over n in Eq. 11 ends at M − j − 1, the one printed before Eq. 12 at M − j: "
+        "again a difference of dropped order.",
+    ),
+)
+
+if __name__ == "__main__":
+    raise SystemExit(run_alone(DERIVATION))

@@ -1,0 +1,156 @@
+"""Eq. 13: variance of the contact forces under a surface load; exact, and to leading order."""
+
+from collections.abc import Iterator
+from functools import cache
+
+import sympy
+
+from derivations import eq11_total_force as eq11
+from derivations import eq12_delta_weights as eq12
+from derivations.asymptotics import compare_leading_order, explicit_variances
+from derivations.record import Claim, Derivation, Step, Witness
+from derivations.runner import run_alone
+from symbolic.as_printed import equation, terms, times
+from symbolic.certified_sums import certified_sum
+from symbolic.exact import FIELD
+from symbolic.kernel import Ruling, all_of, decide_identity, from_test
+from symbolic.symbols import M, j, m, phi, r, sigma, z
+from symbolic.variance import ExactForm, exact_variances, leading
+
+RELATIVE_VARIANCE = sympy.Symbol(r"\sigma_f^2(z)/\langle f\rangle^2")
+
+PRINTED = equation(
+    RELATIVE_VARIANCE,
+    times(2 * M**3 / (1 - phi**2) ** 2, terms(1, -z) ** 2, terms(times(2, z), 1), (sigma / r) ** 2),
+)
+
+
+@cache
+def exact_forms() -> dict[str, ExactForm]:
+    """Exact σ_f²/⟨f⟩² under a surface load at every layer, from Eq. 11 site by site."""
+    return exact_variances(eq11.in_radii(eq11.PRINTED.rhs))
+
+
+def sum_of_weights() -> sympy.Expr:
+    """6 Σ w² over the second differences of Eq. 12, by SymPy, each sum with its certificate."""
+    below = certified_sum((M - j) ** 2, m, sympy.Integer(1), j)
+    above = certified_sum((M - m) ** 2, m, j + 1, M)
+    return 6 * (below + above)
+
+
+def steps() -> Iterator[Step]:
+    """Six radii's worth for each Δ, the squared weights summed."""
+    yield Step(
+        "Each Δ holds one radius with the weight 2 and two with the weight −1: its variance "
+        "is 6σ². Those of Eq. 12 lie in different layers and are independent.",
+        6 * (sympy.Sum((M - j) ** 2, (m, 1, j)) + sympy.Sum((M - m) ** 2, (m, j + 1, M))),
+    )
+    yield Step("The sums, in closed form:", sympy.factor(sum_of_weights()))
+    yield Step(
+        "Leading order in M at fixed z = j/M, with the prefactor of Eq. 12 squared:", PRINTED
+    )
+    yield Step(
+        "Exact, for 2 ≤ j ≤ M − 2: every radius in Eq. 11 with its weight squared.",
+        equation(RELATIVE_VARIANCE, exact_forms()["interior"].expression),
+    )
+    yield Step("The next order in M at fixed z, relative to (σ/r)²/(1−φ²)²:", next_order())
+
+
+def next_order() -> sympy.Expr:
+    """The M² term of the exact variance at fixed z, without (σ/r)²/(1−φ²)²."""
+    return sympy.Rational(-3, 2) * M**2 * (1 - z) * (1 + 3 * z)
+
+
+def decide(_: int, candidate: sympy.Eq) -> Ruling:
+    """The exact variance less the candidate is of order M² at most."""
+    return compare_leading_order(exact_forms()["interior"].value, candidate.rhs)
+
+
+def _weights() -> Ruling:
+    total = FIELD.from_sympy(sum_of_weights() * eq12.PREFACTOR**2 * sigma**2)
+    printed = FIELD.from_sympy(PRINTED.rhs.xreplace({z: j / M}))
+    return from_test(
+        (leading(total) - leading(printed)).is_zero(),
+        "6σ² Σ w² of Eq. 12 has the printed leading order",
+    )
+
+
+def _edges() -> Ruling:
+    forms = exact_forms()
+    base = leading(forms["base"].value)
+    at_zero = FIELD.from_sympy(PRINTED.rhs.xreplace({z: sympy.Integer(0)}))
+    surface = FIELD.from_sympy(2 * M * (1 + phi**2) * (sigma / r) ** 2 / (1 - phi**2) ** 2)
+    return from_test(
+        (base - at_zero).is_zero() and (leading(forms["surface"].value) - surface).is_zero(),
+        "at j = 0 the leading order is Eq. 13 at z = 0; at j = M − 1 it is 2(1+φ²) M where the "
+        "printed form, outside its limit, would give 6 M",
+    )
+
+
+def _next_order() -> Ruling:
+    value = exact_forms()["interior"].value
+    scale = (sigma / r) ** 2 / (1 - phi**2) ** 2
+    rest = value - FIELD.from_sympy((PRINTED.rhs).xreplace({z: j / M}))
+    expected = FIELD.from_sympy((next_order() * scale).xreplace({z: j / M}))
+    return from_test(
+        (leading(rest) - expected).is_zero(), f"the next order is {next_order()} (σ/r)²/(1−φ²)²"
+    )
+
+
+def _corollaries() -> Ruling:
+    profile = (1 - z) ** 2 * (2 * z + 1)
+    slope = sympy.diff(profile, z)
+    return all_of(
+        decide_identity(slope, -6 * z * (1 - z)),
+        decide_identity(slope.xreplace({z: sympy.Integer(0)}), sympy.Integer(0)),
+        decide_identity(
+            sympy.diff(profile, z, 2).xreplace({z: sympy.Integer(1)}), sympy.Integer(6)
+        ),
+    )
+
+
+DERIVATION = Derivation(
+    number=13,
+    name="surface_diffusion",
+    title="Variance of the forces under a surface load",
+    symbols=(
+        (sigma, "standard deviation σ_δr of the radii"),
+        (r, "mean radius"),
+        (M, "height of the packing"),
+        (z, "relative height j/M"),
+        (phi, "n⁺·n⁻"),
+    ),
+    assumptions=(
+        "the radii are independent, of zero mean and variance σ²",
+        "first order in δr",
+        "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M",
+    ),
+    premises=(eq11.DERIVATION, eq12.DERIVATION),
+    printed=(PRINTED,),
+    relation="∼",
+    steps=steps,
+    decide=decide,
+    claims=(
+        Claim("the squared weights of Eq. 12 sum to the printed form", _weights),
+        Claim("the next order in M", _next_order),
+        Claim("exact forms at the base and below the surface", _edges),
+        Claim(
+            "broadening stops at the base: the slope in z is −6z(1 − z), zero at z = 0",
+            _corollaries,
+        ),
+    ),
+    witnesses=(
+        Witness(
+            "exact variances equal explicit sums of squared weights, all j < M ≤ 5",
+            lambda _: explicit_variances(exact_forms(), eq11.in_radii(eq11.PRINTED.rhs)),
+        ),
+    ),
+    remarks=(
+        "The limit is taken at fixed z. A fixed number of layers below the surface the "
+        "printed form does not apply: at j = M − 1 the exact variance grows as 2(1+φ²) M, "
+        "not 6 M.",
+    ),
+)
+
+if __name__ == "__main__":
+    raise SystemExit(run_alone(DERIVATION))

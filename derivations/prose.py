@@ -1,0 +1,126 @@
+"""Plain Unicode sentences as LaTeX: words stay text, what reads as mathematics is set as such."""
+
+import re
+import unicodedata
+
+_MATHS = {
+    "−": "-", "±": r"\pm ", "∓": r"\mp ", "·": r"\cdot ", "×": r"\times ", "…": r"\ldots ",
+    "≤": r"\leq ", "≥": r"\geq ", "≠": r"\neq ", "≈": r"\approx ", "∼": r"\sim ", "≡": r"\equiv ",
+    "↔": r"\leftrightarrow ", "←": r"\leftarrow ", "∘": r"\circ ", "∎": r"\Box ",
+    "∝": r"\propto ", "→": r"\to ", "⇒": r"\Rightarrow ", "⇔": r"\Leftrightarrow ", "↦": r"\mapsto ",
+    "∈": r"\in ", "∞": r"\infty ", "∂": r"\partial ", "√": r"\surd ", "Σ": r"\sum ", "∑": r"\sum ",
+    "⟨": r"\langle ", "⟩": r"\rangle ", "½": r"\frac{1}{2}", "¼": r"\frac{1}{4}", "°": r"^{\circ}",
+    "α": r"\alpha ", "β": r"\beta ", "γ": r"\gamma ", "δ": r"\delta ", "ε": r"\varepsilon ",
+    "η": r"\eta ", "θ": r"\theta ", "κ": r"\kappa ", "λ": r"\lambda ", "μ": r"\mu ", "ν": r"\nu ",
+    "ρ": r"\rho ", "σ": r"\sigma ", "τ": r"\tau ", "φ": r"\phi ", "ψ": r"\psi ", "ω": r"\omega ",
+    "Δ": r"\Delta ", "Φ": r"\Phi ", "Ω": r"\Omega ", "ℚ": r"\mathbf{Q}", "ℤ": r"\mathbf{Z}",
+    "ᵀ": r"^{T}", "ᵃ": r"^{a}", "ᵇ": r"^{b}", "ⁿ": r"^{n}", "ʲ": r"^{j}", "′": "'",
+    "⌊": r"\lfloor ", "⌋": r"\rfloor ", "⌈": r"\lceil ", "⌉": r"\rceil ", "∪": r"\cup ",
+    "≪": r"\ll ", "≫": r"\gg ", "≲": r"\lesssim ", "⊥": r"\perp ", "∀": r"\forall ", "∃": r"\exists ",
+}  # fmt: skip
+_RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-", strict=True))
+_LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉₊₋", "0123456789+-", strict=True))
+_TEXT = {
+    "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#",
+    "%": r"\%", "_": r"\_", "^": r"\^{}", "~": r"\~{}", "<": "$<$", ">": "$>$", "|": "$|$",
+    "–": "--", "—": "---", "’": "'", "‘": "`", "“": "``", "”": "''", "é": r"\'e", "ö": r'\"o',
+    "…": r"\ldots{}", "§": r"\S{}", "\N{NO-BREAK SPACE}": "~",
+}  # fmt: skip
+
+_RUN = re.compile("([⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻]+)|([₀₁₂₃₄₅₆₇₈₉₊₋]+)")
+_INDEXED = re.compile(r"_(?:\(([^()]*)\)|([A-Za-z0-9δ]+|±))")
+_VECTOR = re.compile(r"(?<![A-Za-z\\{])n(?=\^\{[-+]|\^?\\pm)")
+_RECIPROCAL = re.compile(r"(?<![A-Za-z\\{])b(?=\^\{[-+]|\^?\\pm)")
+_NAMES = re.compile(r"(?<![A-Za-z\\])(max|min)(?![A-Za-z])")
+_ROOT = re.compile(r"√(\d+|\([^()]*\))")
+_PUNCTUATION = re.compile(r"(?P<open>[(“\"]*)(?P<core>.*?)(?P<close>[)”\".,;:?!]*)", re.DOTALL)
+_SYMBOLIC = re.compile("[" + re.escape("".join([*_MATHS, *_RAISED, *_LOWERED])) + "_^=+*/<>|0-9]")
+
+
+def _is_mathematics(word: str) -> bool:
+    """Whether a word is a symbol or a formula rather than English."""
+    if re.fullmatch(r"[b-zB-HJ-Z]", word):
+        return True
+    letters = re.findall(r"[A-Za-z]+", _INDEXED.sub("", _NAMES.sub("", word)))
+    return bool(_SYMBOLIC.search(word)) and all(len(run) <= 2 for run in letters)
+
+
+def _lowered(found: re.Match[str]) -> str:
+    return f"_{{{found[1] or found[2]}}}"
+
+
+def _run(found: re.Match[str]) -> str:
+    if found[1]:
+        return "^{" + "".join(_RAISED[c] for c in found[1]) + "}"
+    return "_{" + "".join(_LOWERED[c] for c in found[2]) + "}"
+
+
+def _character(character: str) -> str:
+    if character.isascii():
+        return character
+    unknown = rf"\mbox{{[{unicodedata.name(character, 'unnamed character').lower()}]}}"
+    return _MATHS.get(character, unknown)
+
+
+def _set_mathematics(word: str) -> str:
+    for special in "%#&{}":
+        word = word.replace(special, f"\\{special}")
+    word = _ROOT.sub(r"\\sqrt{\1}", _RUN.sub(_run, _INDEXED.sub(_lowered, word)))
+    word = "".join(map(_character, word))
+    word = _RECIPROCAL.sub(r"{\\bf b}", _VECTOR.sub(r"\\hat{\\bf n}", word))
+    return _NAMES.sub(r"\\\1 ", word)
+
+
+def _set_text(word: str) -> str:
+    return "".join(
+        _TEXT.get(character)
+        or (character if character.isascii() else f"${_set_mathematics(character)}$")
+        for character in word
+    )
+
+
+def _parts(word: str) -> tuple[str, str, str]:
+    """Opening punctuation, what it encloses, closing punctuation."""
+    found = _PUNCTUATION.fullmatch(word)
+    opening, core, closing = found.group("open", "core", "close") if found else ("", word, "")
+    while core.count("(") > core.count(")") and closing.startswith(")"):
+        core, closing = f"{core})", closing[1:]
+    while core.count(")") > core.count("(") and opening.endswith("("):
+        core, opening = f"({core}", opening[:-1]
+    return opening, core, closing
+
+
+def prose_latex(words: str) -> str:
+    r"""A sentence as LaTeX; neighbouring pieces of mathematics are set as one formula.
+
+    >>> print(prose_latex("Eq. 2 for j ≥ 1: δr_(i−1,j) is a length & n⁺ a unit vector."))
+    Eq. 2 for $j \geq  1$: $\delta r_{i-1,j}$ is a length \& $\hat{\bf n}^{+}$ a unit vector.
+    """
+    done: list[str] = []
+    formula: list[str] = []  # mathematics that is still open to the right
+    before = ""
+
+    def close(after: str = "") -> None:
+        nonlocal before
+        if formula:
+            plain = len(formula) == 1 and formula[0].isdecimal()
+            text = formula[0] if plain else f"${' '.join(map(_set_mathematics, formula))}$"
+            done.append(f"{_set_text(before)}{text}{_set_text(after)}")
+            formula.clear()
+        before = ""
+
+    for word in words.split(" "):
+        opening, core, closing = _parts(word)
+        pair = core == "a" and opening.endswith("(") and closing.startswith(",")
+        if not core or not (core.isdecimal() or pair or _is_mathematics(core)):
+            close()
+            done.append(_set_text(word))
+            continue
+        if opening:
+            close()
+            before = opening
+        formula.append(core)
+        if closing:
+            close(closing)
+    close()
+    return " ".join(done)

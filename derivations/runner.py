@@ -1,0 +1,87 @@
+"""Runs a derivation: its proofs, its witnesses, and the mutants that must be refuted."""
+
+from collections.abc import Callable, Iterable, Iterator
+from time import perf_counter
+
+from derivations.record import Check, Derivation, Mutant, Outcome
+from symbolic.kernel import Ruling, Verdict
+
+SEED = 20021
+"""Seed of the witnesses' draws, so that two runs check the same packings."""
+
+Watch = Callable[[Derivation, str], None]
+"""Told which check of which derivation comes next."""
+
+
+def _silent(_derivation: Derivation, _check: str) -> None:
+    """Watch nothing."""
+
+
+def _timed(kind: str, name: str, decide: Callable[[], Ruling]) -> Check:
+    start = perf_counter()
+    ruling = decide()
+    return Check(kind, name, ruling.verdict, perf_counter() - start, ruling.note)
+
+
+def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
+    """Rule on each printed equation, then on each further claim."""
+    several = len(derivation.printed) > 1
+    for place, equation in enumerate(derivation.printed):
+        name = f"printed equation, part {place + 1}" if several else "printed equation"
+        watch(derivation, name)
+        yield _timed("proof", name, lambda p=place, e=equation: derivation.decide(p, e))  # type: ignore[misc]
+    for claim in derivation.claims:
+        watch(derivation, claim.name)
+        yield _timed("proof", claim.name, claim.decide)
+
+
+def witnesses(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
+    """Compare with numbers of another kind, drawn with the fixed seed."""
+    for witness in derivation.witnesses:
+        watch(derivation, witness.name)
+        yield _timed("witness", witness.name, lambda w=witness: w.run(SEED))  # type: ignore[misc]
+
+
+def judged_mutants(derivation: Derivation, watch: Watch = _silent) -> Iterator[Mutant]:
+    """Change each printed equation mechanically and let the same procedure rule on it."""
+    from symbolic.mutants import mutants
+
+    watch(derivation, "mutants")
+    for place, equation in enumerate(derivation.printed):
+        for change, mutated in mutants(equation):
+            ruling = derivation.decide(place, mutated)
+            yield Mutant(change, mutated, ruling, ruling.verdict is Verdict.PROVED)
+
+
+def overall(checks: Iterable[Check], mutants: Iterable[Mutant] = ()) -> Verdict:
+    """Verdict on an equation from all that was found about it.
+
+    A mutant that is proved is an equivalent rewriting, with its proof, and speaks for nobody.
+    One that the checker neither refutes nor proves shows that the checker can't tell.
+    """
+    found = {check.verdict for check in checks}
+    if found & {Verdict.REFUTED, Verdict.DISAGREES}:
+        return Verdict.REFUTED
+    if Verdict.UNDECIDED in found or Verdict.PROVED not in found:
+        return Verdict.UNDECIDED
+    if any(mutant.ruling.verdict is Verdict.UNDECIDED for mutant in mutants):
+        return Verdict.UNDECIDED
+    return Verdict.PROVED
+
+
+def run(derivation: Derivation, watch: Watch = _silent) -> Outcome:
+    """Everything about one equation; its premises are run apart."""
+    start = perf_counter()
+    checks = (*proofs(derivation, watch), *witnesses(derivation, watch))
+    mutants = tuple(judged_mutants(derivation, watch))
+    verdict = overall(checks, mutants)
+    return Outcome(derivation, verdict, checks, mutants, perf_counter() - start)
+
+
+def run_alone(derivation: Derivation) -> int:
+    """Run one derivation as a program: print it in full; 0 if proved, else 1."""
+    from derivations.plain import outcome_text
+
+    outcome = run(derivation)
+    print(outcome_text(outcome))
+    return 0 if outcome.verdict is Verdict.PROVED else 1

@@ -1,0 +1,125 @@
+"""Printed equations with one mechanical change each: what the checker must be able to refuse.
+
+Operators: flip the sign of a term, drop a term, change a whole-number or rational coefficient or
+an exponent, shift an index or a sum's bound (or the bound between two cases) by one, and swap
+n⁺ with n⁻, b⁺ with b⁻, δn⁺ with δn⁻, f⁺ with f⁻. The right-hand side is changed; where it is 0
+(a balance), the left-hand side.
+"""
+
+from collections.abc import Callable, Iterator
+
+import sympy
+
+from symbolic import symbols as sy
+
+_SWAPPED_SYMBOLS = {
+    sy.n_plus: sy.n_minus,
+    sy.n_minus: sy.n_plus,
+    sy.b_plus: sy.b_minus,
+    sy.b_minus: sy.b_plus,
+}
+_SWAPPED_FUNCTIONS = {
+    sy.DeltaNPlus: sy.DeltaNMinus,
+    sy.DeltaNMinus: sy.DeltaNPlus,
+    sy.ForcePlus: sy.ForceMinus,
+    sy.ForceMinus: sy.ForcePlus,
+}
+
+Rebuild = Callable[[sympy.Basic], sympy.Basic]
+Change = tuple[str, sympy.Basic]
+
+
+def mutants(equation: sympy.Eq) -> Iterator[tuple[str, sympy.Eq]]:
+    """Yield every single change of the right-hand side, with its description.
+
+    Changes that give the same expression again, or one already seen, are left out.
+    """
+    is_balance = equation.rhs == 0
+    side = equation.lhs if is_balance else equation.rhs
+    seen = {side}
+    for change, changed in _changes(side):
+        if changed not in seen:
+            seen.add(changed)
+            pair = (changed, equation.rhs) if is_balance else (equation.lhs, changed)
+            yield change, sympy.Eq(*pair, evaluate=False)
+
+
+def _changes(node: sympy.Basic) -> Iterator[Change]:
+    yield from _here(node)
+    if isinstance(node, sy.SiteFunction):
+        yield from _shifted_indices(node)
+        return
+    if isinstance(node, sympy.Sum):
+        yield from _shifted_bounds(node)
+        for change, body in _changes(node.function):
+            yield change, sympy.Sum(body, *node.limits)
+        return
+    for number, argument in enumerate(node.args):
+        for change, changed in _changes(argument):
+            yield change, _with_argument(node, number, changed)
+
+
+def _here(node: sympy.Basic) -> Iterator[Change]:
+    if isinstance(node, sympy.Add):
+        for number, term in enumerate(node.args):
+            others = (*node.args[:number], *node.args[number + 1 :])
+            yield (
+                f"sign of {_brief(term)} flipped",
+                node.func(*node.args[:number], -term, *node.args[number + 1 :], evaluate=False),
+            )
+            yield (
+                f"{_brief(term)} dropped",
+                (others[0] if len(others) == 1 else node.func(*others, evaluate=False)),
+            )
+    elif isinstance(node, sympy.Integer) and node not in (sympy.S.Zero, sympy.S.NegativeOne):
+        yield f"{node} changed to {node + 1}", node + 1
+    elif isinstance(node, sympy.Rational) and not isinstance(node, sympy.Integer):
+        yield f"{node} changed to {2 * node}", 2 * node
+    elif node in _SWAPPED_SYMBOLS:
+        other = _SWAPPED_SYMBOLS[node]
+        yield f"{node} replaced by {other}", other
+    elif type(node) in _SWAPPED_FUNCTIONS:
+        changed = _SWAPPED_FUNCTIONS[type(node)](*node.args)
+        yield f"{_brief(node)} replaced by {_brief(changed)}", changed
+    elif isinstance(node, sy.Braces):
+        first, second, index, last = node.args
+        for by in (1, -1):
+            yield (
+                f"case {index} ≤ {last} shifted to {last + by}",
+                node.func(first, second, index, last + by),
+            )
+    elif isinstance(node, sympy.Sum | sy.Dot):
+        yield f"sign of {_brief(node)} flipped", sympy.Mul(-1, node, evaluate=False)
+
+
+def _with_argument(node: sympy.Basic, number: int, changed: sympy.Basic) -> sympy.Basic:
+    arguments = (*node.args[:number], changed, *node.args[number + 1 :])
+    if isinstance(node, sympy.Add | sympy.Mul | sympy.Pow):
+        return node.func(*arguments, evaluate=False)
+    return node.func(*arguments)
+
+
+def _shifted_indices(node: sy.SiteFunction) -> Iterator[Change]:
+    for number, by in ((0, 1), (0, -1), (1, 1), (1, -1)):
+        arguments = list(node.args)
+        arguments[number] = arguments[number] + by
+        changed = node.func(*arguments)
+        yield f"{_brief(node)} shifted to {_brief(changed)}", changed
+
+
+def _shifted_bounds(node: sympy.Sum) -> Iterator[Change]:
+    index, low, high = node.limits[0]
+    for by in (1, -1):
+        yield (
+            f"lower bound {index} = {low} shifted to {low + by}",
+            sympy.Sum(node.function, (index, low + by, high)),
+        )
+        yield (
+            f"upper bound {index} = {high} shifted to {high + by}",
+            sympy.Sum(node.function, (index, low, high + by)),
+        )
+
+
+def _brief(node: sympy.Basic) -> str:
+    text = str(node)
+    return text if len(text) <= 48 else text[:45] + "…"

@@ -1,0 +1,114 @@
+"""LaTeX in the paper's notation."""
+
+import re
+from typing import Any
+
+from sympy import Expr, Matrix, Piecewise, Sum
+from sympy.printing.latex import LatexPrinter
+
+from symbolic import symbols as sy
+from symbolic.printing.structure import StructuredPrinter, ascending
+
+_SYMBOLS = {
+    sy.sigma: r"\sigma_{\delta r}",
+    sy.epsilon: r"\varepsilon",
+    sy.f_load: r"f^{\rm load}",
+    sy.m_g: "mg",
+    sy.n_plus: r"\hat{\bf n}^{+}",
+    sy.n_minus: r"\hat{\bf n}^{-}",
+    sy.b_plus: r"{\bf b}^{+}",
+    sy.b_minus: r"{\bf b}^{-}",
+    sy.e_y: r"\hat{\bf e}_{y}",
+}
+
+_SIGNS = {"==": "=", "<=": r"\leq", "!=": r"\neq"}
+_TALL = re.compile(r"\\frac|\\sum|\\begin|\\left")
+_SUBSCRIPT = re.compile(r"_\{[^{}]*\}")
+
+
+class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
+    """Sets expressions as the paper does; anything that it does not know as SymPy does."""
+
+    def __init__(self) -> None:
+        LatexPrinter.__init__(self, {"order": "none", "symbol_names": dict(_SYMBOLS)})
+
+    def _print_Symbol(self, expr: Any, style: str = "plain") -> str:
+        local = {"delta_x": r"\Delta x", "delta_y": r"\Delta y"}  # of a single derivation
+        return local.get(expr.name) or str(super()._print_Symbol(expr, style))
+
+    def set_fraction(self, over: str, under: str, *, alone: bool) -> str:
+        return rf"\frac{{{over}}}{{{under}}}"
+
+    def set_brackets(self, inner: str) -> str:
+        """Round, then square, then braces, from the inside out; braces also around sums."""
+        flat = _SUBSCRIPT.sub("", inner)
+        if not _TALL.search(flat) and "(" not in flat:
+            return f"({inner})"
+        if r"\sum" in flat or "[" in flat:
+            return rf"\left\{{ {inner} \right\}}"
+        if "(" in flat:
+            return rf"\left[ {inner} \right]"
+        return rf"\left( {inner} \right)"
+
+    def set_power(self, base: str, exponent: Expr) -> str:
+        if "^" in base and re.fullmatch(r"[^()]*", base):
+            base = f"({base})"
+        return rf"{base}^{{{self._print(exponent)}}}"
+
+    def _print_SiteFunction(self, expr: sy.SiteFunction, exp: str | None = None) -> str:
+        branch = f"^{{{expr.branch}}}" if expr.branch else ""
+        text = f"{expr.latex_head}{branch}_{{{self.subscript(expr.args)[0]}}}"
+        return text if exp is None else rf"({text})^{{{exp}}}"
+
+    def _print_Dot(self, expr: sy.Dot) -> str:
+        return r" \cdot ".join(
+            self.set_brackets(self._print(arg)) if arg.is_Add else self._print(arg)
+            for arg in expr.args
+        )
+
+    def _print_MatrixTimes(self, expr: sy.MatrixTimes) -> str:
+        matrix = self._print(Matrix(2, 2, expr.args[:4]))
+        vector = expr.args[4]
+        text = self._print(vector)
+        return f"{matrix} {self.set_brackets(text) if vector.is_Add else text}"
+
+    def _print_MatrixBase(self, expr: Any) -> str:
+        rows = r" \\[2pt] ".join(" & ".join(map(self._print, row)) for row in expr.tolist())
+        return rf"\begin{{pmatrix}} {rows} \end{{pmatrix}}"
+
+    _print_ImmutableDenseMatrix = _print_MutableDenseMatrix = _print_MatrixBase
+
+    def _print_Sum(self, expr: Sum) -> str:
+        text = ""
+        for index, lower, upper in reversed(expr.limits):
+            text += rf"\sum_{{{self._print(index)}={self.index(lower)}}}^{{{self.index(upper)}}} "
+        inner = self._print(expr.function)
+        return text + (self.set_brackets(inner) if expr.function.is_Add else inner)
+
+    def _print_Piecewise(self, expr: Piecewise) -> str:
+        rows = [
+            f"{self._print(value)} & {'otherwise' if condition == True else self._print(condition)}"  # noqa: E712
+            for value, condition in expr.args
+        ]
+        return (
+            r"\left\{ \begin{array}{r@{\;:\;}l} "
+            + r" \\ ".join(row.replace("otherwise", r"\mbox{otherwise}") for row in rows)
+            + r" \end{array} \right\}"
+        )
+
+    def _print_Relational(self, expr: Any) -> str:
+        low, sign, high = ascending(expr)
+        return f"{self._print(low)} {_SIGNS.get(sign, sign)} {self._print(high)}"
+
+    def _print_Max(self, expr: Any, exp: str | None = None) -> str:
+        text = rf"\max({', '.join(self._print(arg) for arg in expr.args)})"
+        return text if exp is None else f"{text}^{{{exp}}}"
+
+
+def latex(expr: Expr) -> str:
+    """One expression as LaTeX for mathematics mode.
+
+    >>> print(latex(sy.DeltaR(sy.i - sy.j, 0) / (1 - sy.phi**2)))
+    \\frac{\\delta r_{i-j,0}}{1 - \\phi^{2}}
+    """
+    return str(PaperLatex().doprint(expr))

@@ -1,0 +1,214 @@
+"""Equations broken into lines that fit a width, at their top-level terms.
+
+LaTeX itself does not break displayed mathematics. Widths are estimated from the source, in
+points at ten-point type; the estimate errs on the wide side and need only be good enough
+that no line is overfull, which the compilation of the document checks.
+"""
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+
+from sympy import Add, Basic, Eq, Expr, Mul, Piecewise, Tuple
+from sympy.core.relational import Relational
+
+from symbolic.printing.latex import PaperLatex
+from symbolic.printing.structure import in_order, is_negative, without_sign
+from symbolic.printing.text import PaperText
+
+LINE_WIDTH = 400.0
+"""Points for one line of a displayed equation, number and margins taken off."""
+
+TEXT_WIDTH = 96
+"""Characters for one line on a terminal."""
+
+_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[{}^_&]|\S")
+_NO_WIDTH = {r"\hat", r"\bf", r"\rm", r"\!", r"\displaystyle"}
+_SPACES = {r"\,": 1.7, r"\:": 2.2, r"\;": 2.8, r"\quad": 10.0, r"\qquad": 20.0}
+_BINARY = {"+", "-", r"\cdot", "=", r"\sim", r"\approx", r"\leq", r"\geq", "<", ">"}
+_SCRIPT = 0.7
+
+
+def width(source: str) -> float:
+    """Estimated width in points of one line of mathematics.
+
+    >>> width(r"\\frac{a+b}{c}") < width("a+b+c")
+    True
+    """
+    return _measure(iter(_TOKEN.findall(source)), "")
+
+
+def _measure(tokens: Iterator[str], until: str) -> float:
+    """Width up to the closing token; scripts of one base lie above each other."""
+    total = 0.0
+    rows = 0.0  # the widest finished row of an array
+    scripts = 0.0  # width of the scripts at the present base
+    for token in tokens:
+        if token == until:
+            break
+        if token in "^_":
+            script = _SCRIPT * _argument(tokens)
+            total += max(0.0, script - scripts)
+            scripts = max(scripts, script)
+            continue
+        scripts = 0.0
+        if token == "{":
+            total += _measure(tokens, "}")
+        elif token == r"\frac":
+            total += 2.4 + max(_argument(tokens), _argument(tokens))
+        elif token in (r"\begin", r"\end"):
+            _argument(tokens)
+            total += 6.0
+        elif token == r"\\":
+            rows, total = max(rows, total), 0.0
+        elif token == r"\sum":
+            total += 16.0
+        elif token == "&":
+            total += 12.0
+        elif token in _SPACES:
+            total += _SPACES[token]
+        elif token in _BINARY:
+            total += 12.3
+        elif token in (r"\left", r"\right"):
+            total += 4.0
+        elif token not in _NO_WIDTH:
+            total += 9.7 if token in "MWN" else 5.8
+    return max(rows, total)
+
+
+def _argument(tokens: Iterator[str]) -> float:
+    token = next(tokens, "")
+    return _measure(tokens, "}") if token == "{" else _measure(iter([token]), "")
+
+
+def pack(pieces: Iterable[tuple[str, float]], room: float, first_room: float) -> list[str]:
+    """Pieces in as few lines as fit; the first line may have less room."""
+    lines: list[str] = []
+    left = 0.0
+    for piece, size in pieces:
+        if lines and size <= left:
+            lines[-1] += f" {piece}"
+            left -= size
+        else:
+            left = (room if lines else first_room) - size
+            lines.append(piece)
+    return lines
+
+
+class _Pieces:
+    """The places where one printer's expressions may be broken."""
+
+    def __init__(self, printer: PaperLatex | PaperText, opening: str, closing: str) -> None:
+        self.printer = printer
+        self.opening, self.closing = opening, closing
+        self.size = width if isinstance(printer, PaperLatex) else len
+
+    def of(self, expr: Basic, room: float) -> list[tuple[str, float]]:
+        """Signed terms; a term that alone is too wide is broken within its last bracket."""
+        found: list[str] = []
+        signed = self.printer.terms(expr)
+        terms = expr.args if isinstance(expr, Add) else (expr,)
+        for (sign, body), term in zip(signed, self._ordered(expr, terms), strict=True):
+            whole = f"{sign} {body}" if found else f"{sign}{body}"
+            inner = self._inside(term)
+            if self.size(whole) > room and inner is not None:
+                before, last = inner
+                head = f"{sign} {before} {self.opening}".strip()
+                nested = [f"{s} {b}".strip() for s, b in self.printer.terms(last)]
+                nested[0] = f"{head} {nested[0]}"
+                nested[-1] = f"{nested[-1]} {self.closing}"
+                found += nested
+            else:
+                found.append(whole)
+        return [(piece, float(self.size(piece)) + 1) for piece in found]
+
+    def _ordered(self, expr: Basic, terms: Sequence[Basic]) -> list[Basic]:
+        return list(in_order(expr)) if isinstance(expr, Add) else list(terms)
+
+    def _inside(self, term: Basic) -> tuple[str, Expr] | None:
+        """A product that ends in a bracketed sum: the product before it, and the sum."""
+        if is_negative(term):
+            term = without_sign(term)
+        if isinstance(term, Mul) and isinstance(term.args[-1], Add):
+            before = Mul(*term.args[:-1], evaluate=False) if len(term.args) > 2 else term.args[0]
+            return self.printer.doprint(before), term.args[-1]
+        return None
+
+
+def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) -> list[str]:
+    """An equation as the lines of an ``aligned`` environment, without the ``\\\\``."""
+    printer = PaperLatex()
+    pieces = _Pieces(printer, r"\biggl\{", r"\biggr\}")
+    if not isinstance(equation, Relational):
+        return ["&" + line for line in pack(pieces.of(equation, room), room, room)]
+    lhs = printer.doprint(equation.lhs)
+    sign = relation if isinstance(equation, Eq) else _latex_sign(equation)
+    if isinstance(equation.rhs, Piecewise):
+        rhs = [(_cases(printer, equation.rhs), 0.0)]
+    else:
+        rhs = pieces.of(equation.rhs, room)
+    if width(lhs) > room / 3 and len(equation.lhs.args) > 1:
+        left = pack(pieces.of(equation.lhs, room), room, room)
+        if len(left) > 1 or width(lhs) + sum(size for _, size in rhs) > room:
+            right = pack(rhs, room - 20, room - 20)
+            return [
+                f"&{left[0]}",
+                *(rf"&\quad {line}" for line in left[1:]),
+                rf"&\qquad {sign} {right[0]}",
+                *(rf"&\qquad\quad {line}" for line in right[1:]),
+            ]
+    first, *others = pack(rhs, room - width(lhs) - 22, room - width(lhs) - 12)
+    return [f"{lhs} &{sign} {first}", *(rf"&\quad {line}" for line in others)]
+
+
+def _latex_sign(relation: Relational) -> str:
+    return {"<=": r"\leq", ">=": r"\geq", "!=": r"\neq"}.get(relation.rel_op, relation.rel_op)
+
+
+def _cases(printer: PaperLatex, expr: Piecewise) -> str:
+    rows = [
+        f"{printer.doprint(value)} & "
+        + (
+            r"\mbox{otherwise}"
+            if condition == True
+            else rf"\mbox{{if }} {printer.doprint(condition)}"
+        )  # noqa: E712
+        for value, condition in expr.args
+    ]
+    return r"\begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
+
+
+def _single(formulas: Iterable[Basic]) -> Iterator[Basic]:
+    """The formulas one by one, those of a tuple too."""
+    for formula in formulas:
+        if isinstance(formula, Tuple):
+            yield from formula
+        else:
+            yield formula
+
+
+def latex_body(equations: Sequence[Basic], relation: str = "=", room: float = LINE_WIDTH) -> str:
+    """One or more equations for one display, broken into lines where they are long."""
+    lines = [line for one in _single(equations) for line in latex_lines(one, relation, room)]
+    if len(lines) == 1:
+        return re.sub(r"^&| &(?==|\\[a-z]+ )", lambda found: found[0][:-1], lines[0], count=1)
+    return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
+
+
+def text_lines(equation: Basic, relation: str = "=", room: int = TEXT_WIDTH) -> list[str]:
+    """An equation as lines of plain text, continued lines indented."""
+    if isinstance(equation, Tuple):
+        return [line for one in equation for line in text_lines(one, relation, room)]
+    printer = PaperText()
+    pieces = _Pieces(printer, "{", "}")
+    if not isinstance(equation, Relational):
+        first, *others = pack(pieces.of(equation, room), room - 4, room)
+        return [first, *("    " + line for line in others)]
+    sign = relation if isinstance(equation, Eq) else printer.doprint(equation).split()[-2]
+    whole = f"{printer.doprint(equation.lhs)} {sign} {printer.doprint(equation.rhs)}"
+    if len(whole) <= room:
+        return [whole]
+    left = pieces.of(equation.lhs, room)
+    right = pieces.of(equation.rhs, room - 4)
+    right = [(f"{sign} {right[0][0]}", right[0][1] + 2), *right[1:]]
+    first, *others = pack([*left, *right], room - 4, room)
+    return [first, *("    " + line for line in others)]

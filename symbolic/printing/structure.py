@@ -1,0 +1,241 @@
+"""What LaTeX and plain text share: the order of terms, signs, fractions and brackets.
+
+SymPy's own printers rebuild products while they look for signs and denominators, which loses
+the paper's order of factors. Here the structure is read as it stands: an expression that was
+built with ``evaluate=False`` is printed as it was built, and one in SymPy's canonical order,
+which says nothing, is put into a readable order.
+"""
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from typing import Any
+
+from sympy import Add, Basic, Expr, Function, Integer, MatrixBase, Mul, Pow, Rational, Sum, Symbol
+from sympy.core.relational import Relational
+from sympy.printing.printer import Printer
+
+from symbolic import symbols as sy
+
+
+def rebuilt(expr: Basic) -> Basic:
+    """An expression in SymPy's own order, whatever order it was built in; sums stay sums."""
+    return expr.func(*map(rebuilt, expr.args)) if expr.args else expr
+
+
+def in_order(expr: Expr) -> list[Expr]:
+    """The terms of a sum, or the factors of a product, as a reader should meet them."""
+    args = list(expr.args)
+    if rebuilt(expr) != expr:
+        return args  # built on purpose in this order
+    if isinstance(expr, Mul):
+        return sorted(args, key=_factor_key)
+    if not expr.has(sy.SiteFunction):
+        args = list(expr.as_ordered_terms())
+    return positive_first(args)
+
+
+def positive_first(terms: list[Expr]) -> list[Expr]:
+    """Terms with one that has no minus sign in front: 1 - φ² rather than -φ² + 1."""
+    first = next((place for place, term in enumerate(terms) if not is_negative(term)), 0)
+    return [terms[first], *terms[:first], *terms[first + 1 :]]
+
+
+def _factor_key(factor: Expr) -> tuple[int, int]:
+    """Numbers, then M and the indices, then sums of them, then lengths, then other parameters."""
+    base = factor.base if isinstance(factor, Pow) else factor
+    if factor.is_number:
+        return 0, 0
+    if is_operand(factor) or base.has(sy.SiteFunction):
+        return 5, 0
+    if base in sy.INDICES:
+        return 1, -1 if base == sy.M else sy.INDICES.index(base)
+    if base in sy.PARAMETERS:
+        return 3, base not in (sy.r, sy.spacing, sy.f_load)
+    return (2 if base.free_symbols <= set(sy.INDICES) else 4), 0
+
+
+def is_negative(term: Expr) -> bool:
+    """Whether a term is written with a minus sign in front."""
+    while isinstance(term, Mul):
+        term = term.args[0]
+    return bool(term.is_number and term.is_negative)
+
+
+def without_sign(term: Expr) -> Expr:
+    """A term that ``is_negative``, with that sign taken away and nothing else changed."""
+    if not isinstance(term, Mul):
+        return -term
+    first, *rest = term.args
+    first = without_sign(first)
+    kept = rest if first == 1 else [first, *rest]
+    return kept[0] if len(kept) == 1 else Mul(*kept, evaluate=False)
+
+
+def is_operand(factor: Expr) -> bool:
+    """Whether a factor stands beside a fraction rather than in its numerator."""
+    return bool(factor.has(Sum, sy.Dot, sy.MatrixTimes)) or is_vector(factor)
+
+
+def is_vector(expr: Expr) -> bool:
+    """Whether an expression holds a vector outside of a scalar product."""
+    if isinstance(expr, sy.SiteFunction):
+        return expr.is_vector
+    if isinstance(expr, sy.Dot):
+        return False
+    return expr in sy.VECTORS or any(is_vector(arg) for arg in expr.args)
+
+
+def ascending(relation: Relational) -> tuple[Expr, str, Expr]:
+    """The two sides and the sign of a relation, turned so that it never reads ``>``."""
+    if relation.rel_op in (">", ">="):
+        return relation.rhs, relation.rel_op.replace(">", "<"), relation.lhs
+    return relation.lhs, relation.rel_op, relation.rhs
+
+
+def _index_key(term: Expr) -> int:
+    """Place of a term within an index: letters in their fixed order, numbers last."""
+    places = [sy.INDICES.index(s) for s in term.free_symbols if s in sy.INDICES]
+    return min(places, default=len(sy.INDICES))
+
+
+class StructuredPrinter(Printer):  # type: ignore[misc]
+    """Reads the structure of an expression; subclasses say how each piece is set."""
+
+    minus = "-"
+    juxtaposition = " "
+
+    @abstractmethod
+    def set_fraction(self, over: str, under: str, *, alone: bool) -> str:
+        """A fraction; ``alone`` when no factor follows it."""
+
+    @abstractmethod
+    def set_brackets(self, inner: str) -> str:
+        """Brackets around an expression."""
+
+    @abstractmethod
+    def set_power(self, base: str, exponent: Expr) -> str:
+        """A power of something that needs no more brackets."""
+
+    def set_group(self, product: str) -> str:
+        """A product within a product, with something after it."""
+        return product
+
+    # sums
+
+    def terms(self, expr: Expr) -> list[tuple[str, str]]:
+        """The additive terms of an expression: the sign (``+``, ``-`` or nothing) and the rest."""
+        pieces = in_order(expr) if isinstance(expr, Add) else [expr]
+        found = []
+        for place, term in enumerate(pieces):
+            negative = is_negative(term)
+            body = without_sign(term) if negative else term
+            text = self._print(body)
+            if isinstance(body, Add):
+                text = self.set_brackets(text)
+            sign = self.minus if negative else "+" if place else ""
+            found.append((sign, text))
+        return found
+
+    def _print_Add(self, expr: Expr, **_: Any) -> str:
+        return self.joined(self.terms(expr))
+
+    def joined(self, terms: Sequence[tuple[str, str]]) -> str:
+        """Signed terms in one line."""
+        text = ""
+        for sign, body in terms:
+            text += f" {sign} {body}" if text else f"{sign}{body}"
+        return text
+
+    # products
+
+    def _print_Mul(self, expr: Expr) -> str:
+        if is_negative(expr):
+            body = without_sign(expr)
+            text = self._print(body)
+            return self.minus + (self.set_brackets(text) if isinstance(body, Add) else text)
+        over: list[Expr] = []
+        under: list[Expr] = []
+        beside: list[Expr] = []
+        for factor in in_order(expr):
+            if isinstance(factor, Rational) and factor.q != 1:
+                over += [Integer(factor.p)] if factor.p != 1 else []
+                under.append(Integer(factor.q))
+            elif isinstance(factor, Pow) and factor.exp.is_Rational and factor.exp.is_negative:
+                under.append(factor.base if factor.exp == -1 else factor.base**-factor.exp)
+            else:
+                over.append(factor)
+        if under:
+            # a person writes the fraction first, then what it multiplies
+            beside = [f for f in over if is_operand(f) or isinstance(f, Mul)]
+            over = [f for f in over if f not in beside]
+        if not under:
+            return self._side_by_side(over)
+        fraction = self.set_fraction(
+            self._one_or_more(over), self._one_or_more(under), alone=not beside
+        )
+        return self.juxtaposition.join(
+            [fraction, *([self._side_by_side(beside)] if beside else [])]
+        )
+
+    def _one_or_more(self, factors: list[Expr]) -> str:
+        if not factors:
+            return "1"
+        return self._print(factors[0]) if len(factors) == 1 else self._side_by_side(factors)
+
+    def _side_by_side(self, factors: list[Expr]) -> str:
+        texts = []
+        for place, factor in enumerate(factors):
+            last = place == len(factors) - 1
+            text = self._print(factor)
+            open_ended = isinstance(factor, Sum | Mul) and factor.has(Sum) and not last
+            if isinstance(factor, Add) or open_ended or (is_negative(factor) and len(factors) > 1):
+                text = self.set_brackets(text)
+            elif isinstance(factor, Mul) and not last:
+                text = self.set_group(text)
+            texts.append(text)
+        return self.juxtaposition.join(texts)
+
+    @abstractmethod
+    def _print_SiteFunction(self, expr: sy.SiteFunction, exp: str | None = None) -> str:
+        """A quantity at a site, perhaps raised to a power."""
+
+    def _print_Function(self, expr: Function, exp: str | None = None) -> str:
+        # SymPy's dispatch passes over the classes between a function's own and ``Function``
+        if isinstance(expr, sy.SiteFunction):
+            return self._print_SiteFunction(expr, exp)
+        return str(super()._print_Function(expr, exp) if exp else super()._print_Function(expr))
+
+    def _print_Rational(self, expr: Rational) -> str:
+        if expr.q == 1:
+            return str(expr.p).replace("-", self.minus)
+        if expr.p < 0:
+            return self.minus + self._print(-expr)
+        return self.set_fraction(str(expr.p), str(expr.q), alone=True)
+
+    def _print_Pow(self, expr: Pow, **_: Any) -> str:
+        if isinstance(expr.base, MatrixBase):
+            return self.set_power(self._print(expr.base), expr.exp)
+        if expr.exp.is_Rational and expr.exp.is_negative:
+            return self._print_Mul(Mul(Integer(1), expr, evaluate=False))
+        base = self._print(expr.base)
+        simple = isinstance(expr.base, Symbol | sy.SiteFunction) or (
+            expr.base.is_Integer and expr.base >= 0
+        )
+        return self.set_power(base if simple else self.set_brackets(base), expr.exp)
+
+    # indices
+
+    def index(self, expr: Expr) -> str:
+        """One index, tightly set: letters in the paper's order, numbers last."""
+        if not isinstance(expr, Add):
+            return str(self._print(expr)).replace(" ", "")
+        terms = [*expr.args]
+        if rebuilt(expr) == expr:
+            terms = positive_first(sorted(terms, key=_index_key))
+        pieces = self.terms(Add(*terms, evaluate=False)) if len(terms) > 1 else []
+        return "".join(sign + body for sign, body in pieces).replace(" ", "")
+
+    def subscript(self, indices: Sequence[Expr]) -> tuple[str, bool]:
+        """Indices side by side, and whether each is a single letter (then without commas)."""
+        letters = all(isinstance(index, Symbol) for index in indices)
+        return ("" if letters else ",").join(self.index(index) for index in indices), letters
