@@ -57,6 +57,7 @@ class Plan:
     region: Region
     force_rows: Rows
     realisations: int
+    tolerance: Fraction | None
     system: NumberSystem
     steps: tuple[Step, ...]
     skipped: tuple[Skipped, ...]
@@ -138,8 +139,8 @@ class _Planner:
         self._refuse_memory(memory)
         seconds = self._seconds(beads, region, system, realisations)
         return Plan(
-            self.scene, radii, load, route, region, force_rows, realisations, system,
-            tuple(steps), tuple(self.skipped), memory, seconds,
+            self.scene, radii, load, route, region, force_rows, realisations,
+            self.tolerance, system, tuple(steps), tuple(self.skipped), memory, seconds,
             self._sees_images(route, region),
         )  # fmt: skip
 

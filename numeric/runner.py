@@ -51,16 +51,15 @@ class _Attempt:
     seconds: dict[str, float]
 
 
-def run(plan: Plan, tolerance: Fraction | None = None, progress: Progress | None = None) -> Outcome:
-    """Run a plan. ``tolerance`` as given to the planner (default: the scene's own).
+def run(plan: Plan, progress: Progress | None = None) -> Outcome:
+    """Run a plan, to the tolerance that it was made for.
 
     Raises ``ToleranceError``, and what the sweeps raise for a packing that can't be built.
     """
     start = perf_counter()
-    tolerance = tolerance or plan.scene.ask.tolerance
     system: NumberSystem
     if isinstance(plan.system, Balls):
-        attempt, accuracy, system = _certified(plan, plan.system, tolerance, progress)
+        attempt, accuracy, system = _certified(plan, plan.system, progress)
     else:
         system = plan.system
         attempt = _attempt(plan, system, range(plan.realisations), progress)
@@ -123,7 +122,7 @@ def _estimate(plan: Plan, attempt: _Attempt) -> Accuracy:
 
 
 def _certified(
-    plan: Plan, system: Balls, tolerance: Fraction | None, progress: Progress | None
+    plan: Plan, system: Balls, progress: Progress | None
 ) -> tuple[_Attempt, Accuracy, Balls]:
     """Raise the precision until the enclosure is small enough, or say why that does not help."""
     begun = perf_counter()
@@ -134,7 +133,7 @@ def _certified(
             attempt = _attempt(plan, system, range(plan.realisations), progress)
             with system.active():
                 accuracy = of_balls(attempt.table, system, floor)
-            if tolerance is None or Fraction(accuracy.error_bound) <= tolerance:
+            if plan.tolerance is None or _within(accuracy, plan.tolerance):
                 attempt.seconds["certify"] = perf_counter() - begun
                 return attempt, accuracy, system
             why = f"at {system.bits} bits the error is still {accuracy.error_bound:.2g}"
@@ -146,6 +145,11 @@ def _certified(
         f"; the height is {plan.scene.packing.height}, and the theory holds well below "
         f"M* = (σ/r)^(-2/3) = {critical_height(floor):.3g}"
     )
+
+
+def _within(accuracy: Accuracy, tolerance: Fraction) -> bool:
+    bound = accuracy.error_bound
+    return math.isfinite(bound) and Fraction(bound) <= tolerance
 
 
 def critical_height(relative_std: Fraction) -> float:
