@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterable, Sequence
 
 from derivations.folder import DOCUMENT, MANIFEST, PROGRAM
-from derivations.plain import mutant_counts
+from derivations.plain import mutant_counts, relation_of
 from derivations.prose import prose_latex
 from derivations.record import Derivation, Outcome
 from symbolic.kernel import Verdict
@@ -39,14 +39,9 @@ _READING = (
 )
 
 
-def relation_latex(derivation: Derivation) -> str:
-    """The sign between the two sides of the printed equation."""
-    return _RELATIONS[derivation.relation]
-
-
 def statement_latex(derivation: Derivation) -> str:
     """The printed equation as one numbered display, ready to paste."""
-    body = latex_body(derivation.printed, relation_latex(derivation))
+    body = latex_body(derivation.printed, _RELATIONS[derivation.relation])
     return f"\\begin{{equation}}\n{body}\n\\end{{equation}}\n"
 
 
@@ -64,7 +59,7 @@ def _list(kind: str, items: Iterable[str]) -> str:
 
 
 def _part(title: str, body: str) -> str:
-    return f"\\smallskip\\noindent\\textbf{{{title}}}\\nopagebreak\n{body}" if body else ""
+    return f"\\par\\smallskip\\noindent\\textbf{{{title}}}\\nopagebreak\n{body}" if body else ""
 
 
 def _sentence(words: str) -> str:
@@ -84,7 +79,8 @@ def _steps(derivation: Derivation) -> str:
     for step in derivation.steps():
         item = prose_latex(step.reason)
         if step.formula is not None:
-            item += f"\n\\[\n{latex_body([step.formula], room=380.0)}\n\\]"
+            relation = _RELATIONS[relation_of(derivation, step)]
+            item += f"\n\\[\n{latex_body([step.formula], relation, room=380.0)}\n\\]"
         items.append(item)
     return _list("enumerate", items)
 
@@ -151,7 +147,7 @@ def _overview(outcomes: Sequence[Outcome]) -> str:
             f"{counts['made']} & {counts['refuted']} & {counts['equivalent']} \\\\\n"
         )
     return (
-        "\\begin{center}\\small\n\\begin{tabular}{r>{\raggedright}p{46mm}lrrrrr}\n\\hline\n"
+        "\\begin{center}\\small\n\\begin{tabular}{r>{\\raggedright}p{46mm}lrrrrr}\n\\hline\n"
         " & & & & & \\multicolumn{3}{c}{mutants} \\\\\n"
         "Eq. & title & verdict & proofs & witnesses & made & refuted & equivalent \\\\\n\\hline\n"
         + "".join(rows)

@@ -161,7 +161,7 @@ DERIVATION = Derivation(
     witnesses=(
         Witness(
             "beads laid by circle intersection sit there, as fractions",
-            lambda seed: witnesses.ordered_positions(PRINTED.rhs, seed),
+            lambda packing: witnesses.ordered_positions(PRINTED.rhs, packing),
         ),
     ),
 )

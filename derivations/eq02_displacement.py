@@ -149,7 +149,9 @@ DERIVATION = Derivation(
     witnesses=(
         Witness(
             "Taylor coefficients of the exact packing equal it as fractions",
-            lambda seed: witnesses.geometry(PRINTED.rhs, witnesses.displacement, seed, lowest=1),
+            lambda packing: witnesses.geometry(
+                PRINTED.rhs, witnesses.displacement, packing, step=1
+            ),
         ),
     ),
 )

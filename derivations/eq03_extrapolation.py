@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import sympy
 
 from derivations import eq02_displacement as eq02
-from derivations import witnesses
+from derivations import remainders, witnesses
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region
@@ -126,11 +126,13 @@ DERIVATION = Derivation(
     witnesses=(
         Witness(
             "Taylor coefficients of the exact packing equal it as fractions",
-            lambda seed: witnesses.geometry(PRINTED.rhs, witnesses.displacement, seed, lowest=1),
+            lambda packing: witnesses.geometry(
+                PRINTED.rhs, witnesses.displacement, packing, step=1
+            ),
         ),
         Witness(
             "exact positions at 80 digits differ from it by a remainder of order ε²",
-            lambda seed: witnesses.second_order_positions(PRINTED.rhs, seed),
+            lambda packing: remainders.positions(PRINTED.rhs, packing),
         ),
     ),
     remarks=(

@@ -125,7 +125,9 @@ DERIVATION = Derivation(
     witnesses=(
         Witness(
             "Taylor coefficients of the exact packing equal it as fractions",
-            lambda seed: witnesses.geometry(PRINTED.rhs, witnesses.doubled_direction("+"), seed),
+            lambda packing: witnesses.geometry(
+                PRINTED.rhs, witnesses.doubled_direction("+"), packing
+            ),
         ),
     ),
 )

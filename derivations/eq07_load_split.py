@@ -138,7 +138,7 @@ DERIVATION = Derivation(
     witnesses=(
         Witness(
             "Taylor coefficients of the exact packing equal it as fractions",
-            lambda seed: witnesses.split(PRINTED, seed),
+            lambda packing: witnesses.split(PRINTED, packing),
         ),
     ),
 )

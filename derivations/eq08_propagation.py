@@ -117,7 +117,7 @@ DERIVATION = Derivation(
     witnesses=(
         Witness(
             "Taylor coefficients of the exact packing equal it as fractions",
-            lambda seed: witnesses.passage(PRINTED, seed),
+            lambda packing: witnesses.passage(PRINTED, packing),
         ),
     ),
     remarks=("The paper leaves the incoming force along n⁻ to symmetry; it is solved for here.",),

@@ -118,7 +118,7 @@ DERIVATION = Derivation(
     witnesses=(
         Witness(
             "Taylor coefficients of the exact packing equal it as fractions",
-            lambda seed: witnesses.straight_path(PRINTED.rhs, seed),
+            lambda packing: witnesses.straight_path(PRINTED.rhs, packing),
         ),
     ),
 )

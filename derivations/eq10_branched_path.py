@@ -157,7 +157,7 @@ DERIVATION = Derivation(
     witnesses=(
         Witness(
             "Taylor coefficients of the exact packing equal it as fractions, zero outside",
-            lambda seed: witnesses.branched_path(PRINTED.rhs, seed),
+            lambda packing: witnesses.branched_path(PRINTED.rhs, packing),
         ),
     ),
 )

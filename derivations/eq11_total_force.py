@@ -9,7 +9,7 @@ from derivations import eq05_contact_minus as eq05
 from derivations import eq07_load_split as eq07
 from derivations import eq09_straight_path as eq09
 from derivations import eq10_branched_path as eq10
-from derivations import witnesses
+from derivations import remainders, witnesses
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region
@@ -180,11 +180,11 @@ DERIVATION = Derivation(
     witnesses=(
         Witness(
             "Taylor coefficients of the exact packing equal it as fractions",
-            lambda seed: witnesses.surface_load(in_radii(PRINTED.rhs), seed),
+            lambda packing: witnesses.surface_load(in_radii(PRINTED.rhs), packing),
         ),
         Witness(
             "exact forces at 80 digits differ from it by a remainder of order ε²",
-            lambda seed: witnesses.second_order_forces(in_radii(PRINTED.rhs), seed),
+            lambda packing: remainders.forces(in_radii(PRINTED.rhs), packing),
         ),
     ),
 )

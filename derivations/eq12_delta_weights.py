@@ -20,6 +20,7 @@ from symbolic.kernel import (
     refuted,
     undecided,
 )
+from symbolic.printing.text import text
 from symbolic.reading import Reader
 from symbolic.symbols import (
     Braces,
@@ -118,11 +119,11 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     if power < LEADING_ORDER:
         return proved(
             f"what is dropped has a variance of order M^{power}, against M³ kept: "
-            f"{coefficient} · M^{power}"
+            f"{text(coefficient)} · M^{power}"
         )
     return refuted(
         f"the difference from Eq. 11 has a variance of order M^{power}, not below M³: "
-        f"{coefficient} · M^{power}"
+        f"{text(coefficient)} · M^{power}"
     )
 
 
@@ -199,7 +200,7 @@ DERIVATION = Derivation(
     witnesses=(
         Witness(
             "weights of the exact packing less the printed ones: squares sum as stated",
-            lambda seed: witnesses.dropped_weights(PRINTED.rhs, dropped_variance(), seed),
+            lambda packing: witnesses.dropped_weights(PRINTED.rhs, dropped_variance(), packing),
         ),
     ),
     remarks=(

@@ -7,13 +7,15 @@ import sympy
 
 from derivations import eq11_total_force as eq11
 from derivations import eq12_delta_weights as eq12
-from derivations.asymptotics import compare_leading_order, explicit_variances
+from derivations import witnesses
+from derivations.asymptotics import compare_leading_order
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
-from symbolic.as_printed import equation, terms, times
+from symbolic.as_printed import equation, power, terms, times
 from symbolic.certified_sums import certified_sum
 from symbolic.exact import FIELD
 from symbolic.kernel import Ruling, all_of, decide_identity, from_test
+from symbolic.printing.text import text
 from symbolic.symbols import M, j, m, phi, r, sigma, z
 from symbolic.variance import ExactForm, exact_variances, leading
 
@@ -21,7 +23,12 @@ RELATIVE_VARIANCE = sympy.Symbol(r"\sigma_f^2(z)/\langle f\rangle^2")
 
 PRINTED = equation(
     RELATIVE_VARIANCE,
-    times(2 * M**3 / (1 - phi**2) ** 2, terms(1, -z) ** 2, terms(times(2, z), 1), (sigma / r) ** 2),
+    times(
+        2 * M**3 / (1 - phi**2) ** 2,
+        terms(1, -z) ** 2,
+        terms(times(2, z), 1),
+        power(times(sigma, 1 / r), 2),
+    ),
 )
 
 
@@ -93,7 +100,8 @@ def _next_order() -> Ruling:
     rest = value - FIELD.from_sympy((PRINTED.rhs).xreplace({z: j / M}))
     expected = FIELD.from_sympy((next_order() * scale).xreplace({z: j / M}))
     return from_test(
-        (leading(rest) - expected).is_zero(), f"the next order is {next_order()} (σ/r)²/(1−φ²)²"
+        (leading(rest) - expected).is_zero(),
+        f"the next order is {text(next_order())} (σ/r)²/(1−φ²)²",
     )
 
 
@@ -141,8 +149,8 @@ DERIVATION = Derivation(
     ),
     witnesses=(
         Witness(
-            "exact variances equal explicit sums of squared weights, all j < M ≤ 5",
-            lambda _: explicit_variances(exact_forms(), eq11.in_radii(eq11.PRINTED.rhs)),
+            "exact variances equal sums of squared weights of exact packings, all j < M ≤ 4",
+            lambda packing: witnesses.variances(exact_forms(), "surface", packing),
         ),
     ),
     remarks=(

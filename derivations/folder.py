@@ -29,9 +29,7 @@ def owned_files(folder: Path) -> set[str]:
     """
     try:
         manifest = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        return set()
-    except ValueError:
+    except (OSError, ValueError, RecursionError):  # none there, or nothing of ours
         return set()
     if not isinstance(manifest, dict) or manifest.get("program") != PROGRAM:
         return set()
@@ -56,6 +54,7 @@ class OutputFolder:
     """A folder that can be written to; ``publish`` puts a whole set of files into it."""
 
     def __init__(self, folder: Path, aside: Path) -> None:
+        """Take a folder and the place aside within it."""
         self.folder = folder
         self._aside = aside
 

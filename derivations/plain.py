@@ -3,7 +3,7 @@
 import re
 from textwrap import fill
 
-from derivations.record import Check, Derivation, Mutant, Outcome
+from derivations.record import Check, Derivation, Mutant, Outcome, Step
 from symbolic.kernel import Verdict
 from symbolic.printing.lines import TEXT_WIDTH, text_lines
 from symbolic.printing.text import text
@@ -55,13 +55,20 @@ def statement_text(derivation: Derivation) -> str:
     return "\n".join(parts)
 
 
+def relation_of(derivation: Derivation, step: Step) -> str:
+    """A step that states the printed equation has its sign; every other one is an equality."""
+    return derivation.relation if step.formula in derivation.printed else "="
+
+
 def steps_text(derivation: Derivation) -> str:
     """The steps, each with its reason and the formula that it gives."""
     parts = []
     for place, step in enumerate(derivation.steps(), start=1):
         parts.append(_paragraph(step.reason, f"{place:3}. ", "     "))
         if step.formula is not None:
-            parts += ["       " + line for line in text_lines(step.formula, room=TEXT_WIDTH - 7)]
+            relation = relation_of(derivation, step)
+            lines = text_lines(step.formula, relation, TEXT_WIDTH - 7)
+            parts += ["       " + line for line in lines]
     return "\n".join(parts)
 
 

@@ -49,6 +49,7 @@ class LiveBar(Silence):
     """A bar that names the check at work; finished equations stand above it."""
 
     def __init__(self, console: "Console", total: int, *, lines: bool) -> None:
+        """Make the bar; ``lines`` says whether the console may also have lines of text."""
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
         self._console = console

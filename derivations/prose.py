@@ -19,6 +19,7 @@ _MATHS = {
     "≪": r"\ll ", "≫": r"\gg ", "≲": r"\lesssim ", "⊥": r"\perp ", "∀": r"\forall ", "∃": r"\exists ",
 }  # fmt: skip
 _RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-", strict=True))
+_WORDS = {"ˡᵒᵃᵈ": r"^{\rm load}"}
 _LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉₊₋", "0123456789+-", strict=True))
 _TEXT = {
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#",
@@ -30,11 +31,14 @@ _TEXT = {
 _RUN = re.compile("([⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻]+)|([₀₁₂₃₄₅₆₇₈₉₊₋]+)")
 _INDEXED = re.compile(r"_(?:\(([^()]*)\)|([A-Za-z0-9δ]+|±))")
 _VECTOR = re.compile(r"(?<![A-Za-z\\{])n(?=\^\{[-+]|\^?\\pm)")
+_FORCE = re.compile(r"F(?=\^\{\\rm load)")
 _RECIPROCAL = re.compile(r"(?<![A-Za-z\\{])b(?=\^\{[-+]|\^?\\pm)")
 _NAMES = re.compile(r"(?<![A-Za-z\\])(max|min)(?![A-Za-z])")
 _ROOT = re.compile(r"√(\d+|\([^()]*\))")
 _PUNCTUATION = re.compile(r"(?P<open>[(“\"]*)(?P<core>.*?)(?P<close>[)”\".,;:?!]*)", re.DOTALL)
-_SYMBOLIC = re.compile("[" + re.escape("".join([*_MATHS, *_RAISED, *_LOWERED])) + "_^=+*/<>|0-9]")
+_SYMBOLIC = re.compile(
+    "[" + re.escape("".join([*_MATHS, *_RAISED, *_LOWERED, *_WORDS])) + "_^=+*/<>|0-9]"
+)
 
 
 def _is_mathematics(word: str) -> bool:
@@ -46,7 +50,11 @@ def _is_mathematics(word: str) -> bool:
 
 
 def _lowered(found: re.Match[str]) -> str:
-    return f"_{{{found[1] or found[2]}}}"
+    name = found[1] or found[2]
+    if name == "load":
+        return r"^{\rm load}"
+    upright = name.isalpha() and len(name) > 2  # a word, as in f_load
+    return rf"_{{\rm {name}}}" if upright else f"_{{{name}}}"
 
 
 def _run(found: re.Match[str]) -> str:
@@ -65,8 +73,11 @@ def _character(character: str) -> str:
 def _set_mathematics(word: str) -> str:
     for special in "%#&{}":
         word = word.replace(special, f"\\{special}")
+    for raised, source in _WORDS.items():
+        word = word.replace(raised, source)
     word = _ROOT.sub(r"\\sqrt{\1}", _RUN.sub(_run, _INDEXED.sub(_lowered, word)))
     word = "".join(map(_character, word))
+    word = _FORCE.sub(r"{\\bf F}", word)
     word = _RECIPROCAL.sub(r"{\\bf b}", _VECTOR.sub(r"\\hat{\\bf n}", word))
     return _NAMES.sub(r"\\\1 ", word)
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import sympy
 
+from derivations.small_packings import SmallPacking
 from symbolic.kernel import Ruling, Verdict
 
 
@@ -26,10 +27,10 @@ class Claim:
 
 @dataclass(frozen=True)
 class Witness:
-    """A check of another kind: exact or high-precision numbers drawn with a seed."""
+    """A check of another kind: exact or high-precision numbers of a small packing."""
 
     name: str
-    run: Callable[[int], Ruling]
+    run: Callable[[SmallPacking], Ruling]
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,11 @@ def times(*factors: sympy.Expr) -> sympy.Mul:
     return sympy.Mul(*factors, evaluate=False)
 
 
+def power(base: sympy.Expr, exponent: sympy.Expr | int) -> sympy.Pow:
+    """A power that is not distributed over its base's factors."""
+    return sympy.Pow(base, exponent, evaluate=False)
+
+
 def minus(expression: sympy.Expr) -> sympy.Mul:
     """The negative, kept as a product with −1."""
     return sympy.Mul(-1, expression, evaluate=False)

@@ -12,7 +12,7 @@ from typing import Any, Self
 import sympy
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
-from symbolic.symbols import INDICES, PARAMETERS, n_x, n_y, phi
+from symbolic.symbols import INDICES, PARAMETERS, M, n_x, n_y, phi
 
 Polynomial = Any  # flint's fmpq_mpoly, which ships no types
 
@@ -186,8 +186,19 @@ class RationalFunction:
         return [self._same(make(part), self.denominator) for part in parts]
 
     def to_sympy(self) -> sympy.Expr:
-        """The same element as a SymPy quotient, factored."""
-        return self._factored(self.numerator) / self._factored(self.denominator)
+        """The same element as a SymPy quotient: factored, whole numbers within each factor."""
+        if self.numerator == 0:
+            return sympy.Integer(0)
+        number, powers = self._factors(self.numerator)
+        below, under = self._factors(self.denominator)
+        for factor, power in under.items():
+            powers[factor] = powers.get(factor, 0) - power
+        paired = min(-powers.get(1 - phi, 0), -powers.get(1 + phi, 0))
+        if paired > 0:
+            powers[1 - phi] += paired
+            powers[1 + phi] += paired
+            powers[1 - phi**2] = -paired
+        return sympy.Mul(number / below, *(factor**power for factor, power in powers.items()))
 
     def _expanded(self, polynomial: Polynomial) -> sympy.Expr:
         return sympy.Add(
@@ -198,15 +209,26 @@ class RationalFunction:
             )
         )
 
-    def _factored(self, polynomial: Polynomial) -> sympy.Expr:
-        if polynomial == 0:
-            return sympy.Integer(0)
+    def _factors(self, polynomial: Polynomial) -> tuple[sympy.Rational, dict[sympy.Expr, int]]:
+        """A number, and factors with their powers, each in the sign that a person would write."""
         content, factors = polynomial.factor()
-        result = sympy.Rational(int(content.p), int(content.q))
+        number = sympy.Rational(int(content.p), int(content.q))
+        powers: dict[sympy.Expr, int] = {}
         for factor, power in factors:
             scale, primitive = self._expanded(factor).primitive()
-            result *= scale ** int(power) * primitive ** int(power)
-        return result
+            if _reads_negative(primitive):
+                scale, primitive = -scale, -primitive
+            number *= scale ** int(power)
+            powers[primitive] = powers.get(primitive, 0) + int(power)
+        return number, powers
+
+
+def _reads_negative(factor: sympy.Expr) -> bool:
+    """Whether −factor reads better: M − j rather than j − M, 1 − z rather than z − 1."""
+    if M in factor.free_symbols:
+        return bool(sympy.Poly(factor, M).LC().could_extract_minus_sign())
+    constant = factor.as_coeff_Add()[0]
+    return bool(constant.is_negative or (constant == 0 and factor.could_extract_minus_sign()))
 
 
 def antidifference(f: RationalFunction, symbol: sympy.Expr) -> RationalFunction:

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 import sympy
 
 from symbolic import symbols as sy
+from symbolic.printing.text import text
 
 _SWAPPED_SYMBOLS = {
     sy.n_plus: sy.n_minus,
@@ -77,7 +78,7 @@ def _here(node: sympy.Basic) -> Iterator[Change]:
         yield f"{node} changed to {2 * node}", 2 * node
     elif node in _SWAPPED_SYMBOLS:
         other = _SWAPPED_SYMBOLS[node]
-        yield f"{node} replaced by {other}", other
+        yield f"{_brief(node)} replaced by {_brief(other)}", other
     elif type(node) in _SWAPPED_FUNCTIONS:
         changed = _SWAPPED_FUNCTIONS[type(node)](*node.args)
         yield f"{_brief(node)} replaced by {_brief(changed)}", changed
@@ -85,7 +86,7 @@ def _here(node: sympy.Basic) -> Iterator[Change]:
         first, second, index, last = node.args
         for by in (1, -1):
             yield (
-                f"case {index} ≤ {last} shifted to {last + by}",
+                f"case {index} ≤ {_brief(last)} shifted to {_brief(last + by)}",
                 node.func(first, second, index, last + by),
             )
     elif isinstance(node, sympy.Sum | sy.Dot):
@@ -111,15 +112,15 @@ def _shifted_bounds(node: sympy.Sum) -> Iterator[Change]:
     index, low, high = node.limits[0]
     for by in (1, -1):
         yield (
-            f"lower bound {index} = {low} shifted to {low + by}",
+            f"lower bound {index} = {_brief(low)} shifted to {_brief(low + by)}",
             sympy.Sum(node.function, (index, low + by, high)),
         )
         yield (
-            f"upper bound {index} = {high} shifted to {high + by}",
+            f"upper bound {index} = {_brief(high)} shifted to {_brief(high + by)}",
             sympy.Sum(node.function, (index, low, high + by)),
         )
 
 
 def _brief(node: sympy.Basic) -> str:
-    text = str(node)
-    return text if len(text) <= 48 else text[:45] + "…"
+    shown = text(node)
+    return shown if len(shown) <= 64 else shown[:62].rsplit(" ", 1)[0] + " …"

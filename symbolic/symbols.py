@@ -101,7 +101,7 @@ class ForceMinus(SiteFunction):
 class Load(SiteFunction):
     """F^load on bead (k, l) (vector)."""
 
-    latex_head, text_head, is_vector = r"{\bf F}^{\rm load}", "F_load", True
+    latex_head, text_head, is_vector = r"{\bf F}^{\rm load}", "Fˡᵒᵃᵈ", True
 
 
 class SecondDifference(SiteFunction):

@@ -1,6 +1,6 @@
 """Expressions as code: SymPy source in the names of ``symbolic.symbols``, and plain Python."""
 
-from sympy import Basic, Piecewise, Rational, Sum, Symbol
+from sympy import Basic, Rational, Sum, Symbol
 from sympy.printing.str import StrPrinter
 
 from symbolic import symbols as sy
@@ -44,6 +44,8 @@ class _PythonSource(StrPrinter):  # type: ignore[misc]
 
     def _print_Function(self, expr: Basic) -> str:
         name = type(expr).__name__
+        if name == "Braces":
+            return self._print_Braces(expr)
         return f"{_CALLS.get(name, name)}({self.stringify(expr.args, ', ')})"
 
     _print_Max = _print_Min = _print_Function
@@ -55,11 +57,9 @@ class _PythonSource(StrPrinter):  # type: ignore[misc]
         )
         return f"sum({self._print(expr.function)} {loops})"
 
-    def _print_Piecewise(self, expr: Piecewise) -> str:
-        text = ""
-        for value, condition in expr.args[:-1]:
-            text += f"{self._print(value)} if {self._print(condition)} else "
-        return f"({text}{self._print(expr.args[-1][0])})"
+    def _print_Braces(self, expr: Basic) -> str:
+        first, second, index, last = map(self._print, expr.args)
+        return f"({first} if {index} <= {last} else {second})"
 
 
 def sympy_source(expr: Basic) -> str:

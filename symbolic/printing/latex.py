@@ -3,7 +3,7 @@
 import re
 from typing import Any
 
-from sympy import Expr, Matrix, Piecewise, Sum
+from sympy import Expr, Matrix, Sum
 from sympy.printing.latex import LatexPrinter
 
 from symbolic import symbols as sy
@@ -21,6 +21,13 @@ _SYMBOLS = {
     sy.e_y: r"\hat{\bf e}_{y}",
 }
 
+_LOCAL = {  # symbols of a single derivation
+    "delta_x": r"\Delta x",
+    "delta_y": r"\Delta y",
+    "nu_plus": r"\nu^{+}",
+    "nu_minus": r"\nu^{-}",
+    "nu_in": r"\nu_{\rm in}",
+}
 _SIGNS = {"==": "=", "<=": r"\leq", "!=": r"\neq"}
 _TALL = re.compile(r"\\frac|\\sum|\\begin|\\left")
 _SUBSCRIPT = re.compile(r"_\{[^{}]*\}")
@@ -33,8 +40,10 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
         LatexPrinter.__init__(self, {"order": "none", "symbol_names": dict(_SYMBOLS)})
 
     def _print_Symbol(self, expr: Any, style: str = "plain") -> str:
-        local = {"delta_x": r"\Delta x", "delta_y": r"\Delta y"}  # of a single derivation
-        return local.get(expr.name) or str(super()._print_Symbol(expr, style))
+        if "\\" in expr.name:  # given as LaTeX; a quotient becomes a fraction
+            over, slash, under = expr.name.partition("/")
+            return self.set_fraction(over, under, alone=True) if slash else over
+        return _LOCAL.get(expr.name) or str(super()._print_Symbol(expr, style))
 
     def set_fraction(self, over: str, under: str, *, alone: bool) -> str:
         return rf"\frac{{{over}}}{{{under}}}"
@@ -49,6 +58,9 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
         if "(" in flat:
             return rf"\left[ {inner} \right]"
         return rf"\left( {inner} \right)"
+
+    def set_root(self, inner: str) -> str:
+        return rf"\sqrt{{{inner}}}"
 
     def set_power(self, base: str, exponent: Expr) -> str:
         if "^" in base and re.fullmatch(r"[^()]*", base):
@@ -85,16 +97,14 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
         inner = self._print(expr.function)
         return text + (self.set_brackets(inner) if expr.function.is_Add else inner)
 
-    def _print_Piecewise(self, expr: Piecewise) -> str:
-        rows = [
-            f"{self._print(value)} & {'otherwise' if condition == True else self._print(condition)}"  # noqa: E712
-            for value, condition in expr.args
-        ]
-        return (
-            r"\left\{ \begin{array}{r@{\;:\;}l} "
-            + r" \\ ".join(row.replace("otherwise", r"\mbox{otherwise}") for row in rows)
-            + r" \end{array} \right\}"
+    def _print_Braces(self, expr: Any) -> str:
+        first, second, index, last = expr.args
+        rows = ((first, r"\leq", last), (second, ">", last))
+        cases = r" \\ ".join(
+            f"{self._print(value)} & {self._print(index)} {sign} {self.index(end)}"
+            for value, sign, end in rows
         )
+        return rf"\left\{{ \begin{{array}}{{r@{{\;:\;}}l}} {cases} \end{{array}} \right\}}"
 
     def _print_Relational(self, expr: Any) -> str:
         low, sign, high = ascending(expr)

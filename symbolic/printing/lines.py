@@ -8,7 +8,7 @@ that no line is overfull, which the compilation of the document checks.
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from sympy import Add, Basic, Eq, Expr, Mul, Piecewise, Tuple
+from sympy import Add, Basic, Eq, Expr, Mul, Sum, Symbol, Tuple
 from sympy.core.relational import Relational
 
 from symbolic.printing.latex import PaperLatex
@@ -125,12 +125,20 @@ class _Pieces:
         return list(in_order(expr)) if isinstance(expr, Add) else list(terms)
 
     def _inside(self, term: Basic) -> tuple[str, Expr] | None:
-        """A product that ends in a bracketed sum: the product before it, and the sum."""
+        """What ends in a bracketed sum: all before the bracket, and the sum."""
         if is_negative(term):
             term = without_sign(term)
-        if isinstance(term, Mul) and isinstance(term.args[-1], Add):
-            before = Mul(*term.args[:-1], evaluate=False) if len(term.args) > 2 else term.args[0]
-            return self.printer.doprint(before), term.args[-1]
+        if not isinstance(term, Mul):
+            return None
+        last = in_order(term)[-1]
+        before = [factor for factor in in_order(term) if factor is not last]
+        if isinstance(last, Sum) and isinstance(last.function, Add):
+            # a stand-in for the bracket keeps the sign of summation at the printer's care
+            gap = Symbol("GAP")
+            text = self.printer.doprint(Mul(*before, Sum(gap, *last.limits), evaluate=False))
+            return text.removesuffix("GAP").rstrip(), last.function
+        if isinstance(last, Add):
+            return self.printer.doprint(Mul(*before, evaluate=False)), last
         return None
 
 
@@ -142,10 +150,7 @@ def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) 
         return ["&" + line for line in pack(pieces.of(equation, room), room, room)]
     lhs = printer.doprint(equation.lhs)
     sign = relation if isinstance(equation, Eq) else _latex_sign(equation)
-    if isinstance(equation.rhs, Piecewise):
-        rhs = [(_cases(printer, equation.rhs), 0.0)]
-    else:
-        rhs = pieces.of(equation.rhs, room)
+    rhs = pieces.of(equation.rhs, room)
     if width(lhs) > room / 3 and len(equation.lhs.args) > 1:
         left = pack(pieces.of(equation.lhs, room), room, room)
         if len(left) > 1 or width(lhs) + sum(size for _, size in rhs) > room:
@@ -162,19 +167,6 @@ def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) 
 
 def _latex_sign(relation: Relational) -> str:
     return {"<=": r"\leq", ">=": r"\geq", "!=": r"\neq"}.get(relation.rel_op, relation.rel_op)
-
-
-def _cases(printer: PaperLatex, expr: Piecewise) -> str:
-    rows = [
-        f"{printer.doprint(value)} & "
-        + (
-            r"\mbox{otherwise}"
-            if condition == True
-            else rf"\mbox{{if }} {printer.doprint(condition)}"
-        )  # noqa: E712
-        for value, condition in expr.args
-    ]
-    return r"\begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
 
 
 def _single(formulas: Iterable[Basic]) -> Iterator[Basic]:

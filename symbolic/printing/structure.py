@@ -116,6 +116,10 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
     def set_power(self, base: str, exponent: Expr) -> str:
         """A power of something that needs no more brackets."""
 
+    @abstractmethod
+    def set_root(self, inner: str) -> str:
+        """A square root."""
+
     def set_group(self, product: str) -> str:
         """A product within a product, with something after it."""
         return product
@@ -218,6 +222,8 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
         if expr.exp.is_Rational and expr.exp.is_negative:
             return self._print_Mul(Mul(Integer(1), expr, evaluate=False))
         base = self._print(expr.base)
+        if expr.exp == Rational(1, 2):
+            return self.set_root(base)
         simple = isinstance(expr.base, Symbol | sy.SiteFunction) or (
             expr.base.is_Integer and expr.base >= 0
         )

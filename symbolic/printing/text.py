@@ -3,7 +3,7 @@
 import re
 from typing import Any
 
-from sympy import Expr, Matrix, Piecewise, Sum, Symbol
+from sympy import Expr, Matrix, Sum, Symbol
 from sympy.printing.str import StrPrinter
 
 from symbolic import symbols as sy
@@ -20,10 +20,24 @@ _SYMBOLS = {
     sy.b_minus: "b⁻",
 }
 _SIGNS = {"==": "=", "<=": "≤", "!=": "≠"}
-_ONE_FACTOR = re.compile(r"[\w⁺⁻]+(_\([^()]*\))?|\([^()]*\)\w?")
+_ONE_FACTOR = re.compile(r"[\w⁺⁻⟨⟩]+(_\([^()]*\))?|\([^()]*\)\w?|√\w+")
 _INDEX = re.compile(r"_\([^()]*\)|Σ\([^()]*\)")
-_LOCAL = {"delta_x": "Δx", "delta_y": "Δy", "rho": "ρ"}  # symbols of a single derivation
+_LOCAL = {  # symbols of a single derivation
+    "delta_x": "Δx",
+    "delta_y": "Δy",
+    "rho": "ρ",
+    "nu_plus": "ν⁺",
+    "nu_minus": "ν⁻",
+    "nu_in": "ν_in",
+}
 _RAISED = str.maketrans("0123456789+-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻")
+
+
+def _plain(name: str) -> str:
+    """The name of a symbol that is given as LaTeX."""
+    for source, sign in ((r"\sigma", "σ"), (r"\langle", "⟨"), (r"\rangle", "⟩"), (" ", "")):
+        name = name.replace(source, sign)
+    return re.sub(r"\^(\d)", lambda found: found[1].translate(_RAISED), name)
 
 
 def _is_sum(text: str) -> bool:
@@ -59,12 +73,17 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
             return f"{{{inner}}}"
         return f"[{inner}]" if "(" in flat else f"({inner})"
 
+    def set_root(self, inner: str) -> str:
+        return f"√{inner}" if inner.isalnum() else f"√({inner})"
+
     def set_power(self, base: str, exponent: Expr) -> str:
         if exponent.is_Integer:
             return base + str(exponent).translate(_RAISED)
         return f"{base}^({self._print(exponent)})"
 
     def _print_Symbol(self, expr: Symbol) -> str:
+        if "\\" in expr.name:
+            return _plain(expr.name)
         return _SYMBOLS.get(expr) or _LOCAL.get(expr.name, expr.name)
 
     def _print_SiteFunction(self, expr: sy.SiteFunction, exp: str | None = None) -> str:
@@ -98,16 +117,15 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
         inner = self._print(expr.function)
         return text + (self.set_brackets(inner) if expr.function.is_Add else inner)
 
-    def _print_Piecewise(self, expr: Piecewise) -> str:
-        return (
-            "{"
-            + "; ".join(
-                f"{self._print(value)} "
-                + ("otherwise" if condition == True else f"if {self._print(condition)}")  # noqa: E712
-                for value, condition in expr.args
-            )
-            + "}"
-        )
+    def _print_Derivative(self, expr: Any) -> str:
+        (variable, times), *_ = expr.variable_count
+        power = "" if times == 1 else str(times).translate(_RAISED)
+        inner = self.set_brackets(self._print(expr.expr))
+        return f"d{power}/d{self._print(variable)}{power} {inner}"
+
+    def _print_Braces(self, expr: Any) -> str:
+        first, second, index, last = (self._print(arg) for arg in expr.args)
+        return f"{{{first} if {index} ≤ {last}; {second} if {index} > {last}}}"
 
     def _print_Relational(self, expr: Any) -> str:
         low, sign, high = ascending(expr)

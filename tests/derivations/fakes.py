@@ -1,0 +1,57 @@
+"""Tiny derivations with a known fate, for tests of all that surrounds a derivation."""
+
+from dataclasses import replace
+
+import sympy
+
+from derivations.record import Claim, Derivation, Step, Witness
+from symbolic.as_printed import equation, terms
+from symbolic.kernel import Ruling, Verdict
+from symbolic.symbols import DeltaR, DeltaX, i, j
+
+TRUE = equation(DeltaX(i, j), terms(DeltaR(i, j), DeltaR(i - 1, j)))
+
+
+def decide(_: int, candidate: sympy.Eq) -> Ruling:
+    """Only the same terms will do, in any order."""
+    same = sympy.expand(candidate.rhs - TRUE.rhs) == 0
+    return Ruling(Verdict.PROVED if same else Verdict.REFUTED, "terms compared")
+
+
+def always(verdict: Verdict) -> Ruling:
+    return Ruling(verdict, "said so")
+
+
+PREMISE = Derivation(
+    number=1,
+    name="premise",
+    title="A premise, with δr_(i−1,j) in its title",
+    symbols=((DeltaR(i, j), "deviation of a radius, 100 % made up & simple"),),
+    assumptions=("j ≥ 1",),
+    premises=(),
+    printed=(TRUE,),
+    steps=lambda: [Step("Add the two radii.", TRUE), Step("Nothing more.")],
+    decide=decide,
+    claims=(Claim("a claim", lambda: always(Verdict.PROVED)),),
+    witnesses=(Witness("a witness", lambda seed: always(Verdict.AGREES)),),
+    remarks=("A remark about n⁺·δn⁺ = 0.",),
+)
+
+CONCLUSION = replace(PREMISE, number=2, name="conclusion", title="B", premises=(PREMISE,))
+
+
+def with_claim(verdict: Verdict) -> Derivation:
+    return replace(CONCLUSION, claims=(Claim("doubtful", lambda: always(verdict)),))
+
+
+def with_witness(verdict: Verdict) -> Derivation:
+    return replace(CONCLUSION, witnesses=(Witness("doubtful", lambda seed: always(verdict)),))
+
+
+def with_blind_checker() -> Derivation:
+    """Its procedure proves the printed equation and can't tell anything else from it."""
+
+    def blind(_: int, candidate: sympy.Eq) -> Ruling:
+        return always(Verdict.PROVED if candidate == TRUE else Verdict.UNDECIDED)
+
+    return replace(CONCLUSION, decide=blind)

@@ -1,0 +1,69 @@
+"""The runner: verdicts from checks, premises first, mutants judged."""
+
+from dataclasses import replace
+
+import pytest
+
+from derivations.catalogue import modules, with_premises
+from derivations.plain import mutant_counts, outcome_text, summary_line, trouble_lines
+from derivations.runner import run, run_alone
+from symbolic.kernel import Verdict
+from tests.derivations import fakes
+
+
+def test_a_sound_derivation_is_proved() -> None:
+    outcome = run(fakes.PREMISE)
+    assert outcome.verdict is Verdict.PROVED
+    assert [check.kind for check in outcome.checks] == ["proof", "proof", "witness"]
+    assert all(check.seconds >= 0 for check in outcome.checks)
+    counts = mutant_counts(outcome)
+    assert counts["made"] == counts["refuted"] >= 5
+    assert counts["equivalent"] == 0
+
+
+@pytest.mark.parametrize(
+    ("derivation", "verdict"),
+    [
+        (fakes.with_claim(Verdict.REFUTED), Verdict.REFUTED),
+        (fakes.with_claim(Verdict.UNDECIDED), Verdict.UNDECIDED),
+        (fakes.with_witness(Verdict.DISAGREES), Verdict.REFUTED),
+        (fakes.with_blind_checker(), Verdict.UNDECIDED),
+    ],
+)
+def test_anything_doubtful_spoils_the_verdict(derivation, verdict) -> None:
+    outcome = run(derivation)
+    assert outcome.verdict is verdict
+    assert trouble_lines(outcome)
+
+
+def test_an_equivalent_mutant_is_listed_with_its_proof() -> None:
+    lenient = replace(fakes.PREMISE, decide=lambda *_: fakes.always(Verdict.PROVED))
+    outcome = run(lenient)
+    counts = mutant_counts(outcome)
+    assert counts["equivalent"] == counts["made"] > 0
+    assert outcome.verdict is Verdict.PROVED
+    assert outcome_text(outcome).count("equivalent rewriting: ") == counts["made"]
+
+
+def test_premises_come_first_and_once() -> None:
+    third = replace(fakes.CONCLUSION, number=3, premises=(fakes.CONCLUSION, fakes.PREMISE))
+    assert [d.number for d in with_premises([third, fakes.PREMISE])] == [1, 2, 3]
+
+
+def test_run_alone_prints_everything(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_alone(fakes.PREMISE) == 0
+    printed = capsys.readouterr().out
+    for part in ("A premise", "Symbols", "Assumptions", "Steps", "Checks", "mutants", "is proved"):
+        assert part in printed
+    assert run_alone(fakes.with_claim(Verdict.UNDECIDED)) == 1
+
+
+def test_the_summary_counts(capsys: pytest.CaptureFixture[str]) -> None:
+    line = summary_line(run(fakes.PREMISE))
+    assert "2 proofs, 1 witnesses" in line
+    assert "proved" in line
+
+
+def test_modules_are_found_by_name_in_order() -> None:
+    assert list(modules()) == sorted(modules())
+    assert modules()[2] == "eq02_displacement"
