@@ -9,8 +9,9 @@ import flint
 import numpy as np
 
 from numeric.answers import Table
+from numeric.decimals import decimal_string
 from numeric.lattice import Array
-from numeric.systems import Balls, Hardware, NumberSystem
+from numeric.systems import Balls, Hardware, NumberSystem, midpoint
 
 # A printed decimal may be off by one unit in its last digit, which is at most 20 ball radii.
 PRINTED = 20
@@ -80,7 +81,8 @@ def of_floats(table: Table, longer: Table, system: Hardware) -> Accuracy:
 def strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dict[str, list[str]]:
     """Print the number columns, each number with the digits that its error leaves."""
     if isinstance(system, Balls):
-        return {k: [_ball_string(v) for v in column] for k, column in table.numbers.items()}
+        most = int(system.bits * 0.30103) + 1
+        return {k: [_ball_string(v, most) for v in c] for k, c in table.numbers.items()}
     largest = max(
         (float(np.abs(table.numbers[k]).max()) for k in table.small if len(table.numbers[k])),
         default=0.0,
@@ -89,10 +91,12 @@ def strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dict[str,
     return {k: _float_strings(column, error) for k, column in table.numbers.items()}
 
 
-def _ball_string(value: Any) -> str:
-    if value.is_zero() or value.contains(0):
+def _ball_string(value: Any, most: int) -> str:
+    if value.contains(0):
         return "0"
-    return str(value.str(value.rel_accuracy_bits(), radius=False))
+    if value.is_exact():
+        return decimal_string(midpoint(value), None)
+    return str(value.str(most, radius=False))
 
 
 def _float_strings(column: Array, error: float) -> list[str]:

@@ -171,6 +171,8 @@ def displace(
 ) -> Packing:
     """Solve Eqs. 2–5 to first order over a region; arrays as in ``packing.deposit``."""
     m = metric(n_x, system)
+    if work is not None:
+        work.did("summed", region.rows[0], rho[0].size // region.rows[0].count)
     nothing = zeros(system, 0)
     base = zeros(system, *rho[0].shape)
     c_plus, c_minus = [base], [base]

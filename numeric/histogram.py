@@ -3,7 +3,6 @@
 from fractions import Fraction
 from typing import Any
 
-import flint
 import numpy as np
 
 from numeric.lattice import Array
@@ -16,8 +15,8 @@ def histogram(
 ) -> list[tuple[Fraction, Fraction, int]]:
     """Count ``values`` into equal bins: [(low edge, high edge, count)], low ≤ value < high.
 
-    The edges are doubles just outside the extreme values, so that every number system has the
-    same bins. Raises ``UndecidedError`` where a ball lies across an edge.
+    The outer edges are doubles just outside the extreme values, so that every number system has
+    the same bins; values that are all alike make one bin. Raises ``UndecidedError`` where a ball lies across an edge.
     """
     if not len(values):
         return []
@@ -25,8 +24,12 @@ def histogram(
     low, high = float(np.nextafter(rough.min(), -np.inf)), float(np.nextafter(rough.max(), np.inf))
     edges = [Fraction(low) + (Fraction(high) - Fraction(low)) * k / bins for k in range(bins + 1)]
     counts = [0] * bins
+    if rough.min() == rough.max():
+        return [(Fraction(low), Fraction(high), len(values))]
     if isinstance(system, Balls):
-        _count_balls(values, edges, rough, counts, system)
+        bounds = [system.number(e) for e in edges]
+        for value in values:
+            counts[_place(value, bounds)] += 1
     else:
         inner = np.array([float(e) for e in edges[1:-1]])
         for k in np.searchsorted(inner, rough, side="right"):
@@ -34,15 +37,15 @@ def histogram(
     return list(zip(edges[:-1], edges[1:], counts, strict=True))
 
 
-def _count_balls(
-    values: Array, edges: list[Fraction], rough: Array, counts: list[int], system: Balls
-) -> None:
-    bounds: list[Any] = [system.number(e) for e in edges]
-    places = np.searchsorted([float(e) for e in edges[1:-1]], rough, side="right")
-    for value, place in zip(values, places.tolist(), strict=True):
-        for k in (place, place - 1, place + 1):
-            if 0 <= k < len(counts) and value >= bounds[k] and value < bounds[k + 1]:
-                counts[k] += 1
-                break
+def _place(value: Any, bounds: list[Any]) -> int:
+    """Find the bin of a ball by bisection; every comparison must be certain."""
+    low, high = 0, len(bounds) - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if value >= bounds[middle]:
+            low = middle
+        elif value < bounds[middle]:
+            high = middle
         else:
-            raise UndecidedError(f"a ball lies across the edge of a bin: {flint.arb(value)}")
+            raise UndecidedError(f"the ball {value} lies across the edge of a bin")
+    return low
