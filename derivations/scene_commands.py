@@ -6,6 +6,7 @@ import json
 import sys
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
@@ -189,7 +190,45 @@ def _csv(rows: list[dict[str, Any]]) -> str:
     return text.getvalue()
 
 
+def stability(as_json: _Json = False) -> None:
+    """Measure the engine's errors against certified enclosures, hard cases included."""
+    from numeric.stability import cases, measure
+
+    rows = []
+    if not as_json:
+        print(_STABILITY_HEAD)
+    for case in cases():
+        row = asdict(measure(case))
+        rows.append(row)
+        if not as_json:
+            print(_stability_line(row), flush=True)
+    if as_json:
+        print(json.dumps({"rows": rows}, indent=2))
+
+
+_STABILITY_HEAD = (
+    "Errors of change, relative to the largest, against an enclosure of all contact forces.\n"
+    "group       M    W   sigma/r  s/r             deviation form      plain form        "
+    "  balls: lost bits, time  pulling  overlaps"
+)
+
+
+def _stability_line(row: dict[str, Any]) -> str:
+    def error(value: float | None) -> str:
+        return "   --  " if value is None else f"{value:7.1e}"
+
+    lost = "  --" if row["ball_bits_lost"] is None else f"{row['ball_bits_lost']:6.1f}"
+    return (
+        f"{row['group']:<10}{row['height']:5}{row['width']:4}  {row['relative_std']:8.1e}  "
+        f"{row['spacing']:<15} {error(row['error'])} {row['seconds']:8.1e}s  "
+        f"{error(row['plain_error'])} {row['plain_seconds']:8.1e}s "
+        f"{lost} of {row['ball_bits']:<4} {row['ball_seconds']:8.1e}s  {row['tensile']!s:>6} "
+        f"{row['overlaps']!s:>6}  {row['note']}"
+    )
+
+
 def register(app: typer.Typer) -> None:
     """Add the commands to the command line."""
     app.command(epilog=STATUSES)(run)
     app.command(epilog=STATUSES)(explain)
+    app.command()(stability)

@@ -16,7 +16,8 @@ def histogram(
     """Count ``values`` into equal bins: [(low edge, high edge, count)], low ≤ value < high.
 
     The outer edges are doubles just outside the extreme values, so that every number system has
-    the same bins; values that are all alike make one bin. Raises ``UndecidedError`` where a ball lies across an edge.
+    the same bins; values that are all alike make one bin. Raises ``UndecidedError`` where a ball
+    lies across an edge.
     """
     if not len(values):
         return []
