@@ -76,6 +76,11 @@ def physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
         "height": plan.scene.packing.height,
         "critical_height": highest if math.isfinite(highest) else None,
     }
+    if pulls and alone:
+        data["note"] = (
+            "a load on one bead pulls contacts inside its cone: its response is to be added to "
+            "that of other loads, so tension alone does not count here"
+        )
     if found.first_tensile is not None:
         i, j, branch = found.first_tensile
         period = plan.scene.packing.width

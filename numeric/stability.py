@@ -82,6 +82,7 @@ def cases() -> Iterator[Case]:
         (48, "0.006"),
         (96, "0.003"),
         (192, "0.003"),
+        (384, "0.003"),
     ):
         yield Case("breakdown", height, 16, Fraction(std), bits=1024)
     for power in (-498, 498):
