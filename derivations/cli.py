@@ -4,9 +4,10 @@ import errno
 import io
 import os
 import sys
+from contextlib import suppress
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import Annotated, Any
 
 import typer
 from typer.core import TyperGroup
@@ -43,13 +44,20 @@ class Place(StrEnum):
 
 
 class _Commands(TyperGroup):
-    """Names the commands there are when asked for one that there isn't."""
+    """Names the commands there are, and turns what fails outside into a message."""
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """Find the command, or say which ones exist."""
         if args and not args[0].startswith("-") and args[0] not in self.commands:
             ctx.fail(f"There is no command '{args[0]}'. Use {_either(list(self.commands))}.")
         return super().resolve_command(ctx, args)
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run a command; a disk or a pipe that fails has an exit status of its own."""
+        try:
+            return super().invoke(ctx)
+        except OSError as failure:
+            ctx.exit(_outside(failure))
 
 
 app = typer.Typer(
@@ -80,11 +88,6 @@ def _number(word: str) -> int:
         f"{max(known)}; 'force-diffusion list' names them.",
         param_hint="N",
     )
-
-
-def _fail(message: str, status: int) -> NoReturn:
-    print(f"force-diffusion: {message}", file=sys.stderr)
-    raise typer.Exit(status)
 
 
 @app.command(epilog=STATUSES)
@@ -185,8 +188,6 @@ def main(arguments: list[str] | None = None) -> int:
         status = done.code if isinstance(done.code, int) else 1
     except KeyboardInterrupt:
         status = INTERRUPTED
-    except OSError as failure:
-        status = _outside(failure)
     if status == INTERRUPTED:
         print("force-diffusion: interrupted; no half-written file is left.", file=sys.stderr)
     try:
@@ -198,9 +199,10 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _outside(failure: OSError) -> int:
     """Say what failed outside of the program, and what to do."""
-    if failure.errno in (errno.EPIPE, errno.EINVAL) or failure.filename is None:
+    if failure.filename is None:
         # nothing more can reach standard output, not even when the interpreter closes it
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        with suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     if failure.errno != errno.EPIPE:
         where = f"'{failure.filename}'" if failure.filename else "standard output"
         remedy = {

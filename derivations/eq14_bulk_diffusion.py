@@ -7,6 +7,7 @@ import sympy
 
 from derivations import eq11_total_force as eq11
 from derivations import eq12_delta_weights as eq12
+from derivations import eq13_surface_diffusion as eq13
 from derivations import witnesses
 from derivations.asymptotics import compare_leading_order
 from derivations.record import Claim, Derivation, Step, Witness
@@ -136,8 +137,6 @@ def _edges() -> Ruling:
 
 
 def _one_layer_below_the_surface() -> Ruling:
-    from derivations import eq13_surface_diffusion as eq13
-
     difference = exact_forms()["surface"].value - eq13.exact_forms()["surface"].value
     return from_test(
         difference.is_zero(),
@@ -193,7 +192,7 @@ DERIVATION = Derivation(
         "every bead above the base weighs mg, whatever its radius",
         "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M",
     ),
-    premises=(eq11.DERIVATION, eq12.DERIVATION),
+    premises=(eq11.DERIVATION, eq12.DERIVATION, eq13.DERIVATION),
     printed=(PRINTED,),
     relation="∼",
     steps=steps,

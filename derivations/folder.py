@@ -64,7 +64,11 @@ class OutputFolder:
         At each moment every file in the folder is whole and the manifest owns all of them.
         """
         for name, content in files.items():
-            (self._aside / name).write_text(content, encoding="utf-8")
+            try:
+                (self._aside / name).write_text(content, encoding="utf-8")
+            except OSError as failure:  # a write that fails half-way names no file
+                failure.filename = str(self.folder / name)
+                raise
         for name in owned_files(self.folder) - set(files):
             (self.folder / name).unlink(missing_ok=True)
         for name in sorted(files, key=lambda name: name != MANIFEST):

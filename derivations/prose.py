@@ -7,7 +7,8 @@ _MATHS = {
     "−": "-", "±": r"\pm ", "∓": r"\mp ", "·": r"\cdot ", "×": r"\times ", "…": r"\ldots ",
     "≤": r"\leq ", "≥": r"\geq ", "≠": r"\neq ", "≈": r"\approx ", "∼": r"\sim ", "≡": r"\equiv ",
     "↔": r"\leftrightarrow ", "←": r"\leftarrow ", "∘": r"\circ ", "∎": r"\Box ",
-    "∝": r"\propto ", "→": r"\to ", "⇒": r"\Rightarrow ", "⇔": r"\Leftrightarrow ", "↦": r"\mapsto ",
+    "∝": r"\propto ", "→": r"\to ", "⇒": r"\Rightarrow ", "⇔": r"\Leftrightarrow ",
+    "↦": r"\mapsto ",
     "∈": r"\in ", "∞": r"\infty ", "∂": r"\partial ", "√": r"\surd ", "Σ": r"\sum ", "∑": r"\sum ",
     "⟨": r"\langle ", "⟩": r"\rangle ", "½": r"\frac{1}{2}", "¼": r"\frac{1}{4}", "°": r"^{\circ}",
     "α": r"\alpha ", "β": r"\beta ", "γ": r"\gamma ", "δ": r"\delta ", "ε": r"\varepsilon ",
@@ -16,7 +17,8 @@ _MATHS = {
     "Δ": r"\Delta ", "Φ": r"\Phi ", "Ω": r"\Omega ", "ℚ": r"\mathbf{Q}", "ℤ": r"\mathbf{Z}",
     "ᵀ": r"^{T}", "ᵃ": r"^{a}", "ᵇ": r"^{b}", "ⁿ": r"^{n}", "ʲ": r"^{j}", "′": "'",
     "⌊": r"\lfloor ", "⌋": r"\rfloor ", "⌈": r"\lceil ", "⌉": r"\rceil ", "∪": r"\cup ",
-    "≪": r"\ll ", "≫": r"\gg ", "≲": r"\lesssim ", "⊥": r"\perp ", "∀": r"\forall ", "∃": r"\exists ",
+    "≪": r"\ll ", "≫": r"\gg ", "≲": r"\lesssim ", "⊥": r"\perp ", "∀": r"\forall ",
+    "∃": r"\exists ",
 }  # fmt: skip
 _RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-", strict=True))
 _WORDS = {"ˡᵒᵃᵈ": r"^{\rm load}"}

@@ -144,14 +144,14 @@ class RationalFunction:
         return self._same(self.numerator * other.numerator, self.denominator * other.denominator)
 
     def __truediv__(self, other: Self) -> Self:
-        if other.numerator == 0:
+        if other.is_zero():
             raise NotExactError("division by zero")
         return self._same(self.numerator * other.denominator, self.denominator * other.numerator)
 
     def __pow__(self, exponent: int) -> Self:
         if exponent < 0:
-            inverse = self._same(self.denominator, self.numerator)
-            return inverse**-exponent
+            one = self._same(self.denominator, self.denominator)
+            return (one / self) ** -exponent
         return self._same(self.numerator**exponent, self.denominator**exponent)
 
     def is_zero(self) -> bool:

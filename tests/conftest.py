@@ -1,6 +1,12 @@
 """What every test may use."""
 
 import pytest
+from hypothesis import settings
+
+# quick by default; `pytest --hypothesis-profile=thorough` for ten thousand examples each
+settings.register_profile("quick", max_examples=20, deadline=None, derandomize=True)
+settings.register_profile("thorough", max_examples=10_000, deadline=None)
+settings.load_profile("quick")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -20,8 +20,6 @@ _CALLS = {
     "SecondDifference": "second_difference",
     "Dot": "dot",
     "MatrixTimes": "matrix_times",
-    "Max": "max",
-    "Min": "min",
 }
 _VALUES = (sy.M, sy.z, *sy.INDICES, *sy.PARAMETERS, *sy.VECTORS)
 
@@ -47,8 +45,6 @@ class _PythonSource(StrPrinter):  # type: ignore[misc]
         if name == "Braces":
             return self._print_Braces(expr)
         return f"{_CALLS.get(name, name)}({self.stringify(expr.args, ', ')})"
-
-    _print_Max = _print_Min = _print_Function
 
     def _print_Sum(self, expr: Sum) -> str:
         loops = " ".join(

@@ -46,6 +46,7 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
         return _LOCAL.get(expr.name) or str(super()._print_Symbol(expr, style))
 
     def set_fraction(self, over: str, under: str, *, alone: bool) -> str:
+        """A fraction."""
         return rf"\frac{{{over}}}{{{under}}}"
 
     def set_brackets(self, inner: str) -> str:
@@ -60,9 +61,11 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
         return rf"\left( {inner} \right)"
 
     def set_root(self, inner: str) -> str:
+        """A square root."""
         return rf"\sqrt{{{inner}}}"
 
     def set_power(self, base: str, exponent: Expr) -> str:
+        """A power, its base in brackets where a superscript is in the way."""
         if "^" in base and re.fullmatch(r"[^()]*", base):
             base = f"({base})"
         return rf"{base}^{{{self._print(exponent)}}}"
@@ -88,8 +91,6 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
         rows = r" \\[2pt] ".join(" & ".join(map(self._print, row)) for row in expr.tolist())
         return rf"\begin{{pmatrix}} {rows} \end{{pmatrix}}"
 
-    _print_ImmutableDenseMatrix = _print_MutableDenseMatrix = _print_MatrixBase
-
     def _print_Sum(self, expr: Sum) -> str:
         text = ""
         for index, lower, upper in reversed(expr.limits):
@@ -109,10 +110,6 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
     def _print_Relational(self, expr: Any) -> str:
         low, sign, high = ascending(expr)
         return f"{self._print(low)} {_SIGNS.get(sign, sign)} {self._print(high)}"
-
-    def _print_Max(self, expr: Any, exp: str | None = None) -> str:
-        text = rf"\max({', '.join(self._print(arg) for arg in expr.args)})"
-        return text if exp is None else f"{text}^{{{exp}}}"
 
 
 def latex(expr: Expr) -> str:

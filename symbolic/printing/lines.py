@@ -166,7 +166,8 @@ def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) 
 
 
 def _latex_sign(relation: Relational) -> str:
-    return {"<=": r"\leq", ">=": r"\geq", "!=": r"\neq"}.get(relation.rel_op, relation.rel_op)
+    signs = {"<=": r"\leq", ">=": r"\geq", "!=": r"\neq"}
+    return signs.get(relation.rel_op, str(relation.rel_op))
 
 
 def _single(formulas: Iterable[Basic]) -> Iterator[Basic]:

@@ -213,7 +213,7 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
         if expr.q == 1:
             return str(expr.p).replace("-", self.minus)
         if expr.p < 0:
-            return self.minus + self._print(-expr)
+            return f"{self.minus}{self._print(-expr)}"
         return self.set_fraction(str(expr.p), str(expr.q), alone=True)
 
     def _print_Pow(self, expr: Pow, **_: Any) -> str:

@@ -59,24 +59,29 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
         StrPrinter.__init__(self, {"order": "none"})
 
     def set_fraction(self, over: str, under: str, *, alone: bool) -> str:
+        """A fraction."""
         over = self.set_brackets(over) if _is_sum(over) else over
         simple = _ONE_FACTOR.fullmatch(under) is not None
         text = f"{over}/{under if simple else self.set_brackets(under)}"
         return text if alone else f"({text})"
 
     def set_group(self, product: str) -> str:
+        """A quotient in brackets, so that what follows is not read as its denominator."""
         return f"({product})" if "/" in product else product
 
     def set_brackets(self, inner: str) -> str:
+        """Round, then square, then braces, from the inside out; indices do not count."""
         flat = _INDEX.sub("", inner)
         if "[" in flat:
             return f"{{{inner}}}"
         return f"[{inner}]" if "(" in flat else f"({inner})"
 
     def set_root(self, inner: str) -> str:
+        """A square root."""
         return f"√{inner}" if inner.isalnum() else f"√({inner})"
 
     def set_power(self, base: str, exponent: Expr) -> str:
+        """A power, whole numbers raised."""
         if exponent.is_Integer:
             return base + str(exponent).translate(_RAISED)
         return f"{base}^({self._print(exponent)})"
@@ -107,8 +112,6 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
     def _print_MatrixBase(self, expr: Any) -> str:
         rows = [f"({', '.join(map(self._print, row))})" for row in expr.tolist()]
         return f"({', '.join(rows)})"
-
-    _print_ImmutableDenseMatrix = _print_MutableDenseMatrix = _print_MatrixBase
 
     def _print_Sum(self, expr: Sum) -> str:
         text = ""

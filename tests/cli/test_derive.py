@@ -1,0 +1,218 @@
+"""``derive`` from the outside: what it prints, what it writes, how it fails."""
+
+import errno
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from derivations.cli import main
+from derivations.folder import OutputFolder
+from symbolic.kernel import Verdict
+from tests.derivations import fakes
+
+ROOT = Path(__file__).parents[2]
+COMMAND = [sys.executable, "-m", "derivations.cli"]
+ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "100"}
+
+
+@pytest.fixture
+def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, object]:
+    """Equations 1 and 2 are made-up ones; their verdicts can be chosen."""
+    table: dict[int, object] = {1: fakes.PREMISE, 2: fakes.CONCLUSION}
+    monkeypatch.setattr("derivations.deriving.load", table.__getitem__)
+    return table
+
+
+def run(*command: str, **options: Any) -> subprocess.CompletedProcess[str]:
+    settings = {"env": ENVIRONMENT, "capture_output": True, "text": True, "timeout": 60}
+    return subprocess.run(command, check=False, **{**settings, **options})
+
+
+def test_premises_are_proved_first(made_up, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["derive", "2"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[:2] for line in lines[:2]] == [["1", "proved"], ["2", "proved"]]
+    assert lines[2] == "2 proved."
+
+
+@pytest.mark.parametrize("verdict", [Verdict.REFUTED, Verdict.UNDECIDED])
+def test_status_1_says_what_is_wrong(made_up, verdict, capsys: pytest.CaptureFixture[str]) -> None:
+    made_up[2] = fakes.with_claim(verdict)
+    assert main(["derive", "2"]) == 1
+    printed = capsys.readouterr().out
+    assert f"{verdict}: doubtful" in printed
+    assert f"1 proved, 1 {verdict}." in printed
+
+
+def test_json_follows_its_schema(made_up, capsys: pytest.CaptureFixture[str]) -> None:
+    made_up[2] = fakes.with_witness(Verdict.DISAGREES)
+    assert main(["derive", "2", "1", "1", "--json"]) == 1
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    content = json.loads(printed.out)
+    assert list(content) == ["equations"]
+    assert [entry["number"] for entry in content["equations"]] == [1, 2]
+    for entry in content["equations"]:
+        assert list(entry) == ["number", "name", "verdict", "checks", "mutants", "seconds"]
+        assert entry["verdict"] in ("proved", "refuted", "undecided")
+        assert entry["seconds"] >= 0
+        assert list(entry["mutants"]) == ["made", "refuted", "equivalent"]
+        for check in entry["checks"]:
+            assert list(check) == ["kind", "verdict", "seconds"]
+            allowed = {
+                "proof": ("proved", "refuted", "undecided"),
+                "witness": ("agrees", "disagrees"),
+            }
+            assert check["verdict"] in allowed[check["kind"]]
+            assert check["seconds"] >= 0
+
+
+def test_the_output_folder_twice(made_up, tmp_path: Path, capsys) -> None:
+    out = tmp_path / "out"
+    assert main(["derive", "--out", str(out), "2"]) == 0
+    first = {path.name: path.read_bytes() for path in out.iterdir()}
+    assert set(first) == {"eq01.tex", "eq02.tex", "equations.tex", "manifest.json"}
+    assert main(["derive", "--out", str(out), "2"]) == 0
+    assert {path.name: path.read_bytes() for path in out.iterdir()} == first
+
+
+@pytest.mark.parametrize(
+    ("number", "says"),
+    [
+        (errno.ENOSPC, "Free some space"),
+        (errno.EACCES, "Choose a place"),
+        (errno.EROFS, "Choose a place"),
+    ],
+)
+def test_a_disk_that_fails(made_up, tmp_path: Path, monkeypatch, capsys, number, says) -> None:
+    out = tmp_path / "out"
+
+    def failing(self: OutputFolder, files: object) -> None:
+        raise OSError(number, os.strerror(number), str(out / "eq01.tex"))
+
+    monkeypatch.setattr(OutputFolder, "publish", failing)
+    assert main(["derive", "1", "--out", str(out)]) == 3
+    message = capsys.readouterr().err
+    assert "eq01.tex" in message
+    assert os.strerror(number) in message
+    assert says in message
+    assert not out.exists()
+
+
+def test_a_write_that_really_fails_half_way(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    done = run(
+        *COMMAND,
+        *("derive", "1", "--out", str(out)),
+        env={**ENVIRONMENT, "PYTHONDONTWRITEBYTECODE": "1"},
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000)),
+    )
+    assert done.returncode == 3
+    assert f"writing to '{out / 'equations.tex'}' failed: File too large" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not out.exists()
+
+
+def test_an_interrupt_in_this_process(made_up, tmp_path: Path, monkeypatch, capsys) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("derivations.deriving.run", interrupted)
+    assert main(["derive", "1", "--out", str(tmp_path / "out")]) == 130
+    assert "interrupted" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_real_signal_leaves_nothing_half_written(tmp_path: Path) -> None:
+    program = textwrap.dedent(
+        """
+        import sys, time
+        from dataclasses import replace
+        import derivations.deriving as deriving
+        from derivations.cli import main
+        from derivations.record import Witness
+        from tests.derivations import fakes
+
+        def slow(seed):
+            print("running", file=sys.stderr, flush=True)
+            time.sleep(60)
+
+        deriving.load = lambda number: replace(fakes.PREMISE, witnesses=(Witness("slow", slow),))
+        sys.exit(main(["derive", "1", "--out", sys.argv[1]]))
+        """
+    )
+    out = tmp_path / "out"
+    with subprocess.Popen(
+        [sys.executable, "-c", program, str(out)],
+        env=ENVIRONMENT,
+        cwd=ROOT,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    ) as process:
+        assert process.stderr is not None
+        assert process.stderr.readline() == "running\n"
+        assert out.is_dir()
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert errors == "force-diffusion: interrupted; no half-written file is left.\n"
+    assert not out.exists()
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+@pytest.mark.parametrize("arguments", [["derive", "1", "--json"], ["derive", "1"], ["list"]])
+def test_a_full_disk_under_standard_output(arguments: list[str]) -> None:
+    with Path("/dev/full").open("w") as full:
+        streams = {"capture_output": False, "stdout": full, "stderr": subprocess.PIPE}
+        done = run(*COMMAND, *arguments, **streams)
+    assert done.returncode == 3
+    assert "standard output" in done.stderr
+    assert "Free some space" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert "Exception" not in done.stderr
+
+
+def test_a_closed_pipe_is_no_traceback() -> None:
+    shell = f"{sys.executable} -m derivations.cli derive 1 2 3 | head -c 1"
+    done = run("bash", "-c", shell + '; exit "${PIPESTATUS[0]}"')
+    assert done.returncode == 3
+    assert done.stderr == ""
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")
+def test_a_read_only_parent(tmp_path: Path) -> None:
+    tmp_path.chmod(0o500)
+    done = run(*COMMAND, "derive", "1", "--out", str(tmp_path / "out"))
+    tmp_path.chmod(0o700)
+    assert done.returncode == 3
+    assert "Permission denied" in done.stderr
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="there is no /proc here")
+def test_a_file_system_that_takes_no_files() -> None:
+    done = run(*COMMAND, "derive", "1", "--out", "/proc/out")
+    assert done.returncode == 3
+    assert "/proc/out" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_terminal_that_knows_only_ascii() -> None:
+    environment = {**ENVIRONMENT, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
+    done = run(*COMMAND, "show", "4", env=environment)
+    assert done.returncode == 0
+    assert done.stdout.isascii()
+
+
+def test_every_module_runs_alone() -> None:
+    done = run(sys.executable, "-m", "derivations.eq02_displacement")
+    assert done.returncode == 0
+    assert "Eq. 2 is proved" in done.stdout

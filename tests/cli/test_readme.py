@@ -1,0 +1,58 @@
+"""The README: two commands, and nothing said that the program does not do."""
+
+import re
+import subprocess
+import tomllib
+from pathlib import Path
+
+from derivations.cli import STATUSES, main
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+COMMANDS = re.findall(r"^```sh\n(.*?)\n```$", README, re.MULTILINE | re.DOTALL)
+
+
+def test_exactly_two_commands_of_one_line() -> None:
+    assert README.count("```") == 4
+    assert [command.count("\n") for command in COMMANDS] == [0, 0]
+    assert "force-diffusion derive" in COMMANDS[0]
+    assert COMMANDS[1].endswith("pytest")
+
+
+def test_the_commands_are_shell() -> None:
+    for command in COMMANDS:
+        subprocess.run(["bash", "-n", "-c", command], check=True, timeout=10)
+
+
+def test_the_extras_it_installs_exist() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    for extra in re.findall(r"'\.\[(\w+)\]'", README):
+        assert extra in project["optional-dependencies"]
+
+
+def test_the_uses_that_it_lists_are_understood(capsys) -> None:
+    rows = re.findall(r"^\| `(show[^`]*|list)` \|", README, re.MULTILINE)
+    assert len(rows) >= 5
+    for row in rows:
+        assert main(row.split()) == 0
+        assert capsys.readouterr().out
+
+
+def test_every_exit_status_is_told() -> None:
+    for status in re.findall(r"\d+", STATUSES):
+        assert f"\n| {status} |" in README
+
+
+def test_continuous_integration_takes_the_readme_s_test_command() -> None:
+    script = ROOT / ".ci" / "run"
+    assert script.stat().st_mode & 0o111
+    found = subprocess.run(
+        ["sed", "-n", "/^```sh$/,/^```$/{/^```/d;p}", "README.md"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=10,
+    ).stdout.splitlines()
+    assert found == COMMANDS
+    assert "sed -n '/^```sh$/,/^```$/{/^```/d;p}' README.md" in script.read_text(encoding="utf-8")

@@ -1,0 +1,126 @@
+"""``show`` and ``list``: from data, without SymPy, and true to the derivations."""
+
+import re
+import subprocess
+import sys
+from fractions import Fraction
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+import sympy
+
+from derivations.catalogue import load, modules
+from derivations.cli import main
+from derivations.show_data import shown_data
+from derivations.shown import DATA, exact_places
+from symbolic import symbols as sy
+from symbolic.printing.structure import rebuilt
+
+ROOT = Path(__file__).parents[2]
+NUMBERS = list(modules())
+EXACT = [(number, place) for number in (13, 14) for place in exact_places(number)]
+
+
+def shown(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
+    assert main(["show", *arguments]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    return printed.out
+
+
+def names() -> dict[str, object]:
+    return {**vars(sympy), **vars(sy)}
+
+
+def test_data_is_up_to_date(update_golden: bool) -> None:
+    expected = shown_data(map(load, modules()))
+    if update_golden:
+        DATA.write_text(expected, encoding="utf-8")
+    assert DATA.read_text(encoding="utf-8") == expected, "run pytest --update-golden and review"
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["show", "13"], ["list"], ["show", "99"]])
+def test_sympy_is_not_imported(arguments: list[str]) -> None:
+    program = (
+        "import sys; from derivations.cli import main; "
+        "main(sys.argv[1:]); sys.exit(any(m in sys.modules for m in ('sympy', 'numpy', 'flint')))"
+    )
+    subprocess.run(
+        [sys.executable, "-c", program, *arguments],
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+        timeout=60,
+    )
+
+
+def test_list_names_every_equation(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["list"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [int(line.split()[0]) for line in lines] == NUMBERS
+    assert "surface_diffusion" in lines[12]
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+@pytest.mark.parametrize("form", ["text", "latex", "sympy", "python", "steps"])
+def test_every_form_of_every_equation(capsys, number: int, form: str) -> None:
+    assert shown(capsys, str(number), "--as", form).strip()
+
+
+def test_the_right_hand_side_of_13_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    text = shown(capsys, "13", "--as", "sympy")
+    assert text.count("\n") == 1
+    assert set(re.findall(r"[A-Za-z_]+", text)) == {"M", "z", "phi", "sigma", "r"}
+    M, z, phi, sigma, r = (Fraction(n, d) for n, d in ((40, 1), (1, 4), (1, 3), (1, 7), (3, 2)))
+    value = eval(text, {"M": M, "z": z, "phi": phi, "sigma": sigma, "r": r})
+    expected = 2 * M**3 / (1 - phi**2) ** 2 * (1 - z) ** 2 * (2 * z + 1) * (sigma / r) ** 2
+    assert value == expected
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_sympy_source_reads_back(capsys: pytest.CaptureFixture[str], number: int) -> None:
+    lines = shown(capsys, str(number), "--as", "sympy").splitlines()
+    equations = load(number).printed
+    assert len(lines) == len(equations)
+    for line, equation in zip(lines, equations, strict=True):
+        side = equation.lhs if equation.rhs == 0 else equation.rhs
+        assert rebuilt(eval(line, names())) == rebuilt(side)
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_python_source_is_python(capsys: pytest.CaptureFixture[str], number: int) -> None:
+    compile(shown(capsys, str(number), "--as", "python"), "shown", "exec")
+
+
+@pytest.mark.parametrize(("number", "place"), EXACT)
+def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int, place: str) -> None:
+    forms = import_module(f"derivations.{modules()[number]}").exact_forms()
+    arguments = [str(number), "--exact", "--at-j", place]
+    source = shown(capsys, *arguments, "--as", "sympy")
+    assert source.count("\n") == 1
+    assert set(re.findall(r"[A-Za-z_]+", source)) <= {"M", "j", "phi", "sigma", "r"}
+    assert sympy.expand(eval(source, names()) - forms[place].expression) == 0
+
+    scope: dict[str, object] = {}
+    exec(shown(capsys, *arguments, "--as", "python"), scope)
+    (function,) = (value for name, value in scope.items() if name.startswith(("surf", "bulk")))
+    values = {"M": Fraction(9), "j": Fraction(4), "phi": Fraction(7, 25)}
+    values |= {"sigma": Fraction(1, 3), "r": Fraction(2)}
+    code = function.__code__  # type: ignore[attr-defined]
+    found = function(**{name: values[name] for name in code.co_varnames})  # type: ignore[operator]
+    exact = forms[place].expression.xreplace(
+        {getattr(sy, name): sympy.Rational(value) for name, value in values.items()}
+    )
+    assert isinstance(found, Fraction)
+    assert sympy.Rational(found) == exact
+
+    text = shown(capsys, *arguments)
+    assert forms[place].validity in text
+    for height, layer, _ in forms[place].exceptions:
+        assert f"M = {height}, j = {layer}: " in text
+
+
+def test_interior_is_the_default(capsys: pytest.CaptureFixture[str]) -> None:
+    plain = shown(capsys, "13", "--exact", "--as", "sympy")
+    assert plain == shown(capsys, "13", "--exact", "--as", "sympy", "--at-j", "interior")

@@ -1,0 +1,77 @@
+"""Wrong usage and input: a clear message, exit status 2, nothing written, no traceback."""
+
+from pathlib import Path
+
+import pytest
+
+from derivations.cli import main
+
+WRONG = [
+    (["derive", "0"], "'0' is not an equation"),
+    (["derive", "17"], "'17' is not an equation"),
+    (["derive", "-1"], "-1"),
+    (["derive", "1.5"], "'1.5' is not an equation"),
+    (["derive", "1e1"], "'1e1' is not an equation"),
+    (["derive", ""], "'' is not an equation"),
+    (["derive", "1_3"], "'1_3' is not an equation"),
+    (["derive", "١٣"], "is not an equation"),
+    (["derive", "9" * 5000], "is not an equation"),
+    (["derive", "13", "fourteen"], "'fourteen' is not an equation"),
+    (["derive", "__import__('os').abort()"], "is not an equation"),
+    (["derive", "--out"], "--out"),
+    (["derive", "--fast"], "--fast"),
+    (["show"], "N"),
+    (["show", "15"], "'15' is not an equation"),
+    (["show", "13", "14"], "14"),
+    (["show", "13", "--as", "pdf"], "'pdf' is not one of 'text', 'latex', 'sympy'"),
+    (["show", "13", "--at-j", "base"], "--exact"),
+    (["show", "13", "--exact", "--at-j", "top"], "'top' is not one of 'interior', 'base'"),
+    (["show", "13", "--exact", "--at-j", "3"], "'3' is not one of"),
+    (["show", "12", "--exact"], "13 or 14"),
+    (["show", "13", "--exact", "--as", "steps"], "steps"),
+    (["list", "13"], "13"),
+    (["prove", "13"], "no command 'prove'. Use derive, show or list"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "says"), WRONG)
+def test_wrong_usage(
+    arguments: list[str], says: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    out = tmp_path / "out"
+    extra = ["--out", str(out)] if arguments[0] == "derive" and "--out" not in arguments else []
+    assert main([*arguments, *extra]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert says in printed.err
+    assert "--help" in printed.err or "requires an argument" in printed.err  # what to do
+    assert "Traceback" not in printed.err
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("kind", ["file", "folder with a file", "folder with a folder"])
+def test_a_used_output_folder_is_refused_before_any_proof(
+    kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "out"
+    if kind == "file":
+        out.write_text("mine")
+    else:
+        out.mkdir()
+        held = out / "thesis.tex"
+        held.mkdir() if kind.endswith("folder") else held.write_text("mine")
+    monkeypatch.setattr("derivations.deriving.run", None)
+    assert main(["derive", "1", "--out", str(out)]) == 2
+    message = capsys.readouterr().err
+    assert str(out) in message
+    assert ("is a file" if kind == "file" else "thesis.tex") in message
+    assert "Give a new folder" in message
+
+
+def test_help_and_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--help"]) == 0
+    shown = capsys.readouterr().out
+    for word in ("derive", "show", "list", "130"):
+        assert word in shown
+    assert main(["derive", "--help"]) == 0
+    assert "--json" in capsys.readouterr().out

@@ -1,0 +1,110 @@
+"""Generated closed forms: as the derivations give them, exact on fractions, accurate in float64."""
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from derivations import closed_forms as generator
+from derivations import eq11_total_force as eq11
+from derivations import eq13_surface_diffusion as eq13
+from derivations import eq14_bulk_diffusion as eq14
+from derivations.small_packings import DIRECTIONS
+from derivations.witnesses import weights_of_forces
+from numeric import closed_forms
+from symbolic import explicit
+from symbolic import symbols as sy
+
+EXACT = {"surface": closed_forms.surface_variance, "bulk": closed_forms.bulk_variance}
+EXPRESSIONS = {
+    "surface": eq11.in_radii(eq11.PRINTED.rhs),
+    "bulk": eq11.in_radii(eq14.bulk_force()),
+}
+
+
+def test_the_file_is_what_the_derivations_generate() -> None:
+    written = generator.TARGET.read_text(encoding="utf-8")
+    assert written == generator.source(), "run python -m derivations.closed_forms"
+
+
+@pytest.mark.parametrize("load", EXACT)
+@pytest.mark.parametrize("height", range(1, 13))
+def test_exact_variance_is_the_sum_of_squared_weights(load: str, height: int) -> None:
+    """All 0 ≤ j < M ≤ 12: weights from Eq. 11 on explicit sites, at three rational φ."""
+    for n in DIRECTIONS[:3]:
+        values = explicit.geometry(*n, Fraction(1))
+        for layer in range(height):
+            at = {**values, sy.M: height, sy.j: layer, sy.i: layer}
+            weights = explicit.weights(EXPRESSIONS[load], at)
+            total = sum((w**2 for key, w in weights.items() if key[0]), Fraction(0))
+            assert EXACT[load](height, layer, values[sy.phi], Fraction(1), Fraction(1)) == total
+
+
+@pytest.mark.parametrize("load", EXACT)
+@pytest.mark.parametrize("height", range(1, 13))
+def test_exact_variance_is_that_of_exact_packings(load: str, height: int) -> None:
+    """The same sums with weights that the nonlinear packing gives, nothing symbolic in them."""
+    n = DIRECTIONS[height % len(DIRECTIONS)]
+    phi = n[1] ** 2 - n[0] ** 2
+    for layer, weights in enumerate(weights_of_forces(height, n, load)):
+        total = sum((w**2 for w in weights.values()), Fraction(0))
+        assert EXACT[load](height, layer, phi, Fraction(1), Fraction(1)) == total
+
+
+heights = st.one_of(st.integers(1, 40), st.integers(1, 10**9))
+cosines = st.fractions(Fraction(-49, 100), Fraction(49, 100), max_denominator=1000)
+
+
+@st.composite
+def contacts(draw: st.DrawFn) -> tuple[int, int]:
+    height = draw(heights)
+    near_base, near_surface = st.integers(0, min(height, 9) - 1), st.integers(1, min(height, 9))
+    layer = draw(
+        st.one_of(near_base, near_surface.map(lambda k: height - k), st.integers(0, height - 1))
+    )
+    return height, layer
+
+
+@given(contact=contacts(), phi=cosines)
+@pytest.mark.parametrize("load", EXACT)
+def test_float64_is_accurate(load: str, contact: tuple[int, int], phi: Fraction) -> None:
+    height, layer = contact
+    form = EXACT[load]
+    rounded = Fraction(float(phi))
+    exact = form(height, layer, rounded, Fraction(1), Fraction(1))
+    found = Fraction(form(float(height), float(layer), float(phi), 1.0, 1.0))
+    # about 40 roundings, each enlarged at most fivefold by the mild cancellation at M = 3, j = 1
+    assert abs(found - exact) <= 200 * Fraction(2) ** -53 * exact
+
+
+@given(z=st.fractions(0, 1), height=heights, phi=cosines)
+@pytest.mark.parametrize("form", [closed_forms.surface_diffusion, closed_forms.bulk_diffusion])
+def test_printed_forms_are_accurate(
+    form: Callable[..., Any], z: Fraction, height: int, phi: Fraction
+) -> None:
+    at = Fraction(float(z))
+    exact = form(height, at, Fraction(float(phi)), Fraction(1), Fraction(1))
+    found = Fraction(form(float(height), float(z), float(phi), 1.0, 1.0))
+    # fifteen roundings; 1 − z is exact or rounded once, whatever z is
+    assert abs(found - exact) <= 30 * Fraction(2) ** -53 * exact
+
+
+def test_printed_forms_are_the_printed_equations() -> None:
+    values = {sy.M: 7, sy.z: Fraction(2, 5), sy.phi: Fraction(1, 3), sy.sigma: 3, sy.r: 7}
+    for equation, form in (
+        (eq13, closed_forms.surface_diffusion),
+        (eq14, closed_forms.bulk_diffusion),
+    ):
+        printed = explicit.number(equation.PRINTED.rhs, values)
+        at = [Fraction(values[s]) for s in (sy.M, sy.z, sy.phi, sy.sigma, sy.r)]
+        assert form(*at) == printed
+
+
+@pytest.mark.parametrize("form", EXACT.values())
+@pytest.mark.parametrize("layer", [-1, 5, 6])
+def test_no_contact_outside(form: Callable[..., Any], layer: int) -> None:
+    with pytest.raises(ValueError, match=f"j = {layer}"):
+        form(5, layer, 0.1, 1.0, 1.0)

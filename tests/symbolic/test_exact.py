@@ -1,0 +1,75 @@
+"""The exact field against SymPy, on expressions that it does not share code with."""
+
+import pytest
+import sympy
+from hypothesis import given
+from hypothesis import strategies as st
+
+from symbolic.certified_sums import SumRefusedError, certified_sum
+from symbolic.exact import FIELD, NotExactError, antidifference, sum_polynomial
+from symbolic.kernel import Verdict, decide_identity
+from symbolic.symbols import M, j, m, n_x, n_y, phi, r
+
+small = st.integers(-5, 5)
+polynomials = st.builds(
+    lambda a, b, c, d: a + b * M + c * M * phi + d * phi**2, small, small, small, small
+)
+fractions_ = st.builds(lambda top, bottom: top / (1 + bottom**2 + phi**2), polynomials, polynomials)
+
+
+@given(fractions_, fractions_)
+def test_arithmetic_agrees_with_sympy(left: sympy.Expr, right: sympy.Expr) -> None:
+    one, two = FIELD.from_sympy(left), FIELD.from_sympy(right)
+    for ours, theirs in (
+        (one + two, left + right),
+        (one - two, left - right),
+        (one * two, left * right),
+    ):
+        assert sympy.cancel(ours.to_sympy() - theirs) == 0
+    if not two.is_zero():
+        assert sympy.cancel((one / two).to_sympy() - left / right) == 0
+
+
+@given(st.lists(small, min_size=1, max_size=5), st.integers(-4, 4), st.integers(0, 6))
+def test_sums_of_polynomials(powers: list[int], low: int, length: int) -> None:
+    term = sum((c * m**k for k, c in enumerate(powers)), sympy.Integer(0))
+    total = sum_polynomial(
+        FIELD.from_sympy(term), m, FIELD.constant(low), FIELD.constant(low + length - 1)
+    )
+    by_hand = sum(term.subs(m, value) for value in range(low, low + length))
+    assert total.to_sympy() == by_hand
+
+
+@given(st.lists(small, min_size=1, max_size=4))
+def test_antidifference_starts_at_zero(powers: list[int]) -> None:
+    term = sum((c * m**k for k, c in enumerate(powers)), sympy.Integer(0))
+    assert antidifference(FIELD.from_sympy(term), m).substitute({m: FIELD.zero}).is_zero()
+
+
+def test_direction_cosines_are_reduced() -> None:
+    assert decide_identity(1 - phi**2, 4 * n_x**2 * n_y**2).verdict is Verdict.PROVED
+    assert decide_identity(n_x**4 + n_y**4, (1 + phi**2) / 2).verdict is Verdict.PROVED
+    assert decide_identity(phi, n_x**2 - n_y**2).verdict is Verdict.REFUTED
+    assert decide_identity(n_x**2 + n_y**2, 2 * sympy.Integer(1)).verdict is Verdict.REFUTED
+
+
+def test_certified_sum_is_a_sum() -> None:
+    total = certified_sum((M - m) ** 2, m, j + 1, M)
+    assert total.subs({M: 9, j: 3}) == sum((9 - v) ** 2 for v in range(4, 10))
+
+
+def test_certificate_refuses_what_does_not_telescope(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sympy.Sum, "doit", lambda self, **_: self.limits[0][2] ** 2)
+    with pytest.raises(SumRefusedError, match="certificate"):
+        certified_sum(m, m, sympy.Integer(1), M)
+
+
+@pytest.mark.parametrize("expression", [sympy.sqrt(r), sympy.Float(0.5), sympy.exp(phi)])
+def test_nothing_inexact_comes_in(expression: sympy.Expr) -> None:
+    with pytest.raises(NotExactError):
+        FIELD.from_sympy(expression)
+
+
+def test_division_by_zero_is_refused() -> None:
+    with pytest.raises(NotExactError, match="zero"):
+        FIELD.from_sympy(sympy.Mul(1, sympy.Pow(phi - phi, -1, evaluate=False), evaluate=False))
