@@ -64,7 +64,9 @@ def outcome_data(outcome: Outcome) -> dict[str, Any]:
 def physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     """Say whether an exact packing is one that beads could make."""
     highest = critical_height(plan.radii.relative_std())
-    sound = not (found.overlaps or found.undecided_gaps or found.tensile or found.undecided_signs)
+    pulls = found.tensile + found.undecided_signs
+    alone = plan.load.kind == "point"
+    sound = not (found.overlaps or found.undecided_gaps or (pulls and not alone))
     data: dict[str, Any] = {
         "physical": sound,
         "smallest_gap": found.smallest_gap,
