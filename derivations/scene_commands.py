@@ -192,7 +192,7 @@ def _csv(rows: list[dict[str, Any]]) -> str:
 
 def stability(as_json: _Json = False) -> None:
     """Measure the engine's errors against certified enclosures, hard cases included."""
-    from numeric.stability import cases, measure
+    from numeric.stability import cases, closed_form_rows, measure
 
     rows = []
     if not as_json:
@@ -202,8 +202,16 @@ def stability(as_json: _Json = False) -> None:
         rows.append(row)
         if not as_json:
             print(_stability_line(row), flush=True)
+    forms = [asdict(row) for row in closed_form_rows()]
     if as_json:
-        print(json.dumps({"rows": rows}, indent=2))
+        print(json.dumps({"rows": rows, "closed_forms": forms}, indent=2))
+        return
+    print("Closed forms of Eqs. 13 and 14 in float64, against exact rationals: largest errors.")
+    for height in sorted({row["height"] for row in forms}):
+        for name in sorted({row["form"] for row in forms}):
+            here = [r for r in forms if (r["height"], r["form"]) == (height, name)]
+            worst = max(here, key=lambda row: float(row["relative_error"]))
+            print(f"{name:<18} M = {height:<11} {worst['relative_error']:.1e} at j = {worst['j']}")
 
 
 _STABILITY_HEAD = (

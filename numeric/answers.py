@@ -5,6 +5,7 @@ the run. Its ``small`` columns are the deviations from the ordered packing: accu
 their error, relative to the largest of them.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -12,12 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from numeric import plain
+from numeric import closed_forms, plain
 from numeric.engine import Solved
 from numeric.forces import Forces
 from numeric.lattice import Array, Layer, pick
 from numeric.moments import Moments
 from numeric.planner import Plan
+from numeric.radii import DrawnRadii
 from numeric.systems import NumberSystem, array
 
 
@@ -316,12 +318,17 @@ class Profile(Gatherer):
         mean = [self.moments[key][1].mean for key in keys]
         std = [self.moments[key][1].std(self.system).item() for key in keys]
         count = [self.moments[key][1].count for key in keys]
+        index: dict[str, list[Any]] = {
+            "j": [j - 1 for j, _ in keys],
+            "branch": [branch for _, branch in keys],
+            "samples": count,
+        }
+        if self._theory_applies():
+            index["first_order_std"] = [
+                self._theory(j - 1, float(mean)) for (j, _), mean in zip(keys, ordered, strict=True)
+            ]
         return Table(
-            {
-                "j": [j - 1 for j, _ in keys],
-                "branch": [branch for _, branch in keys],
-                "samples": count,
-            },
+            index,
             {
                 "mean": _column([a + b for a, b in zip(ordered, mean, strict=True)], self.system),
                 "mean_change": _column(mean, self.system),
@@ -329,6 +336,27 @@ class Profile(Gatherer):
             },
             ("mean_change", "std"),
         )
+
+    def _theory_applies(self) -> bool:
+        plan = self.plan
+        width, height = plan.scene.packing.width, plan.scene.packing.height
+        return (
+            plan.route != "ordered"
+            and plan.load.loaded is None
+            and not plan.load.angle_deg
+            and isinstance(plan.radii, DrawnRadii)
+            and width is not None
+            and width > height
+        )
+
+    def _theory(self, j: int, ordered: float) -> str:
+        """Print √(exact first-order variance), Eqs. 13 and 14 at finite M."""
+        plan = self.plan
+        bulk = plan.load.kind == "bulk"
+        variance = closed_forms.bulk_variance if bulk else closed_forms.surface_variance
+        phi = 1 - 2 * plan.scene.n_x**2
+        factor = float(variance(plan.scene.packing.height, j, phi, 1, 1))
+        return f"{math.sqrt(factor) * ordered * float(plan.radii.relative_std()):.12g}"
 
 
 class Response(Gatherer):
