@@ -289,10 +289,11 @@ class Profile(Gatherer):
             for branch in "+-":
                 F, g = self._whole(forces, upper, branch, width, zero)
                 ordered, moments = self.moments.get((upper, branch), (None, Moments()))
+                # Under a surface or bulk load F is one number: nothing may be subtracted from it.
+                alike = self.plan.load.loaded is None
                 if ordered is None:
-                    same = all(bool(f == F[0]) for f in F)
-                    ordered = F[0] if same else F.sum() / len(F)
-                moments.add(((F - ordered) + g).reshape(-1))
+                    ordered = F[0] if alike else F.sum() / len(F)
+                moments.add((g if alike else (F - ordered) + g).reshape(-1))
                 self.moments[upper, branch] = (ordered, moments)
 
     def _whole(
