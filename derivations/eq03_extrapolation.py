@@ -50,9 +50,14 @@ def _at(candidate: sympy.Expr, across: sympy.Expr, layer: sympy.Expr) -> sympy.E
 def steps() -> Iterator[Step]:
     """Base case on the fixed base, then one step of Eq. 2 with symbolic i and j."""
     yield Step(
-        "The base is held: δx_(i,0) = 0. A bead of layer 1 rests on two such beads, and "
-        "Eq. 2 gives",
-        equation(DeltaX(i, 1), _at(eq02.resting_on(NOTHING, NOTHING), i, sympy.Integer(1))),
+        "The base is held, δx_(i,0) = 0. A bead of layer 1 rests on two such beads; by Eq. 2",
+        equation(
+            DeltaX(i, 1),
+            terms(
+                times(terms(DeltaR(i, 1), DeltaR(i - 1, 0)), b_plus),
+                times(terms(DeltaR(i, 1), DeltaR(i + 1, 0)), b_minus),
+            ),
+        ),
     )
     yield Step(
         "This is the printed equation at j = 1, where its sums are empty.",

@@ -48,10 +48,7 @@ def after(candidate: sympy.Expr, steps_down: sympy.Expr) -> sympy.Expr:
 
 def steps() -> Iterator[Step]:
     """Induction on the number q of beads passed."""
-    yield Step(
-        "The entry itself: no bead passed, the ratio is 1.",
-        equation(ForcePlus(*ENTRY) / ForcePlus(*ENTRY), 1),
-    )
+    yield Step("The entry itself, q = 0: no bead has been passed, and the printed ratio is 1.")
     yield Step(
         "After q beads the contact reached has the lower bead (k−1−q, l−1−q).",
         sympy.Tuple(*straight_end(q)),

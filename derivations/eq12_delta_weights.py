@@ -25,6 +25,7 @@ from symbolic.reading import Reader
 from symbolic.symbols import (
     Braces,
     DeltaNMinus,
+    DeltaR,
     Dot,
     ForcePlus,
     M,
@@ -56,6 +57,19 @@ PRINTED = equation(
 DOUBLE_SUM = sympy.Sum(sympy.Sum(ON_DIAGONAL, (m, 1, j + n)), (n, 1, M - j))
 """The paper's intermediate form: Δ summed over the layers below each branch."""
 
+BRANCH_TERM = Dot(
+    n_plus, terms(DeltaNMinus(i + n + 1, j + n - 1), minus(DeltaNMinus(i + n, j + n)))
+)
+BRANCH_IN_RADII = terms(
+    sympy.Sum(ON_DIAGONAL, (m, 1, j + n - 1)),
+    times(sympy.Rational(1, 2), SecondDifference(i - j, 0)),
+    DeltaR(i + n, j + n),
+    minus(DeltaR(i + n - 2, j + n)),
+    times(sympy.Rational(1, 2) * (1 - phi), DeltaR(i + n + 1, j + n - 1)),
+    minus(times(sympy.Rational(1, 2) * (1 - phi), DeltaR(i + n - 1, j + n + 1))),
+)
+"""One term of the sum in Eq. 11, times r: exact, and what Eq. 12 keeps of it is the sum alone."""
+
 DEEP = Region({j: 6, M: j + 6})
 """Away from base and surface, where all breakpoints are in order; limits are taken in it."""
 
@@ -86,10 +100,14 @@ def dropped_variance() -> sympy.Expr:
 def steps() -> Iterator[Step]:
     """Put in Eqs. 4 and 5, keep the sums, count how often each Δ occurs."""
     yield Step(
-        "In Eq. 11 the sum over n compares neighbouring contacts; with Eq. 5 each term is "
-        "half a second difference for every radius below the branch on three neighbouring "
-        "diagonals, twice over: Δ = 2δr_rs − δr_(r−2,s) − δr_(r+2,s).",
+        "The second difference of three neighbouring radii of one layer:",
         equation(SecondDifference(i, j), SecondDifference(i, j).doit()),
+    )
+    yield Step(
+        "Each term of the sum over n in Eq. 11 compares two neighbouring contacts along n⁻. By "
+        "Eq. 5 it is a second difference for every layer below the branch, half of one on the "
+        "base, and four radii beside the branch.",
+        equation(BRANCH_TERM, times(1 / r, BRANCH_IN_RADII)),
     )
     yield Step(
         "Keeping the sums of Eq. 5 alone, and one more term n = M − j:",
@@ -169,6 +187,12 @@ def _independent() -> Ruling:
     return from_test(difference.is_zero(), "Var Σ wΔ = 6σ² Σ w², all weights squared site by site")
 
 
+def _branch_term() -> Ruling:
+    return decide_linear(
+        eq11.in_radii(BRANCH_TERM), BRANCH_IN_RADII / r, Region({j: 0, n: 1, M: j + n})
+    )
+
+
 def _consistent() -> Ruling:
     return all_of(_count(), _braces_are_not_the_count())
 
@@ -193,6 +217,9 @@ DERIVATION = Derivation(
             "the double sum counts M − j for m ≤ j and M − m + 1 for m > j; the printed braces "
             "leave out Δ once for every m > j",
             _consistent,
+        ),
+        Claim(
+            "each term of the sum over n is Δ summed below the branch, and end terms", _branch_term
         ),
         Claim("orders of the dropped terms", _dropped),
         Claim("Δ of different layers share no radius", _independent),

@@ -8,7 +8,7 @@ import sympy
 from derivations import eq11_total_force as eq11
 from derivations import eq12_delta_weights as eq12
 from derivations import witnesses
-from derivations.asymptotics import compare_leading_order
+from derivations.asymptotics import compare_leading_order, exact_steps
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.as_printed import equation, power, terms, times
@@ -56,10 +56,7 @@ def steps() -> Iterator[Step]:
     yield Step(
         "Leading order in M at fixed z = j/M, with the prefactor of Eq. 12 squared:", PRINTED
     )
-    yield Step(
-        "Exact, for 2 ≤ j ≤ M − 2: every radius in Eq. 11 with its weight squared.",
-        equation(RELATIVE_VARIANCE, exact_forms()["interior"].expression),
-    )
+    yield from exact_steps(RELATIVE_VARIANCE, exact_forms())
     yield Step("The next order in M at fixed z, relative to (σ/r)²/(1−φ²)²:", next_order())
 
 

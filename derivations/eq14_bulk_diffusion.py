@@ -9,7 +9,7 @@ from derivations import eq11_total_force as eq11
 from derivations import eq12_delta_weights as eq12
 from derivations import eq13_surface_diffusion as eq13
 from derivations import witnesses
-from derivations.asymptotics import compare_leading_order
+from derivations.asymptotics import compare_leading_order, exact_steps
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.as_printed import equation, power, terms, times
@@ -85,10 +85,7 @@ def steps() -> Iterator[Step]:
         sympy.Tuple(sympy.factor(below), sympy.factor(above)),
     )
     yield Step("Six times the sum of their squares has the leading order printed.", PRINTED)
-    yield Step(
-        "Exact, for 2 ≤ j ≤ M − 2: every radius with its weight squared.",
-        equation(RELATIVE_VARIANCE, exact_forms()["interior"].expression),
-    )
+    yield from exact_steps(RELATIVE_VARIANCE, exact_forms())
     yield Step("The next order in M at fixed z, relative to (σ/r)²/(1−φ²)²:", next_order())
     profile = times(terms(1, -z) ** 2, terms(times(4, z), 1))
     yield Step(

@@ -2,26 +2,26 @@
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import mpmath
 import sympy
 
 from derivations.small_packings import SmallPacking, Truth
-from numeric import exact
-from numeric.systems import BigFloat
 from symbolic import symbols as sy
 from symbolic.kernel import Ruling, Verdict
+
+if TYPE_CHECKING:
+    from numeric.exact import Solution  # brings NumPy, which no proof needs
+
+    Reading: TypeAlias = Callable[[Solution], list[Any]]
 
 DIGITS = 80
 STRENGTHS = ("1e-14", "1e-17", "1e-20")
 
 
 def _orders(
-    solutions: list[exact.Solution],
-    slopes: list[Fraction],
-    read: Callable[[exact.Solution], list[Any]],
-    strength: str,
+    solutions: "list[Solution]", slopes: list[Fraction], read: "Reading", strength: str
 ) -> Iterator[Any]:
     """Measured order log₂ R(ε)/R(ε/2), for each quantity whose remainder R is not zero."""
     epsilon = mpmath.mpf(strength)
@@ -34,21 +34,22 @@ def _orders(
             yield mpmath.log(whole / part, 2)
 
 
-def second_order(
-    packing: SmallPacking, slopes: list[Fraction], read: Callable[[exact.Solution], list[Any]]
-) -> Ruling:
+def second_order(packing: SmallPacking, slopes: list[Fraction], read: "Reading") -> Ruling:
     """Measure the order of exact − first order, by the plain form at ε and ε/2.
 
     ``slopes`` are the first-order coefficients of the quantities that ``read`` takes from a
     solution. The remainder is Aε² + Bε³ + …: the measured order is 2 + O(εB/A), or 3 where A = 0.
     For rational radii with one digit above and below, B/A stays far below the 1e12 allowed.
     """
+    from numeric.exact import plain_form
+    from numeric.systems import BigFloat
+
     loads = packing.surface_load()
     worst, count = mpmath.mpf(0), 0
     with mpmath.workdps(DIGITS):
         for strength in STRENGTHS:
             solutions = [
-                exact.plain_form(
+                plain_form(
                     packing.width,
                     packing.height,
                     n_x=packing.n[0],

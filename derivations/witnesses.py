@@ -10,8 +10,6 @@ from fractions import Fraction
 import sympy
 
 from derivations.small_packings import Site, SmallPacking, Truth
-from numeric import plain, taylor
-from numeric.systems import Series, zeros
 from symbolic import explicit
 from symbolic import symbols as sy
 from symbolic.kernel import Ruling, Verdict
@@ -82,6 +80,9 @@ def single_load(packing: SmallPacking) -> tuple[Truth, int, int]:
 
 def ordered_positions(printed: sympy.Expr, packing: SmallPacking) -> Ruling:
     """Compare Eq. 1 with beads of equal radii laid one by one by circle intersection."""
+    from numeric import plain
+    from numeric.systems import Series, zeros
+
     system = Series(1)
     with system.active():
         rows = tuple(zeros(system, packing.width) for _ in range(packing.height + 1))
@@ -215,6 +216,8 @@ def weights_of_forces(
     layer is the weight of a bead at the opposite offset. ``load`` is "surface" or "bulk". Keys
     are (offset i' − i, layer of the bead); the list is indexed by j.
     """
+    from numeric import taylor
+
     width = height + 2
     carrying = range(1, height + 1) if load == "bulk" else (height,)
     loads = {

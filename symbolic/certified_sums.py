@@ -22,7 +22,9 @@ def certified_sum(
     """
     end = index  # the bound name is free outside of the sum, so it can serve as the upper end
     bound = sympy.Dummy("bound", integer=True)
-    partial = sympy.Sum(term.xreplace({index: bound}), (bound, low, end)).doit()
+    # term by term: of a whole polynomial SymPy first asks, with solve, whether it telescopes
+    monomials = sympy.Add.make_args(sympy.expand(term.xreplace({index: bound})))
+    partial = sympy.Add(*(sympy.Sum(one, (bound, low, end)).doit() for one in monomials))
     telescopes = FIELD.from_sympy(partial - partial.xreplace({index: index - 1}) - term)
     starts = FIELD.from_sympy(partial.xreplace({index: low - 1}))
     if not (telescopes.is_zero() and starts.is_zero()):

@@ -15,9 +15,7 @@ def small_packings(draw: st.DrawFn, max_height: int = 5) -> SmallPacking:
     height = draw(st.integers(1, max_height))
     width = height + draw(st.integers(1, 3))
     sites = [
-        (across, layer)
-        for layer in range(height + 1)
-        for across in range(layer % 2, 2 * width, 2)
+        (across, layer) for layer in range(height + 1) for across in range(layer % 2, 2 * width, 2)
     ]
     lower = [site for site in sites if site[1] < height]
     return SmallPacking(

@@ -110,8 +110,7 @@ def disagrees(check: Callable[[sympy.Expr, SmallPacking], Ruling], equation: sym
             if check(equation.rhs, draw(seed)).verdict is Verdict.DISAGREES:
                 return True
         except ValueError as reason:
-            assert "no lattice site" in str(reason) or "no contact starts" in str(reason)
-            return True
+            return any(says in str(reason) for says in ("no lattice site", "no contact starts"))
     return False
 
 
