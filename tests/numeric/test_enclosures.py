@@ -286,12 +286,12 @@ def test_deviates_have_the_moments_of_their_distribution(kind: str, fourth: floa
 @given(st.floats(1e-16, 1 - 2**-53), st.floats(0, 1 - 2**-53))
 def test_own_logarithm_and_cosine(x: float, turn: float) -> None:
     """A few units in the last place, against Arb."""
-    log = flint.arb(x).log()
-    assert (
-        abs(flint.arb(float(logarithm(np.array([x]))[0])) - log) <= 4 * 2.0**-53 * abs(log) + 1e-300
-    )
-    cosine = (flint.arb(turn) * 2).cos_pi()
-    assert abs(flint.arb(float(cosine_of_turn(np.array([turn]))[0])) - cosine) <= 8 * 2.0**-53
+    with Balls(128).active():
+        log = flint.arb(x).log()
+        off = abs(flint.arb(float(logarithm(np.array([x]))[0])) - log)
+        assert off <= 4 * 2.0**-53 * abs(log)
+        cosine = (flint.arb(turn) * 2).cos_pi()
+        assert abs(flint.arb(float(cosine_of_turn(np.array([turn]))[0])) - cosine) <= 8 * 2.0**-53
 
 
 def test_critical_height_far_outside_of_floats() -> None:
