@@ -11,7 +11,7 @@ through δn of the contact itself, on two diagonals of the other orientation.
 
 from collections.abc import Iterable
 
-from numeric.lattice import Layer, Region, hull, row, standing_on_base
+from numeric.lattice import Layer, Region, hull, row, standing_on_base, supports
 
 Site = tuple[int, int]
 Rows = tuple[Layer, ...]
@@ -37,15 +37,19 @@ def triangle_beads(j: int) -> int:
 
 
 def downward_cone(loaded: Iterable[Site], width: int | None) -> Rows:
-    """Give the beads that loads on ``loaded`` reach: rows of layers 0 … highest load."""
-    sites = list(loaded)
-    top = max((j for _, j in sites), default=0)
-    rows = [Layer(m, m % 2, 0) for m in range(top + 1)]
-    for i, j in sites:
-        for m in range(j + 1):
-            reached = row(m, i - (j - m), i + (j - m), width)
-            rows[m] = hull(rows[m], reached, width)
-    return tuple(rows)
+    """Give the beads that loads on ``loaded`` reach: rows of layers 0 … highest load.
+
+    Loads far apart share a row that holds the beads between them too.
+    """
+    own: dict[int, Layer] = {}
+    for i, j in loaded:
+        own[j] = hull(own.get(j, Layer(j, i, 0)), Layer(j, i, 1), width)
+    top = max(own, default=0)
+    rows = [own.get(top, Layer(top, top % 2, 0))]
+    for m in range(top - 1, -1, -1):
+        below = supports(rows[-1], width) if rows[-1].count else Layer(m, m % 2, 0)
+        rows.append(hull(below, own.get(m, Layer(m, m % 2, 0)), width))
+    return tuple(reversed(rows))
 
 
 def upward_cone(x: Site, top: int, width: int | None) -> Rows:

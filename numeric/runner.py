@@ -9,13 +9,14 @@ from typing import Any
 
 from numeric.accuracy import Accuracy, of_balls, of_floats, strings
 from numeric.answers import GATHERERS, Table
+from numeric.budget import chunk_size
 from numeric.decimals import decimal_string
 from numeric.engine import solve
 from numeric.forces import NotStandingError
 from numeric.histogram import histogram
 from numeric.packing import UndecidedError
 from numeric.physical import Physicality
-from numeric.planner import Plan, chunk_size
+from numeric.planner import Plan
 from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
 from numeric.work import Progress, Work
 
