@@ -21,7 +21,7 @@ from numeric.normal import cosine_of_turn, logarithm
 from numeric.planner import Plan
 from numeric.radii import DrawnRadii, MeasuredRadii
 from numeric.runner import critical_height
-from numeric.systems import Balls, BigFloat, NumberSystem, Series, midpoint
+from numeric.systems import FLOAT64, Balls, BigFloat, NumberSystem, Series, midpoint
 from numeric.work import Work
 from tests.numeric.scenes import answer, basic, planned
 from tests.numeric.strategies import Case, cases
@@ -235,6 +235,19 @@ def test_an_unbuildable_packing_names_the_bead() -> None:
             rows = tuple(MeasuredRadii(radii, 3).row(r, [0], system) for r in region.rows)
             with pytest.raises(packing.UnbuildableError, match=r"\(1, 1\)"):
                 packing.deposit(Fraction(3, 4), region, rows, system)
+
+
+@pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, -1.0, -1.5])
+@pytest.mark.parametrize("layer", [0, 1, 2])
+def test_a_radius_that_is_none_names_the_bead(wrong: float, layer: int) -> None:
+    region = whole(4, 2)
+    rho = tuple(np.zeros(4) for _ in range(3))
+    rho[layer][2] = wrong
+    with (
+        FLOAT64.active(),
+        pytest.raises(packing.UnbuildableError, match=rf"\({4 + layer % 2}, {layer}\)"),
+    ):
+        packing.deposit(Fraction(3, 4), region, rho, FLOAT64)
 
 
 # Radii
