@@ -9,12 +9,16 @@ import flint
 import numpy as np
 
 from numeric.answers import Table
-from numeric.decimals import decimal_string
 from numeric.lattice import Array
-from numeric.systems import Balls, Hardware, NumberSystem, midpoint
+from numeric.systems import Balls, Hardware, NumberSystem
 
-# A printed decimal may be off by one unit in its last digit, which is at most 20 ball radii.
+# A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.
 PRINTED = 20
+
+
+def most_digits(system: Balls) -> int:
+    """Give the digits to which even an exact number is printed."""
+    return int(system.bits * 0.30103) + 1
 
 
 @dataclass(frozen=True)
@@ -41,7 +45,7 @@ def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:
                 return Accuracy(math.inf, True, system.name, float(system.bits))
             largest = largest.max(value.abs_lower())
             radius = radius.max(value.rad())
-    if radius == 0:
+    if radius == 0 and largest == 0:
         return Accuracy(0.0, True, system.name, 0.0)
     note = ""
     if not largest > 0:
@@ -50,8 +54,11 @@ def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:
         largest = system.number(floor)
         note = "no change can be told from zero; the error is relative to σ/r instead"
     ratio = (radius / largest).upper()
-    lost = max(system.bits + float(ratio.log() / flint.arb.const_log2()), 0.0)
-    return Accuracy(_up(ratio * PRINTED), True, system.name, round(lost, 1), note)
+    lost = 0.0
+    if ratio > 0:
+        lost = max(system.bits + float(ratio.log() / flint.arb.const_log2()), 0.0)
+    printed = ratio * PRINTED + flint.arb(10) ** (1 - most_digits(system))
+    return Accuracy(_up(printed), True, system.name, round(lost, 1), note)
 
 
 def _up(value: Any) -> float:
@@ -81,7 +88,7 @@ def of_floats(table: Table, longer: Table, system: Hardware) -> Accuracy:
 def strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dict[str, list[str]]:
     """Print the number columns, each number with the digits that its error leaves."""
     if isinstance(system, Balls):
-        most = int(system.bits * 0.30103) + 1
+        most = most_digits(system)
         return {k: [_ball_string(v, most) for v in c] for k, c in table.numbers.items()}
     largest = max(
         (float(np.abs(table.numbers[k]).max()) for k in table.small if len(table.numbers[k])),
@@ -94,8 +101,6 @@ def strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dict[str,
 def _ball_string(value: Any, most: int) -> str:
     if value.contains(0):
         return "0"
-    if value.is_exact():
-        return decimal_string(midpoint(value), None)
     return str(value.str(most, radius=False))
 
 

@@ -273,6 +273,29 @@ def test_the_sweep_stops_at_tension() -> None:
     assert everything.physical.tensile == len(pulling) > 0
 
 
+def test_the_scatter_of_forces_is_that_of_the_exact_first_order_theory() -> None:
+    """Far below M*: 150 realisations of 13 contacts a layer, correlated within it.
+
+    Were all contacts of a layer one, the standard deviation would have a relative error of
+    1/√300 = 6 %; four of those are allowed, and a missing factor √2 is not.
+    """
+    sections = basic(6, 13, quantity="profile", realisations=150)
+    for kind in ("surface", "bulk"):
+        sections["load"] = {"kind": kind}
+        for row in answer(sections).rows:
+            assert abs(float(row["std"]) / float(row["first_order_std"]) - 1) < 0.24
+
+
+def test_a_slab_carries_single_loads(tmp_path: Path) -> None:
+    """Loads far from each other, negative columns, tilted: the base bears them."""
+    (tmp_path / "loads.csv").write_text("i,j,fx,fy\n-4,4,0.5,-2\n7,3,0,-1\n2,0,0,-3\n")
+    sections = basic(5, None, quantity="base_reactions", tolerance="=1e-25")
+    sections["load"] = {"kind": "file", "file": "loads.csv"}
+    rows = answer(sections, tmp_path).rows
+    assert abs(sum(Fraction(r["fx"]) for r in rows) + Fraction(1, 2)) < Fraction(1, 10**20)
+    assert abs(sum(Fraction(r["fy"]) for r in rows) - 6) < Fraction(1, 10**20)
+
+
 def test_a_tolerance_out_of_reach_says_why() -> None:
     from numeric import runner
 
