@@ -130,9 +130,9 @@ class ContactForces(Gatherer):
         branches: list[str] = []
         columns: list[tuple[Array, Array]] = []
         last = self.plan.scene.packing.height if width is not None else len(forces.rows) - 1
-        stopped = 0 if forces.stopped is None else forces.stopped[1] + 1
+        lowest = 0 if forces.stopped is None else forces.stopped[1]
         zero = array(self.system, [Fraction(0)])[0]
-        for upper in range(max(stopped, 1), last + 1):
+        for upper in range(lowest + 1, last + 1):
             everything = None if width is None else Layer(upper, upper % 2, width)
             for branch, step in (("+", -1), ("-", 1)):
                 if upper < len(forces.rows):
@@ -217,13 +217,15 @@ class BaseReactions(Gatherer):
         layer = rows[0]
         if width is not None:
             layer = Layer(0, 0, width)
+        forces = solved.forces
+        if forces is not None and forces.stopped is not None and forces.stopped[1]:
+            layer = Layer(0, 0, 0)  # the sweep did not come down to the base
         own = self.plan.load.on((layer,), strength, system)
         zero = array(system, [Fraction(0)] * layer.count)
         plus = zero if own.plus[0] is None else own.plus[0]
         minus = zero if own.minus[0] is None else own.minus[0]
         change_plus, change_minus = zero, zero
-        forces = solved.forces
-        if forces is not None and len(rows) > 1 and not forces.stopped:
+        if forces is not None and len(rows) > 1 and layer.count:
             F, g, a, b = self._above(solved, layer, number)
             plus, minus = plus + F["+"], minus + F["-"]
             f = {s: F[s] + g[s] for s in "+-"}
@@ -371,6 +373,7 @@ class Response(Gatherer):
         super().__init__(plan, system)
         self.moments = Moments()
         self.last: Table | None = None
+        self.ordered: tuple[Array, Array] = (array(system, []), array(system, []))
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Take in realisations."""
@@ -386,9 +389,9 @@ class Response(Gatherer):
         assert forces is not None
         ny = plain.axes(self.plan.scene.n_x, system)[1]
         index: dict[str, list[Any]] = {"i": [], "j": [], "branch": []}
-        parts: list[tuple[Array, Array, Array, Array]] = []
+        parts: list[tuple[Array, ...]] = []
         lowest = 0 if forces.stopped is None else forces.stopped[1]
-        for upper in range(max(lowest, 1), len(forces.rows)):
+        for upper in range(lowest + 1, len(forces.rows)):
             layer = forces.rows[upper]
             for branch, step, F, g in _both(forces, upper, number):
                 tilt = array(system, [Fraction(0)] * layer.count)
@@ -403,11 +406,12 @@ class Response(Gatherer):
                 index["i"] += [self._home(i + step) for i in layer.sites()]
                 index["j"] += [upper - 1] * layer.count
                 index["branch"] += [branch] * layer.count
-                parts.append((F + g, g, F * ny + vertical_change, vertical_change))
+                parts.append((F + g, g, F * ny + vertical_change, vertical_change, F))
         nothing = array(system, [])
-        columns = [np.concatenate([part[k] for part in parts] or [nothing]) for k in range(4)]
+        columns = [np.concatenate([part[k] for part in parts] or [nothing]) for k in range(5)]
+        self.ordered = (columns[4], columns[4] * ny)
         names = ("force", "change", "vertical", "vertical_change")
-        return Table(index, dict(zip(names, columns, strict=True)), ("change", "vertical_change"))
+        return Table(index, dict(zip(names, columns, strict=False)), ("change", "vertical_change"))
 
     def table(self) -> Table:
         """One row a contact."""
@@ -419,8 +423,10 @@ class Response(Gatherer):
         return Table(
             self.last.index,
             {
+                "force_mean": self.ordered[0] + mean[:half],
                 "force_mean_change": mean[:half],
                 "force_std": std[:half],
+                "vertical_mean": self.ordered[1] + mean[half:],
                 "vertical_mean_change": mean[half:],
                 "vertical_std": std[half:],
             },
