@@ -66,8 +66,11 @@ def _up(value: Any) -> float:
     return max(float(value.upper()) * (1 + 1e-15), 5e-324)
 
 
-def of_floats(table: Table, longer: Table, system: Hardware) -> Accuracy:
-    """Estimate the error of one float solution from one with a longer significand."""
+def of_floats(table: Table, longer: Table, whole: Table, system: Hardware) -> Accuracy:
+    """Estimate the error of a float solution from one with a longer significand.
+
+    ``table`` and ``longer`` are the two solutions of some realisations out of ``whole``.
+    """
     largest, error = 0.0, 0.0
     for name in table.small:
         a, b = table.numbers[name], longer.numbers[name]
@@ -75,9 +78,12 @@ def of_floats(table: Table, longer: Table, system: Hardware) -> Accuracy:
             continue
         largest = max(largest, float(np.abs(a).max()))
         error = max(error, float(max(abs(float(y - x)) for x, y in zip(a, b, strict=True))))
-    unit = 2.0**-system.bits
+    unit = 4 * 2.0**-system.bits  # no estimate can promise less than a few roundings
     if not largest:
-        return Accuracy(0.0 if not error else math.inf, False, system.name, 0.0)
+        bound = math.inf if error else 0.0
+        if not error and any(np.any(whole.numbers[name]) for name in whole.small):
+            bound = unit  # what was compared is exactly zero, the rest of the answer is not
+        return Accuracy(bound, False, system.name, 0.0, "estimated, not certified")
     if not math.isfinite(largest) or not math.isfinite(error):
         return Accuracy(math.inf, False, system.name, float(system.bits))
     ratio = max(2 * error / largest, unit)
@@ -94,7 +100,7 @@ def strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dict[str,
         (float(np.abs(table.numbers[k]).max()) for k in table.small if len(table.numbers[k])),
         default=0.0,
     )
-    error = accuracy.error_bound * largest
+    error = accuracy.error_bound * largest if math.isfinite(accuracy.error_bound) else math.inf
     return {k: _float_strings(column, error) for k, column in table.numbers.items()}
 
 
@@ -108,7 +114,7 @@ def _float_strings(column: Array, error: float) -> list[str]:
     result = []
     for value in column.tolist():
         off = error + abs(value) * 2.0**-52
-        if not value or not math.isfinite(value) or abs(value) <= off:
+        if not value or not math.isfinite(value) or not abs(value) > off:
             result.append("0" if math.isfinite(value) else str(value))
             continue
         digits = math.floor(math.log10(abs(value))) - math.floor(math.log10(off))

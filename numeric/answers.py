@@ -17,7 +17,7 @@ from numeric import closed_forms, plain
 from numeric.engine import Solved
 from numeric.forces import Forces
 from numeric.lattice import Array, Layer, pick
-from numeric.moments import Moments
+from numeric.moments import Moments, unit_near
 from numeric.planner import Plan
 from numeric.radii import DrawnRadii
 from numeric.systems import NumberSystem, array
@@ -61,6 +61,9 @@ class Gatherer:
 
     def _one(self, solved: Solved, number: int | None) -> Table:
         raise NotImplementedError
+
+    def _unit(self) -> float:
+        return unit_near(self.plan.radii.relative_std())
 
     def _home(self, i: int) -> int:
         width = self.plan.scene.packing.width
@@ -290,7 +293,7 @@ class Profile(Gatherer):
                 continue
             for branch in "+-":
                 F, g = self._whole(forces, upper, branch, width, zero)
-                ordered, moments = self.moments.get((upper, branch), (None, Moments()))
+                ordered, moments = self.moments.get((upper, branch), (None, Moments(self._unit())))
                 # Under a surface or bulk load F is one number: nothing may be subtracted from it.
                 alike = self.plan.load.loaded is None
                 if ordered is None:
@@ -318,7 +321,7 @@ class Profile(Gatherer):
         """One row a layer and branch, base first."""
         keys = sorted(self.moments)
         ordered = [self.moments[key][0] for key in keys]
-        mean = [self.moments[key][1].mean for key in keys]
+        mean = [self.moments[key][1].average().item() for key in keys]
         std = [self.moments[key][1].std(self.system).item() for key in keys]
         count = [self.moments[key][1].count for key in keys]
         index: dict[str, list[Any]] = {
@@ -371,7 +374,7 @@ class Response(Gatherer):
     def __init__(self, plan: Plan, system: NumberSystem) -> None:
         """Start empty."""
         super().__init__(plan, system)
-        self.moments = Moments()
+        self.moments = Moments(self._unit())
         self.last: Table | None = None
         self.ordered: tuple[Array, Array] = (array(system, []), array(system, []))
 
@@ -419,7 +422,7 @@ class Response(Gatherer):
         if self.plan.realisations == 1:
             return self.last
         half = len(self.last.index["i"])
-        mean, std = self.moments.mean, self.moments.std(self.system)
+        mean, std = self.moments.average(), self.moments.std(self.system)
         return Table(
             self.last.index,
             {

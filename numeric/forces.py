@@ -104,7 +104,9 @@ def sweep_down(
         if work is not None:
             work.did("balanced", layer, gp.size // layer.count)
         ordered[j], change[j] = (Fp, Fm), (gp, gm)
-        if stop_at_tension and (stopped := first_tension(layer, Fp + gp, Fm + gm, system)):
+        if stop_at_tension:
+            stopped = first_tension(layer, (Fp + gp, gp), (Fm + gm, gm), system)
+        if stopped is not None:
             break
     return Forces(
         system,
@@ -118,20 +120,34 @@ def sweep_down(
 
 
 def first_tension(
-    layer: Layer, plus: Array, minus: Array, system: NumberSystem
+    layer: Layer, plus: tuple[Array, Array], minus: tuple[Array, Array], system: NumberSystem
 ) -> tuple[int, int, str] | None:
     """Name the leftmost contact (i, j, branch) below ``layer`` that surely pulls, or None.
 
-    Raises ``UndecidedError`` where balls leave a sign open.
+    ``plus`` and ``minus`` are pairs (force, change). Raises ``UndecidedError`` where balls leave a
+    sign open; what floats leave open counts as holding.
     """
-    for values, branch, step in ((plus, "+", -1), (minus, "-", 1)):
-        pulls, holds = system.signs(-values)
+    for (force, change), branch, step in ((plus, "+", -1), (minus, "-", 1)):
+        pulls, undecided = pulling(force, change, system)
         if pulls.any():
             q = int(np.argwhere(pulls)[0][-1])
             return layer.first + 2 * q + step, layer.j - 1, branch
-        if not holds.all():
+        if undecided.any() and system.dtype is object:
             raise UndecidedError(f"layer {layer.j}: balls are too wide for the sign of a force")
     return None
+
+
+def pulling(force: Array, change: Array, system: NumberSystem) -> tuple[Array, Array]:
+    """Tell contacts that surely pull and those whose sign is open; two boolean arrays.
+
+    Balls decide by their own radius. Hardware floats have none: there a force is taken as open
+    within 2^-40 of its layer's largest change, far above their measured error below M*.
+    """
+    if system.dtype is object:
+        pulls, holds = system.signs(-force)
+        return pulls, ~(pulls | holds)
+    room = 2.0**-40 * np.abs(change).max(initial=0)
+    return force < -room, (np.abs(force) <= room) & (force != 0)
 
 
 def _from_above(
