@@ -4,7 +4,7 @@ A refutation is an explicit counterexample, found with Fractions on a small pack
 a normal form that is zero. The two share no code, and what neither settles is undecided.
 """
 
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
@@ -62,15 +62,19 @@ GEOMETRIES = (
 _OTHERS = {sy.sigma: Fraction(3, 7), sy.f_load: Fraction(11, 5), sy.m_g: Fraction(13, 9)}
 
 
-def _samples(region: Region, free: tuple[sympy.Symbol, ...]) -> list[dict[sympy.Symbol, int]]:
-    """Return points of the region, a generic one first, then its corners.
+def _samples(
+    region: Region, free: tuple[sympy.Symbol, ...]
+) -> Iterator[dict[sympy.Symbol, Fraction | int]]:
+    """Yield a generic point of the region on either lattice, then corners on the first.
 
     Indices that the region leaves free take any value.
     """
-    excesses = [tuple(3 + 2 * a for a in range(len(region)))]
-    excesses += list(islice(product((0, 1, 2), repeat=len(region)), 9))
     anywhere = {symbol: 5 + 2 * a for a, symbol in enumerate(free)}
-    return [{**anywhere, **region.sample(*e)} for e in excesses]
+    generic = tuple(3 + 2 * a for a in range(len(region)))
+    corners = islice(product((0, 1), repeat=len(region)), 4)
+    first, second = GEOMETRIES
+    for geometry, excess in ((first, generic), (second, generic), *((first, c) for c in corners)):
+        yield {**geometry, **_OTHERS, **anywhere, **region.sample(*excess)}
 
 
 def counterexample(
@@ -83,24 +87,21 @@ def counterexample(
             key=str,
         )
     )
-    for geometry in GEOMETRIES:
-        for point in _samples(region, free):
-            values: explicit.Values = {**geometry, **_OTHERS, **point}
-            pairs: tuple[tuple[explicit.Weights, explicit.Weights], ...]
-            if is_vector:
-                one, two = (explicit.vector_weights(side, values) for side in (left, right))
-                pairs = tuple(zip(one, two, strict=True))
-            else:
-                pairs = ((explicit.weights(left, values), explicit.weights(right, values)),)
-            for a, b in pairs:
-                if a != b:
-                    key = min(k for k in a.keys() | b.keys() if a.get(k) != b.get(k))
-                    where = ", ".join(f"{s} = {v}" for s, v in point.items())
-                    name = f"{key[0]}({key[1]}, {key[2]})" if key[0] else "the constant term"
-                    return (
-                        f"at {where or 'any site'}, φ = {values[sy.phi]}: {name} has the weight "
-                        f"{a.get(key, 0)} on the left and {b.get(key, 0)} on the right"
-                    )
+    for values in _samples(region, free):
+        if is_vector:
+            both = [explicit.vector_weights(side, values) for side in (left, right)]
+            pairs = list(zip(*both, strict=True))
+        else:
+            pairs = [(explicit.weights(left, values), explicit.weights(right, values))]
+        for one, other in pairs:
+            if one != other:
+                key = min(k for k in one.keys() | other.keys() if one.get(k) != other.get(k))
+                where = ", ".join(f"{s} = {values[s]}" for s in (*free, *region.lower_bounds))
+                name = f"{key[0]}({key[1]}, {key[2]})" if key[0] else "the constant term"
+                return (
+                    f"at {where or 'any site'}, φ = {values[sy.phi]}: {name} has the weight "
+                    f"{one.get(key, 0)} on the left and {other.get(key, 0)} on the right"
+                )
     return None
 
 
@@ -180,6 +181,3 @@ def all_of(*rulings: Ruling) -> Ruling:
 def from_test(outcome: bool, note: str, otherwise: str = "") -> Ruling:
     """Turn a decided yes or no into a ruling."""
     return proved(note) if outcome else refuted(otherwise or f"not so: {note}")
-
-
-Decision = Callable[[], Ruling]
