@@ -51,16 +51,14 @@ def solve(plan: Plan, realisations: Sequence[int], system: NumberSystem, work: W
         return Solved(system, solved, None, None, seconds)
     strength = plan.load.strength(n_x, system)
     loads = plan.load.on(plan.force_rows, strength, system)
-    if plan.route == "exact":
-        forces = sweep_down(
-            solved,
-            plan.force_rows,
-            loads,
-            stop_at_tension=plan.scene.effects.stop_at_tension,
-            work=work,
-        )
-    else:
-        forces = first_order.forces(solved, plan.force_rows, loads, work)
+    forces = sweep_down(
+        solved,
+        plan.force_rows,
+        loads,
+        linear=plan.route == "first-order",
+        stop_at_tension=plan.scene.effects.stop_at_tension,
+        work=work,
+    )
     clock.stop("balance forces")
     return Solved(system, solved, forces, None, seconds)
 

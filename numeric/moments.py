@@ -60,7 +60,7 @@ def unit_near(size: Fraction) -> float:
     """Give the power of two below a positive size, within the range where it can be squared.
 
     >>> unit_near(Fraction(3, 10)), unit_near(Fraction(1, 10**300)) > 0
-    (0.25, True)
+    (0.125, True)
     """
     if not size:
         return 1.0
