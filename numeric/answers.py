@@ -158,8 +158,8 @@ class ContactForces(Gatherer):
         return Table(
             {"i": i, "j": j, "branch": branches},
             {
-                "force": np.concatenate([c[0] for c in columns] or [empty]),
-                "change": np.concatenate([c[1] for c in columns] or [empty]),
+                "force": np.concatenate([empty, *(c[0] for c in columns)]),
+                "change": np.concatenate([empty, *(c[1] for c in columns)]),
             },
             ("change",),
         )
@@ -411,7 +411,7 @@ class Response(Gatherer):
                 index["branch"] += [branch] * layer.count
                 parts.append((F + g, g, F * ny + vertical_change, vertical_change, F))
         nothing = array(system, [])
-        columns = [np.concatenate([part[k] for part in parts] or [nothing]) for k in range(5)]
+        columns = [np.concatenate([nothing, *(part[k] for part in parts)]) for k in range(5)]
         self.ordered = (columns[4], columns[4] * ny)
         names = ("force", "change", "vertical", "vertical_change")
         return Table(index, dict(zip(names, columns, strict=False)), ("change", "vertical_change"))
@@ -446,7 +446,8 @@ class Changes(Gatherer):
         forces = solved.forces
         assert forces is not None
         parts = [g for j in range(1, len(forces.rows)) for _, _, _, g in _both(forces, j, number)]
-        return Table({}, {"change": np.concatenate(parts)}, ("change",))
+        nothing = array(self.system, [])
+        return Table({}, {"change": np.concatenate([nothing, *parts])}, ("change",))
 
 
 GATHERERS: dict[str, Callable[[Plan, NumberSystem], Gatherer]] = {

@@ -91,12 +91,21 @@ def _ordered(plan: Plan, system: NumberSystem) -> Solved:
 
 def _line_sums(plan: Plan, realisation: int, system: NumberSystem, work: Work) -> Solved:
     start = perf_counter()
+    seconds = {"read radii": 0.0, "draw radii": 0.0, "line sums": 0.0}
 
     def radius_at(i: int, j: int) -> Any:
+        begun = perf_counter()
         layer = Layer(j, i, 1)
         work.did("radii", layer)
         work.did("summed", layer)
-        return plan.radii.row(layer, [realisation], system)[0]
+        radius = plan.radii.row(layer, [realisation], system)[0]
+        seconds["draw radii"] += perf_counter() - begun
+        seconds["read radii"] = seconds["draw radii"]
+        return radius
+
+    def finished(single: tuple[Any, Any]) -> Solved:
+        seconds["line sums"] = perf_counter() - start - seconds["draw radii"]
+        return Solved(system, None, None, single, seconds)
 
     n_x = plan.scene.n_x
     if not plan.needs_forces:
@@ -106,7 +115,7 @@ def _line_sums(plan: Plan, realisation: int, system: NumberSystem, work: Work) -
             first_order.line_sum(lines.along(0, j))[-1],
             first_order.line_sum(lines.across(i, j))[-1],
         )
-        return Solved(system, None, None, single, {"line sums": perf_counter() - start})
+        return finished(single)
     contact = plan.scene.contact
     i, j, branch = contact
     side, other = (1, "-") if branch == "+" else (-1, "+")
@@ -126,4 +135,4 @@ def _line_sums(plan: Plan, realisation: int, system: NumberSystem, work: Work) -
         n_x=n_x,
         system=system,
     )
-    return Solved(system, None, None, (own, change), {"line sums": perf_counter() - start})
+    return finished((own, change))

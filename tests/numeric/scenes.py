@@ -76,7 +76,7 @@ def scenes(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
     load = draw(st.sampled_from(["surface", "bulk", "point"]))
     sections["load"] = {"kind": load}
     if load == "point":
-        sections["load"]["at"] = draw(site(width, 1, height))
+        sections["load"]["at"] = draw(site(width, 0, height))
     if draw(st.booleans()):
         sections["load"]["angle_deg"] = draw(st.integers(-20, 20))
     geometry = draw(st.sampled_from(["ordered", "first-order", "exact"]))
