@@ -99,8 +99,8 @@ def contact_rows(contact: tuple[int, int, str], reach: Rows, width: int | None) 
 def contact_beads(j: int, height: int) -> int:
     """Count the beads on which the exact f^±_ij depends (surface or bulk load, W ≥ 2M − j).
 
-    The cone above the contact holds M − j beads of the surface; layer m lies M − m below it, and the
-    triangles widen by one bead a layer: 2M − j − m beads, summed over m = 0 … M.
+    The cone above the contact holds M − j beads of the surface; layer m lies M − m below it, and
+    the triangles widen by one bead a layer: 2M − j − m beads, summed over m = 0 … M.
 
     >>> contact_beads(0, 1), contact_beads(0, 64)
     (3, 6240)
