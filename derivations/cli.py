@@ -12,6 +12,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
+from derivations import scene_commands
 from derivations.catalogue import modules
 
 FAILED_OUTSIDE = 3
@@ -171,6 +172,9 @@ def list_equations() -> None:
 
     for number, (name, title) in shown.titles().items():
         print(f"{number:3}  {name:<20}  {title}")
+
+
+scene_commands.register(app)
 
 
 def main(arguments: list[str] | None = None) -> int:
