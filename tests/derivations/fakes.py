@@ -14,7 +14,7 @@ TRUE = equation(DeltaX(i, j), terms(DeltaR(i, j), DeltaR(i - 1, j)))
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Only the same terms will do, in any order."""
-    same = sympy.expand(candidate.rhs - TRUE.rhs) == 0
+    same = candidate.lhs == TRUE.lhs and sympy.expand(candidate.rhs - TRUE.rhs) == 0
     return Ruling(Verdict.PROVED if same else Verdict.REFUTED, "terms compared")
 
 

@@ -36,6 +36,14 @@ def test_anything_doubtful_spoils_the_verdict(derivation, verdict) -> None:
     assert trouble_lines(outcome)
 
 
+@pytest.mark.parametrize("verdict", [Verdict.REFUTED, Verdict.UNDECIDED])
+def test_nothing_is_better_than_its_premises(verdict: Verdict) -> None:
+    assert run(fakes.CONCLUSION, known={1: Verdict.PROVED}).verdict is Verdict.PROVED
+    outcome = run(fakes.CONCLUSION, known={1: verdict})
+    assert outcome.verdict is Verdict.UNDECIDED
+    assert any(f"Eq. 1 is {verdict}" in line for line in trouble_lines(outcome))
+
+
 def test_an_equivalent_mutant_is_listed_with_its_proof() -> None:
     lenient = replace(fakes.PREMISE, decide=lambda *_: fakes.always(Verdict.PROVED))
     outcome = run(lenient)
