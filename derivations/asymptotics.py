@@ -7,10 +7,10 @@ import sympy
 from derivations.record import Step
 from symbolic.as_printed import equation
 from symbolic.exact import FIELD, NotExactError, RationalFunction
-from symbolic.kernel import Ruling, proved, refuted, undecided
+from symbolic.kernel import Ruling, from_test, proved, refuted, undecided
 from symbolic.printing.text import text
-from symbolic.symbols import M, j, z
-from symbolic.variance import ExactForm, at_fixed_z, order
+from symbolic.symbols import M, j, phi, r, sigma, z
+from symbolic.variance import ExactForm, at_fixed_z, leading, order
 
 
 def compare_leading_order(exact: RationalFunction, candidate: sympy.Expr) -> Ruling:
@@ -26,6 +26,29 @@ def compare_leading_order(exact: RationalFunction, candidate: sympy.Expr) -> Rul
     if power < order(exact):
         return proved(f"exact − printed is of order M^{power}: {shown}")
     return refuted(f"exact − candidate is of the leading order M^{power} itself: {shown}")
+
+
+def edges_follow(forms: dict[str, ExactForm], printed: sympy.Expr) -> Ruling:
+    """The exact forms of the base and of the layer below the surface, at leading order in M."""
+    at_zero = FIELD.from_sympy(printed.xreplace({z: sympy.Integer(0)}))
+    surface = FIELD.from_sympy(2 * M * (1 + phi**2) * (sigma / r) ** 2 / (1 - phi**2) ** 2)
+    return from_test(
+        (leading(forms["base"].value) - at_zero).is_zero()
+        and (leading(forms["surface"].value) - surface).is_zero(),
+        "at j = 0 the leading order is the printed form at z = 0; at j = M − 1 it is 2(1+φ²) M in "
+        "units of (σ/r)²/(1−φ²)²",
+    )
+
+
+def next_order_is(forms: dict[str, ExactForm], printed: sympy.Expr, stated: sympy.Expr) -> Ruling:
+    """Exact less printed form is ``stated`` at leading order, in units of (σ/r)²/(1−φ²)²."""
+    unit = (sigma / r) ** 2 / (1 - phi**2) ** 2
+    rest = forms["interior"].value - FIELD.from_sympy(printed.xreplace({z: j / M}))
+    expected = FIELD.from_sympy((stated * unit).xreplace({z: j / M}))
+    return from_test(
+        (leading(rest) - expected).is_zero(),
+        f"in units of (σ/r)²/(1−φ²)² the next order is {text(stated)}",
+    )
 
 
 def exact_steps(variance: sympy.Expr, forms: dict[str, ExactForm]) -> Iterator[Step]:

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
+from derivations import scene_commands
 from derivations.catalogue import modules
 
 STATUSES = (
@@ -161,6 +162,9 @@ def list_equations() -> None:
 
     for number, (name, title) in shown.titles().items():
         print(f"{number:3}  {name:<20}  {title}")
+
+
+scene_commands.register(app)
 
 
 def run(arguments: list[str] | None = None) -> int:

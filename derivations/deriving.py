@@ -8,6 +8,7 @@ from pathlib import Path
 from derivations.catalogue import load, with_premises
 from derivations.folder import output_folder
 from derivations.progress import display
+from derivations.record import Outcome
 from derivations.runner import run
 from symbolic.kernel import Verdict
 
@@ -21,10 +22,11 @@ def derive(numbers: Sequence[int], out: Path | None, as_json: bool) -> int:
         folder = stack.enter_context(output_folder(out)) if out else None
         derivations = with_premises(load(number) for number in numbers)
         watch = display(len(derivations), as_json=as_json)
-        outcomes = []
+        outcomes: list[Outcome] = []
         with watch.showing():
             for derivation in derivations:
-                outcomes.append(run(derivation, watch.checking))
+                known = {done.derivation.number: done.verdict for done in outcomes}
+                outcomes.append(run(derivation, watch.checking, known))
                 watch.finished(outcomes[-1])
         if folder is not None:
             from derivations.document import output_files

@@ -4,13 +4,12 @@ from collections.abc import Iterator
 
 import sympy
 
-from derivations import witnesses
+from derivations.on_packings import about, compare, each_contact
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region
 from symbolic.as_printed import equation, terms, times
-from symbolic.kernel import Ruling, all_of, decide_identity, decide_linear
-from symbolic.lattice import N_MINUS, N_PLUS
+from symbolic.kernel import Ruling, all_of, cartesian, decide_identity, decide_linear
 from symbolic.symbols import Position, i, j, n_minus, n_plus, n_x, n_y, phi, r, spacing
 from symbolic.vectors import CARTESIAN
 
@@ -26,6 +25,12 @@ a, b = sympy.symbols("a b", integer=True)
 def positions(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     """x at a site, as a vector expression (Eq. 1)."""
     return PRINTED.rhs.xreplace({i: across, j: layer})
+
+
+def ordered_separation(across: sympy.Expr | int, layer: sympy.Expr | int) -> sympy.ImmutableMatrix:
+    """x_(i+across, j+layer) − x_ij in Cartesian components."""
+    apart = sympy.expand(positions(i + across, j + layer) - positions(i, j))
+    return sympy.ImmutableMatrix([cartesian(apart, axis) for axis in range(2)])
 
 
 def steps() -> Iterator[Step]:
@@ -66,6 +71,8 @@ def steps() -> Iterator[Step]:
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """The candidate is Eq. 1 when it puts bead (0, 0) at the origin and steps by 2r n^±."""
+    if other := about(candidate, Position(i, j), "none", each_contact):
+        return other
 
     def at(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
         return candidate.rhs.xreplace({i: across, j: layer})
@@ -89,7 +96,7 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
 
 
 def _squared_distance(across: sympy.Expr, up: sympy.Expr) -> sympy.Expr:
-    separation = r * (up + across) * N_PLUS + r * (up - across) * N_MINUS
+    separation = ordered_separation(across, up)
     return separation.dot(separation)
 
 
@@ -160,8 +167,8 @@ DERIVATION = Derivation(
     ),
     witnesses=(
         Witness(
-            "beads laid by circle intersection sit there, as fractions",
-            lambda packing: witnesses.ordered_positions(PRINTED.rhs, packing),
+            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
+            lambda packing: compare(PRINTED, packing, "none", each_contact),
         ),
     ),
 )

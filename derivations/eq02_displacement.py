@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import sympy
 
 from derivations import eq01_ordered_positions as eq01
-from derivations import witnesses
+from derivations.on_packings import about, compare, each_bead
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic import contacts
@@ -53,12 +53,12 @@ def resting_on(left: sympy.Expr, right: sympy.Expr) -> sympy.Expr:
 
 def steps() -> Iterator[Step]:
     """Differentiate both contact constraints and invert the 2×2 system."""
-    constraint = contacts.contact_constraint("+")
+    constraint = contacts.contact_constraint(eq01.ordered_separation(1, 1))
     yield Step(
         "The bead touches its support: the squared distance of the centres is the squared "
         "sum of the radii. With ε the strength of the disorder, Δx, Δy the difference of "
         "the two displacements and ρ the sum of the two δr, this vanishes:",
-        constraint.exact,
+        equation(constraint.exact, 0),
     )
     yield Step(
         "At ε = 0 it holds by Eq. 1; its derivative there must vanish too.",
@@ -91,6 +91,8 @@ def steps() -> Iterator[Step]:
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Compare with the solved constraints, in Cartesian components."""
+    if other := about(candidate, DeltaX(i, j), "none", each_bead):
+        return other
     return decide_linear(
         candidate.rhs, resting_on(LEFT, RIGHT), Region({}), is_vector=True, basis=CARTESIAN
     )
@@ -98,8 +100,8 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
 
 def _linearisation() -> Ruling:
     rulings = []
-    for branch, sign in (("+", 1), ("-", -1)):
-        constraint = contacts.contact_constraint(branch)
+    for sign in (1, -1):
+        constraint = contacts.contact_constraint(eq01.ordered_separation(sign, 1))
         along = sign * n_x * contacts.dx + n_y * contacts.dy
         rulings.append(decide_identity(constraint.order_0, sympy.Integer(0)))
         rulings.append(decide_identity(constraint.order_1, 4 * r * (along - contacts.radii)))
@@ -148,10 +150,8 @@ DERIVATION = Derivation(
     ),
     witnesses=(
         Witness(
-            "Taylor coefficients of the exact packing equal it as fractions",
-            lambda packing: witnesses.geometry(
-                PRINTED.rhs, witnesses.displacement, packing, step=1
-            ),
+            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
+            lambda packing: compare(PRINTED, packing, "none", each_bead),
         ),
     ),
 )

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import sympy
 
 from derivations import eq02_displacement as eq02
-from derivations import remainders, witnesses
+from derivations import remainders
+from derivations.on_packings import about, compare, each_bead
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region
@@ -79,6 +80,8 @@ def steps() -> Iterator[Step]:
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Base case j = 1, and the inductive step for symbolic j ≥ 2."""
+    if other := about(candidate, DeltaX(i, j), "none", each_bead):
+        return other
     one = sympy.Integer(1)
     base = decide_linear(
         _at(candidate.rhs, i, one),
@@ -130,10 +133,8 @@ DERIVATION = Derivation(
     ),
     witnesses=(
         Witness(
-            "Taylor coefficients of the exact packing equal it as fractions",
-            lambda packing: witnesses.geometry(
-                PRINTED.rhs, witnesses.displacement, packing, step=1
-            ),
+            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
+            lambda packing: compare(PRINTED, packing, "none", each_bead),
         ),
         Witness(
             "exact positions at 80 digits differ from it by a remainder of order ε²",

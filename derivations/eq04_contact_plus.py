@@ -4,8 +4,9 @@ from collections.abc import Iterator
 
 import sympy
 
+from derivations import eq01_ordered_positions as eq01
 from derivations import eq03_extrapolation as eq03
-from derivations import witnesses
+from derivations.on_packings import about, compare, each_contact
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic import contacts
@@ -84,6 +85,8 @@ def steps() -> Iterator[Step]:
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Compare with Eq. 3 put into the derivative: for j ≥ 1, and on the fixed base for j = 0."""
+    if other := about(candidate, 2 * r * DeltaNPlus(i, j), "none", each_contact):
+        return other
     derived = from_displacements(eq03.displacement(*ABOVE), eq03.displacement(i, j))
     above_base = decide_linear(candidate.rhs, derived, Region({j: 1}), is_vector=True)
     at_base = decide_linear(
@@ -96,7 +99,7 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
 
 
 def _unit_vector() -> Ruling:
-    change = contacts.unit_vector_change("+")
+    change = contacts.unit_vector_change(eq01.ordered_separation(1, 1))
     expected = (contacts.dx - contacts.radii * n_x, contacts.dy - contacts.radii * n_y)
     return all_of(*(decide_identity(2 * r * change[axis], expected[axis]) for axis in range(2)))
 
@@ -114,7 +117,7 @@ DERIVATION = Derivation(
         (DeltaR(i, j), "deviation of the radius of bead (i, j)"),
     ),
     assumptions=("first order in δr", "fixed base; j ≥ 0"),
-    premises=(eq03.DERIVATION,),
+    premises=(eq01.DERIVATION, eq03.DERIVATION),
     printed=(PRINTED,),
     steps=steps,
     decide=decide,
@@ -124,10 +127,8 @@ DERIVATION = Derivation(
     ),
     witnesses=(
         Witness(
-            "Taylor coefficients of the exact packing equal it as fractions",
-            lambda packing: witnesses.geometry(
-                PRINTED.rhs, witnesses.doubled_direction("+"), packing
-            ),
+            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
+            lambda packing: compare(PRINTED, packing, "none", each_contact),
         ),
     ),
 )

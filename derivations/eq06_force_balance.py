@@ -6,11 +6,18 @@ import sympy
 
 from derivations import eq04_contact_plus as eq04
 from derivations import eq05_contact_minus as eq05
-from derivations import witnesses
+from derivations.on_packings import compare, loaded_bead
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.as_printed import equation, terms, times
-from symbolic.kernel import Ruling, all_of, decide_identity, decide_vector_identity
+from symbolic.balance import Solved, solve
+from symbolic.kernel import (
+    Ruling,
+    all_of,
+    cartesian,
+    decide_identity,
+    decide_vector_identity,
+)
 from symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
@@ -64,16 +71,38 @@ def steps() -> Iterator[Step]:
     )
 
 
+def pushed(direction: tuple[sympy.Expr, sympy.Expr]) -> list[sympy.Expr]:
+    """Gradient of the distance, in Cartesian components, for a support in −``direction``.
+
+    The centres are D apart along the unit vector ``direction``; SymPy differentiates the
+    distance, then x − X = D N is put in.
+    """
+    root = sympy.Symbol("D", positive=True)
+    gradient = [sympy.diff(DISTANCE, axis).xreplace({1 / DISTANCE: 1 / root}) for axis in (x, y)]
+    placed = {x: X + root * direction[0], y: Y + root * direction[1]}
+    return [sympy.expand(part.xreplace(placed)) for part in gradient]
+
+
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """The candidate is compared with load + Σ f ∇(distance) = 0, for any forces and directions."""
-    directions = {
-        "+": (ForcePlus(*LEFT), n_plus + DeltaNPlus(*LEFT)),
-        "-": (ForceMinus(*RIGHT), n_minus + DeltaNMinus(*RIGHT)),
-    }
-    balance = Load(k, l)
-    for force, unit in directions.values():
-        balance += force * unit
-    return decide_vector_identity(candidate.lhs - candidate.rhs, balance)
+    """Compare with load + Σ f ∇(distance) = 0, component by component, for any directions."""
+    rulings = []
+    contacts = (
+        (ForcePlus(*LEFT), n_plus + DeltaNPlus(*LEFT)),
+        (ForceMinus(*RIGHT), n_minus + DeltaNMinus(*RIGHT)),
+    )
+    for axis in range(2):
+        balance = cartesian(Load(k, l), axis)
+        for force, unit in contacts:
+            balance += force * pushed((cartesian(unit, 0), cartesian(unit, 1)))[axis]
+        rulings.append(decide_identity(cartesian(candidate.lhs - candidate.rhs, axis), balance))
+    return all_of(*rulings)
+
+
+def solved(carried: sympy.Expr, across: sympy.Expr, layer: sympy.Expr) -> Solved:
+    """The forces below bead (across, layer) when it has to carry ``carried`` (a vector)."""
+    at = {k: across, l: layer}
+    forces = (ForcePlus(*LEFT).xreplace(at), ForceMinus(*RIGHT).xreplace(at))
+    return solve(PRINTED.lhs.xreplace(at), forces, Load(k, l).xreplace(at), carried)
 
 
 def _gradient_is_unit_vector() -> Ruling:
@@ -87,13 +116,6 @@ def _gradient_is_unit_vector() -> Ruling:
         decide_identity(in_root[1] * root, y - Y),
         decide_identity((in_root[0] ** 2 + in_root[1] ** 2) * root**2, squared),
     )
-
-
-def _no_torque() -> Ruling:
-    # a force along the contact, acting at the distance R along it, has no torque
-    radius, force, across, up = sympy.symbols("R f N_x N_y", real=True)
-    arm, push = (radius * across, radius * up), (force * across, force * up)
-    return decide_identity(arm[0] * push[1] - arm[1] * push[0], sympy.Integer(0))
 
 
 def _ordered_solution() -> Ruling:
@@ -126,13 +148,12 @@ DERIVATION = Derivation(
             "the gradient of the distance is the unit vector from the support to the bead",
             _gradient_is_unit_vector,
         ),
-        Claim("a force along the contact has no torque about the centre", _no_torque),
         Claim("two forces f_load/2n_y along n⁺ and n⁻ carry the load f_load", _ordered_solution),
     ),
     witnesses=(
         Witness(
-            "the loaded bead of an exact packing is balanced at orders ε⁰ and ε¹",
-            witnesses.loaded_bead,
+            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
+            lambda packing: compare(PRINTED, packing, "single", loaded_bead),
         ),
     ),
 )

@@ -1,11 +1,12 @@
 """Eq. 7: how a vertical load splits between the two supports."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import sympy
 
 from derivations import eq06_force_balance as eq06
-from derivations import witnesses
+from derivations.on_packings import about, compare, loaded_bead
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic import balance
@@ -57,63 +58,54 @@ def split_plus(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     return PRINTED[0].rhs.args[1].xreplace({k: across, l: layer})
 
 
-def solved(branch: int) -> sympy.Expr:
-    """The inverted 2×2 system: ordered force times 1 plus the first-order change."""
-    at_zero, slope = balance.solved("load")
-    change = slope[branch].xreplace({balance.tilt_plus: TILT_PLUS, balance.tilt_minus: TILT_MINUS})
-    return ORDERED * (at_zero[branch] + change)
+SUBJECTS = (ForcePlus(*LEFT), ForceMinus(*RIGHT))
+
+
+@cache
+def solved() -> balance.Solved:
+    """Eq. 6 solved for a load that points straight down, in units of f_load/2n_y."""
+    return eq06.solved(terms(n_plus, n_minus), k, l)
 
 
 def steps() -> Iterator[Step]:
     """Dot the balance with n⁺ and n⁻, invert, and expand in the strength ε."""
+    system = solved()
     yield Step(
         "A vertical load is −(f_load/2n_y)(n⁺ + n⁻). Dotted with n⁺ and n⁻, Eq. 6 is a "
         "2×2 system for the two forces in units of f_load/2n_y; ν⁺ = n⁻·δn⁺ and "
         "ν⁻ = n⁺·δn⁻ are all that δn^± holds, by Eqs. 4 and 5.",
-        sympy.Tuple(balance.balance_matrix(), balance.incoming("load")),
+        sympy.Tuple(system.matrix, system.right),
     )
     yield Step(
         "Inverted, as its adjugate over its determinant; here the determinant and the adjugate:",
-        sympy.Tuple(
-            sympy.collect(balance.balance_matrix().det(), epsilon),
-            balance.balance_matrix().adjugate(),
-        ),
+        sympy.Tuple(sympy.collect(system.matrix.det(), epsilon), system.matrix.adjugate()),
     )
-    at_zero, slope = balance.solved("load")
     yield Step(
         "At ε = 0 both forces are 1; the derivatives with respect to ε at 0 are",
-        sympy.Tuple(*slope),
+        sympy.Tuple(*system.slope),
     )
-    assert len(at_zero) == len(PRINTED)
     yield Step("In the paper's symbols:", sympy.Tuple(*PRINTED))
 
 
 def decide(part: int, candidate: sympy.Eq) -> Ruling:
     """Compare with the inverted system, for any contact directions."""
-    return decide_linear(candidate.rhs, solved(part), Region({}))
+    if other := about(candidate, SUBJECTS[part], "single", loaded_bead):
+        return other
+    return decide_linear(candidate.rhs, ORDERED * solved().first_order(part), Region({}))
 
 
 def _solves_the_system() -> Ruling:
-    at_zero, slope = balance.solved("load")
-    matrix, right = balance.balance_matrix(), balance.incoming("load")
-    order_0 = matrix.subs(epsilon, 0)
-    order_1 = sympy.diff(matrix, epsilon).subs(epsilon, 0)
-    zero = sympy.Integer(0)
+    system = solved()
+    order_0 = system.matrix.subs(epsilon, 0)
+    order_1 = sympy.diff(system.matrix, epsilon).subs(epsilon, 0)
+    at_zero, slope = sympy.Matrix(system.at_zero), sympy.Matrix(system.slope)
+    left = order_0 * at_zero, order_0 * slope + order_1 * at_zero
+    right = system.right.subs(epsilon, 0), sympy.zeros(2, 1)
     return all_of(
         *(
-            ruling
+            decide_identity(left[order][row], right[order][row])
+            for order in range(2)
             for row in range(2)
-            for ruling in (
-                decide_identity(
-                    sum(order_0[row, c] * at_zero[c] for c in range(2)), right.subs(epsilon, 0)[row]
-                ),
-                decide_identity(
-                    sum(
-                        order_0[row, c] * slope[c] + order_1[row, c] * at_zero[c] for c in range(2)
-                    ),
-                    zero,
-                ),
-            )
         )
     )
 
@@ -143,8 +135,12 @@ DERIVATION = Derivation(
     ),
     witnesses=(
         Witness(
-            "Taylor coefficients of the exact packing equal it as fractions",
-            lambda packing: witnesses.split(PRINTED, packing),
+            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: first part",
+            lambda packing: compare(PRINTED[0], packing, "single", loaded_bead),
+        ),
+        Witness(
+            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: second part",
+            lambda packing: compare(PRINTED[1], packing, "single", loaded_bead),
         ),
     ),
 )

@@ -1,11 +1,12 @@
 """Eq. 8: how a contact force passes through one bead."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import sympy
 
 from derivations import eq06_force_balance as eq06
-from derivations import witnesses
+from derivations.on_packings import about, compare, left_edge
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic import balance
@@ -46,30 +47,27 @@ def branching(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     return PRINTED[1].rhs.xreplace({site_r: across, site_s: layer})
 
 
-def solved(entering: str, branch: int) -> sympy.Expr:
-    """The inverted 2×2 system for an incoming force along ``entering``, to first order."""
-    at_zero, slope = balance.solved(entering)
-    inward = Dot(n_minus, DeltaNPlus(*HERE)) if entering == "+" else Dot(n_plus, DeltaNMinus(*HERE))
-    return at_zero[branch] + slope[branch].xreplace(
-        {
-            balance.tilt_plus: Dot(n_minus, DeltaNPlus(*LEFT)),
-            balance.tilt_minus: Dot(n_plus, DeltaNMinus(*RIGHT)),
-            balance.tilt_incoming: inward,
-        }
-    )
+SUBJECTS = (ForcePlus(*LEFT) / ForcePlus(*HERE), ForceMinus(*RIGHT) / ForcePlus(*HERE))
+
+
+@cache
+def solved(entering: str) -> balance.Solved:
+    """Eq. 6 solved for an incoming unit force along n⁺ ("+") or n⁻ ("-")."""
+    along = n_plus + DeltaNPlus(*HERE) if entering == "+" else n_minus + DeltaNMinus(*HERE)
+    return eq06.solved(along, site_r, site_s)
 
 
 def steps() -> Iterator[Step]:
     """The same 2×2 system with an incoming contact force in place of the load."""
+    system = solved("+")
     yield Step(
         "Eq. 6 holds with the load replaced by the incoming force −f⁺_rs (n⁺ + δn⁺_rs). "
         "Dotted with n⁺ and n⁻, in units of f⁺_rs:",
-        sympy.Tuple(balance.balance_matrix(), balance.incoming("+")),
+        sympy.Tuple(system.matrix, system.right),
     )
-    at_zero, slope = balance.solved("+")
     yield Step(
         "Inverted; the values at ε = 0 and the derivatives there are",
-        sympy.Tuple(sympy.Tuple(*at_zero), sympy.Tuple(*slope)),
+        sympy.Tuple(sympy.Tuple(*system.at_zero), sympy.Tuple(*system.slope)),
     )
     yield Step(
         "The direction of the other support drops out, since nothing leaves along it at order 0.",
@@ -83,13 +81,15 @@ def steps() -> Iterator[Step]:
 
 def decide(part: int, candidate: sympy.Eq) -> Ruling:
     """Compare with the inverted system, for any contact directions."""
-    return decide_linear(candidate.rhs, solved("+", part), Region({}))
+    if other := about(candidate, SUBJECTS[part], "single", left_edge):
+        return other
+    return decide_linear(candidate.rhs, solved("+").first_order(part), Region({}))
 
 
 def _other_orientation() -> Ruling:
     return all_of(
-        decide_linear(mirror(PRINTED[0].rhs), solved("-", 1), Region({})),
-        decide_linear(mirror(PRINTED[1].rhs), solved("-", 0), Region({})),
+        decide_linear(mirror(PRINTED[0].rhs), solved("-").first_order(1), Region({})),
+        decide_linear(mirror(PRINTED[1].rhs), solved("-").first_order(0), Region({})),
     )
 
 
@@ -116,8 +116,12 @@ DERIVATION = Derivation(
     ),
     witnesses=(
         Witness(
-            "Taylor coefficients of the exact packing equal it as fractions",
-            lambda packing: witnesses.passage(PRINTED, packing),
+            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: first part",
+            lambda packing: compare(PRINTED[0], packing, "single", left_edge),
+        ),
+        Witness(
+            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: second part",
+            lambda packing: compare(PRINTED[1], packing, "single", left_edge),
         ),
     ),
     remarks=("The paper leaves the incoming force along n⁻ to symmetry; it is solved for here.",),

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import sympy
 
 from derivations import eq08_propagation as eq08
-from derivations import witnesses
+from derivations.on_packings import about, compare, straight_below
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region
@@ -19,8 +19,6 @@ from symbolic.symbols import (
     epsilon,
     i,
     j,
-    k,
-    l,
     n_minus,
     phi,
     q,
@@ -65,6 +63,8 @@ def steps() -> Iterator[Step]:
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Base case q = 0 and the inductive step with symbolic q."""
+    if other := about(candidate, ForcePlus(i, j) / ForcePlus(*ENTRY), "single", straight_below):
+        return other
     zero = sympy.Integer(0)
     base = decide_linear(after(candidate.rhs, zero), sympy.Integer(1), Region({}))
     step = decide_linear(
@@ -88,12 +88,6 @@ def _product_rule() -> Ruling:
     )
 
 
-def _is_the_only_path() -> Ruling:
-    # straight down, the entry's index and layer fall together: k − i = l − j and nothing else
-    across, layer = straight_end(q)
-    return decide_identity((k - across) - (l - layer), sympy.Integer(0))
-
-
 DERIVATION = Derivation(
     number=9,
     name="straight_path",
@@ -108,14 +102,11 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     decide=decide,
-    claims=(
-        Claim("(1 + εA)(1 + εB) has the first-order change A + B", _product_rule),
-        Claim("the straight path ends on contacts with k − i = l − j", _is_the_only_path),
-    ),
+    claims=(Claim("(1 + εA)(1 + εB) has the first-order change A + B", _product_rule),),
     witnesses=(
         Witness(
-            "Taylor coefficients of the exact packing equal it as fractions",
-            lambda packing: witnesses.straight_path(PRINTED.rhs, packing),
+            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
+            lambda packing: compare(PRINTED, packing, "single", straight_below),
         ),
     ),
 )

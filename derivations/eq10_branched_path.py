@@ -7,6 +7,7 @@ import sympy
 from derivations import eq08_propagation as eq08
 from derivations import eq09_straight_path as eq09
 from derivations import witnesses
+from derivations.on_packings import about, compare, inside_cone
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region
@@ -35,6 +36,8 @@ from symbolic.symbols import (
     p,
     phi,
     q,
+    site_r,
+    site_s,
 )
 
 PRINTED = equation(
@@ -61,10 +64,12 @@ def steps() -> Iterator[Step]:
         "q ≥ 1 steps along n⁻, the contact reached has the lower bead",
         sympy.Tuple(*branched_end()),
     )
-    solution = solve_for_path()
     yield Step(
         "This is (i, j) for exactly one pair (p, q): q is the paper's n.",
-        sympy.Tuple(equation(p, solution[p]), equation(q, solution[q])),
+        sympy.Tuple(
+            equation(p, terms(times(sympy.Rational(1, 2), terms(l - j, k - i)), -1)),
+            equation(q, times(sympy.Rational(1, 2), terms(l - j, minus(k - i)))),
+        ),
     )
     yield Step(
         "A path exists when q ≥ 1 and p ≥ 0, and p = (l−j) − n − 1, so when "
@@ -79,6 +84,8 @@ def steps() -> Iterator[Step]:
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Follow the path: the branching bead is where p straight steps have led."""
+    if other := about(candidate, ForceMinus(i, j) / ForcePlus(*ENTRY), "single", inside_cone):
+        return other
     bead = tuple(index.xreplace(BY_BRANCH) for index in straight_end(p))
     derived = eq08.branching(*bead)
     return decide_linear(candidate.rhs.xreplace(BY_BRANCH), derived, Region({n: 1, p: 0}))
@@ -103,32 +110,57 @@ def _branching_bead() -> Ruling:
     )
 
 
-def _balance_everywhere() -> Ruling:
-    """Claimed responses, at order 0 and 1, against Eq. 8 and its mirror image, bead by bead.
+def _response(
+    branches: int, straight: sympy.Expr, turned: sympy.Expr
+) -> tuple[tuple[sympy.Expr, sympy.Expr], tuple[sympy.Expr, sympy.Expr]]:
+    """Claimed ((order 0, order 1) of f⁺, the same of f⁻) over the entering force.
 
-    On the straight path (q = 0) the incoming f⁺ is 1 + A and no f⁻ comes in, so that f⁺ leaves
-    as Eq. 9 and f⁻ as Eq. 10 with n = 1. Beside it (n ≥ 1) only f⁻, of first order, comes in:
-    it passes unchanged, and leaves no f⁺ of first order.
+    The contacts are those whose lower bead is reached by ``straight`` steps along n⁺ and
+    ``turned`` steps along n⁻; ``branches`` says whether ``turned`` is zero (0) or at least one
+    (1). On the straight path f⁺ is Eq. 9 and there is no f⁻; beside it f⁻ is Eq. 10 and f⁺ zero.
     """
-    on_path = straight_end(p)
-    leaving = {k: BY_BRANCH[k], l: BY_BRANCH[l]}
-    below = (on_path[0] + 1, on_path[1] - 1)
-    branch = decide_linear(
-        PRINTED.rhs.xreplace({i: below[0], j: below[1], n: sympy.Integer(1)}),
-        eq08.branching(*on_path),
-        Region({p: 0}),
+    zero, one = sympy.Integer(0), sympy.Integer(1)
+    if branches == 0:
+        return (one, eq09.after(eq09.PRINTED.rhs, straight) - 1), (zero, zero)
+    across, layer = (index.xreplace({p: straight, q: turned}) for index in branched_end())
+    return (zero, zero), (zero, PRINTED.rhs.xreplace({i: across, j: layer, n: turned}))
+
+
+def _leaving(
+    entering: tuple[tuple[sympy.Expr, sympy.Expr], tuple[sympy.Expr, sympy.Expr]],
+    bead: tuple[sympy.Expr, sympy.Expr],
+) -> tuple[tuple[sympy.Expr, sympy.Expr], tuple[sympy.Expr, sympy.Expr]]:
+    """Send forces through a bead by Eq. 8 and its mirror image, order by order."""
+    (plus_0, plus_1), (minus_0, minus_1) = entering
+    at = {site_r: bead[0], site_s: bead[1]}
+    straight, branch = eq08.straight(*bead) - 1, eq08.branching(*bead)
+    mirrored, turned_back = (mirror(part.rhs).xreplace(at) for part in eq08.PRINTED)
+    return (
+        (plus_0, plus_1 + plus_0 * straight + minus_0 * turned_back),
+        (minus_0, minus_1 + minus_0 * (mirrored - 1) + plus_0 * branch),
     )
-    further = decide_linear(
-        PRINTED.rhs.xreplace({i: i + 1, j: j - 1, n: n + 1}).xreplace(leaving),
-        PRINTED.rhs.xreplace(leaving),
-        Region({n: 1, p: 0}),
-    )
-    onward = decide_linear(
-        eq09.after(eq09.PRINTED.rhs, p + 1),
-        eq09.first_order_product(eq09.after(eq09.PRINTED.rhs, p), eq08.straight(*on_path)),
-        Region({p: 0}),
-    )
-    return all_of(branch, further, onward)
+
+
+def _balance_everywhere() -> Ruling:
+    """Eqs. 9 and 10, and zero elsewhere, pass through every bead by Eq. 8, to first order.
+
+    A bead that (p, q) steps lead to receives the two contacts that are named by it; what leaves
+    along n⁺ is named by (p + 1, q), what leaves along n⁻ by (p, q + 1). All other beads receive
+    nothing. p and q are symbols: beads on the straight path (q = 0), and beside it (q ≥ 1).
+    """
+    zero = sympy.Integer(0)
+    rulings = []
+    for branches, turned in ((0, zero), (1, q)):
+        bead = tuple(index.xreplace({q: turned}) for index in branched_end())
+        plus, minus = _leaving(_response(branches, p, turned), (bead[0], bead[1]))
+        claimed_plus = _response(branches, p + 1, turned)[0]
+        claimed_minus = _response(1, p, turned + 1)[1]
+        region = Region({p: 0, q: 1})
+        for left, right in ((plus, claimed_plus), (minus, claimed_minus)):
+            rulings += [
+                decide_linear(one, other, region) for one, other in zip(left, right, strict=True)
+            ]
+    return all_of(*rulings)
 
 
 DERIVATION = Derivation(
@@ -156,9 +188,10 @@ DERIVATION = Derivation(
     ),
     witnesses=(
         Witness(
-            "Taylor coefficients of the exact packing equal it as fractions, zero outside",
-            lambda packing: witnesses.branched_path(PRINTED.rhs, packing),
+            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
+            lambda packing: compare(PRINTED, packing, "single", inside_cone),
         ),
+        Witness("no force of first order left of the cone", witnesses.zero_outside),
     ),
 )
 

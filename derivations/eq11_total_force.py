@@ -9,12 +9,16 @@ from derivations import eq05_contact_minus as eq05
 from derivations import eq07_load_split as eq07
 from derivations import eq09_straight_path as eq09
 from derivations import eq10_branched_path as eq10
-from derivations import remainders, witnesses
+from derivations import remainders
+from derivations.on_packings import about, compare, each_contact
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region
 from symbolic.as_printed import equation, minus, terms, times
-from symbolic.kernel import Ruling, all_of, decide_identity, decide_linear
+from symbolic.exact import FIELD
+from symbolic.kernel import Ruling, all_of, decide_identity, decide_linear, from_test
+from symbolic.linear_forms import CONSTANT
+from symbolic.reading import Reader
 from symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
@@ -106,6 +110,8 @@ def steps() -> Iterator[Step]:
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Compare with the sum of all contributions, for 0 ≤ j < M (an empty sum for j = M − 1)."""
+    if other := about(candidate, ForcePlus(i, j) / (f_load / (2 * n_y)), "surface", each_contact):
+        return other
     straight, branched = contributions()
     return decide_linear(candidate.rhs, terms(straight, branched), INTERIOR)
 
@@ -115,8 +121,13 @@ def _loads() -> Ruling:
     across, layer = branched_load(n)
     count = ((layer - j) + (across - i)) / 2
     ends = (branched_load(sympy.Integer(1))[0], branched_load(M - j - 1)[0])
+    # a load at any k has this one n, so that no load is counted twice; the straight one has
+    # n = M − j, outside of the range of the sum
+    any_load = ((layer - j) + (k - i)) / 2
     return all_of(
         decide_identity(count, n),
+        decide_identity(branched_load(any_load)[0], k),
+        decide_identity(branched_load(M - j)[0], STRAIGHT_LOAD[0]),
         decide_identity(ends[0], i - M + j + 2),
         decide_identity(ends[1], i + M - j - 2),
     )
@@ -140,11 +151,6 @@ def _next_to_the_base() -> Ruling:
 
 
 def _mean() -> Ruling:
-    from symbolic.exact import FIELD
-    from symbolic.kernel import from_test
-    from symbolic.linear_forms import CONSTANT
-    from symbolic.reading import Reader
-
     form = Reader(INTERIOR).scalar(in_radii(PRINTED.rhs))
     constants = [weight for site, weight in form.sites.items() if site.family == CONSTANT]
     is_one = len(constants) == 1 and (constants[0] - FIELD.one).is_zero()
@@ -172,15 +178,17 @@ DERIVATION = Derivation(
     steps=steps,
     decide=decide,
     claims=(
-        Claim("the branching loads are k = i−M+j+2, …, i+M−j−2, one for each n", _loads),
+        Claim("each surface load has one n; those that branch are k = i−M+j+2, …, i+M−j−2", _loads),
         Claim("at j = M − 1 the sum is empty and Eq. 7 is left", _next_to_the_surface),
         Claim("at j = 0 it holds in the radii too", _next_to_the_base),
         Claim("the mean force is f_load/2n_y at every height", _mean),
     ),
     witnesses=(
         Witness(
-            "Taylor coefficients of the exact packing equal it as fractions",
-            lambda packing: witnesses.surface_load(in_radii(PRINTED.rhs), packing),
+            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
+            lambda packing: compare(
+                equation(PRINTED.lhs, in_radii(PRINTED.rhs)), packing, "surface", each_contact
+            ),
         ),
         Witness(
             "exact forces at 80 digits differ from it by a remainder of order ε²",

@@ -10,7 +10,7 @@ from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic.affine import Region
 from symbolic.as_printed import equation, minus, terms, times
-from symbolic.exact import NotExactError
+from symbolic.exact import FIELD, NotExactError
 from symbolic.kernel import (
     Ruling,
     all_of,
@@ -20,8 +20,9 @@ from symbolic.kernel import (
     refuted,
     undecided,
 )
+from symbolic.linear_forms import NO_SITE
 from symbolic.printing.text import text
-from symbolic.reading import Reader
+from symbolic.reading import Reader, VanishingDivisorError
 from symbolic.symbols import (
     Braces,
     DeltaNMinus,
@@ -39,9 +40,10 @@ from symbolic.symbols import (
     n_y,
     phi,
     r,
+    sigma,
 )
 from symbolic.variance import at_fixed_z, fluctuation, largest_weight, order, variance
-from symbolic.weights import UndeterminedError
+from symbolic.weights import UndeterminedError, take_apart
 
 ON_DIAGONAL = SecondDifference(i - (j - m), m)
 PREFACTOR = 1 / (r * (1 - phi**2))
@@ -79,14 +81,32 @@ BASE_TERM = times((M - j - 1) / (2 * r * (1 - phi**2)), SecondDifference(i - j, 
 LEADING_ORDER = 3  # of the variance of Eq. 11, as a power of M
 
 
+class UnequalMeansError(ValueError):
+    """The two sides differ in the ordered packing already."""
+
+
 def exact_fluctuation() -> sympy.Expr:
     """Eq. 11 less one, in the radii."""
     return eq11.in_radii(eq11.PRINTED.rhs - 1)
 
 
-def variance_ignored(candidate: sympy.Expr) -> tuple[int, sympy.Expr]:
-    """Order in M of the variance of Eq. 11 less the candidate, and its leading coefficient."""
-    difference = variance(exact_fluctuation() - candidate, DEEP)
+def in_exact_force(side: sympy.Expr) -> sympy.Expr:
+    """Put the exact first-order force, Eq. 11 in the radii, in for every f⁺."""
+    exact = eq11.in_radii(eq11.PRINTED.rhs) * f_load / (2 * n_y)
+    return side.replace(ForcePlus, lambda a, b: exact.xreplace({i: a, j: b}))
+
+
+def variance_ignored(candidate: sympy.Eq) -> tuple[int, sympy.Expr]:
+    """Order in M of the variance of left less right side, and its leading coefficient.
+
+    Raises:
+        UnequalMeansError: when the two sides differ at order 0.
+    """
+    form = Reader(DEEP).scalar(in_exact_force(candidate.lhs) - candidate.rhs)
+    mean = form.sites.get(NO_SITE, FIELD.zero)
+    if not mean.is_zero():
+        raise UnequalMeansError(text(mean.to_sympy()))
+    difference = take_apart(form, DEEP).sum_of_squares() * FIELD.from_sympy(sigma**2)
     if difference.is_zero():
         return order(difference), sympy.Integer(0)
     return order(difference), at_fixed_z(difference)
@@ -129,9 +149,13 @@ def steps() -> Iterator[Step]:
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Exact form less candidate has a variance of lower order than M³."""
+    """Left less right side, f⁺ being Eq. 11, has mean zero and a variance below order M³."""
     try:
-        power, coefficient = variance_ignored(candidate.rhs)
+        power, coefficient = variance_ignored(candidate)
+    except UnequalMeansError as mean:
+        return refuted(f"left minus right has the mean {mean}, not zero")
+    except VanishingDivisorError as reason:
+        return refuted(f"it has no value everywhere, as Eq. 11 has: {reason}")
     except (NotExactError, UndeterminedError, ValueError) as reason:
         return undecided(str(reason))
     if power < LEADING_ORDER:
@@ -151,7 +175,7 @@ def _count() -> Ruling:
 
 
 def _braces_are_not_the_count() -> Ruling:
-    """Refuting the printed count exactly, and what it differs by."""
+    """What the printed braces leave out of the count."""
     braces = sympy.Sum(times(BRACES, ON_DIAGONAL), (m, 1, M))
     by = sympy.Sum(ON_DIAGONAL, (m, j + 1, M))
     return decide_linear(DOUBLE_SUM, terms(braces, by), Region({j: 1, M: j + 1}))
@@ -178,9 +202,6 @@ def _independent() -> Ruling:
     """Δ in different layers share no radius: the squared weights add up, six for each Δ."""
     braces = sympy.Sum(6 * (M - j) ** 2, (m, 1, j)) + sympy.Sum(6 * (M - m) ** 2, (m, j + 1, M))
     form = sympy.Sum(times(BRACES, ON_DIAGONAL), (m, 1, M))
-    from symbolic.exact import FIELD
-    from symbolic.symbols import sigma
-
     total = Reader(DEEP).scalar(braces).constant_part()
     assert total is not None
     difference = variance(form, DEEP) - total * FIELD.from_sympy(sigma**2)

@@ -5,20 +5,50 @@ from functools import cache
 
 import sympy
 
+from derivations import eq04_contact_plus as eq04
+from derivations import eq05_contact_minus as eq05
+from derivations import eq06_force_balance as eq06
 from derivations import eq11_total_force as eq11
 from derivations import eq12_delta_weights as eq12
 from derivations import eq13_surface_diffusion as eq13
 from derivations import witnesses
-from derivations.asymptotics import compare_leading_order, exact_steps
+from derivations.asymptotics import compare_leading_order, edges_follow, exact_steps, next_order_is
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
+from symbolic import affine
+from symbolic.affine import Region
 from symbolic.as_printed import equation, power, terms, times
 from symbolic.certified_sums import certified_sum
 from symbolic.exact import FIELD
-from symbolic.kernel import Ruling, all_of, decide_identity, from_test
-from symbolic.printing.text import text
-from symbolic.symbols import ForcePlus, M, i, j, l, m, m_g, n_y, phi, r, sigma, z
+from symbolic.kernel import (
+    Ruling,
+    all_of,
+    decide_identity,
+    decide_vector_identity,
+    from_test,
+    proved,
+    undecided,
+)
+from symbolic.reading import Reader
+from symbolic.symbols import (
+    ForceMinus,
+    ForcePlus,
+    Load,
+    M,
+    i,
+    j,
+    k,
+    l,
+    m,
+    m_g,
+    n_y,
+    phi,
+    r,
+    sigma,
+    z,
+)
 from symbolic.variance import ExactForm, exact_variances, leading
+from symbolic.weights import take_apart
 
 RELATIVE_VARIANCE = sympy.Symbol(r"\sigma_f^2(z)/\langle f\rangle_z^2")
 MEAN_FORCE = sympy.Symbol(r"\langle f\rangle_z")
@@ -56,6 +86,10 @@ def bulk_weights() -> tuple[sympy.Expr, sympy.Expr]:
     return below, above
 
 
+AVERAGED = times(M - m, M - m + 1) / (2 * (M - j))
+"""The weight of Δ for m > j, as a person would write it."""
+
+
 def sum_of_weights() -> sympy.Expr:
     """6 Σ w² over the second differences, by SymPy, each sum with its certificate."""
     below, above = bulk_weights()
@@ -79,10 +113,10 @@ def steps() -> Iterator[Step]:
             times(1 / (M - j), sympy.Sum(eq11.PRINTED.rhs.xreplace({M: l}), (l, j + 1, M))),
         ),
     )
-    below, above = bulk_weights()
+    below, _ = bulk_weights()
     yield Step(
         "The weights of Δ in Eq. 12, averaged: for m ≤ j and for m > j",
-        sympy.Tuple(sympy.factor(below), sympy.factor(above)),
+        sympy.Tuple(sympy.cancel(below), AVERAGED),
     )
     yield Step("Six times the sum of their squares has the leading order printed.", PRINTED)
     yield from exact_steps(RELATIVE_VARIANCE, exact_forms())
@@ -101,16 +135,19 @@ def next_order() -> sympy.Expr:
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """The exact variance less the candidate is of order M² at most."""
+    if candidate.lhs != RELATIVE_VARIANCE:
+        return undecided("the left-hand side is not σ_f²/⟨f⟩²")
     return compare_leading_order(exact_forms()["interior"].value, candidate.rhs)
 
 
 def _weights() -> Ruling:
     total = FIELD.from_sympy(sum_of_weights() * eq12.PREFACTOR**2 * sigma**2)
     printed = FIELD.from_sympy(PRINTED.rhs.xreplace({z: j / M}))
-    return from_test(
+    ordered = from_test(
         (leading(total) - leading(printed)).is_zero(),
         "6σ² Σ w² of the averaged weights has the printed leading order",
     )
+    return all_of(ordered, decide_identity(bulk_weights()[1], AVERAGED))
 
 
 def _mean() -> Ruling:
@@ -122,15 +159,28 @@ def _mean() -> Ruling:
     )
 
 
-def _edges() -> Ruling:
-    forms = exact_forms()
-    at_zero = FIELD.from_sympy(PRINTED.rhs.xreplace({z: sympy.Integer(0)}))
-    surface = FIELD.from_sympy(2 * M * (1 + phi**2) * (sigma / r) ** 2 / (1 - phi**2) ** 2)
-    return from_test(
-        (leading(forms["base"].value) - at_zero).is_zero()
-        and (leading(forms["surface"].value) - surface).is_zero(),
-        "at j = 0 the leading order is Eq. 14 at z = 0; at j = M − 1 it is 2(1+φ²) M",
-    )
+def _superposition() -> Ruling:
+    """What lets a load on layer l be treated as the surface load of a packing of height l.
+
+    The balance is linear in forces and load, and the contacts that carry it, those below layer
+    l, have directions that depend on radii of layers up to l alone.
+    """
+    balance = eq06.PRINTED.lhs
+    atoms = ForcePlus(*eq06.LEFT), ForceMinus(*eq06.RIGHT), Load(k, l)
+    forces = sympy.symbols("f_1 g_1 f_2 g_2")
+    one, two = (*forces[:2], Load(0, 1)), (*forces[2:], Load(0, 2))
+    both = [a + b for a, b in zip(one, two, strict=True)]
+    carried = [balance.xreplace(dict(zip(atoms, case, strict=True))) for case in (one, two, both)]
+    linear = decide_vector_identity(carried[0] + carried[1], carried[2])
+    region = Region({j: 1})
+    top = affine.from_sympy(j + 1)
+    for direction in (eq04.contact_direction(i, j), eq05.contact_direction(i, j)):
+        for component in Reader(region).vector(direction):
+            pieces = take_apart(component, region)
+            ends = [run.last for run in pieces.runs] + [site.j for site in pieces.special]
+            if not all(region.nonnegative(affine.add(top, end, -1)) for end in ends):
+                return undecided("a contact's direction depends on a layer above it")
+    return all_of(linear, proved("a contact's direction depends on radii of layers ≤ j + 1"))
 
 
 def _one_layer_below_the_surface() -> Ruling:
@@ -138,17 +188,6 @@ def _one_layer_below_the_surface() -> Ruling:
     return from_test(
         difference.is_zero(),
         "at j = M − 1 only the surface beads load the contact: Eqs. 13 and 14 agree",
-    )
-
-
-def _next_order() -> Ruling:
-    value = exact_forms()["interior"].value
-    scale = (sigma / r) ** 2 / (1 - phi**2) ** 2
-    rest = value - FIELD.from_sympy(PRINTED.rhs.xreplace({z: j / M}))
-    expected = FIELD.from_sympy((next_order() * scale).xreplace({z: j / M}))
-    return from_test(
-        (leading(rest) - expected).is_zero(),
-        f"the next order is {text(next_order())} (σ/r)²/(1−φ²)²",
     )
 
 
@@ -189,16 +228,31 @@ DERIVATION = Derivation(
         "every bead above the base weighs mg, whatever its radius",
         "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M",
     ),
-    premises=(eq11.DERIVATION, eq12.DERIVATION, eq13.DERIVATION),
+    premises=(
+        eq04.DERIVATION,
+        eq05.DERIVATION,
+        eq06.DERIVATION,
+        eq11.DERIVATION,
+        eq12.DERIVATION,
+        eq13.DERIVATION,
+    ),
     printed=(PRINTED,),
     relation="∼",
     steps=steps,
     decide=decide,
     claims=(
+        Claim(
+            "loads superpose, and one on layer l feels radii of layers ≤ l alone", _superposition
+        ),
         Claim("the mean force is M m g (1 − z)/2n_y", _mean),
         Claim("the squared weights of Eq. 12, averaged over l, sum to the printed form", _weights),
-        Claim("the next order in M", _next_order),
-        Claim("exact forms at the base and below the surface", _edges),
+        Claim(
+            "the next order in M", lambda: next_order_is(exact_forms(), PRINTED.rhs, next_order())
+        ),
+        Claim(
+            "exact forms at the base and below the surface",
+            lambda: edges_follow(exact_forms(), PRINTED.rhs),
+        ),
         Claim("one layer below the surface both loads agree", _one_layer_below_the_surface),
         Claim(
             "the maximum is at z = 1/6; the unnormalised variance is stationary at the base",

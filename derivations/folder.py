@@ -12,7 +12,7 @@ MANIFEST = "manifest.json"
 DOCUMENT = "equations.tex"
 PROGRAM = "force-diffusion"
 
-_OURS = re.compile(r"eq\d\d\.tex|equations\.tex|manifest\.json")
+_OURS = re.compile(r"eq\d\d\.tex|equations\.tex|manifest\.json|result\.json|[a-z_]{1,20}\.csv")
 _LATEX_LEAVES = re.compile(r"equations\.(aux|log|out|pdf|synctex\.gz|fls|fdb_latexmk)")
 _ASIDE = ".force-diffusion-"
 

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import mpmath
 import sympy
 
-from derivations.small_packings import SmallPacking, Truth
+from derivations.on_packings import Dual, Truth, Vector, evaluate
+from derivations.small_packings import SmallPacking
 from symbolic import symbols as sy
 from symbolic.kernel import Ruling, Verdict
 
@@ -76,12 +77,24 @@ def second_order(packing: SmallPacking, slopes: list[Fraction], read: "Reading")
         )
 
 
+def _vector(value: Dual | Vector) -> Vector:
+    assert isinstance(value, tuple)
+    return value
+
+
+def _scalar(value: Dual | Vector) -> Dual:
+    assert isinstance(value, Dual)
+    return value
+
+
 def positions(printed: sympy.Expr, packing: SmallPacking) -> Ruling:
     """Exact displacements at strength ε less ε times Eq. 3."""
-    truth = Truth(packing, {})
+    truth = Truth(packing, "none")
     sites = [(i + 1, j + 1) for i, j in packing.contacts]
     slopes = [
-        component for i, j in sites for component in truth.vector(printed, {sy.i: i, sy.j: j})
+        component.slope
+        for i, j in sites
+        for component in _vector(evaluate(printed, truth, {sy.i: i, sy.j: j}))
     ]
     return second_order(
         packing, slopes, lambda s: [part for site in sites for part in s.displacement(*site)]
@@ -90,10 +103,10 @@ def positions(printed: sympy.Expr, packing: SmallPacking) -> Ruling:
 
 def forces(printed: sympy.Expr, packing: SmallPacking) -> Ruling:
     """Exact changes of contact forces under a surface load, at strength ε, less ε times Eq. 11."""
-    truth = Truth(packing, packing.surface_load())
+    truth = Truth(packing, "surface")
     ordered = packing.load / (2 * packing.n[1])
     slopes = [
-        ordered * truth.scalar(printed, {sy.i: i, sy.j: j, sy.M: packing.height})[1]
+        ordered * _scalar(evaluate(printed, truth, {sy.i: i, sy.j: j, sy.M: packing.height})).slope
         for i, j in packing.contacts
     ]
     return second_order(

@@ -16,8 +16,8 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from numeric.forces import Forces, Loads
 from numeric.lattice import Array, Layer, Region, pick, shifted
+from numeric.load_spec import LoadSpec
 from numeric.packing import Packing, metric, raised
 from numeric.systems import NumberSystem, zeros
 from numeric.work import Work
@@ -112,6 +112,42 @@ def contact_change(
     return total, len(lines.known)
 
 
+def crossing_layers(contact: tuple[int, int, str], load: LoadSpec) -> tuple[list[int], list[int]]:
+    """Say in which layers the beads straight up the contact have crossing contacts under force.
+
+    Gives the layers m of the beads y whose contact of the other orientation *above* them carries an
+    ordered force, and those where the one *below* them does.
+    """
+    i, j, branch = contact
+    side, other = (1, "-") if branch == "+" else (-1, "+")
+    if load.loaded is None:
+        return list(range(j + 1, load.height)), list(range(j + 1, load.height + 1))
+    top = max((site[1] for site in load.loaded), default=0)
+    layers = range(j + 1, top + 1)
+    return (
+        [m for m in layers if load.carries(i + side * (m - j), m, other)],
+        [m for m in layers if load.carries(i + side * (m - j + 1), m - 1, other)],
+    )
+
+
+def beads_read(contact: tuple[int, int, str], load: LoadSpec) -> int:
+    """Count the beads whose radii decide the first-order f^±_ij, for any load.
+
+    The three parallel diagonals reach as high as force crosses them; the two cross diagonals matter
+    where the contact itself carries an ordered force.
+    """
+    j = contact[1]
+    above, below = crossing_layers(contact, load)
+    outer = max(above) + 2 if above else 0
+    main = max([*above, *below]) + 1 if above or below else 0
+    inner = max(below) if below else 0
+    if not load.carries(*contact):
+        return outer + main + inner
+    # x and the contact's lower bead lie on the main diagonal, two more beads on the inner one.
+    shared = (2 if main else 0) + (min(j + 1, 2) if inner else 0)
+    return outer + main + inner + 2 * j + 3 - shared
+
+
 def contact_beads(j: int, height: int) -> int:
     """Count the beads on which the first-order f^±_ij depends (surface or bulk load).
 
@@ -134,6 +170,8 @@ def displace(
 ) -> Packing:
     """Solve Eqs. 2–5 to first order over a region; arrays as in ``packing.deposit``."""
     m = metric(n_x, system)
+    if work is not None:
+        work.did("summed", region.rows[0], rho[0].size // region.rows[0].count)
     nothing = zeros(system, 0)
     base = zeros(system, *rho[0].shape)
     c_plus, c_minus = [base], [base]
@@ -158,40 +196,4 @@ def displace(
         minus.append(raised(beta_minus, 0, m))
     return Packing(
         n_x, system, region, rho, tuple(c_plus), tuple(c_minus), tuple(plus), tuple(minus)
-    )
-
-
-def forces(packing: Packing, rows: tuple[Layer, ...], loads: Loads) -> Forces:
-    """Carry loads down to first order: sums along the diagonals, nothing to invert (Eqs. 6–11)."""
-    system, width = packing.system, packing.region.width
-    zero = zeros(system, 1)[0]
-    top = len(rows) - 1
-    nothing = (zeros(system, 0), zeros(system, 0))
-    ordered, change = [nothing] * (top + 1), [nothing] * (top + 1)
-    for j in range(top, 0, -1):
-        layer = rows[j]
-        if not layer.count:
-            break
-        Fp, Fm, gp, gm = (zeros(system, layer.count) for _ in range(4))
-        if j < top:
-            right, left = shifted(layer, 1), Layer(j + 1, layer.first - 1, layer.count)
-            above, packed = rows[j + 1], packing.region.rows[j + 1]
-            Fp, gp = (pick(v[j + 1][0], above, right, width, zero) for v in (ordered, change))
-            Fm, gm = (pick(v[j + 1][1], above, left, width, zero) for v in (ordered, change))
-            ap, bp = (pick(v, packed, right, width, zero) for v in packing.plus[j + 1])
-            am, bm = (pick(v, packed, left, width, zero) for v in packing.minus[j + 1])
-            gp, gm = gp + (Fp * ap + Fm * am), gm + (Fp * bp + Fm * bm)
-        if (Lp := loads.plus[j]) is not None and (Lm := loads.minus[j]) is not None:
-            Fp, Fm = Fp + Lp, Fm + Lm
-        a = [pick(v, packing.region.rows[j], layer, width) for v in packing.plus[j]]
-        b = [pick(v, packing.region.rows[j], layer, width) for v in packing.minus[j]]
-        ordered[j] = (Fp, Fm)
-        change[j] = (gp - (Fp * a[0] + Fm * b[0]), gm - (Fp * a[1] + Fm * b[1]))
-    return Forces(
-        system,
-        rows,
-        tuple(f[0] for f in ordered),
-        tuple(f[1] for f in ordered),
-        tuple(g[0] for g in change),
-        tuple(g[1] for g in change),
     )

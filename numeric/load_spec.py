@@ -3,17 +3,26 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 import flint
 
 from numeric import plain
-from numeric.forces import Loads
+from numeric.forces import Forces, Loads
 from numeric.lattice import Layer
-from numeric.loads import components, on_layers, on_rows
-from numeric.systems import Balls, NumberSystem
+from numeric.loads import Components, components, on_layers, on_rows
+from numeric.systems import Balls, NumberSystem, zeros
 
 Site = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Strength:
+    """A load's components (L⁺, L⁻) in a number system: one pair, or one pair a loaded bead."""
+
+    unit: Components
+    single: Mapping[Site, Components]
 
 
 @dataclass(frozen=True)
@@ -21,11 +30,12 @@ class LoadSpec:
     """A load of unit magnitude: "surface", "bulk", "point" (on ``at``) or "file" (``single``).
 
     ``angle_deg`` turns the load away from straight down, positive towards +i. ``single`` holds
-    {(i, j): (fx, fy)} in units of the magnitude.
+    {(i, j): (fx, fy)} in units of the magnitude. ``height`` and ``width`` are the packing's.
     """
 
     kind: str
     height: int
+    width: int | None
     angle_deg: Fraction = Fraction(0)
     at: Site | None = None
     single: Mapping[Site, tuple[Fraction, Fraction]] = field(default_factory=dict)
@@ -33,82 +43,95 @@ class LoadSpec:
     @property
     def loaded(self) -> list[Site] | None:
         """The loaded beads, or None where whole layers are loaded."""
-        if self.kind == "point":
-            assert self.at is not None
-            return [self.at]
-        return sorted(self.single) if self.kind == "file" else None
+        if self.kind in {"surface", "bulk"}:
+            return None
+        return [self.at] if self.at is not None else sorted(self.single)
 
-    def components(self, n_x: Fraction, system: NumberSystem) -> tuple[Any, Any]:
-        """(L⁺, L⁻) of the unit load: (cos θ/n_y ∓ sin θ/n_x)/2."""
-        with Balls(_working_bits(system)).active():
-            sin, cos = flint.arb.sin_cos_pi_fmpq(
-                flint.fmpq(self.angle_deg.numerator, self.angle_deg.denominator) / 180
-            )
-            nx, ny = plain.axes(n_x, Balls(0))
-            plus, minus = components(sin, -cos, nx, ny)
-        return system.from_ball(plus), system.from_ball(minus)
-
-    def _single_components(self, n_x: Fraction, system: NumberSystem) -> dict[Site, Any]:
-        exact = Balls(0)
-        with Balls(_working_bits(system)).active():
+    def strength(self, n_x: Fraction, system: NumberSystem) -> Strength:
+        """Give (L⁺, L⁻) = (cos θ/n_y ∓ sin θ/n_x)/2 of the unit load, or of each loaded bead."""
+        # Balls keep their own precision; other systems get constants better than they can hold.
+        bits = system.bits if isinstance(system, Balls) else system.bits + 64
+        exact = Balls(bits)
+        with exact.active():
             nx, ny = plain.axes(n_x, exact)
-            return {
-                site: tuple(
-                    system.from_ball(c)
-                    for c in components(exact.number(fx), exact.number(fy), nx, ny)
-                )
+            turn = flint.fmpq(self.angle_deg.numerator, self.angle_deg.denominator) / 180
+            sin, cos = flint.arb.sin_cos_pi_fmpq(turn)
+            unit = components(sin, -cos, nx, ny)
+            single = {
+                site: components(exact.number(fx), exact.number(fy), nx, ny)
                 for site, (fx, fy) in self.single.items()
             }
+        return Strength(
+            (system.from_ball(unit[0]), system.from_ball(unit[1])),
+            {s: (system.from_ball(p), system.from_ball(m)) for s, (p, m) in single.items()},
+        )
 
-    def on(
-        self, rows: tuple[Layer, ...], width: int | None, n_x: Fraction, system: NumberSystem
-    ) -> Loads:
+    def on(self, rows: tuple[Layer, ...], strength: Strength, system: NumberSystem) -> Loads:
         """Put the load on the beads of ``rows`` (layers 0 … top)."""
         if self.kind == "file":
-            return on_rows(self._single_components(n_x, system), rows, width, system)
-        unit = self.components(n_x, system)
-        if self.kind == "point":
-            assert self.at is not None
-            return on_rows({self.at: unit}, rows, width, system)
+            return on_rows(strength.single, rows, self.width, system)
+        if self.at is not None:
+            return on_rows({self.at: strength.unit}, rows, self.width, system)
         layers = range(len(rows)) if self.kind == "bulk" else range(self.height, len(rows))
-        return on_layers(unit, rows, layers, system)
+        return on_layers(strength.unit, rows, layers, system)
 
-    def ordered_contact(
-        self, i: int, j: int, branch: str, width: int | None
-    ) -> list[tuple[int, Site | None]]:
-        """Say which loads lie straight up the contact f^±_ij: [(how many, which bead)].
+    @cached_property
+    def _by_diagonal(self) -> dict[tuple[int, int], list[Site]]:
+        """Loaded beads by (side, i − side·j), the diagonal that they load."""
+        found: dict[tuple[int, int], list[Site]] = {}
+        for site in self.loaded or []:
+            for side in (1, -1):
+                found.setdefault((side, self._diagonal(site[0], site[1], side)), []).append(site)
+        return found
 
-        The ordered force is the sum of their components L^±; the bead is None for the unit load.
-        """
-        step = 1 if branch == "+" else -1
+    def _diagonal(self, i: int, j: int, side: int) -> int:
+        off = i - side * j
+        return off if self.width is None else off % (2 * self.width)
 
-        def straight(site: Site) -> bool:
-            off = site[0] - step * site[1] - (i - step * j)
-            return site[1] > j and (off == 0 if width is None else off % (2 * width) == 0)
+    def straight_above(self, i: int, j: int, branch: str) -> list[Site]:
+        """Give the single loaded beads that lie straight up the contact f^±_ij."""
+        side = 1 if branch == "+" else -1
+        sites = self._by_diagonal.get((side, self._diagonal(i, j, side)), [])
+        return [site for site in sites if site[1] > j]
 
-        if self.kind == "surface":
-            return [(1, None)]
-        if self.kind == "bulk":
-            return [(self.height - j, None)]
-        if self.kind == "point":
-            assert self.at is not None
-            return [(1, None)] if straight(self.at) else []
-        return [(1, site) for site in self.single if straight(site)]
+    def carries(self, i: int, j: int, branch: str) -> bool:
+        """Say whether any load lies straight up the contact, so that its ordered force is not 0."""
+        if self.loaded is None:
+            return j < self.height
+        return bool(self.straight_above(i, j, branch))
 
     def ordered_force(
-        self, contact: tuple[int, int, str], width: int | None, n_x: Fraction, system: NumberSystem
+        self, contact: tuple[int, int, str], strength: Strength, system: NumberSystem
     ) -> Any:
         """Give F^±_ij of the ordered packing in closed form, visiting no bead."""
         i, j, branch = contact
         which = 0 if branch == "+" else 1
+        if self.kind in {"surface", "bulk"}:
+            times = 1 if self.kind == "surface" else self.height - j
+            return strength.unit[which] * times
         total = system.number(Fraction(0))
-        single = self._single_components(n_x, system) if self.kind == "file" else {}
-        unit = self.components(n_x, system)[which]
-        for count, site in self.ordered_contact(i, j, branch, width):
-            total = total + (unit if site is None else single[site][which]) * count
+        for site in self.straight_above(i, j, branch):
+            pair = strength.single[site] if self.kind == "file" else strength.unit
+            total = total + pair[which]
         return total
 
-
-def _working_bits(system: NumberSystem) -> int:
-    # Balls keep their own precision; other systems get constants far better than they can hold.
-    return system.bits if isinstance(system, Balls) else system.bits + 64
+    def ordered_forces(
+        self, rows: tuple[Layer, ...], strength: Strength, system: NumberSystem
+    ) -> Forces:
+        """Give all ordered forces below the beads of ``rows`` in closed form; changes are 0."""
+        plus = [zeros(system, 0)] + [zeros(system, row.count) for row in rows[1:]]
+        minus = [zeros(system, 0)] + [zeros(system, row.count) for row in rows[1:]]
+        if self.kind in {"surface", "bulk"}:
+            for j in range(1, len(rows)):
+                times = 1 if self.kind == "surface" else self.height - j + 1
+                plus[j].fill(strength.unit[0] * times)
+                minus[j].fill(strength.unit[1] * times)
+        for i, j in self.loaded or []:
+            pair = strength.single[i, j] if self.kind == "file" else strength.unit
+            for m in range(1, j + 1):
+                for values, step, share in ((plus, -1, pair[0]), (minus, 1, pair[1])):
+                    q = (i + step * (j - m) - rows[m].first) // 2
+                    q = q if self.width is None else q % self.width
+                    values[m][q] = values[m][q] + share
+        changes = tuple(zeros(system, len(v)) for v in plus)
+        return Forces(system, rows, tuple(plus), tuple(minus), changes, changes)

@@ -147,8 +147,8 @@ def deposit(
 
     ``rho[j]`` holds δr/r of the beads of ``region.rows[j]`` (shape (count,), or (…, count) for a
     batch of packings). The caller activates ``system``. Raises ``UnbuildableError``, naming the
-    bead, where the supports are too far apart or too steep, and ``UndecidedError`` where balls are
-    too wide to tell.
+    bead, where a radius is not positive (or no number) or the supports are too far apart or too
+    steep, and ``UndecidedError`` where balls are too wide to tell.
     """
     m = metric(n_x, system)
     if work is not None:
@@ -158,7 +158,9 @@ def deposit(
     c_plus, c_minus = [base], [base]
     plus = [(nothing, nothing)]
     minus = [(nothing, nothing)]
+    _check_radii(rho[0], region.rows[0], system)
     for j in range(1, region.top + 1):
+        _check_radii(rho[j], region.rows[j], system)
         layer, under = region.rows[j], region.rows[j - 1]
         left = Layer(j - 1, layer.first - 1, layer.count)
         right = shifted(layer, -1)
@@ -184,6 +186,13 @@ def deposit(
     return Packing(
         n_x, system, region, rho, tuple(c_plus), tuple(c_minus), tuple(plus), tuple(minus)
     )
+
+
+def _check_radii(rho: Array, layer: Layer, system: NumberSystem) -> None:
+    _, bad = system.signs(1 + rho)
+    if bad.any():
+        q = int(np.argwhere(bad)[0][-1])
+        raise UnbuildableError((layer.first + 2 * q, layer.j), "its radius is no positive number")
 
 
 def _check_rest(placed: Placed, layer: Layer, system: NumberSystem) -> None:

@@ -11,7 +11,7 @@ through δn of the contact itself, on two diagonals of the other orientation.
 
 from collections.abc import Iterable
 
-from numeric.lattice import Layer, Region, hull, row, standing_on_base
+from numeric.lattice import Layer, Region, hull, row, supports
 
 Site = tuple[int, int]
 Rows = tuple[Layer, ...]
@@ -37,15 +37,19 @@ def triangle_beads(j: int) -> int:
 
 
 def downward_cone(loaded: Iterable[Site], width: int | None) -> Rows:
-    """Give the beads that loads on ``loaded`` reach: rows of layers 0 … highest load."""
-    sites = list(loaded)
-    top = max((j for _, j in sites), default=0)
-    rows = [Layer(m, m % 2, 0) for m in range(top + 1)]
-    for i, j in sites:
-        for m in range(j + 1):
-            reached = row(m, i - (j - m), i + (j - m), width)
-            rows[m] = hull(rows[m], reached, width)
-    return tuple(rows)
+    """Give the beads that loads on ``loaded`` reach: rows of layers 0 … highest load.
+
+    Loads far apart share a row that holds the beads between them too.
+    """
+    own: dict[int, Layer] = {}
+    for i, j in loaded:
+        own[j] = hull(own.get(j, Layer(j, i, 0)), Layer(j, i, 1), width)
+    top = max(own, default=0)
+    rows = [own.get(top, Layer(top, top % 2, 0))]
+    for m in range(top - 1, -1, -1):
+        below = supports(rows[-1], width) if rows[-1].count else Layer(m, m % 2, 0)
+        rows.append(hull(below, own.get(m, Layer(m, m % 2, 0)), width))
+    return tuple(reversed(rows))
 
 
 def upward_cone(x: Site, top: int, width: int | None) -> Rows:
@@ -92,20 +96,13 @@ def contact_rows(contact: tuple[int, int, str], reach: Rows, width: int | None) 
     return rows
 
 
-def geometry_for(force_rows: Rows, width: int | None) -> Region:
-    """Give the beads whose positions the force balance of ``force_rows`` needs."""
-    return standing_on_base(force_rows, width)
-
-
 def contact_beads(j: int, height: int) -> int:
     """Count the beads on which the exact f^±_ij depends (surface or bulk load, W ≥ 2M − j).
+
+    The cone above the contact holds M − j beads of the surface; layer m lies M − m below it, and
+    the triangles widen by one bead a layer: 2M − j − m beads, summed over m = 0 … M.
 
     >>> contact_beads(0, 1), contact_beads(0, 64)
     (3, 6240)
     """
     return (height + 1) * (3 * height - 2 * j) // 2
-
-
-def width_free_of_images(region: Region) -> int:
-    """Give the smallest W at which a question about a slab sees no periodic image."""
-    return max((layer.last - layer.first) // 2 + 1 for layer in region.rows)

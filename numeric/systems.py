@@ -125,8 +125,8 @@ class Hardware:
         return np.sqrt(self.number(value))
 
     def signs(self, values: Array) -> tuple[Array, Array]:
-        """Compare; what is not a number is not positive."""
-        good = np.asarray(values > 0, dtype=bool)
+        """Compare; what is no finite number is not positive."""
+        good = np.asarray((values > 0) & np.isfinite(values), dtype=bool)
         return good, ~good
 
     @contextmanager

@@ -1,44 +1,97 @@
 """Force balance of one bead on its two supports: the 2×2 system, inverted, to first order.
 
-With N^± = n^± + ε δn^± the supports' directions, an incoming force −P is balanced by
-f⁺N⁺ + f⁻N⁻ = P. Dotted with n⁺ and n⁻ this is a 2×2 system whose matrix holds φ and the two
-numbers that δn has: n⁺·δn⁺ = n⁻·δn⁻ = 0.
+A balance is a vector equation, linear in the two supporting forces. Dotted with n⁺ and n⁻ it is
+a 2×2 system whose matrix holds φ and one number for each δn, its part along the other
+direction: n⁺·δn⁺ = n⁻·δn⁻ = 0 by Eqs. 4 and 5. The strength ε multiplies every δn.
 """
 
-from functools import cache
+from dataclasses import dataclass
 
 import sympy
 
-from symbolic.symbols import epsilon, phi
+from symbolic.symbols import (
+    DeltaNMinus,
+    DeltaNPlus,
+    Dot,
+    SiteFunction,
+    epsilon,
+    n_minus,
+    n_plus,
+    phi,
+)
 
 tilt_plus = sympy.Symbol("nu_plus")  # n⁻·δn⁺ of the supporting contact along n⁺
 tilt_minus = sympy.Symbol("nu_minus")  # n⁺·δn⁻ of the supporting contact along n⁻
 tilt_incoming = sympy.Symbol("nu_in")  # the same of an incoming contact force
 
 
-def balance_matrix() -> sympy.ImmutableMatrix:
-    """Columns N⁺ and N⁻, dotted with n⁺ (first row) and n⁻ (second row)."""
-    return sympy.ImmutableMatrix([[1, phi + epsilon * tilt_minus], [phi + epsilon * tilt_plus, 1]])
+def dotted(vector: sympy.Expr, tilts: dict[SiteFunction, sympy.Symbol]) -> sympy.ImmutableMatrix:
+    """(n⁺·v, n⁻·v) of a vector expression; ``tilts`` names the one number of each δn."""
+    rows = []
+    for axis in range(2):
+        image: dict[sympy.Basic, sympy.Expr] = {
+            n_plus: (sympy.Integer(1), phi)[axis],
+            n_minus: (phi, sympy.Integer(1))[axis],
+        }
+        for change, tilt in tilts.items():
+            own = 0 if isinstance(change, DeltaNPlus) else 1
+            image[change] = sympy.Integer(0) if axis == own else epsilon * tilt
+        rows.append(vector.xreplace(image))
+    return sympy.ImmutableMatrix(rows)
 
 
-def inverted() -> sympy.ImmutableMatrix:
-    """Return the inverse of the balance matrix, as its adjugate over its determinant."""
-    return balance_matrix().inv(method="ADJ")
+@dataclass(frozen=True)
+class Solved:
+    """A balance as a 2×2 system, and its solution to first order in ε.
+
+    Attributes:
+        matrix: columns for f⁺ and f⁻, rows dotted with n⁺ and n⁻.
+        right: what the supports have to carry.
+        at_zero: (f⁺, f⁻) at ε = 0.
+        slope: their derivatives with respect to ε there.
+        meaning: what the tilts ν stand for, as dot products.
+    """
+
+    matrix: sympy.ImmutableMatrix
+    right: sympy.ImmutableMatrix
+    at_zero: tuple[sympy.Expr, sympy.Expr]
+    slope: tuple[sympy.Expr, sympy.Expr]
+    meaning: dict[sympy.Symbol, sympy.Expr]
+
+    def first_order(self, branch: int) -> sympy.Expr:
+        """f⁺ (0) or f⁻ (1) to first order, in the symbols of the paper."""
+        return self.at_zero[branch] + self.slope[branch].xreplace(self.meaning)
 
 
-def incoming(kind: str) -> sympy.ImmutableMatrix:
-    """P dotted with n⁺ and n⁻: n⁺ + n⁻ for "load", N⁺ for "+", N⁻ for "-" (unit forces)."""
-    along = {
-        "load": [1 + phi, 1 + phi],
-        "+": [1, phi + epsilon * tilt_incoming],
-        "-": [phi + epsilon * tilt_incoming, 1],
+def solve(
+    balance: sympy.Expr,
+    forces: tuple[SiteFunction, SiteFunction],
+    load: SiteFunction,
+    carried: sympy.Expr,
+) -> Solved:
+    """Solve ``balance`` = 0 for the two forces, its load being −``carried``.
+
+    SymPy inverts the matrix and differentiates the solution.
+    """
+    supports = [atom for atom in balance.atoms(DeltaNPlus, DeltaNMinus) if not carried.has(atom)]
+    tilts = {atom: tilt_plus if isinstance(atom, DeltaNPlus) else tilt_minus for atom in supports}
+    tilts |= dict.fromkeys(carried.atoms(DeltaNPlus, DeltaNMinus), tilt_incoming)
+    unknowns = sympy.symbols("f_plus f_minus")
+    system = dotted(
+        balance.xreplace({load: -carried, **dict(zip(forces, unknowns, strict=True))}), tilts
+    )
+    matrix = sympy.ImmutableMatrix(system.jacobian(list(unknowns)))
+    right = dotted(carried, tilts)
+    solution = matrix.inv(method="ADJ") * right
+    at_zero, slope = solution.subs(epsilon, 0), sympy.diff(solution, epsilon).subs(epsilon, 0)
+    meaning = {
+        tilt: Dot(n_minus if isinstance(atom, DeltaNPlus) else n_plus, atom)
+        for atom, tilt in tilts.items()
     }
-    return sympy.ImmutableMatrix(along[kind])
-
-
-@cache
-def solved(kind: str) -> tuple[tuple[sympy.Expr, sympy.Expr], tuple[sympy.Expr, sympy.Expr]]:
-    """Forces (f⁺, f⁻) of the supports: their values at ε = 0, and their slopes in ε there."""
-    forces = inverted() * incoming(kind)
-    at_zero, slope = forces.subs(epsilon, 0), sympy.diff(forces, epsilon).subs(epsilon, 0)
-    return tuple(map(sympy.cancel, at_zero)), tuple(map(sympy.factor, slope))
+    return Solved(
+        matrix,
+        right,
+        tuple(map(sympy.cancel, at_zero)),
+        tuple(map(sympy.factor, slope)),
+        meaning,
+    )

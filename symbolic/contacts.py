@@ -15,13 +15,9 @@ dx, dy = sympy.symbols("delta_x delta_y", real=True)  # δx of the bead less tha
 radii = sympy.Symbol("rho", real=True)  # δr of the bead plus that of its support
 
 
-def _direction(branch: str) -> sympy.ImmutableMatrix:
-    return N_PLUS if branch == "+" else N_MINUS
-
-
-def separation(branch: str) -> sympy.Matrix:
-    """x − x_support at strength ε: 2r n^± plus ε times the difference of displacements."""
-    return 2 * r * _direction(branch) + epsilon * sympy.Matrix([dx, dy])
+def separation(ordered: sympy.Matrix) -> sympy.Matrix:
+    """x − x_support at strength ε: the ordered one plus ε times the difference of displacements."""
+    return ordered + epsilon * sympy.Matrix([dx, dy])
 
 
 @dataclass(frozen=True)
@@ -33,9 +29,9 @@ class Linearised:
     order_1: sympy.Expr
 
 
-def contact_constraint(branch: str) -> Linearised:
-    """Differentiate the constraint of the contact along n^±."""
-    apart = separation(branch)
+def contact_constraint(ordered: sympy.Matrix) -> Linearised:
+    """Differentiate the constraint of a contact whose ordered separation is given."""
+    apart = separation(ordered)
     exact = apart.dot(apart) - (2 * r + epsilon * radii) ** 2
     return Linearised(exact, exact.subs(epsilon, 0), sympy.diff(exact, epsilon).subs(epsilon, 0))
 
@@ -45,11 +41,11 @@ def constraint_matrix() -> sympy.ImmutableMatrix:
     return sympy.ImmutableMatrix.vstack(N_PLUS.T, N_MINUS.T)
 
 
-def unit_vector_change(branch: str) -> sympy.ImmutableMatrix:
+def unit_vector_change(ordered: sympy.Matrix) -> sympy.ImmutableMatrix:
     """δn^± in Cartesian components, from the exact unit vector of a contact.
 
     The centres are exactly R + R′ = 2r + ερ apart, so the unit vector is their separation over
     that length; its derivative at ε = 0 is δn^±.
     """
-    unit = separation(branch) / (2 * r + epsilon * radii)
+    unit = separation(ordered) / (2 * r + epsilon * radii)
     return sympy.ImmutableMatrix(sympy.diff(unit, epsilon).subs(epsilon, 0))

@@ -15,7 +15,7 @@ import sympy
 from symbolic import explicit
 from symbolic import symbols as sy
 from symbolic.affine import Region
-from symbolic.exact import Domain, NotExactError
+from symbolic.exact import Domain, NotExactError, RationalFunction
 from symbolic.reading import Reader
 from symbolic.vectors import CARTESIAN, LINE_SUM, Basis
 
@@ -132,7 +132,11 @@ def decide_linear(
 
 
 def decide_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
-    """Rule on left = right as rational functions of their symbols, n_x² + n_y² = 1 given."""
+    """Rule on left = right as rational functions, n_x² + n_y² = 1 and φ = n_y² − n_x² given.
+
+    All other symbols and lattice quantities are independent variables here; both sides may be
+    undefined where a denominator vanishes.
+    """
     unknowns = sorted(
         left.free_symbols
         | right.free_symbols
@@ -147,35 +151,52 @@ def decide_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
         return undecided(str(reason))
     if difference.is_zero():
         return proved("the difference is the zero rational function")
-    return refuted(f"the difference is {difference.to_sympy()}, not zero")
+    return _apart(difference)
+
+
+def _apart(difference: RationalFunction) -> Ruling:
+    """Refute an identity by values of its symbols at which the two sides differ."""
+    generators = difference.domain.generators
+    for geometry in GEOMETRIES:
+        # distinct odd primes for what is free; n_x, n_y and φ as on one of the lattices
+        values = {g: Fraction(sympy.prime(place + 2)) for place, g in enumerate(generators)}
+        values |= {s: Fraction(geometry[s]) for s in (sy.n_x, sy.n_y, sy.phi)}
+        try:
+            found = difference.at(values)
+        except ZeroDivisionError:
+            continue
+        if found:
+            where = ", ".join(f"{g} = {values[g]}" for g in generators if difference.holds(g))
+            return refuted(f"left minus right is {found} at {where or 'any value'}")
+    return undecided("the difference is not the zero function, yet no values show it")
+
+
+def cartesian(vector: sympy.Expr, axis: int) -> sympy.Expr:
+    """One Cartesian component of a vector expression; unknown vectors get unknown components."""
+    image: dict[sympy.Basic, sympy.Expr] = {
+        symbol: CARTESIAN.vectors[symbol][axis].to_sympy() for symbol in sy.VECTORS
+    }
+    for atom in vector.atoms(sy.SiteFunction):
+        if atom.is_vector:
+            image[atom] = sympy.Symbol(f"{atom}_{'xy'[axis]}")
+    return vector.xreplace(image)
 
 
 def decide_vector_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
     """Rule on an equality of vectors that may be multiplied by unknown numbers, by components."""
-    rulings = []
-    for axis in range(2):
-        image: dict[sympy.Basic, sympy.Expr] = {
-            symbol: _cartesian(symbol)[axis] for symbol in sy.VECTORS
-        }
-        for atom in left.atoms(sy.SiteFunction) | right.atoms(sy.SiteFunction):
-            if atom.is_vector:
-                image[atom] = sympy.Symbol(f"{atom}_{'xy'[axis]}")
-        rulings.append(decide_identity(left.xreplace(image), right.xreplace(image)))
-    return all_of(*rulings)
-
-
-def _cartesian(symbol: sympy.Symbol) -> tuple[sympy.Expr, sympy.Expr]:
-    components = CARTESIAN.vectors[symbol]
-    return components[0].to_sympy(), components[1].to_sympy()
+    return all_of(
+        *(decide_identity(cartesian(left, axis), cartesian(right, axis)) for axis in range(2))
+    )
 
 
 def all_of(*rulings: Ruling) -> Ruling:
-    """Return the worst of several rulings: refuted before undecided before proved."""
+    """Return the worst of several rulings; all proved, their notes together."""
     for verdict in (Verdict.REFUTED, Verdict.UNDECIDED):
         for ruling in rulings:
             if ruling.verdict is verdict:
                 return ruling
-    return rulings[0]
+    notes = dict.fromkeys(ruling.note for ruling in rulings)
+    return proved("; ".join(notes))
 
 
 def from_test(outcome: bool, note: str, otherwise: str = "") -> Ruling:

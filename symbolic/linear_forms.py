@@ -54,6 +54,10 @@ class Ray:
         return Site(self.family, affine.add(self.line, layer, self.slope), layer)
 
 
+NO_SITE = Site(CONSTANT, affine.ZERO, affine.ZERO)
+"""Where the constant term of a form is kept."""
+
+
 @dataclass
 class LinearForm:
     """Weights on sites and on rays; zero weights are left out."""
@@ -70,7 +74,7 @@ class LinearForm:
     def constant(cls, value: RationalFunction) -> "LinearForm":
         """A term without any lattice quantity."""
         form = cls()
-        form.add_site(Site(CONSTANT, affine.ZERO, affine.ZERO), value)
+        form.add_site(NO_SITE, value)
         return form
 
     def add_site(self, site: Site, weight: RationalFunction) -> None:

@@ -2,8 +2,7 @@
 
 Operators: flip the sign of a term, drop a term, change a whole-number or rational coefficient or
 an exponent, shift an index or a sum's bound (or the bound between two cases) by one, and swap
-n⁺ with n⁻, b⁺ with b⁻, δn⁺ with δn⁻, f⁺ with f⁻. The right-hand side is changed; where it is 0
-(a balance), the left-hand side.
+n⁺ with n⁻, b⁺ with b⁻, δn⁺ with δn⁻, f⁺ with f⁻. Both sides are changed.
 """
 
 from collections.abc import Callable, Iterator
@@ -31,18 +30,19 @@ Change = tuple[str, sympy.Basic]
 
 
 def mutants(equation: sympy.Eq) -> Iterator[tuple[str, sympy.Eq]]:
-    """Yield every single change of the right-hand side, with its description.
+    """Yield every single change of either side, with its description.
 
     Changes that give the same expression again, or one already seen, are left out.
     """
-    is_balance = equation.rhs == 0
-    side = equation.lhs if is_balance else equation.rhs
-    seen = {side}
-    for change, changed in _changes(side):
-        if changed not in seen:
-            seen.add(changed)
-            pair = (changed, equation.rhs) if is_balance else (equation.lhs, changed)
-            yield change, sympy.Eq(*pair, evaluate=False)
+    seen = set(equation.args)
+    for change, left in _changes(equation.lhs):
+        if left not in seen:
+            seen.add(left)
+            yield f"left: {change}", sympy.Eq(left, equation.rhs, evaluate=False)
+    for change, right in _changes(equation.rhs):
+        if right not in seen:
+            seen.add(right)
+            yield change, sympy.Eq(equation.lhs, right, evaluate=False)
 
 
 def _changes(node: sympy.Basic) -> Iterator[Change]:
@@ -101,10 +101,10 @@ def _with_argument(node: sympy.Basic, number: int, changed: sympy.Basic) -> symp
 
 
 def _shifted_indices(node: sy.SiteFunction) -> Iterator[Change]:
-    for number, by in ((0, 1), (0, -1), (1, 1), (1, -1)):
-        arguments = list(node.args)
-        arguments[number] = arguments[number] + by
-        changed = node.func(*arguments)
+    # one index by one, which leaves the lattice, and to two neighbours that are on it
+    across, layer = node.args
+    for right, up in ((1, 0), (0, -1), (2, 0), (-1, 1)):
+        changed = node.func(across + right, layer + up)
         yield f"{_brief(node)} shifted to {_brief(changed)}", changed
 
 

@@ -60,6 +60,38 @@ def test_the_difference_of_equal_sums_is_zero(one: sympy.Expr, other: sympy.Expr
     assert (left - Reader(None).scalar(one)).is_zero()
 
 
+def test_a_site_that_may_lie_on_a_run_is_not_guessed() -> None:
+    """At j = 2 the single site lies on the run, at j > 2 it does not."""
+    expression = sympy.Sum(sy.DeltaR(sy.i - sy.j + sy.m, sy.m), (sy.m, 0, sy.j)) + sy.DeltaR(
+        sy.i + sy.j - 4, 0
+    )
+    form = Reader(None).scalar(expression)
+    with pytest.raises(UndeterminedError, match="lies on the line"):
+        take_apart(form, Region({sy.j: 2}))
+    apart = take_apart(form, Region({sy.j: 3})).sum_of_squares()
+    assert evaluate(apart, {sy.j: 5}) == 7
+    on_it = Reader(None).scalar(expression.xreplace({sy.j: sympy.Integer(2)}))
+    assert evaluate(take_apart(on_it, Region({})).sum_of_squares(), {}) == 6
+
+
+def test_parallel_lines_that_may_be_one_are_not_guessed() -> None:
+    lines = [
+        sympy.Sum(sy.DeltaR(start + sy.m, sy.m), (sy.m, 0, sy.j))
+        for start in (sy.i - sy.j, sy.i + sy.j - 4)
+    ]
+    form = Reader(None).scalar(lines[0] + lines[1])
+    with pytest.raises(UndeterminedError):
+        take_apart(form, Region({sy.j: 2}))
+
+
+@pytest.mark.parametrize(
+    "divisor", [sy.j - 20, sy.M - sy.j - 3, sy.phi, 1 - 4 * sy.phi**2, 3 * sy.phi - 1]
+)
+def test_a_divisor_that_may_vanish_is_undecided(divisor: sympy.Expr) -> None:
+    quotient = sy.DeltaR(sy.i, sy.j) / divisor
+    assert decide_linear(quotient, quotient, REGION).verdict is Verdict.UNDECIDED
+
+
 @given(expressions, points())
 def test_sum_of_squares(expression: sympy.Expr, point: Point) -> None:
     form = Reader(None).scalar(expression)

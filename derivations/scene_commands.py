@@ -1,0 +1,242 @@
+"""The commands for scenes, ``run``, ``explain``, ``stability``: a thin layer over ``numeric``."""
+
+import csv
+import io
+import json
+import sys
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+
+import typer
+
+if TYPE_CHECKING:
+    from numeric.planner import Plan
+
+WRONG_INPUT = 2
+NOT_REACHED = 3
+STATUSES = (
+    "Exit status: 0 answered, 2 something wrong in the scene or its files, 3 the asked tolerance "
+    "can't be reached or the disk failed, 130 interrupted."
+)
+
+_Scene = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene file, in TOML.")]
+_Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
+_Tolerance = Annotated[
+    str | None,
+    typer.Option(metavar="T", help="Relative error allowed, such as 1e-30; certified if given."),
+]
+
+
+def _fail(message: str, status: int) -> NoReturn:
+    print(f"force-diffusion: {message}", file=sys.stderr)
+    raise typer.Exit(status)
+
+
+def _planned(scene: Path, tolerance: str | None) -> "Plan":
+    """Read and plan a scene, or leave with a message."""
+    from numeric.decimals import parse
+    from numeric.planner import plan
+    from numeric.scene import SceneError, read_scene
+    from numeric.tables import TableError
+
+    asked = None
+    if tolerance is not None:
+        try:
+            asked = parse(tolerance)
+        except ValueError as error:
+            _fail(f"--tolerance: {error}", WRONG_INPUT)
+        if not 0 < asked < 1:
+            _fail(f"--tolerance = {tolerance}: must lie between 0 and 1", WRONG_INPUT)
+    try:
+        return plan(read_scene(scene), asked)
+    except (SceneError, TableError) as error:
+        _fail(f"{scene.name}: {error}", WRONG_INPUT)
+
+
+def explain(scene: _Scene, tolerance: _Tolerance = None, as_json: _Json = False) -> None:
+    """Say what 'run' would do, and why."""
+    from numeric.result import plan_data
+
+    planned = _planned(scene, tolerance)
+    data = plan_data(planned)
+    print(json.dumps(data, indent=2) if as_json else "\n".join(_plan_lines(data)))
+
+
+def run(
+    scene: _Scene,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Write the answer as JSON and CSV into this folder."),
+    ] = None,
+    as_json: _Json = False,
+    tolerance: _Tolerance = None,
+) -> None:
+    """Answer a scene's question."""
+    planned = _planned(scene, tolerance)
+    if out is None:
+        _show(_solved(planned, scene), as_json)
+        return
+    from derivations.folder import NotOurFolderError, foreign_files, output_folder, owned_files
+
+    refusal = f"--out {out}: give a new folder, an empty one, or one that an earlier run wrote"
+    if out.exists() and not out.is_dir():
+        _fail(f"{refusal}; this is a file", WRONG_INPUT)
+    if out.exists() and (foreign_files(out) or "equations.tex" in owned_files(out)):
+        _fail(f"{refusal}; this one holds other files", WRONG_INPUT)
+    try:
+        with output_folder(out) as folder:
+            data = _solved(planned, scene)
+            quantity = planned.scene.ask.quantity
+            files = {
+                "result.json": json.dumps(data, indent=2) + "\n",
+                f"{quantity}.csv": _csv(data["results"][quantity]),
+            }
+            manifest = {"program": "force-diffusion", "files": sorted([*files, "manifest.json"])}
+            files["manifest.json"] = json.dumps(manifest, indent=2) + "\n"
+            folder.publish(files)
+    except NotOurFolderError as foreign:
+        _fail(f"{refusal}; this one holds {foreign}", WRONG_INPUT)
+    _show(data, as_json)
+
+
+def _solved(planned: "Plan", scene: Path) -> dict[str, Any]:
+    """Run a plan under a progress bar, or leave with a message."""
+    from numeric.forces import NotStandingError
+    from numeric.packing import UnbuildableError
+    from numeric.radii import RadiusError
+    from numeric.result import outcome_data
+    from numeric.runner import ToleranceError
+    from numeric.runner import run as solve
+
+    bar, progress = _progress(planned)
+    try:
+        with bar:
+            outcome = solve(planned, progress=progress)
+    except (UnbuildableError, NotStandingError, RadiusError) as error:
+        _fail(f"{scene.name}: {error}", WRONG_INPUT)
+    except ToleranceError as error:
+        _fail(f"{scene.name}: {error}", NOT_REACHED)
+    except MemoryError:
+        _fail(f"{scene.name}: the memory is full; ask for less", NOT_REACHED)
+    return outcome_data(outcome)
+
+
+def _progress(
+    planned: "Plan",
+) -> tuple[AbstractContextManager[object], Callable[[str, int], None] | None]:
+    """A bar on a terminal, for work that takes longer than a moment."""
+    if planned.estimated_seconds < 1 or not sys.stderr.isatty():
+        return nullcontext(), None
+    from rich.console import Console
+    from rich.progress import Progress
+
+    bar = Progress(console=Console(stderr=True), transient=True)
+    total = sum(step.beads for step in planned.steps)
+    task = bar.add_task("solving", total=total)
+    return bar, lambda kind, beads: bar.update(task, advance=beads, description=kind)
+
+
+def _plan_lines(data: dict[str, Any]) -> list[str]:
+    lines = ["What is done"]
+    for step in data["plan"]:
+        spent = "" if step["seconds"] is None else f", {step['seconds']:.3g} s"
+        cost = f"{step['beads']} beads, {step['arithmetic']}{spent}"
+        lines.append(f"  {step['step']}: {step['reason']} ({cost})")
+    lines.append("What is left out")
+    lines += [f"  {s['effect']}: {s['reason']}" for s in data["skipped"]] or ["  nothing"]
+    lines.append(f"About {data['estimated_seconds']:.2g} s and {data['memory_bytes'] / 1e6:.3g} MB")
+    if data["sees_images"]:
+        lines.append("The answer sees periodic images: it is that of the strip, not of the slab")
+    return lines
+
+
+def _show(data: dict[str, Any], as_json: bool) -> None:
+    if as_json:
+        print(json.dumps(data, indent=2))
+        return
+    quantity, rows = next(iter(data["results"].items()))
+    print(_csv(rows), end="")
+    print(f"# {quantity}: {len(rows)} rows")
+    accuracy = data["accuracy"]
+    bound = accuracy["error_bound"]
+    kind = "certified" if accuracy["certified"] else "estimated"
+    shown = "unknown" if bound is None else f"{bound:.2g}"
+    print(
+        f"# error {shown}, {kind}, in {accuracy['arithmetic']}; bits lost {accuracy['bits_lost']}"
+    )
+    if "physical" in data:
+        p = data["physical"]
+        words = "physical" if p["physical"] else "NOT physical"
+        gap = "none" if p["smallest_gap"] is None else f"{p['smallest_gap']:.6g} r"
+        print(
+            f"# {words}: smallest gap {gap}, {p['overlaps']} overlaps, "
+            f"{p['tensile_contacts']} tensile contacts; "
+            f"M = {p['height']}, M* = {p['critical_height']}"
+        )
+    if "stopped_at_tension" in data:
+        print(f"# stopped at the tensile contact {data['stopped_at_tension']}")
+    print("\n".join(f"# {line}" for line in _plan_lines(data)))
+
+
+def _csv(rows: list[dict[str, Any]]) -> str:
+    text = io.StringIO()
+    if rows:
+        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    return text.getvalue()
+
+
+def stability(as_json: _Json = False) -> None:
+    """Measure the engine's errors in hard cases."""
+    from numeric.stability import cases, closed_form_rows, measure
+
+    rows = []
+    if not as_json:
+        print(_STABILITY_HEAD)
+    for case in cases():
+        row = asdict(measure(case))
+        rows.append(row)
+        if not as_json:
+            print(_stability_line(row), flush=True)
+    forms = [asdict(row) for row in closed_form_rows()]
+    if as_json:
+        print(json.dumps({"rows": rows, "closed_forms": forms}, indent=2))
+        return
+    print("Closed forms of Eqs. 13 and 14 in float64, against exact rationals: largest errors.")
+    for height in sorted({row["height"] for row in forms}):
+        for name in sorted({row["form"] for row in forms}):
+            here = [r for r in forms if (r["height"], r["form"]) == (height, name)]
+            worst = max(here, key=lambda row: float(row["relative_error"]))
+            print(f"{name:<18} M = {height:<11} {worst['relative_error']:.1e} at j = {worst['j']}")
+
+
+_STABILITY_HEAD = (
+    "Errors of change, relative to the largest, against an enclosure of all contact forces.\n"
+    "group       M    W   sigma/r  s/r             deviation form      plain form        "
+    "  balls: lost bits, time  pulling  overlaps"
+)
+
+
+def _stability_line(row: dict[str, Any]) -> str:
+    def error(value: float | None) -> str:
+        return "   --  " if value is None else f"{value:7.1e}"
+
+    lost = "  --" if row["ball_bits_lost"] is None else f"{row['ball_bits_lost']:6.1f}"
+    return (
+        f"{row['group']:<10}{row['height']:5}{row['width']:4}  {row['relative_std']:8.1e}  "
+        f"{row['spacing']:<15} {error(row['error'])} {row['seconds']:8.1e}s  "
+        f"{error(row['plain_error'])} {row['plain_seconds']:8.1e}s "
+        f"{lost} of {row['ball_bits']:<4} {row['ball_seconds']:8.1e}s  {row['tensile']!s:>6} "
+        f"{row['overlaps']!s:>6}  {row['note']}"
+    )
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands to the command line."""
+    app.command(epilog=STATUSES)(run)
+    app.command(epilog=STATUSES)(explain)
+    app.command()(stability)

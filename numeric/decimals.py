@@ -1,0 +1,106 @@
+"""Decimals as written: read exactly into fractions, written with as many digits as known."""
+
+import re
+from decimal import Decimal
+from fractions import Fraction
+
+LARGEST_EXPONENT = 5000
+MOST_DIGITS = 5000
+_DECIMAL = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]{1,6})?", re.ASCII)
+
+
+def exact(value: object) -> Fraction:
+    """Turn an int or a finite Decimal into the fraction that it is.
+
+    Raises ``ValueError`` for anything else and for more than 5000 digits or an exponent beyond
+    ±5000: such a number is an accident, or a way to fill the memory.
+
+    >>> exact(Decimal("2.2"))
+    Fraction(11, 5)
+    """
+    if isinstance(value, bool) or not isinstance(value, int | Decimal):
+        raise ValueError("must be a number")
+    if isinstance(value, int):
+        if abs(value) >= 10**MOST_DIGITS:
+            raise ValueError(f"must have at most {MOST_DIGITS} digits")
+        return Fraction(value)
+    if not value.is_finite():
+        raise ValueError("must be a finite number")
+    if len(value.as_tuple().digits) > MOST_DIGITS or abs(value.adjusted()) > LARGEST_EXPONENT:
+        raise ValueError(
+            f"must have at most {MOST_DIGITS} digits and an exponent within ±{LARGEST_EXPONENT}"
+        )
+    return Fraction(value)
+
+
+def parse(text: str) -> Fraction:
+    """Read a decimal, as ``-1.5e-3``, exactly.
+
+    >>> parse(" 0.1 ")
+    Fraction(1, 10)
+    """
+    stripped = text.strip()
+    if not _DECIMAL.fullmatch(stripped) or len(stripped) > MOST_DIGITS:
+        shown = stripped if len(stripped) <= 40 else stripped[:40] + "…"
+        raise ValueError(f"{shown!r} is no finite decimal number")
+    return exact(Decimal(stripped))
+
+
+def decimal_string(value: Fraction, error: Fraction | None) -> str:
+    """Write a number with the digits that an absolute error leaves, at most 1 in the last one.
+
+    Without an error all of an exact decimal is written, or 40 digits. A value that its error
+    swallows is written as "0".
+
+    >>> decimal_string(Fraction(2, 3), Fraction(1, 10**5)), decimal_string(Fraction(-5, 4), None)
+    ('0.6667', '-1.25')
+    """
+    if not value:
+        return "0"
+    if error is None or not error:
+        digits = 40
+    else:
+        if abs(value) < error:
+            return "0"
+        digits = max(_exponent(value) - _exponent(error), 1)
+    return _rounded(value, digits)
+
+
+def _exponent(value: Fraction) -> int:
+    """Give the power of ten of the leading digit, exactly.
+
+    >>> _exponent(Fraction(1, 1000)), _exponent(Fraction(999)), _exponent(Fraction(1000))
+    (-3, 2, 3)
+    """
+    value = abs(value)
+    bits = value.numerator.bit_length() - value.denominator.bit_length()
+    guess = (bits * 30103) // 100000 - 1  # log10(2); at most two too small
+    while value >= Fraction(10) ** (guess + 1):
+        guess += 1
+    while value < Fraction(10) ** guess:
+        guess -= 1
+    return guess
+
+
+def _rounded(value: Fraction, digits: int) -> str:
+    exponent = _exponent(value)
+    scaled = round(abs(value) * Fraction(10) ** (digits - 1 - exponent))
+    if scaled == 10**digits:
+        scaled //= 10
+        exponent += 1
+    figures = str(scaled).rstrip("0") if digits == 40 else str(scaled)
+    sign = "-" if value < 0 else ""
+    if -5 <= exponent < len(figures) + 3 and exponent < 40:
+        if exponent < 0:
+            return f"{sign}0.{'0' * (-exponent - 1)}{figures}"
+        if len(figures) <= exponent + 1:
+            if digits != 40 and len(figures) < exponent + 1:
+                return _scientific(sign, figures, exponent)
+            return sign + figures + "0" * (exponent + 1 - len(figures))
+        return f"{sign}{figures[: exponent + 1]}.{figures[exponent + 1 :]}"
+    return _scientific(sign, figures, exponent)
+
+
+def _scientific(sign: str, figures: str, exponent: int) -> str:
+    mantissa = figures[0] + ("." + figures[1:] if len(figures) > 1 else "")
+    return f"{sign}{mantissa}e{exponent:+03d}"

@@ -1,0 +1,58 @@
+"""Counting changes of forces into bins whose edges are exact decimals."""
+
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from numeric.lattice import Array
+from numeric.packing import UndecidedError
+from numeric.systems import Balls, NumberSystem
+
+
+def histogram(
+    values: Array, bins: int, system: NumberSystem
+) -> list[tuple[Fraction, Fraction, int]]:
+    """Count ``values`` into equal bins: [(low edge, high edge, count)], low ≤ value < high.
+
+    The outer edges lie a little outside of the extreme values, by unequal shares of their distance:
+    symmetric values then have no edge at zero, which no ball around zero could be told from.
+    Values that are all alike make one bin. Every number system has the same bins. Raises
+    ``UndecidedError`` where a ball lies across an edge all the same.
+    """
+    if not len(values):
+        return []
+    rough = np.array([float(v) for v in values])
+    least, most = Fraction(float(rough.min())), Fraction(float(rough.max()))
+    span = most - least
+    if not span:
+        one = float(rough[0])
+        return [
+            (Fraction(np.nextafter(one, -np.inf)), Fraction(np.nextafter(one, np.inf)), len(values))
+        ]
+    low, high = float(least - span / 1009), float(most + span / 2003)
+    edges = [Fraction(low) + (Fraction(high) - Fraction(low)) * k / bins for k in range(bins + 1)]
+    counts = [0] * bins
+    if isinstance(system, Balls):
+        bounds = [system.number(e) for e in edges]
+        for value in values:
+            counts[_place(value, bounds)] += 1
+    else:
+        inner = np.array([float(e) for e in edges[1:-1]])
+        for k in np.searchsorted(inner, rough, side="right"):
+            counts[int(k)] += 1
+    return list(zip(edges[:-1], edges[1:], counts, strict=True))
+
+
+def _place(value: Any, bounds: list[Any]) -> int:
+    """Find the bin of a ball by bisection; every comparison must be certain."""
+    low, high = 0, len(bounds) - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if value >= bounds[middle]:
+            low = middle
+        elif value < bounds[middle]:
+            high = middle
+        else:
+            raise UndecidedError(f"the ball {value} lies across the edge of a bin")
+    return low

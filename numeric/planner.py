@@ -1,0 +1,359 @@
+"""The plan: which beads a scene's question needs, what is done with them, and what is left out.
+
+One planner serves both explaining and running: the runner takes its regions, its route and its
+steps from here and adds nothing but the measured cost.
+"""
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+
+from numeric import budget, first_order, regions
+from numeric.lattice import Region, standing_on_base, whole
+from numeric.load_spec import LoadSpec
+from numeric.radii import DrawnRadii, MeasuredRadii, Monodisperse, Radii
+from numeric.regions import Rows
+from numeric.scene import DisorderSection, Scene
+from numeric.systems import FLOAT64, Balls, NumberSystem
+from numeric.tables import Site, TableError, read_loads, read_radii
+
+FORCE_QUANTITIES = {
+    "contact", "contact_forces", "profile", "histogram", "response", "base_reactions"
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of a plan; ``beads`` counts those that it visits, in all realisations."""
+
+    step: str
+    reason: str
+    beads: int
+    arithmetic: str = ""
+
+
+@dataclass(frozen=True)
+class Skipped:
+    """An effect that is not simulated, and why."""
+
+    effect: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What will be done. ``route`` is "ordered", "line sums", "first-order" or "exact"."""
+
+    scene: Scene
+    radii: Radii
+    load: LoadSpec
+    route: str
+    region: Region
+    force_rows: Rows
+    realisations: int
+    tolerance: Fraction | None
+    system: NumberSystem
+    steps: tuple[Step, ...]
+    skipped: tuple[Skipped, ...]
+    memory: int
+    estimated_seconds: float
+    sees_images: bool
+
+    @cached_property
+    def needs_forces(self) -> bool:
+        """Whether the question is about forces at all."""
+        return self.scene.ask.quantity in FORCE_QUANTITIES
+
+    @cached_property
+    def single_contact(self) -> bool:
+        """Whether one contact is asked for, and not the whole packing."""
+        return budget.one_contact(self.scene)
+
+
+def plan(
+    scene: Scene,
+    tolerance: Fraction | None = None,
+    memory_limit: int | None = None,
+) -> Plan:
+    """Plan a scene; ``tolerance`` overrides the scene's own.
+
+    Reads the scene's files. Raises ``SceneError`` for a scene that is too large for the memory
+    (``memory_limit`` bytes, by default most of what is free) or for a lifetime, and ``TableError``.
+    """
+    return _Planner(scene, tolerance or scene.ask.tolerance, memory_limit).plan()
+
+
+class _Planner:
+    def __init__(self, scene: Scene, tolerance: Fraction | None, limit: int | None) -> None:
+        self.scene = scene
+        self.tolerance = tolerance
+        self.limit = budget.memory_limit() if limit is None else limit
+        self.width = scene.packing.width
+        self.height = scene.packing.height
+        self.quantity = scene.ask.quantity
+        self.skipped: list[Skipped] = []
+
+    def plan(self) -> Plan:
+        ordered = self._ordered_from_the_start()
+        closed = ordered or self._line_sums_suffice()
+        beads = 0 if ordered else budget.bound_of_beads(self.scene, closed=closed)
+        self._refuse(None, beads, 1, self._system("exact"))
+        load = self._load()
+        force_rows = self._force_rows(load, closed) if self._needs_forces() else ()
+        region = self._region(force_rows, closed)
+        radii, route = self._route(region, ordered, closed)
+        realisations = self._realisations(route)
+        system = self._system(route)
+        steps = [
+            replace(step, beads=step.beads * realisations, arithmetic=system.name)
+            for step in self._steps(route, region, force_rows, load)
+        ]
+        at_once = max((step.beads for step in steps), default=0) if closed else region.beads
+        if route == "ordered" and not closed:
+            at_once = 0
+        memory = self._refuse(region, at_once, realisations, system)
+        visited = sum(step.beads for step in steps)
+        seconds = budget.seconds(self.scene, region, visited, realisations, system)
+        return Plan(
+            self.scene, radii, load, route, region, force_rows, realisations,
+            self.tolerance, system, tuple(steps), tuple(self.skipped), memory, seconds,
+            self._sees_images(route, region),
+        )  # fmt: skip
+
+    def _system(self, route: str) -> NumberSystem:
+        if self.tolerance is None and route != "ordered":
+            return FLOAT64
+        return Balls(budget.initial_bits(self.tolerance or Fraction(1, 2**60), self.height))
+
+    def _refuse(
+        self, region: Region | None, beads: int, realisations: int, system: NumberSystem
+    ) -> int:
+        """Give the memory needed, or refuse the scene; without a region, before there are rows."""
+        rows = Region(self.width, ()) if region is None else region
+        one = self.scene.ask.at is not None and not beads
+        layers = (0 if one else self.height + 1) if region is None else len(rows.rows)
+        needed = budget.memory(
+            self.scene, rows, beads=beads, layers=layers, realisations=realisations, system=system
+        )
+        budget.refuse_memory(self.scene, needed, self.limit)
+        return needed
+
+    def _needs_forces(self) -> bool:
+        return self.quantity in FORCE_QUANTITIES
+
+    def _ordered_from_the_start(self) -> bool:
+        """Say whether it is plain without reading any file that nothing is disordered."""
+        disorder = self.scene.disorder
+        none = disorder is None or (disorder.file is None and not disorder.relative_std)
+        return none or self.scene.effects.geometry == "ordered"
+
+    def _line_sums_suffice(self) -> bool:
+        one_bead = self.quantity == "positions" and self.scene.ask.at is not None
+        return self.scene.effects.geometry == "first-order" and (
+            one_bead or budget.one_contact(self.scene)
+        )
+
+    # What is asked
+
+    def _load(self) -> LoadSpec:
+        section = self.scene.load
+        single = {}
+        if section.kind == "file":
+            assert section.file is not None
+            single = read_loads(
+                self.scene.folder / section.file,
+                magnitude=section.magnitude,
+                width=self.width,
+                height=self.height,
+            )
+        at = None if section.at is None else (section.at[0], section.at[1])
+        if self.quantity == "positions":
+            if "load" in self.scene.model_fields_set:
+                self._skip("load", "positions follow from the radii alone")
+        elif not section.angle_deg and section.kind != "file":
+            self._skip("load at an angle", "the load points straight down")
+        return LoadSpec(section.kind, self.height, self.width, section.angle_deg, at, single)
+
+    def _skip(self, effect: str, reason: str) -> None:
+        self.skipped.append(Skipped(effect, reason))
+
+    def _reach(self, load: LoadSpec) -> Rows:
+        """Rows of beads that the load reaches."""
+        if (loaded := load.loaded) is not None:
+            return regions.downward_cone(loaded, self.width)
+        if self.width is not None:
+            return whole(self.width, self.height).rows
+        # The slab: everything; a contact's own cone is cut out of rows wide enough for it.
+        i, j, branch = self.scene.contact
+        x = regions.upper_bead(i, j, branch)
+        return regions.upward_cone(x, self.height, None)
+
+    def _force_rows(self, load: LoadSpec, closed: bool) -> Rows:
+        contact = budget.one_contact(self.scene)
+        if contact and closed:
+            return ()
+        reach = self._reach(load)
+        return regions.contact_rows(self.scene.contact, reach, self.width) if contact else reach
+
+    def _region(self, force_rows: Rows, closed: bool) -> Region:
+        if closed and self.scene.ask.at is not None:
+            return Region(self.width, ())
+        if self.quantity == "positions":
+            if self.scene.ask.at is None:
+                assert self.width is not None
+                return whole(self.width, self.height)
+            return regions.triangle(*self.scene.site, self.width)
+        if not any(layer.count for layer in force_rows):
+            return Region(self.width, ())
+        return standing_on_base(force_rows, self.width)
+
+    # How it is answered
+
+    def _route(self, region: Region, ordered: bool, closed: bool) -> tuple[Radii, str]:
+        scene = self.scene
+        disorder = scene.disorder
+        if not scene.effects.stop_at_tension:
+            why = "not asked for: tensile contacts are counted, not acted on"
+            self._skip("stop at tension", why)
+        if disorder is None:
+            self._skip("disorder", "the scene names none: all radii are equal")
+            return Monodisperse(), "ordered"
+        if ordered:
+            why = "its relative_std is 0"
+            if scene.effects.geometry == "ordered":
+                why = 'geometry = "ordered" looks at the ordered packing only'
+            self._skip("disorder", why)
+            return Monodisperse(), "ordered"
+        radii = self._radii(disorder, region)
+        if not radii.relative_std() and not closed:
+            self._skip("disorder", "every delta_r in the file is 0")
+            return Monodisperse(), "ordered"
+        if not closed and not region.rows:
+            self._skip("disorder", "no load reaches what is asked for: the forces are exactly zero")
+            return radii, "ordered"
+        if scene.effects.geometry == "exact":
+            return radii, "exact"
+        why = 'geometry = "first-order" sums the radii along diagonals'
+        self._skip("nonlinear geometry", why)
+        return radii, "line sums" if closed else "first-order"
+
+    def _radii(self, disorder: DisorderSection, region: Region) -> Radii:
+        """Give the source of radii; a file is read here."""
+        if disorder.file is None:
+            assert disorder.relative_std is not None
+            return DrawnRadii(disorder.kind, disorder.relative_std, disorder.seed, self.width)
+        rows = region.rows
+
+        def needed(site: Site) -> bool:
+            i, j = site
+            if not rows:  # line sums look up what they need
+                return True
+            return j < len(rows) and rows[j].first <= i <= rows[j].last
+
+        measured = read_radii(
+            self.scene.folder / disorder.file,
+            radius=self.scene.packing.radius,
+            width=self.width,
+            height=self.height,
+            needed=needed,
+        )
+        if self.width is None:
+            for layer in rows:
+                for i in layer.sites():
+                    if (i, layer.j) not in measured:
+                        raise TableError(f"{disorder.file}: bead {(i, layer.j)} is missing")
+        return MeasuredRadii(measured, self.width)
+
+    def _realisations(self, route: str) -> int:
+        asked = self.scene.ask.realisations
+        if asked > 1 and route == "ordered":
+            self._skip(
+                "realisations", "without disorder all realisations are the same: one is solved"
+            )
+            return 1
+        return asked
+
+    def _sees_images(self, route: str, region: Region) -> bool:
+        if self.width is None or route == "ordered" or not region.rows:
+            return False
+        if route == "exact":
+            return any(self._slab_width(region, j) > self.width for j in range(len(region.rows)))
+        return self.width <= self.height
+
+    def _slab_width(self, region: Region, j: int) -> int:
+        """Beads of layer j that a single answer would visit in an infinite slab."""
+        height = region.top
+        load = self.scene.load
+        if self.quantity == "positions":
+            tip = self.height if self.scene.ask.at is None else self.scene.site[1]
+            return tip - j + 1
+        if load.kind == "point":
+            assert load.at is not None
+            return load.at[1] - j + 1
+        lowest = self.scene.contact[1] if budget.one_contact(self.scene) else 0
+        return max(2 * height - lowest - j, 0)
+
+    def _line_beads(self, load: LoadSpec) -> int:
+        """Count the beads of the line sums, as in regions: see ``first_order.contact_beads``."""
+        if self.quantity == "positions":
+            return 2 * self.scene.site[1] + 1
+        return first_order.beads_read(self.scene.contact, load)
+
+    def _steps(
+        self,
+        route: str,
+        region: Region,
+        force_rows: Rows,
+        load: LoadSpec,
+    ) -> list[Step]:
+        """List the steps of one realisation."""
+        needs_forces = self.quantity in FORCE_QUANTITIES
+        steps: list[Step] = []
+
+        def add(step: str, reason: str, beads: int) -> None:
+            steps.append(Step(step, reason, beads))
+
+        source = "read radii" if self.scene.disorder and self.scene.disorder.file else "draw radii"
+        if route == "ordered":
+            add("closed form", "the ordered packing is known: nothing is swept", 0)
+        elif route == "line sums":
+            beads = self._line_beads(load)
+            add(source, "only the beads on the diagonals that the answer depends on", beads)
+            add("line sums", "to first order the answer is a sum down a few diagonals", beads)
+        else:
+            add(source, self._region_reason(region), region.beads)
+            if route == "exact":
+                add(
+                    "deposit",
+                    "exact positions, as deviations in line-sum coordinates",
+                    region.beads,
+                )
+            else:
+                add("line sums", "displacements to first order, layer by layer", region.beads)
+            if needs_forces:
+                visited = sum(layer.count for layer in force_rows[1:])
+                add("balance forces", self._force_reason(load), visited)
+            if route == "exact":
+                add("check that it is physical", "gaps, overlaps and signs, always", region.beads)
+        if route != "ordered":
+            if self.tolerance is None:
+                add(
+                    "estimate the error",
+                    "the first realisations again with a longer significand",
+                    0,
+                )
+            else:
+                add("certify", "balls enclose the answer; bits are added until it fits", 0)
+        return steps
+
+    def _region_reason(self, region: Region) -> str:
+        if self.width is not None and region.beads == self.width * (self.height + 1):
+            return "the answer depends on every bead"
+        return "only the beads that the answer depends on: the triangles below what is asked"
+
+    def _force_reason(self, load: LoadSpec) -> str:
+        if load.loaded is not None:
+            return "only beads in the downward cone of the load carry force"
+        if budget.one_contact(self.scene):
+            return "only beads above the contact decide its force"
+        return "every bead passes its load on"

@@ -1,0 +1,95 @@
+"""Plans and outcomes as plain data: what ``--json`` prints and what result files hold."""
+
+import math
+from typing import Any
+
+from numeric.physical import Physicality
+from numeric.planner import Plan
+from numeric.runner import Outcome, critical_height
+
+
+def plan_data(plan: Plan) -> dict[str, Any]:
+    """Give a plan before it runs; seconds are not known yet."""
+    return {
+        "plan": [
+            {
+                "step": step.step,
+                "reason": step.reason,
+                "beads": step.beads,
+                "arithmetic": step.arithmetic,
+                "seconds": None,
+            }
+            for step in plan.steps
+        ],
+        "skipped": [{"effect": s.effect, "reason": s.reason} for s in plan.skipped],
+        "memory_bytes": plan.memory,
+        "estimated_seconds": float(f"{plan.estimated_seconds:.3g}"),
+        "sees_images": plan.sees_images,
+    }
+
+
+def outcome_data(outcome: Outcome) -> dict[str, Any]:
+    """Give a finished run; see scenes/README.md for the schema of each quantity."""
+    data = plan_data(outcome.plan)
+    visited = {
+        "read radii": outcome.work.radii,
+        "draw radii": outcome.work.radii,
+        "deposit": outcome.work.deposited,
+        "line sums": outcome.work.summed,
+        "balance forces": outcome.work.balanced,
+    }
+    for step in data["plan"]:
+        step["seconds"] = _rounded(outcome.seconds.get(step["step"]))
+        step["arithmetic"] = outcome.accuracy.arithmetic
+        step["beads"] = visited.get(step["step"], step["beads"])
+    accuracy = outcome.accuracy
+    data["results"] = {outcome.plan.scene.ask.quantity: outcome.rows}
+    data["accuracy"] = {
+        "error_bound": accuracy.error_bound if math.isfinite(accuracy.error_bound) else None,
+        "certified": accuracy.certified,
+        "arithmetic": accuracy.arithmetic,
+        "bits_lost": accuracy.bits_lost,
+    }
+    if accuracy.note:
+        data["accuracy"]["note"] = accuracy.note
+    if outcome.physical is not None:
+        data["physical"] = physical_data(outcome.physical, outcome.plan)
+    if outcome.stopped is not None:
+        i, j, branch = outcome.stopped
+        data["stopped_at_tension"] = {"i": i, "j": j, "branch": branch}
+    data["seconds"] = _rounded(outcome.total_seconds)
+    return data
+
+
+def physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
+    """Say whether an exact packing is one that beads could make."""
+    highest = critical_height(plan.radii.relative_std())
+    pulls = found.tensile + found.undecided_signs
+    alone = plan.load.kind == "point"
+    sound = not (found.overlaps or found.undecided_gaps or (pulls and not alone))
+    data: dict[str, Any] = {
+        "physical": sound,
+        "smallest_gap": found.smallest_gap,
+        "smallest_gap_between": None if found.between is None else [list(s) for s in found.between],
+        "overlaps": found.overlaps,
+        "tensile_contacts": found.tensile if found.forces_known else None,
+        "undecided": found.undecided_gaps + found.undecided_signs,
+        "contacts": found.contacts if found.forces_known else None,
+        "height": plan.scene.packing.height,
+        "critical_height": highest if math.isfinite(highest) else None,
+    }
+    if pulls and alone:
+        data["note"] = (
+            "a load on one bead pulls contacts inside its cone: its response is to be added to "
+            "that of other loads, so tension alone does not count here"
+        )
+    if found.first_tensile is not None:
+        i, j, branch = found.first_tensile
+        period = plan.scene.packing.width
+        home = i if period is None else i % (2 * period)
+        data["first_tensile"] = {"i": home, "j": j, "branch": branch}
+    return data
+
+
+def _rounded(seconds: float | None) -> float | None:
+    return None if seconds is None else round(seconds, 6)

@@ -1,0 +1,188 @@
+"""Runs a plan: chooses nothing that the plan does not say, raises precision, keeps the books."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from time import perf_counter
+from typing import Any
+
+from numeric.accuracy import Accuracy, of_balls, of_floats, strings
+from numeric.answers import GATHERERS, Table
+from numeric.budget import chunk_size
+from numeric.decimals import decimal_string
+from numeric.engine import solve
+from numeric.forces import NotStandingError
+from numeric.histogram import histogram
+from numeric.packing import UndecidedError
+from numeric.physical import Physicality
+from numeric.planner import Plan
+from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
+from numeric.work import Progress, Work
+
+MOST_BITS = 8192
+DEFAULT_BINS = 20
+# Realisations that are solved twice to estimate the error: four of packings that are small.
+FEW, SMALL = 4, 20_000
+
+
+class ToleranceError(ArithmeticError):
+    """The asked tolerance can't be reached; the message says why."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A finished run: the printed answer, its accuracy, what was physical and what it cost."""
+
+    plan: Plan
+    rows: list[dict[str, Any]]
+    accuracy: Accuracy
+    physical: Physicality | None
+    stopped: tuple[int, int, str] | None
+    work: Work
+    seconds: dict[str, float]
+    total_seconds: float
+
+
+@dataclass
+class _Attempt:
+    table: Table
+    bins: list[tuple[Fraction, Fraction, int]] | None
+    physical: Physicality | None
+    stopped: tuple[int, int, str] | None
+    work: Work
+    seconds: dict[str, float]
+
+
+def run(plan: Plan, progress: Progress | None = None) -> Outcome:
+    """Run a plan, to the tolerance that it was made for.
+
+    Raises ``ToleranceError``, and what the sweeps raise for a packing that can't be built.
+    """
+    start = perf_counter()
+    system: NumberSystem
+    if isinstance(plan.system, Balls):
+        attempt, accuracy, system = _certified(plan, plan.system, progress)
+    else:
+        system = plan.system
+        attempt = _attempt(plan, system, range(plan.realisations), progress)
+        accuracy = _estimate(plan, attempt)
+    rows = _rows(attempt, accuracy, system)
+    return Outcome(
+        plan, rows, accuracy, attempt.physical, attempt.stopped, attempt.work,
+        attempt.seconds, perf_counter() - start,
+    )  # fmt: skip
+
+
+def _attempt(
+    plan: Plan, system: NumberSystem, realisations: Sequence[int], progress: Progress | None
+) -> _Attempt:
+    work = Work(progress=progress)
+    physical = Physicality() if plan.route == "exact" else None
+    gatherer = GATHERERS[plan.scene.ask.quantity](plan, system)
+    seconds: dict[str, float] = {}
+    stopped = None
+    size = 1 if plan.route == "line sums" else chunk_size(plan.region, system, plan.scene)
+    with system.active():
+        for chunk in _chunks(realisations, size):
+            solved = solve(plan, chunk, system, work)
+            for step, spent in solved.seconds.items():
+                seconds[step] = seconds.get(step, 0.0) + spent
+            clock = perf_counter()
+            if physical is not None and solved.packing is not None:
+                physical.look_at_gaps(solved.packing)
+                if solved.forces is not None:
+                    physical.look_at_forces(solved.forces)
+            name = "check that it is physical"
+            seconds[name] = seconds.get(name, 0.0) + perf_counter() - clock
+            if solved.forces is not None and stopped is None:
+                stopped = solved.forces.stopped
+            gatherer.add(solved, chunk)
+        table = gatherer.table()
+        bins = None
+        if plan.scene.ask.quantity == "histogram":
+            values = table.numbers["change"]
+            bins = histogram(values, plan.scene.ask.bins or DEFAULT_BINS, system)
+    return _Attempt(table, bins, physical, stopped, work, seconds)
+
+
+def _chunks(realisations: Sequence[int], size: int) -> Iterator[Sequence[int]]:
+    for at in range(0, len(realisations), size):
+        yield realisations[at : at + size]
+
+
+def _estimate(plan: Plan, attempt: _Attempt) -> Accuracy:
+    """Solve the first realisations again with a longer significand, and compare."""
+    start = perf_counter()
+    longer: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
+    few = range(min(plan.realisations, FEW if plan.region.beads < SMALL else 1))
+    part = replace(plan, realisations=len(few))
+    table = attempt.table
+    if len(few) < plan.realisations:
+        table = _attempt(part, FLOAT64, few, None).table
+    again = _attempt(part, longer, few, None).table
+    accuracy = of_floats(table, again, attempt.table, FLOAT64)
+    attempt.seconds["estimate the error"] = perf_counter() - start
+    return accuracy
+
+
+def _certified(
+    plan: Plan, system: Balls, progress: Progress | None
+) -> tuple[_Attempt, Accuracy, Balls]:
+    """Raise the precision until the enclosure is small enough, or say why that does not help."""
+    begun = perf_counter()
+    floor = plan.radii.relative_std()
+    why = "no enclosure was found"
+    while system.bits <= MOST_BITS:
+        try:
+            attempt = _attempt(plan, system, range(plan.realisations), progress)
+            with system.active():
+                accuracy = of_balls(attempt.table, system, floor)
+            if plan.tolerance is None or _within(accuracy, plan.tolerance):
+                attempt.seconds["certify"] = perf_counter() - begun
+                return attempt, accuracy, system
+            why = f"at {system.bits} bits the error is still {accuracy.error_bound:.2g}"
+        except (UndecidedError, NotStandingError) as error:
+            why = f"at {system.bits} bits: {error}"
+        system = Balls(2 * system.bits)
+    raise ToleranceError(
+        f"the tolerance can't be reached: {why}, and precisions up to {MOST_BITS} bits were tried"
+        f"; the height is {plan.scene.packing.height}, and the theory holds well below "
+        f"M* = (σ/r)^(-2/3) = {critical_height(floor):.3g}"
+    )
+
+
+def _within(accuracy: Accuracy, tolerance: Fraction) -> bool:
+    bound = accuracy.error_bound
+    return math.isfinite(bound) and Fraction(bound) <= tolerance
+
+
+def critical_height(relative_std: Fraction) -> float:
+    """Give M* = (σ/r)^(−2/3), where contacts begin to pull (Eq. 15).
+
+    >>> critical_height(Fraction(1, 1000))
+    100.0
+    """
+    if not relative_std:
+        return math.inf
+    # The exponents of numerator and denominator may lie outside a float's range.
+    log = _log10(relative_std.numerator) - _log10(relative_std.denominator)
+    return round(10 ** (-2 * log / 3), 9)
+
+
+def _log10(n: int) -> float:
+    shift = max(n.bit_length() - 60, 0)
+    return math.log10(n >> shift) + shift * math.log10(2)
+
+
+def _rows(attempt: _Attempt, accuracy: Accuracy, system: NumberSystem) -> list[dict[str, Any]]:
+    """Print the answer, row by row."""
+    if attempt.bins is not None:
+        return [
+            {"low": decimal_string(low, None), "high": decimal_string(high, None), "count": count}
+            for low, high, count in attempt.bins
+        ]
+    with system.active():
+        printed = strings(attempt.table, accuracy, system)
+    columns = {**attempt.table.index, **printed}
+    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]

@@ -1,0 +1,109 @@
+"""Small scenes for the tests, and strategies that draw them."""
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from hypothesis import strategies as st
+
+from numeric.planner import Plan, plan
+from numeric.runner import Outcome, run
+from numeric.scene import Scene, parse_scene
+
+
+def toml(sections: dict[str, dict[str, Any]]) -> str:
+    """Write a scene; fractions must be decimals, given as strings with a leading '='."""
+    lines = []
+    for name, keys in sections.items():
+        lines.append(f"[{name}]")
+        for key, value in keys.items():
+            if isinstance(value, bool):
+                shown = "true" if value else "false"
+            elif isinstance(value, str) and value.startswith("="):
+                shown = value[1:]
+            elif isinstance(value, str):
+                shown = f'"{value}"'
+            elif isinstance(value, list):
+                shown = (
+                    "[" + ", ".join(f'"{v}"' if isinstance(v, str) else str(v) for v in value) + "]"
+                )
+            else:
+                shown = str(value)
+            lines.append(f"{key} = {shown}")
+    return "\n".join(lines) + "\n"
+
+
+def scene(sections: dict[str, dict[str, Any]], folder: Path = Path()) -> Scene:
+    return parse_scene(toml(sections), folder)
+
+
+def planned(sections: dict[str, dict[str, Any]], folder: Path = Path()) -> Plan:
+    return plan(scene(sections, folder))
+
+
+def answer(sections: dict[str, dict[str, Any]], folder: Path = Path()) -> Outcome:
+    return run(planned(sections, folder))
+
+
+def basic(height: int = 6, width: int | None = 14, **ask: Any) -> dict[str, dict[str, Any]]:
+    packing: dict[str, Any] = {"height": height}
+    if width is not None:
+        packing["width"] = width
+    return {
+        "packing": packing,
+        "disorder": {"kind": "uniform", "relative_std": "=1e-4", "seed": 3},
+        "ask": {"quantity": "contact_forces", **ask},
+    }
+
+
+@st.composite
+def scenes(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
+    """Scenes of every quantity, load and disorder that can be solved in a moment."""
+    height = draw(st.integers(1, 6))
+    width = draw(st.integers(height + 1, 2 * height + 2))
+    sections: dict[str, dict[str, Any]] = {
+        "packing": {
+            "height": height,
+            "width": width,
+            "spacing": draw(st.sampled_from(["=2.2", "=3.0", "=3.4"])),
+        }
+    }
+    kind = draw(st.sampled_from(["uniform", "normal", "two-point", None]))
+    if kind:
+        std = draw(st.sampled_from(["=1e-3", "=1e-9", "=1e-200", "=0.0"]))
+        seed = draw(st.integers(0, 9))
+        sections["disorder"] = {"kind": kind, "relative_std": std, "seed": seed}
+    load = draw(st.sampled_from(["surface", "bulk", "point"]))
+    sections["load"] = {"kind": load}
+    if load == "point":
+        sections["load"]["at"] = draw(site(width, 0, height))
+    if draw(st.booleans()):
+        sections["load"]["angle_deg"] = draw(st.integers(-20, 20))
+    geometry = draw(st.sampled_from(["ordered", "first-order", "exact"]))
+    sections["effects"] = {"geometry": geometry}
+    if geometry == "exact" and draw(st.booleans()):
+        sections["effects"]["stop_at_tension"] = True
+    quantities = [
+        "contact", "contact_forces", "positions", "profile", "histogram", "base_reactions"
+    ]  # fmt: skip
+    if load == "point":
+        quantities.append("response")
+    quantity = draw(st.sampled_from(quantities))
+    sections["ask"] = {"quantity": quantity}
+    if quantity == "contact":
+        branch = draw(st.sampled_from("+-"))
+        sections["ask"]["at"] = [*draw(site(width, 0, height - 1)), branch]
+    averaged = quantity == "response" and "stop_at_tension" in sections["effects"]
+    if kind and not averaged and draw(st.booleans()):
+        sections["ask"]["realisations"] = draw(st.integers(1, 3))
+    return sections
+
+
+@st.composite
+def site(draw: st.DrawFn, width: int, low: int, high: int) -> list[int]:
+    j = draw(st.integers(low, high))
+    return [2 * draw(st.integers(0, width - 1)) + j % 2, j]
+
+
+def exact(text: str) -> Fraction:
+    return Fraction(text)

@@ -1,0 +1,320 @@
+"""Answers as a user gets them: bounds hold, routes agree, units and batches change nothing."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from numeric.runner import Outcome, ToleranceError
+from tests.numeric.scenes import answer, basic, planned, scene, scenes, site
+
+SMALL = {
+    "change", "dx", "dy", "change_x", "change_y", "mean_change", "std", "vertical_change",
+    "force_mean_change", "force_std", "vertical_mean_change", "vertical_std",
+}  # fmt: skip
+
+
+def unit_of_last_digit(text: str) -> Fraction:
+    mantissa, _, exponent = text.partition("e")
+    decimals = len(mantissa.partition(".")[2])
+    return Fraction(10) ** (int(exponent or 0) - decimals)
+
+
+def numbers(outcome: Outcome, small_only: bool = False) -> Iterator[tuple[str, str]]:
+    for row in outcome.rows:
+        for key, value in row.items():
+            wanted = key in SMALL if small_only else key not in {"branch", "first_order_std"}
+            if isinstance(value, str) and wanted:
+                yield key, value
+
+
+def certified(sections: dict[str, dict[str, Any]]) -> Outcome:
+    """Answer in balls; a force that is exactly zero has no sign, whatever the precision."""
+    try:
+        return answer(sections)
+    except ToleranceError as error:
+        assume("stop_at_tension" not in sections["effects"])
+        raise error
+
+
+@given(scenes())
+def test_the_stated_error_holds(sections: dict[str, dict[str, Any]]) -> None:
+    """Each number of a float run lies within its bound, and one printed digit, of the true one.
+
+    A bound in float64 is an estimate (twice the distance from long double), the other is rigorous.
+    """
+    rough = answer(sections)
+    sections["ask"]["tolerance"] = "=1e-25"
+    sharp = certified(sections)
+    if rough.stopped != sharp.stopped:  # a force too close to zero for floats to see it pull
+        return
+    assert sharp.accuracy.certified
+    assert sharp.accuracy.error_bound <= 1e-25
+    assert len(rough.rows) == len(sharp.rows)
+    if sections["ask"]["quantity"] == "histogram":
+        assert sum(r["count"] for r in rough.rows) == sum(r["count"] for r in sharp.rows)
+        return
+    largest = max((abs(Fraction(v)) for _, v in numbers(sharp, small_only=True)), default=0)
+    for (_, a), (_, b) in zip(numbers(rough, True), numbers(sharp, True), strict=True):
+        error = abs(Fraction(a) - Fraction(b))
+        assert error <= Fraction(rough.accuracy.error_bound) * largest + unit_of_last_digit(a)
+
+
+@given(scenes())
+def test_more_digits_confirm_the_printed_ones(sections: dict[str, dict[str, Any]]) -> None:
+    """Certified strings are off by at most one in their last digit: 15 digits against 60."""
+    assume(sections["ask"]["quantity"] != "histogram")
+    sections["ask"]["tolerance"] = "=1e-15"
+    short = certified(sections)
+    sections["ask"]["tolerance"] = "=1e-60"
+    long = certified(sections)
+    for (_, a), (_, b) in zip(numbers(short), numbers(long), strict=True):
+        if a != "0":
+            assert abs(Fraction(a) - Fraction(b)) <= unit_of_last_digit(a) * Fraction(11, 10)
+    for (_, a), (_, b) in zip(numbers(short, True), numbers(long, True), strict=True):
+        largest = max((abs(Fraction(v)) for _, v in numbers(long, True)), default=0)
+        assert abs(Fraction(a) - Fraction(b)) <= Fraction(2, 10**15) * largest
+
+
+@given(st.integers(1, 6), st.data(), st.sampled_from(["surface", "bulk", "point"]))
+def test_one_contact_is_the_same_alone_as_in_the_crowd(
+    height: int, data: st.DataObject, kind: str
+) -> None:
+    """The region of one contact gives bit for bit what the whole packing gives."""
+    width = data.draw(st.integers(1, 2 * height + 1))  # narrow strips wrap onto themselves
+    at = [*data.draw(site(width, 0, height - 1)), data.draw(st.sampled_from("+-"))]
+    load: dict[str, Any] = {"kind": kind}
+    if kind == "point":
+        load["at"] = data.draw(site(width, 1, height))
+    crowd = {**basic(height, width), "load": load}
+    single = {**basic(height, width, quantity="contact", at=at), "load": load}
+    for sections in (crowd, single):
+        sections["packing"]["allow_images"] = True
+    whole, alone = answer(crowd), answer(single)
+    match = [row for row in whole.rows if [row["i"], row["j"], row["branch"]] == at]
+    # Fewer contacts set the scale of the error, and so how many digits are printed.
+    assert len(match) == len(alone.rows) == 1
+    for key in ("force", "change"):
+        a, b = Fraction(match[0][key]), Fraction(alone.rows[0][key])
+        room = unit_of_last_digit(match[0][key]) + unit_of_last_digit(alone.rows[0][key])
+        assert abs(a - b) <= room
+
+
+@given(st.integers(1, 6), st.data())
+def test_line_sums_of_one_contact_equal_the_first_order_sweep(
+    height: int, data: st.DataObject
+) -> None:
+    width = height + 1
+    contact = [*data.draw(site(width, 0, height - 1)), data.draw(st.sampled_from("+-"))]
+    kind = data.draw(st.sampled_from(["surface", "bulk", "point"]))
+    load: dict[str, Any] = {"kind": kind, "angle_deg": data.draw(st.integers(-20, 20))}
+    if kind == "point":
+        load["at"] = data.draw(site(width, 1, height))
+    first = {"effects": {"geometry": "first-order"}, "load": load}
+    sweep = answer({**basic(height, width, tolerance="=1e-30"), **first})
+    alone = answer(
+        {**basic(height, width, quantity="contact", at=contact, tolerance="=1e-30"), **first}
+    )
+    change = next(r["change"] for r in sweep.rows if [r["i"], r["j"], r["branch"]] == contact)
+    largest = max(abs(Fraction(r["change"])) for r in sweep.rows)
+    assert abs(Fraction(change) - Fraction(alone.rows[0]["change"])) <= largest / 10**29
+
+
+def test_a_wide_packing_is_the_slab() -> None:
+    """Radii depend on i alone, so a contact far from i = 0 can't tell whether there is a width."""
+    for geometry in ("exact", "first-order"):
+        effects = {"effects": {"geometry": geometry}}
+        wide = answer({**basic(5, 40, quantity="contact", at=[30, 2, "+"]), **effects})
+        slab = answer({**basic(5, None, quantity="contact", at=[30, 2, "+"]), **effects})
+        assert wide.rows == slab.rows
+        assert not wide.plan.sees_images
+
+
+@pytest.mark.parametrize(
+    ("width", "quantity", "geometry", "sees"),
+    [
+        (7, "contact_forces", "exact", True),
+        (11, "contact_forces", "exact", True),
+        (12, "contact_forces", "exact", False),
+        (7, "contact_forces", "first-order", False),
+        (7, "positions", "exact", False),
+        (7, "profile", "exact", True),
+        (12, "profile", "exact", False),
+    ],
+)
+def test_images_are_seen_exactly_where_the_region_needs_more_width(
+    width: int, quantity: str, geometry: str, sees: bool
+) -> None:
+    sections = basic(6, width, quantity=quantity)
+    sections["effects"] = {"geometry": geometry}
+    assert planned(sections).sees_images is sees
+
+
+@pytest.mark.parametrize("quantity", ["profile", "histogram", "contact_forces"])
+def test_realisations_are_independent_of_the_batch(quantity: str) -> None:
+    """Each realisation of a batch is bit for bit the one solved alone."""
+    many = answer(basic(4, 9, quantity=quantity, realisations=5))
+    if quantity == "contact_forces":
+        from dataclasses import replace
+
+        from numeric.runner import _attempt
+        from numeric.systems import FLOAT64
+
+        plan = planned(basic(4, 9, quantity=quantity, realisations=5))
+        together = _attempt(plan, FLOAT64, range(5), None).table
+        for k in range(5):
+            alone = _attempt(replace(plan, realisations=1), FLOAT64, [k], None).table
+            n = len(alone.numbers["change"])
+            assert (
+                together.numbers["change"][k * n : (k + 1) * n] == alone.numbers["change"]
+            ).all()
+    else:
+        count = [row.get("samples", row.get("count")) for row in many.rows]
+        assert sum(c for c in count if c) > 0
+
+
+@given(st.integers(-498, 498), st.sampled_from(["contact_forces", "profile", "base_reactions"]))
+def test_units_change_no_bit(power: int, quantity: str) -> None:
+    """r and s scaled by the same power of two: the dimensionless answer is bitwise the same."""
+    factor = Fraction(2) ** power
+    sections = basic(4, 9, quantity=quantity)
+    sections["packing"].update(radius="=1.0", spacing="=2.75")
+    one = answer(sections)
+    sections["packing"].update(radius=decimal(factor), spacing=decimal(factor * Fraction(11, 4)))
+    other = answer(sections)
+    assert one.rows == other.rows
+    assert one.accuracy == other.accuracy
+
+
+def decimal(value: Fraction) -> str:
+    """Write a dyadic fraction as the decimal that it is."""
+    places = value.denominator.bit_length() - 1
+    digits = str(value.numerator * 5**places).rjust(places + 1, "0")
+    head = digits[:-places] if places else digits
+    tail = digits[len(head) :] or "0"
+    return f"={head}.{tail}"
+
+
+@given(st.integers(1, 5), st.integers(-60, 60), st.integers(0, 50))
+def test_the_base_bears_the_load(height: int, angle: int, seed: int) -> None:
+    """Balance of the whole packing, certified: the base's forces add up to minus the load."""
+    width = height + 1
+    sections = basic(height, width, quantity="base_reactions", tolerance="=1e-20")
+    sections["disorder"]["seed"] = seed
+    sections["load"] = {"kind": "bulk", "angle_deg": angle}
+    rows = answer(sections).rows
+    import mpmath
+
+    mp = mpmath.MPContext()
+    mp.dps = 40
+    beads = width * (height + 1)
+    theta = mp.mpf(angle) * mp.pi / 180
+    # 1e-15 is far above the printed digits' rounding and far below any one force.
+    assert abs(sum(mp.mpf(r["fy"]) for r in rows) - beads * mp.cos(theta)) < 1e-15
+    assert abs(sum(mp.mpf(r["fx"]) for r in rows) + beads * mp.sin(theta)) < 1e-15
+
+
+def test_a_load_file_of_one_bead_is_a_point_load(tmp_path: Path) -> None:
+    (tmp_path / "loads.csv").write_text("i,j,fx,fy\n4,4,0,-2.0\n")
+    sections = basic(6, 14)
+    point = answer({**sections, "load": {"kind": "point", "at": [4, 4]}})
+    file = answer(
+        {**sections, "load": {"kind": "file", "file": "loads.csv", "magnitude": "=2.0"}}, tmp_path
+    )
+    assert point.rows == file.rows
+
+
+@pytest.mark.parametrize("width", [1, 2, 3, 7])
+def test_responses_add_up(width: int) -> None:
+    """Force balance is linear in the load: all surface beads one by one give the surface load."""
+    height = 3
+    total: dict[tuple[int, int, str], Fraction] = {}
+    for k in range(width):
+        sections = basic(height, width, tolerance="=1e-30")
+        sections["packing"]["allow_images"] = True
+        sections["load"] = {"kind": "point", "at": [2 * k + 1, height]}
+        for row in answer(sections).rows:
+            key = (row["i"], row["j"], row["branch"])
+            total[key] = total.get(key, Fraction(0)) + Fraction(row["force"])
+    sections = basic(height, width, tolerance="=1e-30")
+    sections["packing"]["allow_images"] = True
+    for row in answer(sections).rows:
+        assert abs(total[row["i"], row["j"], row["branch"]] - Fraction(row["force"])) < Fraction(
+            1, 10**25
+        )
+
+
+def test_measured_radii_are_read_exactly(tmp_path: Path) -> None:
+    """The same radii, once drawn and once written to a file as exact decimals, in other units."""
+    from numeric.lattice import full_layer
+    from numeric.radii import DrawnRadii
+
+    drawn = DrawnRadii("two-point", Fraction(1, 10**4), 3, 9)
+    lines = ["i,j,delta_r"]
+    for j in range(5):
+        for i, u in zip(full_layer(j, 9).sites(), drawn.deviates(full_layer(j, 9), 0), strict=True):
+            lines.append(f"{i},{j},{'-' if u < 0 else ''}2.5e-4")
+    (tmp_path / "radii.csv").write_text("\n".join(lines) + "\n")
+    one = basic(4, 9, tolerance="=1e-20")
+    one["disorder"]["kind"] = "two-point"
+    two = basic(4, 9, tolerance="=1e-20")
+    two["packing"].update(radius="=2.5", spacing="=7.5")
+    two["disorder"] = {"kind": "file", "file": "radii.csv"}
+    assert answer(one).rows == answer(two, tmp_path).rows
+
+
+def test_the_sweep_stops_at_tension() -> None:
+    sections = basic(24, 25, tolerance="=1e-12")
+    sections["disorder"]["relative_std"] = "=1e-2"
+    everything = answer(sections)
+    sections["effects"] = {"stop_at_tension": True}
+    stopped = answer(sections)
+    assert stopped.stopped is not None
+    i, j, branch = stopped.stopped
+    pulling = [r for r in everything.rows if Fraction(r["force"]) < 0]
+    assert max(r["j"] for r in pulling) == j
+    named = next(r for r in everything.rows if [r["i"], r["j"], r["branch"]] == [i % 50, j, branch])
+    assert Fraction(named["force"]) < 0
+    assert min(r["j"] for r in stopped.rows) == j
+    assert everything.physical is not None
+    assert everything.physical.tensile == len(pulling) > 0
+
+
+def test_the_scatter_of_forces_is_that_of_the_exact_first_order_theory() -> None:
+    """Far below M*: 150 realisations of 13 contacts a layer, correlated within it.
+
+    Were all contacts of a layer one, the standard deviation would have a relative error of
+    1/√300 = 6 %; four of those are allowed, and a missing factor √2 is not.
+    """
+    sections = basic(6, 13, quantity="profile", realisations=150)
+    for kind in ("surface", "bulk"):
+        sections["load"] = {"kind": kind}
+        for row in answer(sections).rows:
+            assert abs(float(row["std"]) / float(row["first_order_std"]) - 1) < 0.24
+
+
+def test_a_slab_carries_single_loads(tmp_path: Path) -> None:
+    """Loads far from each other, negative columns, tilted: the base bears them."""
+    (tmp_path / "loads.csv").write_text("i,j,fx,fy\n-4,4,0.5,-2\n7,3,0,-1\n2,0,0,-3\n")
+    sections = basic(5, None, quantity="base_reactions", tolerance="=1e-25")
+    sections["load"] = {"kind": "file", "file": "loads.csv"}
+    rows = answer(sections, tmp_path).rows
+    assert abs(sum(Fraction(r["fx"]) for r in rows) + Fraction(1, 2)) < Fraction(1, 10**20)
+    assert abs(sum(Fraction(r["fy"]) for r in rows) - 6) < Fraction(1, 10**20)
+
+
+def test_a_tolerance_out_of_reach_says_why() -> None:
+    from numeric import runner
+
+    sections = basic(6, 14, tolerance="=1e-4000")
+    with pytest.raises(runner.ToleranceError, match="bits"):
+        answer(sections)
+
+
+def test_a_scene_gives_the_same_numbers_twice() -> None:
+    assert answer(basic()).rows == answer(basic()).rows
+    assert scene(basic()) == scene(basic())

@@ -1,0 +1,312 @@
+"""Rigorous enclosures, independent checks of the physics, and where radii come from."""
+
+import math
+from fractions import Fraction
+from typing import Any
+
+import flint
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from numeric import first_order, packing, taylor
+from numeric.engine import Solved, solve
+from numeric.exact import plain_form
+from numeric.forces import Forces, sweep_down
+from numeric.lattice import Layer, column, whole
+from numeric.load_spec import LoadSpec
+from numeric.loads import sites
+from numeric.normal import cosine_of_turn, logarithm
+from numeric.planner import Plan
+from numeric.radii import DrawnRadii, MeasuredRadii
+from numeric.runner import critical_height
+from numeric.systems import FLOAT64, Balls, BigFloat, NumberSystem, Series, midpoint
+from numeric.work import Work
+from tests.numeric.scenes import answer, basic, planned
+from tests.numeric.strategies import Case, cases
+
+STD = st.sampled_from(["=1e-2", "=1e-5", "=1e-40"])
+
+
+def solved(plan: Plan, system: NumberSystem) -> Solved:
+    with system.active():
+        return solve(plan, [0], system, Work())
+
+
+def changes(forces: Forces) -> list[Any]:
+    return [v for side in (forces.change_plus, forces.change_minus) for row in side for v in row]
+
+
+def packings(height: int, std: str, seed: int) -> Plan:
+    sections = basic(height, height + 1)
+    sections["disorder"].update(relative_std=std, seed=seed)
+    return planned(sections)
+
+
+@given(st.integers(1, 7), STD, st.integers(0, 9))
+def test_balls_contain_two_hundred_digits_and_are_small(height: int, std: str, seed: int) -> None:
+    """mpmath at 200 digits is off by far less than the radius of a 256-bit ball (77 digits)."""
+    plan = packings(height, std, seed)
+    ball, digits = solved(plan, Balls(256)), solved(plan, BigFloat(200))
+    assert ball.forces is not None
+    assert digits.forces is not None
+    largest = max(abs(v) for v in changes(digits.forces))
+    for b, value in zip(changes(ball.forces), changes(digits.forces), strict=True):
+        centre, radius = midpoint(b), midpoint(b.rad())
+        distance = abs(exact(value) - centre)
+        # The radius, and mpmath's own 200 digits less what 7 layers lose (a few).
+        assert distance <= radius + Fraction(exact(largest)) / 10**190
+        # A huge ball must not pass: 256 bits, of which 7 layers lose fewer than 32.
+        assert radius <= exact(largest) / 2**224
+
+
+def exact(value: Any) -> Fraction:
+    """Turn an mpf into the fraction that it is."""
+    sign, mantissa, exponent, _ = value._mpf_
+    return Fraction(int(-mantissa if sign else mantissa)) * Fraction(2) ** int(exponent)
+
+
+@given(st.integers(1, 6), STD, st.integers(0, 9))
+def test_enclosures_of_different_precision_overlap(height: int, std: str, seed: int) -> None:
+    plan = packings(height, std, seed)
+    coarse, fine = solved(plan, Balls(80)), solved(plan, Balls(320))
+    assert coarse.forces is not None
+    assert fine.forces is not None
+    for a, b in zip(changes(coarse.forces), changes(fine.forces), strict=True):
+        assert a.overlaps(b)
+        assert b.rad() <= a.rad()
+
+
+@given(st.integers(1, 6), STD, st.integers(0, 9), st.integers(-30, 30))
+def test_force_balance_at_every_bead_within_the_enclosure(
+    height: int, std: str, seed: int, angle: int
+) -> None:
+    """Full forces along full directions: the sum holds zero, in a ball near the last place."""
+    sections = basic(height, height + 1)
+    sections["disorder"].update(relative_std=std, seed=seed)
+    sections["load"] = {"kind": "bulk", "angle_deg": angle}
+    plan = planned(sections)
+    system = Balls(256)
+    answered = solved(plan, system)
+    p, f = answered.packing, answered.forces
+    assert p is not None
+    assert f is not None
+    width = height + 1
+    with system.active():
+        own = plan.load.strength(plan.scene.n_x, system).unit
+        for j in range(1, height + 1):
+            for i in Layer(j, j % 2, width).sites():
+                q = column(i, j, width)
+                balance = [own[0] * -1, own[1] * -1]
+                here = [(j, q, "+", 1), (j, q, "-", 1)]
+                if j < height:
+                    here += [
+                        (j + 1, column(i + 1, j + 1, width), "+", -1),
+                        (j + 1, column(i - 1, j + 1, width), "-", -1),
+                    ]
+                for row, at, branch, sign in here:
+                    plus = branch == "+"
+                    dn = (p.plus if plus else p.minus)[row]
+                    F = (f.ordered_plus if plus else f.ordered_minus)[row][at]
+                    g = (f.change_plus if plus else f.change_minus)[row][at]
+                    n = (1 + dn[0][at], dn[1][at]) if plus else (dn[0][at], 1 + dn[1][at])
+                    balance = [b + sign * (F + g) * c for b, c in zip(balance, n, strict=True)]
+                for component in balance:
+                    assert component.contains(0)
+                    assert component.rad() < 1e-60
+
+
+@given(cases())
+def test_first_order_sweep_is_the_first_taylor_coefficient(case: Case) -> None:
+    """Line sums against the nonlinear packing, as fractions: no tolerance."""
+    t = taylor.solve(case.width, case.height, n=case.n, rho=case.rho, loads=case.loads)
+    system = Series(1)
+    region = whole(case.width, case.height)
+    home = {(i % (2 * case.width), j): v for (i, j), v in case.rho.items()}
+    rho = {s: home.get(s, Fraction(0)) for s in sites(case.width, case.height)}
+    spec = LoadSpec("file", case.height, case.width, single=case.loads)
+    with system.active():
+        radii = MeasuredRadii(rho, case.width)
+        rows = tuple(radii.row(layer, [0], system) for layer in region.rows)
+        loads = spec.on(region.rows, rational_strength(spec, case.n, system), system)
+        p = first_order.displace(case.n[0], region, rows, system)
+        f = sweep_down(p, region.rows, loads, linear=True)
+    for i, j in sites(case.width, case.height):
+        q = column(i, j, case.width)
+        plus, minus = t.line_sums(i, j)
+        assert (fraction(p.c_plus[j][q]), fraction(p.c_minus[j][q])) == (plus[1], minus[1])
+        if j < case.height:
+            for branch, step, g in (("+", 1, f.change_plus), ("-", -1, f.change_minus)):
+                q = column(i + step, j + 1, case.width)
+                assert fraction(g[j + 1][q]) == t.force(i, j, branch)[1]
+
+
+def fraction(value: Any) -> Fraction:
+    """A rational, from a series of order ε⁰: here ρ itself is carried, not ε ρ."""
+    if isinstance(value, flint.fmpq):
+        return Fraction(int(value.p), int(value.q))
+    return Fraction(int(value[0].p), int(value[0].q))
+
+
+def rational_strength(spec: LoadSpec, n: tuple[Fraction, Fraction], system: Series) -> Any:
+    from numeric.load_spec import Strength
+    from numeric.loads import components
+
+    return Strength(
+        (system.number(Fraction(0)), system.number(Fraction(0))),
+        {
+            site: tuple(system.number(c) for c in components(fx, fy, *n))  # type: ignore[misc]
+            for site, (fx, fy) in spec.single.items()
+        },
+    )
+
+
+@given(st.integers(1, 4), st.integers(0, 20), st.sampled_from(["=2.1", "=2.9", "=3.4"]))
+def test_the_smallest_gap_is_that_of_the_positions(height: int, seed: int, spacing: str) -> None:
+    """Distances of all pairs of beads and images, from positions in the plain form at 40 digits."""
+    width = height + 2
+    sections = basic(height, width)
+    sections["packing"]["spacing"] = spacing
+    sections["disorder"].update(relative_std="=1e-2", seed=seed, kind="uniform")
+    outcome = answer(sections)
+    plan = outcome.plan
+    system = BigFloat(40)
+    drawn = plan.radii
+    assert isinstance(drawn, DrawnRadii)
+    rho = {}
+    for layer in plan.region.rows:
+        for i, u in zip(layer.sites(), drawn.deviates(layer, 0), strict=True):
+            rho[i, layer.j] = Fraction(float(u)) * drawn.std
+    n_x = plan.scene.n_x
+    p = plain_form(
+        width, height, n_x=n_x, rho=rho, loads={(1, height): (0, -1)} if height % 2 else {},
+        strength=1, system=system,
+    )  # fmt: skip
+    mp = system.context
+    nx = mp.mpf(n_x.numerator) / n_x.denominator
+    ny = mp.sqrt(1 - nx * nx)
+    places = {}
+    for i, j in sites(width, height):
+        dx, dy = p.displacement(i, j)
+        places[i, j] = (2 * i * nx + dx, 2 * j * ny + dy)
+    smallest = mp.inf
+    for a, (xa, ya) in places.items():
+        for b, (xb, yb) in places.items():
+            for image in (-1, 0, 1):
+                di, dj = b[0] + 2 * width * image - a[0], b[1] - a[1]
+                if (di, dj) == (0, 0) or (abs(di), abs(dj)) == (1, 1):
+                    continue
+                distance = mp.hypot(xb + 4 * width * image * nx - xa, yb - ya)
+                both = rho[a] + rho[b] + 2
+                smallest = min(smallest, distance - mp.mpf(both.numerator) / both.denominator)
+    assert outcome.physical is not None
+    assert outcome.physical.smallest_gap is not None
+    assert abs(outcome.physical.smallest_gap - smallest) < 1e-13  # float64, numbers of order 10
+    assert (outcome.physical.overlaps > 0) == (smallest < 0)
+
+
+@pytest.mark.parametrize("spacing", ["=2.000000000001", "=3.464101615137"])
+def test_close_to_the_limits_neighbours_overlap_soon(spacing: str) -> None:
+    """Within 1e-12 of touching: disorder of 1e-14 fits in, disorder of 1e-6 does not."""
+    sections = basic(6, 14)
+    sections["packing"]["spacing"] = spacing
+    sections["disorder"]["relative_std"] = "=1e-14"
+    fits = answer(sections).physical
+    sections["disorder"]["relative_std"] = "=1e-6"
+    crowded = answer(sections).physical
+    assert fits is not None
+    assert crowded is not None
+    assert (fits.overlaps, fits.undecided_gaps) == (0, 0)
+    assert fits.smallest_gap is not None
+    assert 0 < fits.smallest_gap < 2e-12
+    assert crowded.overlaps > 0
+
+
+def test_an_unbuildable_packing_names_the_bead() -> None:
+    # Supports half a radius smaller on either side: the bead between them falls through.
+    radii = {(i, j): Fraction(0) for i, j in sites(3, 1)}
+    for i in (0, 2):
+        radii[i, 0] = Fraction(-9, 10)
+    radii[1, 1] = Fraction(-9, 10)
+    for system in (Balls(128), BigFloat(30)):
+        region = whole(3, 1)
+        with system.active():
+            rows = tuple(MeasuredRadii(radii, 3).row(r, [0], system) for r in region.rows)
+            with pytest.raises(packing.UnbuildableError, match=r"\(1, 1\)"):
+                packing.deposit(Fraction(3, 4), region, rows, system)
+
+
+@pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, -1.0, -1.5])
+@pytest.mark.parametrize("layer", [0, 1, 2])
+def test_a_radius_that_is_none_names_the_bead(wrong: float, layer: int) -> None:
+    region = whole(4, 2)
+    rho = tuple(np.zeros(4) for _ in range(3))
+    rho[layer][2] = wrong
+    with (
+        FLOAT64.active(),
+        pytest.raises(packing.UnbuildableError, match=rf"\({4 + layer % 2}, {layer}\)"),
+    ):
+        packing.deposit(Fraction(3, 4), region, rho, FLOAT64)
+
+
+# Radii
+
+
+@given(
+    st.integers(0, 2**64 - 1), st.integers(0, 10**9), st.integers(-(2**40), 2**40),
+    st.integers(0, 10**7), st.sampled_from(["uniform", "normal", "two-point"]),
+)  # fmt: skip
+def test_radii_are_a_function_of_the_site(seed: int, k: int, q: int, j: int, kind: str) -> None:
+    """A region asked for alone gives the same radii, bit for bit."""
+    drawn = DrawnRadii(kind, Fraction(1, 100), seed, None)
+    wide = drawn.deviates(Layer(j, 2 * q + j % 2, 9), k)
+    for skip in (1, 5):
+        narrow = drawn.deviates(Layer(j, 2 * (q + skip) + j % 2, 3), k)
+        assert (wide[skip : skip + 3] == narrow).all()
+
+
+def test_periodic_radii_wrap_around() -> None:
+    drawn = DrawnRadii("uniform", Fraction(1, 100), 5, 4)
+    ring = drawn.deviates(Layer(3, 1, 4), 0)
+    assert (drawn.deviates(Layer(3, -3, 7), 0) == np.concatenate([ring[2:], ring, ring[:1]])).all()
+
+
+def test_streams_differ_between_seeds_and_realisations() -> None:
+    def draw(seed: int, k: int, j: int) -> np.ndarray[Any, Any]:
+        return DrawnRadii("uniform", Fraction(1), seed, None).deviates(Layer(j, j % 2, 50), k)
+
+    drawn = [draw(1, 0, 2), draw(2, 0, 2), draw(1, 1, 2), draw(1, 0, 4)]
+    for a in range(4):
+        for b in range(a):
+            assert not (drawn[a] == drawn[b]).any()
+
+
+@pytest.mark.parametrize(
+    ("kind", "fourth"), [("uniform", 9 / 5), ("normal", 3.0), ("two-point", 1.0)]
+)
+def test_deviates_have_the_moments_of_their_distribution(kind: str, fourth: float) -> None:
+    """n = 4e5: five standard errors of each moment (those of x⁴ at most √96/√n)."""
+    n = 400_000
+    x = DrawnRadii(kind, Fraction(1), 12, None).deviates(Layer(0, 0, n), 3)
+    room = 5 / math.sqrt(n)
+    assert abs(x.mean()) < room
+    assert abs((x**2).mean() - 1) < room * math.sqrt(2)
+    assert abs((x**3).mean()) < room * math.sqrt(15)
+    assert abs((x**4).mean() - fourth) < room * math.sqrt(96)
+
+
+@given(st.floats(1e-16, 1 - 2**-53), st.floats(0, 1 - 2**-53))
+def test_own_logarithm_and_cosine(x: float, turn: float) -> None:
+    """A few units in the last place, against Arb."""
+    with Balls(128).active():
+        log = flint.arb(x).log()
+        off = abs(flint.arb(float(logarithm(np.array([x]))[0])) - log)
+        assert off <= 4 * 2.0**-53 * abs(log)
+        cosine = (flint.arb(turn) * 2).cos_pi()
+        assert abs(flint.arb(float(cosine_of_turn(np.array([turn]))[0])) - cosine) <= 8 * 2.0**-53
+
+
+def test_critical_height_far_outside_of_floats() -> None:
+    assert critical_height(Fraction(1, 10**300)) == pytest.approx(1e200, rel=1e-9)
+    assert critical_height(Fraction(0)) == math.inf

@@ -1,0 +1,205 @@
+"""What is wrong with a scene or its files is said, with the key, the value and what is allowed."""
+
+import string
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from numeric.planner import plan
+from numeric.scene import SceneError, parse_scene
+from numeric.tables import TableError
+from tests.numeric.scenes import basic, planned, scene
+
+WRONG: list[tuple[str, str, Any, str]] = [
+    ("packing", "height", 0, "greater than or equal to 1"),
+    ("packing", "height", "=2.0", "valid integer"),
+    ("packing", "height", 10**30, "less than or equal to"),
+    ("packing", "width", 6, "allow_images"),
+    ("packing", "spacing", "=2.0", "strictly between"),
+    ("packing", "spacing", "=3.4641016151378", "strictly between"),
+    ("packing", "spacing", "=-3.0", "strictly between"),
+    ("packing", "spacing", "=nan", "finite"),
+    ("packing", "spacing", "=inf", "finite"),
+    ("packing", "spacing", "three", "must be a number"),
+    ("packing", "radius", 0, "greater than 0"),
+    ("packing", "radius", True, "must be a number"),
+    ("packing", "radius", "=1e999999", "exponent"),
+    ("packing", "hieght", 4, 'did you mean "height"'),
+    ("disorder", "kind", "unifrom", 'did you mean "uniform"'),
+    ("disorder", "relative_std", "=-1e-3", "negative"),
+    ("disorder", "relative_std", "=0.58", "radius ≤ 0"),
+    ("disorder", "seed", -1, "greater than or equal to 0"),
+    ("disorder", "seed", 2**64, "less than"),
+    ("disorder", "file", "radii.csv", 'needs kind = "file"'),
+    ("load", "kind", "surfaces", 'did you mean "surface"'),
+    ("load", "magnitude", 0, "greater than 0"),
+    ("load", "angle_deg", 181, "between -180 and 180"),
+    ("load", "at", [1, 1], 'needs kind = "point"'),
+    ("effects", "geometry", "exakt", 'did you mean "exact"'),
+    ("effects", "stop_at_tension", 1, "valid boolean"),
+    ("ask", "quantity", "forces", "must be one of"),
+    ("ask", "tolerance", 0, "between 0 and 1"),
+    ("ask", "tolerance", 1, "between 0 and 1"),
+    ("ask", "realisations", 0, "greater than or equal to 1"),
+    ("ask", "bins", 5, 'needs quantity = "histogram"'),
+    ("ask", "at", [0, 0, "+"], "no meaning"),
+]
+
+
+@pytest.mark.parametrize(("section", "key", "value", "says"), WRONG)
+def test_errors_name_the_key_and_what_is_allowed(
+    section: str, key: str, value: Any, says: str
+) -> None:
+    sections = basic()
+    sections.setdefault(section, {})[key] = value
+    with pytest.raises(SceneError) as caught:
+        scene(sections)
+    assert f"{section}.{key}" in str(caught.value)
+    assert says in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("at", "says"),
+    [
+        ([0, 0], "must be a contact"),
+        ([0, 0, "x"], "must be a contact"),
+        ([0, 1, "+"], "even"),
+        ([0, 6, "+"], "j must be from 0 to 5"),
+        ([28, 0, "+"], "i must be from 0 to 27"),
+        (["a", 0, "+"], "must be a contact"),
+    ],
+)
+def test_contacts_outside_the_packing(at: list[Any], says: str) -> None:
+    with pytest.raises(SceneError, match=says):
+        scene(basic(quantity="contact", at=at))
+
+
+def test_missing_sections_and_keys() -> None:
+    for text, says in [
+        ("", r"section \[packing\] is required"),
+        ("[packing]\nheight = 3\n", r"section \[ask\] is required"),
+        ("[packing]\n[ask]\nquantity = 'contact'\n", "packing.height is required"),
+        ("packing = 3\n", "must be a section"),
+        ("[packing\n", "no valid TOML"),
+        ("a = " + "[" * 5000, "TOML"),
+        ("[packing]\nheight = 1" + "0" * 6000, "TOML"),
+        ("[paking]\n[packing]\nheight = 3\n[ask]\nquantity='profile'", 'mean "packing"'),
+        ("folder = 'x'\n", "is unknown"),
+    ]:
+        with pytest.raises(SceneError, match=says):
+            parse_scene(text)
+
+
+def test_a_slab_has_no_list_of_everything() -> None:
+    for quantity in ("contact_forces", "positions", "profile", "histogram", "base_reactions"):
+        with pytest.raises(SceneError, match=r"packing\.width"):
+            scene(basic(4, None, quantity=quantity))
+
+
+def test_too_large_is_refused_with_its_size_before_anything_is_done() -> None:
+    for sections in (
+        basic(9_999_999, 10**12),
+        basic(9_999_999, 10**12, quantity="profile", tolerance="=1e-9"),
+        basic(9_999_999, None, quantity="contact", at=[0, 0, "+"]),
+        basic(9_999_999, None, quantity="positions", at=[1, 9_999_999]),
+    ):
+        with pytest.raises(SceneError, match="of memory"):
+            planned(sections)
+    with pytest.raises(SceneError, match=r"of memory.*100 MB may be used"):
+        plan(scene(basic(100, 201)), memory_limit=100_000_000)
+    with pytest.raises(SceneError, match="days"):
+        planned(basic(60, 122, quantity="profile", realisations=10**9))
+
+
+def radii_file(folder: Path, text: str) -> dict[str, dict[str, Any]]:
+    (folder / "radii.csv").write_bytes(text.encode("utf-8", "surrogateescape"))
+    sections = basic(1, 2)
+    sections["disorder"] = {"kind": "file", "file": "radii.csv"}
+    return sections
+
+
+GOOD = ["0,0,0.01", "2,0,-0.02", "1,1,1e-3", "3,1,0"]
+
+
+@pytest.mark.parametrize(
+    ("lines", "says"),
+    [
+        (GOOD[:3], r"bead \(3, 1\) is missing"),
+        ([*GOOD, GOOD[0]], r"bead \(0, 0\) is named twice"),
+        ([*GOOD[:3], "3,1,-1.0"], r"bead \(3, 1\).*no positive radius"),
+        ([*GOOD[:3], "3,1,nan"], r"bead \(3, 1\).*no finite decimal"),
+        ([*GOOD[:3], "3,1,inf"], r"bead \(3, 1\).*no finite decimal"),
+        ([*GOOD[:3], "3,1,1e9999999999"], r"bead \(3, 1\)"),
+        ([*GOOD[:3], "3,1,"], r"bead \(3, 1\)"),
+        ([*GOOD[:3], "3,2,0"], r"\(3, 2\).*even"),
+        ([*GOOD, "5,1,0"], r"\(5, 1\) lies outside"),
+        ([*GOOD[:3], "3,1"], "2 values where 3"),
+        ([*GOOD[:3], "x,1,0"], "whole number"),
+        ([*GOOD[:3], '"3,1,0'], "CSV"),
+    ],
+)
+def test_radii_files_name_the_line_and_the_bead(
+    tmp_path: Path, lines: list[str], says: str
+) -> None:
+    sections = radii_file(tmp_path, "\n".join(["i,j,delta_r", *lines, ""]))
+    with pytest.raises(TableError, match=says):
+        planned(sections, tmp_path)
+
+
+def test_a_good_radii_file_is_taken(tmp_path: Path) -> None:
+    planned(radii_file(tmp_path, "\n".join(["i,j,delta_r", *GOOD])), tmp_path)
+
+
+@given(
+    st.lists(st.text(alphabet='0123456789,.-+einfax"\n\r\t \x00\udcff', max_size=30), max_size=8)
+)
+def test_any_radii_file_gives_an_answer_or_a_message(
+    tmp_path_factory: pytest.TempPathFactory, lines: list[str]
+) -> None:
+    folder = tmp_path_factory.mktemp("fuzz")
+    sections = radii_file(folder, "\n".join(["i,j,delta_r", *lines]))
+    with pytest.raises(TableError):  # never four good lines by chance: the header's packing has 4
+        planned(sections, folder)
+
+
+keys = st.sampled_from(
+    ["height", "width", "radius", "spacing", "kind", "relative_std", "seed", "file", "at",
+     "magnitude", "angle_deg", "geometry", "quantity", "tolerance", "realisations", "bins", "x"]
+)  # fmt: skip
+values = st.one_of(
+    st.sampled_from(
+        ["=1e400", "=-0.0", "=nan", "=2.5", "=1e-9", "=1e-4999", "uniform", "file", "point", "+",
+         "exact", "profile", "contact", "missing.csv", "", True, 10**18, 10**40, -1, 0, 1, 2, 3]
+    ),
+    st.lists(st.sampled_from([0, 1, 2, -1, 10**20, "+", "-", "x"]), max_size=4),
+    st.text(alphabet=string.ascii_letters, max_size=5),
+)  # fmt: skip
+changes = st.lists(
+    st.tuples(
+        st.sampled_from(["packing", "disorder", "load", "effects", "ask", "other"]), keys, values
+    ),
+    min_size=1,
+    max_size=4,
+)
+
+
+@given(changes)
+def test_any_scene_gives_a_plan_or_a_message(made: list[tuple[str, str, Any]]) -> None:
+    sections = basic()
+    for section, key, value in made:
+        sections.setdefault(section, {})[key] = value
+    message = None
+    try:
+        planned(sections)
+    except (SceneError, TableError) as error:
+        message = str(error)
+    assert message is None or 10 < len(message) < 600
+
+
+@given(st.text(max_size=200))
+def test_any_text_gives_a_message(text: str) -> None:
+    with pytest.raises(SceneError):
+        parse_scene(text)

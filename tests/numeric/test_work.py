@@ -1,0 +1,224 @@
+"""Only what is called for: tests on the work that was executed, and on what it depends on."""
+
+from fractions import Fraction
+from typing import Any
+
+import flint
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from numeric import first_order, regions
+from numeric.engine import solve
+from numeric.planner import Plan
+from numeric.radii import MeasuredRadii
+from numeric.runner import run
+from numeric.systems import Balls
+from numeric.work import Work
+from tests.numeric.scenes import answer, basic, planned
+
+
+def beads_of(plan: Plan) -> tuple[Work, set[tuple[int, int]]]:
+    """Run one realisation and give the work and the sites whose radii were asked for."""
+    work = Work(trace=True)
+    with plan.system.active():
+        solve(plan, [0], plan.system, work)
+    return work, {(i, row.j) for row in work.rows.get("radii", []) for i in row.sites()}
+
+
+contacts = st.integers(1, 12).flatmap(
+    lambda M: st.tuples(
+        st.just(M), st.integers(0, M - 1), st.integers(-9, 9), st.sampled_from("+-")
+    )
+)
+
+
+@given(contacts, st.sampled_from(["exact", "first-order"]))
+def test_a_contact_of_the_slab_visits_the_number_of_beads_in_the_formula(
+    where: tuple[int, int, int, str], geometry: str
+) -> None:
+    M, j, column, branch = where
+    sections = basic(M, None, quantity="contact", at=[2 * abs(column) + j % 2, j, branch])
+    sections["effects"] = {"geometry": geometry}
+    plan = planned(sections)
+    work, sites = beads_of(plan)
+    count = (regions if geometry == "exact" else first_order).contact_beads(j, M)
+    assert len(sites) == work.radii == count
+    if geometry == "exact":
+        assert work.deposited == count
+        assert work.balanced == (M - j) * (M - j + 1) // 2
+        assert work.summed == 0
+    else:
+        assert work.deposited == work.balanced == 0
+    assert [s.beads for s in plan.steps if s.step == "draw radii"] == [count]
+
+
+def gradient(M: int, contact: tuple[int, int, str], load: dict[str, Any]) -> set[tuple[int, int]]:
+    """Sites whose radius changes the contact's exact force, found with balls far from order."""
+    j = contact[1]
+    sections = basic(M, None, quantity="contact", at=list(contact), tolerance="=1e-20")
+    sections["load"] = load
+    plan = planned(sections)
+    reach = 2 * M + 2
+    rho = {
+        (i, m): Fraction((7 * i + 3 * m * m) % 11 - 5, 3000)
+        for m in range(M + 1)
+        for i in range(contact[0] - 2 * reach, contact[0] + 2 * reach)
+        if (i + m) % 2 == 0
+    }
+    system = Balls(256)
+
+    def force(radii: dict[tuple[int, int], Fraction]) -> Any:
+        changed = type(plan)(**{**plan.__dict__, "radii": MeasuredRadii(radii, None)})
+        with system.active():
+            solved = solve(changed, [0], system, Work())
+            if solved.forces is None:
+                return flint.arb(0)
+            g = solved.forces.change_plus if contact[2] == "+" else solved.forces.change_minus
+            return g[j + 1][0]
+
+    start = force(rho)
+    found = set()
+    for site, value in rho.items():
+        moved = force({**rho, site: value + Fraction(1, 1000)})
+        if not moved.overlaps(start):
+            found.add(site)
+        else:  # the same computation, bit for bit: the radius was never looked at
+            assert (moved - start).contains(0)
+    return found
+
+
+@pytest.mark.parametrize("contact", [(0, 0, "+"), (1, 1, "-"), (0, 2, "+")])
+@pytest.mark.parametrize(
+    "load", [{"kind": "surface"}, {"kind": "bulk"}, {"kind": "point", "at": [2, 4]}]
+)
+def test_exactly_the_visited_beads_matter(
+    contact: tuple[int, int, str], load: dict[str, Any]
+) -> None:
+    """Every visited bead changes the exact force, and no other bead does."""
+    M = 4
+    sections = basic(M, None, quantity="contact", at=list(contact))
+    sections["load"] = load
+    _, visited = beads_of(planned(sections))
+    assert gradient(M, contact, load) == visited
+
+
+@settings(deadline=None)
+@given(contacts, st.sampled_from(["surface", "bulk", "point"]), st.data())
+def test_first_order_depends_on_exactly_the_beads_it_reads(
+    where: tuple[int, int, int, str], kind: str, data: st.DataObject
+) -> None:
+    """The weights of all other beads vanish: exact Taylor coefficients of a wide packing."""
+    M, j, column, branch = where
+    M = min(M, 5)
+    j = min(j, M - 1)
+    W = 2 * M + 1
+    contact = (2 * (column % W) + j % 2, j, branch)
+    sections = basic(M, W, quantity="contact", at=list(contact))
+    sections["effects"] = {"geometry": "first-order"}
+    sections["load"] = {"kind": kind}
+    if kind == "point":
+        layer = data.draw(st.integers(1, M))
+        sections["load"]["at"] = [2 * data.draw(st.integers(0, W - 1)) + layer % 2, layer]
+    plan = planned(sections)
+    work, visited = beads_of(plan)
+    if plan.route == "ordered":
+        assert not visited
+        return
+    assert work.radii == len(visited)
+    sites = {(i % (2 * W), m) for i, m in visited}
+    weights = _weights(plan, contact, W, M)
+    assert {site for site, weight in weights.items() if weight} == sites
+
+
+def _weights(
+    plan: Plan, contact: tuple[int, int, str], W: int, M: int
+) -> dict[tuple[int, int], Fraction]:
+    """d force / d radius of every bead at order ε, from the exact nonlinear solution."""
+    from numeric import taylor
+    from numeric.loads import sites
+
+    n = (Fraction(3, 5), Fraction(4, 5))
+    if plan.load.kind == "point":
+        assert plan.load.at is not None
+        loads = {plan.load.at: (Fraction(0), Fraction(-1))}
+    else:
+        layers = range(M + 1) if plan.load.kind == "bulk" else [M]
+        loads = {s: (Fraction(0), Fraction(-1)) for s in sites(W, M) if s[1] in layers}
+    weights = {}
+    for site in sites(W, M):
+        t = taylor.solve(W, M, n=n, rho={site: Fraction(1)}, loads=loads)
+        weights[site] = t.force(*contact)[1]
+    return weights
+
+
+def test_without_disorder_nothing_is_swept() -> None:
+    for quantity in ("contact_forces", "profile", "base_reactions", "positions", "histogram"):
+        sections = basic(quantity=quantity)
+        del sections["disorder"]
+        outcome = answer(sections)
+        w = outcome.work
+        assert (w.radii, w.deposited, w.balanced, w.summed) == (0, 0, 0, 0)
+        assert [step.step for step in outcome.plan.steps] == ["closed form"]
+
+
+def test_a_point_load_stays_in_its_cone() -> None:
+    sections = basic(8, 20, quantity="response")
+    sections["load"] = {"kind": "point", "at": [5, 7]}
+    work = Work(trace=True)
+    plan = planned(sections)
+    with plan.system.active():
+        solve(plan, [0], plan.system, work)
+    for row in work.rows["balanced"]:
+        for i in row.sites():
+            assert abs(i - 5) <= 7 - row.j
+    assert work.balanced == sum(7 - j + 1 for j in range(1, 8))
+    assert work.deposited == regions.triangle_beads(7)
+
+
+def test_cost_grows_with_the_region_not_with_the_packing() -> None:
+    small = answer(basic(12, 30, quantity="contact", at=[30, 10, "+"]))
+    large = answer(basic(12, 3000, quantity="contact", at=[30, 10, "+"]))
+    assert small.work.deposited == large.work.deposited == regions.contact_beads(10, 12)
+    assert small.rows == large.rows
+
+
+@pytest.mark.parametrize(
+    "named",
+    [
+        {"effects": {"stop_at_tension": False}},
+        {"load": {"kind": "surface", "angle_deg": 0}},
+        {"effects": {"geometry": "exact"}},
+        {"load": {"kind": "surface", "magnitude": "=1.0"}},
+    ],
+)
+def test_an_effect_switched_off_changes_no_bit(named: dict[str, dict[str, Any]]) -> None:
+    without = answer(basic())
+    off = answer({**basic(), **named})
+    assert off.rows == without.rows
+    assert off.accuracy == without.accuracy
+
+
+def test_disorder_of_zero_width_is_no_disorder() -> None:
+    sections = basic()
+    none = {k: v for k, v in sections.items() if k != "disorder"}
+    sections["disorder"]["relative_std"] = "=0.0"
+    assert answer(sections).rows == answer(none).rows
+
+
+def test_the_plan_is_what_runs() -> None:
+    for geometry in ("exact", "first-order"):
+        for quantity in ("contact_forces", "positions", "profile"):
+            sections = basic(quantity=quantity)
+            sections["effects"] = {"geometry": geometry}
+            outcome = run(planned(sections))
+            done = {
+                "draw radii": outcome.work.radii,
+                "deposit": outcome.work.deposited,
+                "line sums": outcome.work.summed,
+                "balance forces": outcome.work.balanced,
+            }
+            for step in outcome.plan.steps:
+                if step.step in done:
+                    assert step.beads == done.pop(step.step)
+            assert not any(done.values())
