@@ -1,16 +1,17 @@
-"""Where the program starts: an interrupt while it loads ends it as quietly as any later one."""
+"""Where the program starts; the command line is loaded inside of the guard."""
 
-import sys
+from derivations.guard import guarded
 
 
-def main() -> int:
-    """Load the command line and run it."""
-    try:
-        from derivations.cli import main as run
-    except KeyboardInterrupt:
-        print("force-diffusion: interrupted.", file=sys.stderr)
-        return 130
-    return run()
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line; return its exit status."""
+
+    def program() -> int:
+        from derivations.cli import run
+
+        return run(arguments)
+
+    return guarded(program)
 
 
 if __name__ == "__main__":

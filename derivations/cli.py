@@ -1,10 +1,5 @@
 """The command line: a thin layer over ``deriving`` and ``shown``."""
 
-import errno
-import io
-import os
-import sys
-from contextlib import suppress
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
@@ -14,9 +9,6 @@ from typer.core import TyperGroup
 
 from derivations import scene_commands
 from derivations.catalogue import modules
-
-FAILED_OUTSIDE = 3
-INTERRUPTED = 130
 
 STATUSES = (
     "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
@@ -44,20 +36,13 @@ class Place(StrEnum):
 
 
 class _Commands(TyperGroup):
-    """Names the commands there are, and turns what fails outside into a message."""
+    """Names the commands there are."""
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """Find the command, or say which ones exist."""
         if args and not args[0].startswith("-") and args[0] not in self.commands:
             ctx.fail(f"There is no command '{args[0]}'. Use {_either(list(self.commands))}.")
         return super().resolve_command(ctx, args)
-
-    def invoke(self, ctx: Any) -> Any:
-        """Run a command; a disk or a pipe that fails has an exit status of its own."""
-        try:
-            return super().invoke(ctx)
-        except OSError as failure:
-            ctx.exit(_outside(failure))
 
 
 app = typer.Typer(
@@ -97,7 +82,7 @@ def derive(
         typer.Argument(metavar="[N...]", help="Equations to derive; all of them by default."),
     ] = None,
     out: Annotated[
-        Path | None,
+        str | None,
         typer.Option(metavar="DIR", help="Write LaTeX and a manifest into this folder."),
     ] = None,
     as_json: Annotated[
@@ -108,16 +93,21 @@ def derive(
     from derivations.folder import NotOurFolderError
 
     wanted = [_number(word) for word in numbers] if numbers else list(modules())
-    if out is not None and out.exists() and not out.is_dir():
+    if out == "":  # a path would take it for the current folder
+        raise typer.BadParameter(
+            "'' names no folder. Give one; '.' is the current folder.", param_hint="--out"
+        )
+    folder = None if out is None else Path(out)
+    if folder is not None and folder.exists() and not folder.is_dir():
         raise typer.BadParameter(
             f"'{out}' is a file. Give a new folder, an empty one, or one that an earlier "
             "'derive --out' wrote.",
             param_hint="--out",
         )
     try:
-        from derivations.deriving import derive as run
+        from derivations import deriving
 
-        status = run(wanted, out, as_json)
+        status = deriving.derive(wanted, folder, as_json)
     except NotOurFolderError as foreign:
         raise typer.BadParameter(
             f"'{out}' holds files that this program did not write ({foreign}). Give a new "
@@ -177,38 +167,12 @@ def list_equations() -> None:
 scene_commands.register(app)
 
 
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command line; return its exit status, with a message in place of a traceback."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # δ on a terminal that can't show it
-            stream.reconfigure(errors="replace")
+def run(arguments: list[str] | None = None) -> int:
+    """Run the command line and return its exit status."""
     try:
         app(args=arguments, prog_name="force-diffusion")
     except SystemExit as done:
-        status = done.code if isinstance(done.code, int) else 1
-    except KeyboardInterrupt:
-        status = INTERRUPTED
-    if status == INTERRUPTED:
-        print("force-diffusion: interrupted; no half-written file is left.", file=sys.stderr)
-    try:
-        sys.stdout.flush()
-    except OSError as failure:
-        status = _outside(failure)
-    return status
-
-
-def _outside(failure: OSError) -> int:
-    """Say what failed outside of the program, and what to do."""
-    if failure.filename is None:
-        # nothing more can reach standard output, not even when the interpreter closes it
-        with suppress(OSError):
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    if failure.errno != errno.EPIPE:
-        where = f"'{failure.filename}'" if failure.filename else "standard output"
-        remedy = {
-            errno.ENOSPC: "Free some space, or write to another place.",
-            errno.EDQUOT: "Free some space, or write to another place.",
-        }.get(failure.errno or 0, "Choose a place that can be written to.")
-        reason = failure.strerror or str(failure)
-        print(f"force-diffusion: writing to {where} failed: {reason}. {remedy}", file=sys.stderr)
-    return FAILED_OUTSIDE
+        if isinstance(done.__context__, OSError):  # a broken pipe, which typer calls status 1
+            raise done.__context__ from None
+        return done.code if isinstance(done.code, int) else 1
+    return 0

@@ -1,6 +1,8 @@
 """The LaTeX that ``derive --out`` writes: a fragment per equation, one document, a manifest."""
 
 import json
+import re
+from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from derivations.folder import DOCUMENT, MANIFEST, PROGRAM
@@ -10,6 +12,7 @@ from derivations.record import Derivation, Outcome
 from symbolic.kernel import Verdict
 from symbolic.printing.latex import latex
 from symbolic.printing.lines import latex_body
+from symbolic.printing.text import text
 
 _RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim"}
 
@@ -73,13 +76,17 @@ def _sentence(words: str) -> str:
 
 
 def _noted(verdict: str, name: str, note: str) -> str:
-    text = f"\\emph{{{verdict}}}: {prose_latex(_sentence(name))}"
-    return f"{text} {prose_latex(_sentence(note))}" if note else text
+    said = f"\\emph{{{verdict}}}: {prose_latex(_sentence(name))}"
+    return f"{said} {prose_latex(_sentence(note))}" if note else said
 
 
 def _steps(derivation: Derivation) -> str:
     items = []
     for step in derivation.steps():
+        if derivation.printed == (step.formula,):  # not the same display twice
+            reason = prose_latex(step.reason.rstrip(".:"))
+            items.append(f"{reason}: Eq.~({derivation.number}).")
+            continue
         item = prose_latex(step.reason)
         if step.formula is not None:
             relation = _RELATIONS[relation_of(derivation, step)]
@@ -88,16 +95,36 @@ def _steps(derivation: Derivation) -> str:
     return _list("enumerate", items)
 
 
+_KINDS = {
+    "sign flipped": r"sign of .* flipped",
+    "term dropped": r".* dropped",
+    "number changed": r".* changed to .*",
+    "bound or case shifted": r"(lower bound|upper bound|case) .* shifted to .*",
+    "index shifted": r".* shifted to .*",
+    "symbol swapped": r".* replaced by .*",
+}
+"""Kinds of mechanical change, and how ``symbolic.mutants`` describes one of each."""
+
+
+def change_kind(change: str) -> str:
+    """Kind of a change, from its description."""
+    kinds = (kind for kind, form in _KINDS.items() if re.fullmatch(form, change, re.DOTALL))
+    return next(kinds, "other change")
+
+
 def _mutants(outcome: Outcome) -> str:
     if not outcome.mutants:
         return ""
     counts = mutant_counts(outcome)
-    text = (
+    kinds = Counter(change_kind(mutant.change) for mutant in outcome.mutants)
+    told = (
         f"\\par {counts['made']} made, {counts['refuted']} refuted, "
-        f"{counts['equivalent']} equivalent rewritings.\n"
+        f"{counts['equivalent']} equivalent rewritings. By kind: "
+        + "; ".join(f"{kind}: {count}" for kind, count in kinds.most_common())
+        + f". \\texttt{{{MANIFEST}}} lists each of them.\n"
     )
     survivors = [m for m in outcome.mutants if m.ruling.verdict is not Verdict.REFUTED]
-    text += _list(
+    return told + _list(
         "itemize",
         (
             _noted(
@@ -108,11 +135,6 @@ def _mutants(outcome: Outcome) -> str:
             for mutant in survivors
         ),
     )
-    refuted = [m.change for m in outcome.mutants if m.ruling.verdict is Verdict.REFUTED]
-    if refuted:
-        listed = "; ".join(map(prose_latex, refuted))
-        text += f"{{\\small\\par\\emph{{refuted}}: {listed}.\\par}}\n"
-    return text
 
 
 def section_latex(outcome: Outcome) -> str:
@@ -178,7 +200,19 @@ def manifest(outcomes: Sequence[Outcome]) -> str:
                 }
                 for check in outcome.checks
             ],
-            "mutants": mutant_counts(outcome),
+            "mutants": {
+                **mutant_counts(outcome),
+                "changes": [
+                    {
+                        "change": mutant.change,
+                        "kind": change_kind(mutant.change),
+                        "equation": text(mutant.equation),
+                        "verdict": "equivalent" if mutant.equivalent else mutant.ruling.verdict,
+                        "note": mutant.ruling.note,
+                    }
+                    for mutant in outcome.mutants
+                ],
+            },
         }
         for outcome in outcomes
     ]

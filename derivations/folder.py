@@ -4,7 +4,6 @@ import json
 import os
 import re
 import shutil
-import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -50,6 +49,20 @@ def foreign_files(folder: Path) -> list[str]:
     )
 
 
+def _of_another_run(aside: Path) -> bool:
+    """Whether another process that still lives writes there; the name holds its number."""
+    number = aside.name.removeprefix(_ASIDE)
+    if not number.isdecimal() or int(number) == os.getpid():
+        return False
+    try:
+        os.kill(int(number), 0)  # signal 0 only asks
+    except PermissionError:  # it lives, under another user
+        return True
+    except (ProcessLookupError, OverflowError):
+        return False
+    return True
+
+
 class OutputFolder:
     """A folder that can be written to; ``publish`` puts a whole set of files into it."""
 
@@ -85,8 +98,10 @@ def output_folder(folder: Path) -> Iterator[OutputFolder]:
         shown = ", ".join(foreign[:3]) + (", …" if len(foreign) > 3 else "")
         raise NotOurFolderError(shown)
     for left in folder.glob(f"{_ASIDE}*"):  # of a run that was killed
-        shutil.rmtree(left)
-    aside = Path(tempfile.mkdtemp(prefix=_ASIDE, dir=folder))
+        if not _of_another_run(left):
+            shutil.rmtree(left, ignore_errors=True)
+    aside = folder / f"{_ASIDE}{os.getpid()}"
+    aside.mkdir()
     try:
         yield OutputFolder(folder, aside)
     finally:

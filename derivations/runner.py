@@ -1,8 +1,10 @@
 """Runs a derivation: its proofs, its witnesses, and the mutants that must be refuted."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from time import perf_counter
 
+from derivations.guard import WRONG_USAGE, guarded
 from derivations.record import Check, Derivation, Mutant, Outcome, Witness
 from derivations.small_packings import draw
 from symbolic.kernel import Ruling, Verdict
@@ -107,10 +109,24 @@ def run(
     return Outcome(derivation, verdict, checks, mutants, perf_counter() - start)
 
 
-def run_alone(derivation: Derivation) -> int:
+def run_alone(derivation: Derivation, arguments: Sequence[str] | None = None) -> int:
     """Run one derivation as a program: print it in full; 0 if proved, else 1."""
-    from derivations.plain import outcome_text
 
-    outcome = run(derivation)
-    print(outcome_text(outcome))
-    return 0 if outcome.verdict is Verdict.PROVED else 1
+    def program() -> int:
+        from derivations.plain import outcome_text
+
+        given = sys.argv[1:] if arguments is None else arguments
+        if given:
+            number = derivation.number
+            print(
+                f"force-diffusion: this program takes no arguments, but got '{given[0]}'. Leave "
+                f"it out, or use 'force-diffusion derive {number}' or 'show {number}'; "
+                "'force-diffusion --help' tells what they take.",
+                file=sys.stderr,
+            )
+            return WRONG_USAGE
+        outcome = run(derivation)
+        print(outcome_text(outcome))
+        return 0 if outcome.verdict is Verdict.PROVED else 1
+
+    return guarded(program)

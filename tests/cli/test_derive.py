@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from derivations.cli import main
+from derivations.__main__ import main
 from derivations.folder import OutputFolder
 from symbolic.kernel import Verdict
 from tests.derivations import fakes
@@ -137,7 +137,7 @@ def test_a_real_signal_leaves_nothing_half_written(tmp_path: Path) -> None:
         import sys, time
         from dataclasses import replace
         import derivations.deriving as deriving
-        from derivations.cli import main
+        from derivations.__main__ import main
         from derivations.record import Witness
         from tests.derivations import fakes
 

@@ -5,7 +5,8 @@ import subprocess
 import tomllib
 from pathlib import Path
 
-from derivations.cli import STATUSES, main
+from derivations.__main__ import main
+from derivations.cli import STATUSES
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

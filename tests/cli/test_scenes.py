@@ -180,7 +180,7 @@ def test_memory_stays_within_what_was_announced(tolerance: str, tmp_path: Path) 
         f"relative_std = 1e-5\n[ask]\nquantity = 'contact_forces'\n{tolerance}\n",
     )
     program = (
-        "import sys; from derivations.cli import main; "
+        "import sys; from derivations.__main__ import main; "
         "status = main(['run', sys.argv[1], '--json']); "
         "lines = open('/proc/self/status').read().splitlines(); "
         "print(*[line.split()[1] for line in lines if line.startswith('VmHWM')], file=sys.stderr); "

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 import sympy
 
+from derivations.__main__ import main
 from derivations.catalogue import load, modules
-from derivations.cli import main
 from derivations.show_data import shown_data
 from derivations.shown import DATA, exact_places
 from symbolic import symbols as sy
@@ -43,7 +43,7 @@ def test_data_is_up_to_date(update_golden: bool) -> None:
 @pytest.mark.parametrize("arguments", [["--help"], ["show", "13"], ["list"], ["show", "99"]])
 def test_sympy_is_not_imported(arguments: list[str]) -> None:
     program = (
-        "import sys; from derivations.cli import main; "
+        "import sys; from derivations.__main__ import main; "
         "main(sys.argv[1:]); sys.exit(any(m in sys.modules for m in ('sympy', 'numpy', 'flint')))"
     )
     subprocess.run(

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from derivations.cli import main
+from derivations.__main__ import main
 
 WRONG = [
     (["derive", "0"], "'0' is not an equation"),
@@ -20,6 +20,7 @@ WRONG = [
     (["derive", "__import__('os').abort()"], "is not an equation"),
     (["derive", "--out"], "--out"),
     (["derive", "--fast"], "--fast"),
+    (["derive", "1", "--out", ""], "'' names no folder"),
     (["show"], "N"),
     (["show", "15"], "'15' is not an equation"),
     (["show", "13", "14"], "14"),

@@ -4,6 +4,9 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
+import flint
+import mpmath
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -47,11 +50,11 @@ def test_exact_variance_is_the_sum_of_squared_weights(load: str, height: int) ->
 @pytest.mark.parametrize("height", range(1, 13))
 def test_exact_variance_is_that_of_exact_packings(load: str, height: int) -> None:
     """The same sums with weights that the nonlinear packing gives, nothing symbolic in them."""
-    n = DIRECTIONS[height % len(DIRECTIONS)]
-    phi = n[1] ** 2 - n[0] ** 2
-    for layer, weights in enumerate(weights_of_forces(height, n, load)):
-        total = sum((w**2 for w in weights.values()), Fraction(0))
-        assert EXACT[load](height, layer, phi, Fraction(1), Fraction(1)) == total
+    for n in DIRECTIONS[:3]:
+        phi = n[1] ** 2 - n[0] ** 2
+        for layer, weights in enumerate(weights_of_forces(height, n, load)):
+            total = sum((w**2 for w in weights.values()), Fraction(0))
+            assert EXACT[load](height, layer, phi, Fraction(1), Fraction(1)) == total
 
 
 heights = st.one_of(st.integers(1, 40), st.integers(1, 10**9))
@@ -103,8 +106,60 @@ def test_printed_forms_are_the_printed_equations() -> None:
         assert form(*at) == printed
 
 
+PRINTED = (closed_forms.surface_diffusion, closed_forms.bulk_diffusion)
+ONE = Fraction(1)
+
+
 @pytest.mark.parametrize("form", EXACT.values())
-@pytest.mark.parametrize("layer", [-1, 5, 6])
-def test_no_contact_outside(form: Callable[..., Any], layer: int) -> None:
-    with pytest.raises(ValueError, match=f"j = {layer}"):
+@pytest.mark.parametrize("layer", [-1, 5, 6, 2.5, float("nan"), "2", None, [1, 2]])
+def test_no_contact_outside(form: Callable[..., Any], layer: Any) -> None:
+    with pytest.raises(ValueError, match="j = ") as refused:
         form(5, layer, 0.1, 1.0, 1.0)
+    assert "allowed" in str(refused.value)
+
+
+@pytest.mark.parametrize("form", [*EXACT.values(), *PRINTED])
+@pytest.mark.parametrize("height", [0, -3, 4.5, float("inf"), np.array([5]), np.array([5, 6])])
+def test_no_packing_of_such_a_height(form: Callable[..., Any], height: Any) -> None:
+    with pytest.raises(ValueError, match=r"M = .* is allowed"):
+        form(height, 0, 0.1, 1.0, 1.0)
+
+
+@pytest.mark.parametrize("form", PRINTED)
+@pytest.mark.parametrize("z", [-0.1, 2, Fraction(8, 7), float("nan"), np.array([0.1, 0.2])])
+def test_no_contact_at_such_a_fraction(form: Callable[..., Any], z: Any) -> None:
+    with pytest.raises(ValueError, match=r"z = .* is allowed"):
+        form(5, z, 0.1, 1.0, 1.0)
+
+
+@pytest.mark.parametrize("kind", [np.int64, np.int32, float, Fraction, mpmath.mpf])
+@pytest.mark.parametrize("form", EXACT.values())
+def test_whole_numbers_of_any_type_do_not_overflow(form: Callable[..., Any], kind: Any) -> None:
+    phi = Fraction(1, 3)
+    exact = form(10**9, 10**8, phi, ONE, ONE)
+    assert exact > 0
+    assert form(kind(10**9), kind(10**8), phi, ONE, ONE) == exact
+
+
+@pytest.mark.parametrize("kind", [np.int64, np.int32, float, Fraction, mpmath.mpf])
+@pytest.mark.parametrize("form", PRINTED)
+def test_heights_of_any_type_do_not_overflow(form: Callable[..., Any], kind: Any) -> None:
+    at = (Fraction(1, 6), Fraction(1, 3), ONE, ONE)
+    assert form(kind(10**9), *at) == form(10**9, *at)
+
+
+@pytest.mark.parametrize("form", [*EXACT.values(), *PRINTED])
+def test_whole_phi_does_not_overflow(form: Callable[..., Any]) -> None:
+    zero = np.int64(0)  # also as z or j, in the same place
+    exact = form(2 * 10**9, 0, Fraction(0), ONE, ONE)
+    assert form(2 * 10**9, zero, zero, 1.0, 1.0) == pytest.approx(float(exact), rel=1e-14)
+
+
+@pytest.mark.parametrize("kind", [float, np.float64, np.float32, Fraction, mpmath.mpf, flint.arb])
+@pytest.mark.parametrize("form", [*EXACT.values(), *PRINTED])
+def test_the_result_is_of_the_type_of_phi(form: Callable[..., Any], kind: Any) -> None:
+    quarter, two = kind(1) / kind(4), kind(2)
+    found = form(10**9, 1, quarter, kind(1), two)
+    assert type(found) is type(quarter)
+    exact = form(10**9, 1, Fraction(1, 4), ONE, Fraction(2))
+    assert float(found) == pytest.approx(float(exact), rel=1e-5)

@@ -2,11 +2,16 @@
 
 import json
 import re
+from dataclasses import replace
 
-from derivations.document import output_files
+import pytest
+
+from derivations.catalogue import load, modules
+from derivations.document import change_kind, output_files
 from derivations.prose import prose_latex
 from derivations.runner import run
 from symbolic.kernel import Verdict
+from symbolic.mutants import mutants
 from tests.derivations import fakes
 
 
@@ -53,6 +58,39 @@ def test_the_manifest_lists_every_file_and_verdict() -> None:
     assert set(manifest["files"]) == set(files)
     assert [entry["verdict"] for entry in manifest["equations"]] == ["proved", "undecided"]
     assert manifest["equations"][1]["premises"] == [1]
+
+
+def test_a_step_that_gives_the_printed_equation_refers_to_it() -> None:
+    document = written()["equations.tex"]
+    assert r"\item Add the two radii: Eq.~(1)." in document
+    assert r"\delta{\bf x}_{ij} = " not in document  # the fragment alone displays it
+
+
+def test_mutants_are_counted_in_the_document_and_listed_in_the_manifest() -> None:
+    lenient = replace(fakes.PREMISE, decide=lambda *_: fakes.always(Verdict.PROVED))
+    outcomes = [run(fakes.PREMISE), run(replace(lenient, number=2))]
+    files = output_files(outcomes)
+    first, second = files["equations.tex"].split(r"\section*")[1:]
+    made = len(outcomes[0].mutants)
+    assert f"{made} made, {made} refuted, 0 equivalent rewritings. By kind: " in first
+    assert "index shifted: 8; sign flipped: 2; term dropped: 2." in first
+    assert "flipped. " not in first
+    assert second.count(r"\item \emph{equivalent}: ") == made  # each with its proof
+    for entry, outcome in zip(
+        json.loads(files["manifest.json"])["equations"], outcomes, strict=True
+    ):
+        listed = entry["mutants"]["changes"]
+        assert [one["change"] for one in listed] == [m.change for m in outcome.mutants]
+        assert len({one["equation"] for one in listed}) == made
+        verdict = "refuted" if outcome is outcomes[0] else "equivalent"
+        assert {one["verdict"] for one in listed} == {verdict}
+        assert {one["note"] for one in listed} == {outcome.mutants[0].ruling.note}
+
+
+@pytest.mark.parametrize("number", list(modules()))
+def test_every_change_is_of_a_known_kind(number: int) -> None:
+    for equation in load(number).printed:
+        assert "other change" not in {change_kind(change) for change, _ in mutants(equation)}
 
 
 def test_prose_is_escaped_and_set_as_mathematics() -> None:

@@ -2,6 +2,10 @@
 
 import errno
 import json
+import os
+import subprocess
+import sys
+import textwrap
 from pathlib import Path
 
 import pytest
@@ -110,9 +114,47 @@ def test_a_failed_write_leaves_what_was_there(
         assert (folder / "eq01.tex").read_text() == "one"
 
 
-def test_what_a_killed_run_left_aside_is_cleared(tmp_path: Path) -> None:
-    aside = tmp_path / ".force-diffusion-abc"
+def ended_process() -> int:
+    with subprocess.Popen([sys.executable, "-c", ""]) as process:
+        process.wait(timeout=20)
+    return process.pid
+
+
+@pytest.mark.parametrize("left_by", ["abc", "ended", "ours", "9" * 30])
+def test_what_a_killed_run_left_aside_is_cleared(tmp_path: Path, left_by: str) -> None:
+    number = {"ended": ended_process(), "ours": os.getpid()}.get(left_by, left_by)
+    aside = tmp_path / f".force-diffusion-{number}"
     aside.mkdir()
     (aside / "eq01.tex").write_text("half")
     write(tmp_path, files("eq01.tex"))
     assert names(tmp_path) == {"eq01.tex", "manifest.json"}
+
+
+def test_two_runs_at_once_leave_each_other_alone(tmp_path: Path) -> None:
+    """This process writes into the folder while another one holds it open."""
+    program = textwrap.dedent(
+        """
+        import sys
+        from pathlib import Path
+        from tests.derivations.test_folder import OURS, files, output_folder
+
+        with output_folder(Path(sys.argv[1])) as out:
+            print("open", flush=True)
+            sys.stdin.readline()
+            out.publish(files(*OURS))
+        """
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", program, str(tmp_path)],
+        cwd=Path(__file__).parents[2],
+        text=True,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+    ) as other:
+        assert other.stdout is not None
+        assert other.stdout.readline() == "open\n"
+        write(tmp_path, files("eq01.tex"))
+        assert {"eq01.tex", "manifest.json"} < names(tmp_path)
+        other.communicate("\n", timeout=20)
+    assert other.returncode == 0
+    assert names(tmp_path) == {*OURS, "manifest.json"}

@@ -59,11 +59,11 @@ def test_premises_come_first_and_once() -> None:
 
 
 def test_run_alone_prints_everything(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run_alone(fakes.PREMISE) == 0
+    assert run_alone(fakes.PREMISE, []) == 0
     printed = capsys.readouterr().out
     for part in ("A premise", "Symbols", "Assumptions", "Steps", "Checks", "mutants", "is proved"):
         assert part in printed
-    assert run_alone(fakes.with_claim(Verdict.UNDECIDED)) == 1
+    assert run_alone(fakes.with_claim(Verdict.UNDECIDED), []) == 1
 
 
 def test_the_summary_counts(capsys: pytest.CaptureFixture[str]) -> None:

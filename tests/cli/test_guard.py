@@ -1,0 +1,92 @@
+"""How the programs end when a stream fails, on Ctrl-C, and on what they don't understand."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from derivations.runner import run_alone
+from tests.derivations import fakes
+
+ROOT = Path(__file__).parents[2]
+ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "100"}
+PYTHON = f"{sys.executable} -m derivations"
+ALONE = f"{PYTHON}.eq02_displacement"
+
+full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+
+
+def shell(line: str) -> subprocess.CompletedProcess[str]:
+    done = subprocess.run(
+        ["bash", "-c", line],
+        env=ENVIRONMENT,
+        check=False,
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert "Traceback" not in done.stderr
+    assert "Exception" not in done.stderr
+    return done
+
+
+@full
+@pytest.mark.parametrize("program", [f"{PYTHON} --help", f"{PYTHON} derive --help", ALONE])
+def test_a_full_disk_under_standard_output(program: str) -> None:
+    done = shell(f"{program} > /dev/full")
+    assert done.returncode == 3
+    assert "writing to standard output failed: No space left on device" in done.stderr
+
+
+@pytest.mark.parametrize("program", [f"{PYTHON} --help", f"{PYTHON} list", ALONE])
+def test_a_closed_standard_output(program: str) -> None:
+    done = shell(f"{program} >&-")
+    assert done.returncode == 3
+    assert "writing to standard output failed: Bad file descriptor" in done.stderr
+
+
+@pytest.mark.parametrize("program", [f"{PYTHON} --help", ALONE])
+def test_a_reader_that_stops(program: str) -> None:
+    done = shell(f'{program} | true; exit "${{PIPESTATUS[0]}}"')
+    assert done.returncode in (0, 3)  # 0 when all was written before the reader ended
+    assert done.stderr == ""
+
+
+@full
+@pytest.mark.parametrize("stream", ["2>/dev/full", "2>&-"])
+@pytest.mark.parametrize("program", [f"{PYTHON} bogus", f"{ALONE} bogus"])
+def test_a_message_that_can_not_be_written_leaves_the_status(program: str, stream: str) -> None:
+    assert shell(f"{program} {stream}").returncode == 2
+
+
+def test_a_derivation_alone_takes_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_alone(fakes.PREMISE, ["--fast"]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert "takes no arguments, but got '--fast'" in printed.err
+    assert "force-diffusion derive 1" in printed.err
+
+
+@pytest.mark.parametrize(
+    ("module", "slow"), [("derivations", "typer"), ("derivations.eq02_displacement", "sympy")]
+)
+def test_an_interrupt_while_modules_load(module: str, slow: str, tmp_path: Path) -> None:
+    (tmp_path / f"{slow}.py").write_text(
+        "import sys, time\nprint('loading', file=sys.stderr, flush=True)\ntime.sleep(60)\n"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-m", module],
+        env={**ENVIRONMENT, "PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"},
+        cwd=tmp_path,
+        text=True,
+        stderr=subprocess.PIPE,
+    ) as process:
+        assert process.stderr is not None
+        assert process.stderr.readline() == "loading\n"
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert errors == "force-diffusion: interrupted; no half-written file is left.\n"
