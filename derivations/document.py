@@ -108,7 +108,8 @@ _KINDS = {
 
 def change_kind(change: str) -> str:
     """Kind of a change, from its description."""
-    kinds = (kind for kind, form in _KINDS.items() if re.fullmatch(form, change, re.DOTALL))
+    what = change.removeprefix("left: ")
+    kinds = (kind for kind, form in _KINDS.items() if re.fullmatch(form, what, re.DOTALL))
     return next(kinds, "other change")
 
 
