@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from derivations import cli
+from derivations.__main__ import main
 from numeric import runner, stability
 from numeric.runner import ToleranceError
 
@@ -16,7 +16,7 @@ SCENES = Path(__file__).parents[2] / "scenes"
 
 
 def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
-    status = cli.main([str(a) for a in arguments])
+    status = main([str(a) for a in arguments])
     shown = capsys.readouterr()
     return status, shown.out, shown.err
 

@@ -73,7 +73,7 @@ def test_mutants_are_counted_in_the_document_and_listed_in_the_manifest() -> Non
     first, second = files["equations.tex"].split(r"\section*")[1:]
     made = len(outcomes[0].mutants)
     assert f"{made} made, {made} refuted, 0 equivalent rewritings. By kind: " in first
-    assert "index shifted: 8; sign flipped: 2; term dropped: 2." in first
+    assert "index shifted: 12; sign flipped: 2; term dropped: 2." in first
     assert "flipped. " not in first
     assert second.count(r"\item \emph{equivalent}: ") == made  # each with its proof
     for entry, outcome in zip(
