@@ -81,10 +81,7 @@ def derive(
         list[str] | None,
         typer.Argument(metavar="[N...]", help="Equations to derive; all of them by default."),
     ] = None,
-    out: Annotated[
-        str | None,
-        typer.Option(metavar="DIR", help="Write LaTeX and a manifest into this folder."),
-    ] = None,
+    out: Annotated[Path | None, scene_commands.out_option("LaTeX and a manifest")] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the results as JSON and nothing else.")
     ] = False,
@@ -93,12 +90,7 @@ def derive(
     from derivations.folder import NotOurFolderError
 
     wanted = [_number(word) for word in numbers] if numbers else list(modules())
-    if out == "":  # a path would take it for the current folder
-        raise typer.BadParameter(
-            "'' names no folder. Give one; '.' is the current folder.", param_hint="--out"
-        )
-    folder = None if out is None else Path(out)
-    if folder is not None and folder.exists() and not folder.is_dir():
+    if out is not None and out.exists() and not out.is_dir():
         raise typer.BadParameter(
             f"'{out}' is a file. Give a new folder, an empty one, or one that an earlier "
             "'derive --out' wrote.",
@@ -107,7 +99,7 @@ def derive(
     try:
         from derivations import deriving
 
-        status = deriving.derive(wanted, folder, as_json)
+        status = deriving.derive(wanted, out, as_json)
     except NotOurFolderError as foreign:
         raise typer.BadParameter(
             f"'{out}' holds files that this program did not write ({foreign}). Give a new "

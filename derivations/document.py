@@ -107,9 +107,9 @@ _KINDS = {
 
 
 def change_kind(change: str) -> str:
-    """Kind of a change, from its description."""
-    what = change.removeprefix("left: ")
-    kinds = (kind for kind, form in _KINDS.items() if re.fullmatch(form, what, re.DOTALL))
+    """Kind of a change, from its description; on which side it is does not matter."""
+    words = change.removeprefix("left: ")
+    kinds = (kind for kind, form in _KINDS.items() if re.fullmatch(form, words, re.DOTALL))
     return next(kinds, "other change")
 
 

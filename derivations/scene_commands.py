@@ -22,6 +22,18 @@ STATUSES = (
     "can't be reached or the disk failed, 130 interrupted."
 )
 
+
+def _folder(word: str) -> Path:
+    if not word:  # a path would take it for the current folder
+        raise typer.BadParameter("'' names no folder. Give one; '.' is the current folder.")
+    return Path(word)
+
+
+def out_option(what: str) -> Any:
+    """The option ``--out DIR``, which says what is written there."""
+    return typer.Option(metavar="DIR", help=f"Write {what} into this folder.", parser=_folder)
+
+
 _Scene = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene file, in TOML.")]
 _Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
 _Tolerance = Annotated[
@@ -67,10 +79,7 @@ def explain(scene: _Scene, tolerance: _Tolerance = None, as_json: _Json = False)
 
 def run(
     scene: _Scene,
-    out: Annotated[
-        Path | None,
-        typer.Option(metavar="DIR", help="Write the answer as JSON and CSV into this folder."),
-    ] = None,
+    out: Annotated[Path | None, out_option("the answer as JSON and CSV")] = None,
     as_json: _Json = False,
     tolerance: _Tolerance = None,
 ) -> None:

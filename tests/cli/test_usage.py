@@ -21,6 +21,7 @@ WRONG = [
     (["derive", "--out"], "--out"),
     (["derive", "--fast"], "--fast"),
     (["derive", "1", "--out", ""], "'' names no folder"),
+    (["run", "scene.toml", "--out", ""], "'' names no folder"),
     (["show"], "N"),
     (["show", "15"], "'15' is not an equation"),
     (["show", "13", "14"], "14"),
