@@ -12,7 +12,6 @@ from derivations.record import Derivation, Outcome
 from symbolic.kernel import Verdict
 from symbolic.printing.latex import latex
 from symbolic.printing.lines import latex_body
-from symbolic.printing.text import text
 
 _RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim"}
 
@@ -207,7 +206,6 @@ def manifest(outcomes: Sequence[Outcome]) -> str:
                     {
                         "change": mutant.change,
                         "kind": change_kind(mutant.change),
-                        "equation": text(mutant.equation),
                         "verdict": "equivalent" if mutant.equivalent else mutant.ruling.verdict,
                         "note": mutant.ruling.note,
                     }

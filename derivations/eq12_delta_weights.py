@@ -1,6 +1,7 @@
 """Eq. 12: the same force as weights of the second differences Δ, to leading order in M."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import sympy
 
@@ -20,7 +21,7 @@ from symbolic.kernel import (
     refuted,
     undecided,
 )
-from symbolic.linear_forms import NO_SITE
+from symbolic.linear_forms import NO_SITE, LinearForm
 from symbolic.printing.text import text
 from symbolic.reading import Reader, VanishingDivisorError
 from symbolic.symbols import (
@@ -96,13 +97,18 @@ def in_exact_force(side: sympy.Expr) -> sympy.Expr:
     return side.replace(ForcePlus, lambda a, b: exact.xreplace({i: a, j: b}))
 
 
+@cache
+def _left_form(side: sympy.Expr) -> LinearForm:
+    return Reader(DEEP).scalar(in_exact_force(side))
+
+
 def variance_ignored(candidate: sympy.Eq) -> tuple[int, sympy.Expr]:
     """Order in M of the variance of left less right side, and its leading coefficient.
 
     Raises:
         UnequalMeansError: when the two sides differ at order 0.
     """
-    form = Reader(DEEP).scalar(in_exact_force(candidate.lhs) - candidate.rhs)
+    form = _left_form(candidate.lhs) - Reader(DEEP).scalar(candidate.rhs)
     mean = form.sites.get(NO_SITE, FIELD.zero)
     if not mean.is_zero():
         raise UnequalMeansError(text(mean.to_sympy()))

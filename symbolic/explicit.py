@@ -7,6 +7,7 @@ counterexamples, and the tests hold the normal form against it.
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from math import prod
 
 import sympy
 
@@ -133,11 +134,8 @@ def _scaled(form: Weights, factor: Fraction) -> Weights:
 
 
 def _atom(atom: sy.SiteFunction, values: Values) -> Weights | Vector:
-    i, j = (number(index, values) for index in atom.args)
     family, one = type(atom).__name__, Fraction(1)
-    if i.denominator != 1 or j.denominator != 1:
-        raise AmbiguousError(f"{atom} at a broken site")
-    site = (int(i), int(j))
+    site = (_index(atom.args[0], values), _index(atom.args[1], values))
     if not atom.is_vector:
         return {(family, *site): one}
     if isinstance(atom, sy.DeltaNPlus | sy.DeltaNMinus):
@@ -145,6 +143,21 @@ def _atom(atom: sy.SiteFunction, values: Values) -> Weights | Vector:
         x, y = base[sy.b_minus if isinstance(atom, sy.DeltaNPlus) else sy.b_plus]
         return {(family, *site): x}, {(family, *site): y}
     return {(family + "x", *site): one}, {(family + "y", *site): one}
+
+
+def _index(expression: sympy.Expr, values: Values) -> int:
+    """Value of an index; sums of symbols and whole numbers, the usual case, stay in integers."""
+    if isinstance(expression, sympy.Integer):
+        return int(expression)
+    if expression in values:
+        value = values[expression]
+        if value.denominator == 1:
+            return int(value)
+    if isinstance(expression, sympy.Add):
+        return sum(_index(term, values) for term in expression.args)
+    if isinstance(expression, sympy.Mul):
+        return prod(_index(factor, values) for factor in expression.args)
+    raise AmbiguousError(f"{expression} is no whole number here")
 
 
 def _total(parts: list[Weights | Vector]) -> Weights | Vector:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
+from functools import cache
 from itertools import islice, product
 
 import sympy
@@ -171,11 +172,14 @@ def _apart(difference: RationalFunction) -> Ruling:
     return undecided("the difference is not the zero function, yet no values show it")
 
 
+@cache
+def _base_components(axis: int) -> dict[sympy.Basic, sympy.Expr]:
+    return {symbol: CARTESIAN.vectors[symbol][axis].to_sympy() for symbol in sy.VECTORS}
+
+
 def cartesian(vector: sympy.Expr, axis: int) -> sympy.Expr:
     """One Cartesian component of a vector expression; unknown vectors get unknown components."""
-    image: dict[sympy.Basic, sympy.Expr] = {
-        symbol: CARTESIAN.vectors[symbol][axis].to_sympy() for symbol in sy.VECTORS
-    }
+    image = dict(_base_components(axis))
     for atom in vector.atoms(sy.SiteFunction):
         if atom.is_vector:
             image[atom] = sympy.Symbol(f"{atom}_{'xy'[axis]}")

@@ -6,6 +6,7 @@ squared weights. Orders count M and j together, as at a fixed relative height z 
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import sympy
 
@@ -66,16 +67,19 @@ class ExactForm:
     """A variance in closed form, exact for every packing that ``validity`` names.
 
     Attributes:
-        expression: SymPy expression in M, j, phi, sigma, r.
         validity: the range of M and j, in words.
         exceptions: packings (M, j) of this case that the form misses, with their own variance.
-        value: the same as an element of the exact field.
+        value: the variance as an element of the exact field.
     """
 
-    expression: sympy.Expr
     validity: str
     exceptions: tuple[tuple[int, int, sympy.Expr], ...]
     value: RationalFunction
+
+    @cached_property
+    def expression(self) -> sympy.Expr:
+        """The variance as a SymPy expression in M, j, phi, sigma, r."""
+        return self.value.to_sympy()
 
 
 _ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
@@ -101,7 +105,7 @@ def exact_variances(expression: sympy.Expr) -> dict[str, ExactForm]:
             layer = at[j].xreplace(size)
             small = variance(expression.xreplace({**size, j: layer}), Region({}))
             exceptions.append((height, int(layer), small.to_sympy()))
-        return ExactForm(value.to_sympy(), validity, tuple(exceptions), value)
+        return ExactForm(validity, tuple(exceptions), value)
 
     return {name: form(name) for name in CASES}
 

@@ -81,7 +81,6 @@ def test_mutants_are_counted_in_the_document_and_listed_in_the_manifest() -> Non
     ):
         listed = entry["mutants"]["changes"]
         assert [one["change"] for one in listed] == [m.change for m in outcome.mutants]
-        assert len({one["equation"] for one in listed}) == made
         verdict = "refuted" if outcome is outcomes[0] else "equivalent"
         assert {one["verdict"] for one in listed} == {verdict}
         assert {one["note"] for one in listed} == {outcome.mutants[0].ruling.note}
