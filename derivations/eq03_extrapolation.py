@@ -60,10 +60,7 @@ def steps() -> Iterator[Step]:
             ),
         ),
     )
-    yield Step(
-        "This is the printed equation at j = 1, where its sums are empty.",
-        equation(DeltaX(i, 1), displacement(i, sympy.Integer(1))),
-    )
+    yield Step("This is the printed equation at j = 1, where both of its sums are empty.")
     yield Step(
         "Suppose that it holds in layer j − 1 ≥ 1. The support to the left lies on the "
         "same diagonal towards the base, so that n⁺·δx gains the two radii of the new "

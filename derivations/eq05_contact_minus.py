@@ -73,9 +73,8 @@ def steps() -> Iterator[Step]:
     )
     yield Step("Eq. 3 put in; now the b⁻ component is the two radii alone.", PRINTED)
     yield Step(
-        "The mirror image of Eq. 4, i → −i at every bead with n⁺ ↔ n⁻ and b⁺ ↔ b⁻, is the "
-        "same equation.",
-        mirror(eq04.PRINTED),
+        "It is the mirror image of Eq. 4: i → −i at every bead, n⁺ ↔ n⁻ and b⁺ ↔ b⁻ in that "
+        "equation give this one."
     )
     yield Step(
         "Again the change is at right angles to the contact.",

@@ -81,23 +81,25 @@ def in_radii(expression: sympy.Expr) -> sympy.Expr:
     )
 
 
-def contributions() -> tuple[sympy.Expr, sympy.Expr]:
-    """Straight contribution (Eq. 7 times Eq. 9) and the sum of the branched ones (Eq. 10)."""
+def straight_factors() -> tuple[sympy.Expr, sympy.Expr]:
+    """Split below the straight load (Eq. 7), and what arrives of it at the contact (Eq. 9)."""
     at_load = {k: STRAIGHT_LOAD[0], l: STRAIGHT_LOAD[1]}
-    straight = eq09.first_order_product(
-        eq07.split_plus(*STRAIGHT_LOAD), eq09.PRINTED.rhs.xreplace(at_load)
-    )
+    return eq07.split_plus(*STRAIGHT_LOAD), eq09.PRINTED.rhs.xreplace(at_load)
+
+
+def contributions() -> tuple[sympy.Expr, sympy.Expr]:
+    """Straight contribution, to first order, and the sum of the branched ones (Eq. 10)."""
     branched = sympy.Sum(eq10.branched_plus(i, j, n), (n, 1, M - j - 1))
-    return straight, branched
+    return eq09.first_order_product(*straight_factors()), branched
 
 
 def steps() -> Iterator[Step]:
     """One straight path, M − j − 1 paths with one branch."""
-    straight, branched = contributions()
+    _, branched = contributions()
     yield Step(
-        "The surface bead straight above the contact is (i+M−j, M). Its load splits by "
-        "Eq. 7, and Eq. 9 carries the force down; the first-order changes add up.",
-        straight,
+        "The surface bead straight above the contact is (i+M−j, M). Its load splits by Eq. 7, and "
+        "Eq. 9 carries the force down. To first order the changes in this product add up.",
+        times(*straight_factors()),
     )
     yield Step(
         "The force along n⁻ below the surface bead (i−M+j+2n, M) turns into the contact at "
