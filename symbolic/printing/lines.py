@@ -132,14 +132,16 @@ class _Pieces:
             return None
         last = in_order(term)[-1]
         before = [factor for factor in in_order(term) if factor is not last]
+        # a stand-in for the last bracket leaves signs of summation and brackets to the printer
+        gap = Symbol("GAP")
         if isinstance(last, Sum) and isinstance(last.function, Add):
-            # a stand-in for the bracket keeps the sign of summation at the printer's care
-            gap = Symbol("GAP")
-            text = self.printer.doprint(Mul(*before, Sum(gap, *last.limits), evaluate=False))
-            return text.removesuffix("GAP").rstrip(), last.function
-        if isinstance(last, Add):
-            return self.printer.doprint(Mul(*before, evaluate=False)), last
-        return None
+            stand_in, inside = Sum(gap, *last.limits), last.function
+        elif isinstance(last, Add):
+            stand_in, inside = gap, last
+        else:
+            return None
+        text = self.printer.doprint(Mul(*before, stand_in, evaluate=False))
+        return text.removesuffix("GAP").rstrip(), inside
 
 
 def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) -> list[str]:

@@ -162,3 +162,12 @@ def test_python_source_takes_any_number_type() -> None:
     exec(python_source("f", "Doc.", M**2 / (2 * r) + sympy.Sum(DeltaR(m, j), (m, 1, M))), scope)
     function = scope["f"]
     assert function(M=3, j=0, r=9.0, dr=lambda a, b: a + b) == 6.5  # type: ignore[operator]
+
+
+def test_a_broken_product_keeps_all_its_brackets() -> None:
+    long_sum = terms(*(DeltaR(i + k, j) for k in range(9)))
+    product = times(terms(1, phi), long_sum)
+    for lines in (text_lines(product, room=40), latex_lines(product, room=120.0)):
+        assert len(lines) > 1
+        whole = " ".join(lines)
+        assert "(1 + " in whole or "(φ + 1)" in whole or r"(\phi + 1)" in whole
