@@ -135,12 +135,13 @@ class _Pieces:
         # a stand-in for the last bracket leaves signs of summation and brackets to the printer
         gap = Symbol("GAP")
         if isinstance(last, Sum) and isinstance(last.function, Add):
-            stand_in, inside = Sum(gap, *last.limits), last.function
+            rest, inside = [*before, Sum(gap, *last.limits)], last.function
         elif isinstance(last, Add):
-            stand_in, inside = gap, last
+            alone = len(before) == 1 and isinstance(before[0], Add)
+            rest, inside = ([*before, gap] if alone else before), last
         else:
             return None
-        text = self.printer.doprint(Mul(*before, stand_in, evaluate=False))
+        text = self.printer.doprint(Mul(*rest, evaluate=False))
         return text.removesuffix("GAP").rstrip(), inside
 
 
