@@ -1,6 +1,6 @@
 """Eq. 4: the change of the direction of the contact along n⁺."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import sympy
 
@@ -83,19 +83,30 @@ def steps() -> Iterator[Step]:
     )
 
 
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
+def follows(
+    candidate: sympy.Expr,
+    derived: Callable[[sympy.Expr, sympy.Expr], sympy.Expr],
+    above: tuple[sympy.Expr, sympy.Expr],
+) -> Ruling:
     """Compare with Eq. 3 put into the derivative: for j ≥ 1, and on the fixed base for j = 0."""
-    if other := about(candidate, 2 * r * DeltaNPlus(i, j), "none", each_contact):
-        return other
-    derived = from_displacements(eq03.displacement(*ABOVE), eq03.displacement(i, j))
-    above_base = decide_linear(candidate.rhs, derived, Region({j: 1}), is_vector=True)
+    upper = eq03.displacement(*above)
+    above_base = decide_linear(
+        candidate, derived(upper, eq03.displacement(i, j)), Region({j: 1}), is_vector=True
+    )
     at_base = decide_linear(
-        candidate.rhs.xreplace({j: ZERO}),
-        from_displacements(eq03.displacement(*ABOVE), ZERO).xreplace({j: ZERO}),
+        candidate.xreplace({j: ZERO}),
+        derived(upper, ZERO).xreplace({j: ZERO}),
         Region({}),
         is_vector=True,
     )
     return all_of(above_base, at_base)
+
+
+def decide(_: int, candidate: sympy.Eq) -> Ruling:
+    """Compare 2r δn⁺ with the derivative of the unit vector, Eq. 3 put in."""
+    if other := about(candidate, 2 * r * DeltaNPlus(i, j), "none", each_contact):
+        return other
+    return follows(candidate.rhs, from_displacements, ABOVE)
 
 
 def _unit_vector() -> Ruling:

@@ -51,7 +51,6 @@ PRINTED = equation(
     ),
 )
 
-ZERO = sympy.Integer(0)
 ABOVE = (i - 1, j + 1)
 
 
@@ -83,18 +82,10 @@ def steps() -> Iterator[Step]:
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Compare with Eq. 3 put into the derivative: for j ≥ 1, and on the fixed base for j = 0."""
+    """Compare 2r δn⁻ with the derivative of the unit vector, Eq. 3 put in."""
     if other := about(candidate, 2 * r * DeltaNMinus(i, j), "none", each_contact):
         return other
-    derived = from_displacements(eq03.displacement(*ABOVE), eq03.displacement(i, j))
-    above_base = decide_linear(candidate.rhs, derived, Region({j: 1}), is_vector=True)
-    at_base = decide_linear(
-        candidate.rhs.xreplace({j: ZERO}),
-        from_displacements(eq03.displacement(*ABOVE), ZERO).xreplace({j: ZERO}),
-        Region({}),
-        is_vector=True,
-    )
-    return all_of(above_base, at_base)
+    return eq04.follows(candidate.rhs, from_displacements, ABOVE)
 
 
 def _unit_vector() -> Ruling:
