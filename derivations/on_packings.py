@@ -263,7 +263,7 @@ def _compare(equation: sympy.Eq, truth: Truth, points: Points) -> Ruling:
         count += 1
     if not count:
         return undecided("there was nothing to compare")
-    return Ruling(Verdict.AGREES, f"equal as fractions at {count} places")
+    return Ruling(Verdict.AGREES, f"equal as fractions, {count} compared")
 
 
 @cache

@@ -26,7 +26,7 @@ def compare(pairs: Iterator[tuple[str, Fraction, Fraction]]) -> Ruling:
         count += 1
     if not count:
         return undecided("there was nothing to compare")
-    return Ruling(Verdict.AGREES, f"equal as fractions at {count} places")
+    return Ruling(Verdict.AGREES, f"equal as fractions, {count} compared")
 
 
 def zero_outside(packing: SmallPacking) -> Ruling:
