@@ -8,6 +8,7 @@ a number that is not finite) is left to the NumPy sweep, whose errors name the b
 Only ``engine`` imports this file, and only for work that repays loading the compiler.
 """
 
+import itertools
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -300,9 +301,10 @@ def _is_whole(rows: tuple[Layer, ...], width: int | None) -> bool:
 
 
 def _layers(block: Array, shape: tuple[int, ...], first: int = 1) -> tuple[Array, ...]:
-    """Give the layers of a block, from ``first`` up, in the shape that a caller knows."""
-    nothing = (np.empty(0),) if first else ()
-    return (*nothing, *block.reshape(len(block), *shape)[first:])
+    """Give the layers of a block in the shape that a caller knows; below ``first``, nothing."""
+    if block.shape[1:] != shape:  # one packing, not a batch
+        block = block[:, 0]
+    return (*(np.empty(0),) * first, *block[first:])
 
 
 def deposit(
@@ -314,12 +316,11 @@ def deposit(
 ) -> Packing:
     """Do what ``packing.deposit`` does, and to the bit; compiled for whole packings in float64."""
     shape = rho[0].shape
-    usual = len(shape) <= 2 and all(r.dtype == np.float64 and r.shape == shape for r in rho)
-    if system is not FLOAT64 or not usual or not _is_whole(region.rows, region.width):
+    if system is not FLOAT64 or len(shape) > 2 or not _is_whole(region.rows, region.width):
         return packing.deposit(n_x, region, rho, system, work)
     m = packing.metric(n_x, system)
     size = (len(rho), rho[0].size // shape[-1], shape[-1])
-    radii = np.stack(rho).reshape(size)
+    radii = np.concatenate(rho).reshape(size)
     c, plus, minus = _pairs(size, size, size)
     if not _all(_deposit, size[1], radii, c, plus, minus, float(m.phi), float(m.inverse_det)):
         return packing.deposit(n_x, region, rho, system, work)  # which names the bead
@@ -353,7 +354,7 @@ def sweep_down(
         not isinstance(solved, CompiledPacking)
         or stop_at_tension
         or len(rows) != len(solved.rho)
-        or not _is_whole(rows, solved.region.width)
+        or not (rows is solved.region.rows or _is_whole(rows, solved.region.width))
         or any(len(r) and r.shape[1:] != (solved.region.width,) for _, r in given)
     ):
         return forces.sweep_down(solved, rows, loads, stop_at_tension=stop_at_tension, work=work)
@@ -383,6 +384,6 @@ def _stacked(loads: tuple[Array | None, ...]) -> tuple[Array, Array]:
     Shapes: (layers,), (loaded layers, W).
     """
     present = [row for row in loads if row is not None]
-    index = np.full(len(loads), -1)
-    index[[row is not None for row in loads]] = np.arange(len(present))
+    count = itertools.count()
+    index = np.array([-1 if row is None else next(count) for row in loads])
     return index, np.stack(present) if present else np.empty((0, 0))
