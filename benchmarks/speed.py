@@ -7,7 +7,6 @@ is missed.
 """
 
 import argparse
-import resource
 import subprocess
 import sys
 import tempfile
@@ -158,16 +157,23 @@ def size() -> Iterator[Line]:
     yield Line("memory / arrays of the answer, 4e6 beads", float(done.stdout), "", "<", 1.5)
 
 
+def resident(name: str) -> int:
+    """Bytes in memory: "VmRSS" now, "VmHWM" at the most. (Linux; maxrss is the parent's, too.)"""
+    for line in Path("/proc/self/status").read_text().splitlines():
+        if line.startswith(name):
+            return int(line.split()[1]) * 1024
+    raise SystemExit("the memory of a process can be read on Linux only")
+
+
 def probe_memory() -> float:
     """Peak memory of one solution beyond what was there before, over the arrays that it gives."""
     from numeric import fast
 
     Problem(3, 4).solver(sweeps=fast)()
     solve = Problem(1414, 2828).solver(sweeps=fast)
-    page = resource.getpagesize()
-    before = int(Path("/proc/self/statm").read_text().split()[1]) * page
+    before = resident("VmRSS")
     packing, forces = solve()
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+    peak = resident("VmHWM")
     answer = [packing.c_plus, packing.c_minus, forces.change_plus, forces.change_minus]
     answer += [forces.ordered_plus, forces.ordered_minus]
     answer += [*zip(*packing.plus, strict=True), *zip(*packing.minus, strict=True)]

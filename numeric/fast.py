@@ -112,7 +112,6 @@ def _place(
 
 @_compiled
 def _deposit(
-    number: int,
     rho: Array,
     c: tuple[Array, Array],
     plus: tuple[Array, Array],
@@ -120,18 +119,18 @@ def _deposit(
     phi: float,
     inverse: float,
 ) -> bool:
-    """Deposit packing ``number`` of a batch; say whether every bead rests.
+    """Deposit a packing; say whether every bead rests.
 
-    All blocks are (layers, batch, W); layer 0 of ``plus`` and ``minus`` is not touched.
+    All blocks are (layers, W); layer 0 of ``plus`` and ``minus`` is not touched.
     """
-    layers, _, width = rho.shape
+    layers, width = rho.shape
     for q in range(width):
-        c[0][0, number, q] = c[1][0, number, q] = 0.0
+        c[0][0, q] = c[1][0, q] = 0.0
     good = True
     for q in range(width):
-        good &= (1 + rho[0, number, q] > 0) & (rho[0, number, q] < np.inf)
+        good &= (1 + rho[0, q] > 0) & (rho[0, q] < np.inf)
     for j in range(1, layers):
-        cp, cm, under = c[0][j - 1, number], c[1][j - 1, number], rho[j - 1, number]
+        cp, cm, under = c[0][j - 1], c[1][j - 1], rho[j - 1]
         # A is one column to the left of B. First all beads whose supports are neighbours in the
         # arrays, then the one that rests on the last and the first bead of its layer.
         for run in range(2):
@@ -144,10 +143,10 @@ def _deposit(
                 left, right = slice(width - 1, width), slice(0, 1)
             good &= _place(
                 (cp[left], cm[left], cp[right], cm[right]),
-                (rho[j, number, first:last], under[left], under[right]),
-                (c[0][j, number, first:last], c[1][j, number, first:last]),
-                (plus[0][j, number, first:last], plus[1][j, number, first:last]),
-                (minus[0][j, number, first:last], minus[1][j, number, first:last]),
+                (rho[j, first:last], under[left], under[right]),
+                (c[0][j, first:last], c[1][j, first:last]),
+                (plus[0][j, first:last], plus[1][j, first:last]),
+                (minus[0][j, first:last], minus[1][j, first:last]),
                 phi,
                 inverse,
             )
@@ -218,25 +217,24 @@ def _order(F: tuple[Array, Array], rows: tuple[Array, Array], loads: tuple[Array
 
 @_compiled
 def _sweep_down(
-    number: int,
     F: tuple[Array, Array],
     plus: tuple[Array, Array],
     minus: tuple[Array, Array],
     g: tuple[Array, Array],
 ) -> bool:
-    """Sweep packing ``number`` of a batch from the highest layer down; say if all is in order.
+    """Sweep a packing from the highest layer down; say if all is in order.
 
-    ``F`` is (layers, W), the other blocks (layers, batch, W); layer 0 is not touched.
+    All blocks are (layers, W); layer 0 of ``g`` is not touched.
     """
     layers, width = F[0].shape
     nothing = np.zeros(width)
     good = True
     for j in range(layers - 1, 0, -1):
         up = min(j + 1, layers - 1)
-        above = (F[0][up], g[0][up, number])
-        right_a, right_b = plus[0][up, number], plus[1][up, number]
-        beside = (F[1][up], g[1][up, number])
-        left_a, left_b = minus[0][up, number], minus[1][up, number]
+        above = (F[0][up], g[0][up])
+        right_a, right_b = plus[0][up], plus[1][up]
+        beside = (F[1][up], g[1][up])
+        left_a, left_b = minus[0][up], minus[1][up]
         if j == layers - 1:
             above = beside = (nothing, nothing)
             right_a = right_b = left_a = left_b = nothing
@@ -252,9 +250,9 @@ def _sweep_down(
                 (F[0][j, first:last], F[1][j, first:last]),
                 (above[0][right], above[1][right], right_a[right], right_b[right]),
                 (beside[0][left], beside[1][left], left_a[left], left_b[left]),
-                (plus[0][j, number, first:last], plus[1][j, number, first:last]),
-                (minus[0][j, number, first:last], minus[1][j, number, first:last]),
-                (g[0][j, number, first:last], g[1][j, number, first:last]),
+                (plus[0][j, first:last], plus[1][j, first:last]),
+                (minus[0][j, first:last], minus[1][j, first:last]),
+                (g[0][j, first:last], g[1][j, first:last]),
             )
     return good
 
@@ -264,7 +262,7 @@ Pair = tuple[Array, Array]
 
 @dataclass(frozen=True)
 class CompiledPacking(Packing):
-    """A packing whose δn also lie in ``blocks``, (layers, batch, W): those of plus, of minus."""
+    """A packing whose δn also lie in ``blocks``, (batch, layers, W): those of plus, of minus."""
 
     blocks: tuple[Pair, Pair]
 
@@ -281,12 +279,16 @@ def _pairs(*shapes: tuple[int, ...]) -> list[Pair]:
     return pairs
 
 
-def _all(function: Callable[..., bool], batch: int, *arguments: Any) -> bool:
+def _all(function: Callable[[int], bool], batch: int) -> bool:
     """Call ``function`` for every packing of a batch, on all cores that may be used."""
     if batch == 1:
-        return function(0, *arguments)
+        return function(0)
     with ThreadPoolExecutor(min(batch, _cores())) as pool:
-        return all(pool.map(lambda number: function(number, *arguments), range(batch)))
+        return all(pool.map(function, range(batch)))
+
+
+def _one(pair: Pair, number: int) -> Pair:
+    return pair[0][number], pair[1][number]
 
 
 def _cores() -> int:
@@ -302,9 +304,8 @@ def _is_whole(rows: tuple[Layer, ...], width: int | None) -> bool:
 
 def _layers(block: Array, shape: tuple[int, ...], first: int = 1) -> tuple[Array, ...]:
     """Give the layers of a block in the shape that a caller knows; below ``first``, nothing."""
-    if block.shape[1:] != shape:  # one packing, not a batch
-        block = block[:, 0]
-    return (*(np.empty(0),) * first, *block[first:])
+    by_layer = block[0] if len(shape) == 1 else block.swapaxes(0, 1)
+    return (*(np.empty(0),) * first, *by_layer[first:])
 
 
 def deposit(
@@ -319,14 +320,21 @@ def deposit(
     if system is not FLOAT64 or len(shape) > 2 or not _is_whole(region.rows, region.width):
         return packing.deposit(n_x, region, rho, system, work)
     m = packing.metric(n_x, system)
-    size = (len(rho), rho[0].size // shape[-1], shape[-1])
-    radii = np.concatenate(rho).reshape(size)
+    phi, inverse = float(m.phi), float(m.inverse_det)
+    # Each packing of a batch lies in one piece: cores that write next to each other are slow.
+    batch = rho[0].size // shape[-1]
+    size = (batch, len(rho), shape[-1])
+    radii = np.concatenate(rho).reshape(size) if len(shape) == 1 else np.stack(rho, axis=1)
     c, plus, minus = _pairs(size, size, size)
-    if not _all(_deposit, size[1], radii, c, plus, minus, float(m.phi), float(m.inverse_det)):
+
+    def one(k: int) -> bool:
+        return _deposit(radii[k], _one(c, k), _one(plus, k), _one(minus, k), phi, inverse)
+
+    if not _all(one, batch):
         return packing.deposit(n_x, region, rho, system, work)  # which names the bead
     if work is not None:
         for layer in region.rows:
-            work.did("deposited", layer, size[1])
+            work.did("deposited", layer, batch)
     return CompiledPacking(
         n_x,
         system,
@@ -358,15 +366,21 @@ def sweep_down(
         or any(len(r) and r.shape[1:] != (solved.region.width,) for _, r in given)
     ):
         return forces.sweep_down(solved, rows, loads, stop_at_tension=stop_at_tension, work=work)
-    size = solved.blocks[0][0].shape
-    F, g = _pairs((size[0], size[2]), size)
+    plus, minus = solved.blocks
+    size = plus[0].shape
+    F, g = _pairs((1, *size[1:]), size)
     (plus_rows, plus_loads), (minus_rows, minus_loads) = given
-    _order(F, (plus_rows, minus_rows), (plus_loads, minus_loads))
-    if not _all(_sweep_down, size[1], F, *solved.blocks, g):
+    ordered = _one(F, 0)
+    _order(ordered, (plus_rows, minus_rows), (plus_loads, minus_loads))
+
+    def one(k: int) -> bool:
+        return _sweep_down(ordered, _one(plus, k), _one(minus, k), _one(g, k))
+
+    if not _all(one, size[0]):
         return forces.sweep_down(solved, rows, loads, work=work)  # which names the bead
     if work is not None:
         for layer in reversed(rows[1:]):
-            work.did("balanced", layer, size[1])
+            work.did("balanced", layer, size[0])
     shape = solved.rho[0].shape
     return Forces(
         solved.system,
