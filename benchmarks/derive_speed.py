@@ -37,7 +37,7 @@ start = perf_counter()
 assert all(check.verdict == "proved" for check in proofs(derivation))
 print(perf_counter() - start)
 """
-COMMAND = ("-m", "derivations.cli")
+COMMAND = ("-m", "derivations")
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ from numeric import closed_forms, plain
 from numeric.budget import initial_bits
 from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat
 
-HEIGHT, WIDTH, BATCH = 256, 512, 8
+HEIGHT, WIDTH, BATCHES = 256, 512, (8,)
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,10 @@ def forces() -> Iterator[Line]:
 
     problem = Problem(HEIGHT, WIDTH)
     numpy, compiled = problem.solver(), problem.solver(sweeps=fast)
-    batch = problem.solver(realisations=BATCH, sweeps=fast)
+    batches = {
+        f"batch of {size}": (size, problem.solver(realisations=size, sweeps=fast))
+        for size in BATCHES
+    }
     solved, found = numpy()
     n = plain.axes(problem.n_x, FLOAT64)
     reference = stacked(problem.solver(LONGDOUBLE)()[1])
@@ -106,17 +109,19 @@ def forces() -> Iterator[Line]:
     def default() -> Any:
         return spsolve(A, right)
 
-    quick = in_turn({"numpy": numpy, "fast": compiled, "batch": batch, "best": best}, 15)
+    together = {name: solve for name, (_, solve) in batches.items()}
+    quick = in_turn({"numpy": numpy, "fast": compiled, **together, "best": best}, 15)
     slow = in_turn({"best": best, "default": default}, 5)
     peer = quick["best"]
     yield Line("spsolve, NATURAL ordering", 1e3 * peer, " ms")
     yield Line("spsolve, default ordering / NATURAL", slow["default"] / slow["best"])
     yield Line("NumPy sweep", 1e3 * quick["numpy"], " ms")
     yield Line("fast sweep", 1e3 * quick["fast"], " ms")
-    yield Line(f"fast sweep, each of a batch of {BATCH}", 1e3 * quick["batch"] / BATCH, " ms")
     yield Line("spsolve (NATURAL) / NumPy sweep", peer / quick["numpy"], "", ">", 2)
     yield Line("spsolve (NATURAL) / fast sweep", peer / quick["fast"], "", ">", 20)
-    yield Line("spsolve (NATURAL) / fast in a batch", BATCH * peer / quick["batch"], "", ">", 35)
+    for name, (size, _) in batches.items():
+        yield Line(f"fast sweep, each of a {name}", 1e3 * quick[name] / size, " ms")
+        yield Line("spsolve (NATURAL) / that", size * peer / quick[name], "", ">", 35)
     ordered = 1 / (2 * n[1])
     own = error(stacked(found))
     yield Line("error of change, sweep (NumPy and fast alike)", own)
@@ -297,32 +302,31 @@ TYPER = """
 import typer
 app = typer.Typer()
 @app.command()
-def nothing() -> None: ...
-app(["--help"])
+def nothing(number: str) -> None: ...
+@app.command()
+def other() -> None: ...
+app({arguments})
 """
 
 
 def start() -> Iterator[Line]:
-    """Start-up of the command line against a bare interpreter and a typer program of one line."""
+    """Start-up of two commands against a bare interpreter and a typer program that does nothing."""
+    commands = {"--help": ["--help"], "show": ["show", "13"]}
     found = processes_in_turn(
         {
             "bare": ["-c", "pass"],
-            "typer": ["-c", TYPER],
-            "--help": [*COMMAND, "--help"],
-            "show": [*COMMAND, "show", "13"],
+            "typer --help": ["-c", TYPER.format(arguments=["--help"])],
+            "typer show": ["-c", TYPER.format(arguments=["nothing", "13"])],
+            **{name: [*COMMAND, *arguments] for name, arguments in commands.items()},
         }
     )
-    bare, typer = found["bare"].seconds, found["typer"].seconds - found["bare"].seconds
+    bare = found["bare"].seconds
     yield Line("python -c pass", 1e3 * bare, " ms")
-    yield Line("typer, help of an empty program, on top of it", 1e3 * typer, " ms")
-    for name in ("--help", "show"):
-        yield Line(
-            f"{name} / (2 × python -c pass + typer)",
-            found[name].seconds / (2 * bare + typer),
-            "",
-            "<",
-            1,
-        )
+    for name in commands:
+        typer = found[f"typer {name}"].seconds - bare
+        yield Line(f"typer, {name} of a program that does nothing, on top", 1e3 * typer, " ms")
+        ratio = found[name].seconds / (2 * bare + typer)
+        yield Line(f"{name} / (2 × python -c pass + typer)", ratio, "", "<", 1)
 
 
 PARTS: dict[str, Callable[[], Iterator[Line]]] = {

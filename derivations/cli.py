@@ -94,7 +94,7 @@ def _number(word: str) -> int:
 def derive(
     numbers: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[N]...", help="Equations to derive; all of them by default."),
+        typer.Argument(metavar="[N...]", help="Equations to derive; all of them by default."),
     ] = None,
     out: Annotated[
         Path | None,
@@ -212,7 +212,3 @@ def _outside(failure: OSError) -> int:
         reason = failure.strerror or str(failure)
         print(f"force-diffusion: writing to {where} failed: {reason}. {remedy}", file=sys.stderr)
     return FAILED_OUTSIDE
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())

@@ -20,6 +20,9 @@ _HEAD = r"""\documentclass[10pt]{article}
 \setlength{\parskip}{4pt plus 1pt}
 \setlength{\emergencystretch}{4em}
 \renewcommand{\labelitemi}{$\bullet$}
+\makeatletter\@beginparpenalty=10000\makeatother % no page ends between a heading and its list
+\newcommand{\heading}[1]{\par\vskip 0pt plus 4\baselineskip\penalty-200
+  \vskip 0pt plus -4\baselineskip\smallskip\noindent\textbf{#1}\par\nobreak}
 \title{Forces in nearly-ordered packings of frictionless discs:\\
   the equations, derived and checked}
 \author{}
@@ -59,7 +62,7 @@ def _list(kind: str, items: Iterable[str]) -> str:
 
 
 def _part(title: str, body: str) -> str:
-    return f"\\par\\smallskip\\noindent\\textbf{{{title}}}\\nopagebreak\n{body}" if body else ""
+    return f"\\heading{{{title}}}\n{body}" if body else ""
 
 
 def _sentence(words: str) -> str:

@@ -72,11 +72,17 @@ def steps() -> Iterator[Step]:
         "ν⁻ = n⁺·δn⁻ are all that δn^± holds, by Eqs. 4 and 5.",
         sympy.Tuple(balance.balance_matrix(), balance.incoming("load")),
     )
-    yield Step("Inverted:", balance.balance_matrix().inv())
+    yield Step(
+        "Inverted, as its adjugate over its determinant; here the determinant and the adjugate:",
+        sympy.Tuple(
+            sympy.collect(balance.balance_matrix().det(), epsilon),
+            balance.balance_matrix().adjugate(),
+        ),
+    )
     at_zero, slope = balance.solved("load")
     yield Step(
         "At ε = 0 both forces are 1; the derivatives with respect to ε at 0 are",
-        sympy.Tuple(*(sympy.factor(part) for part in slope)),
+        sympy.Tuple(*slope),
     )
     assert len(at_zero) == len(PRINTED)
     yield Step("In the paper's symbols:", sympy.Tuple(*PRINTED))

@@ -69,7 +69,7 @@ def steps() -> Iterator[Step]:
     at_zero, slope = balance.solved("+")
     yield Step(
         "Inverted; the values at ε = 0 and the derivatives there are",
-        sympy.Tuple(sympy.Tuple(*at_zero), sympy.Tuple(*(sympy.factor(s) for s in slope))),
+        sympy.Tuple(sympy.Tuple(*at_zero), sympy.Tuple(*slope)),
     )
     yield Step(
         "The direction of the other support drops out, since nothing leaves along it at order 0.",

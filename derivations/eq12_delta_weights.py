@@ -21,7 +21,7 @@ from symbolic.kernel import (
     undecided,
 )
 from symbolic.printing.text import text
-from symbolic.reading import Reader
+from symbolic.reading import Reader, VanishingDivisorError
 from symbolic.symbols import (
     Braces,
     DeltaNMinus,
@@ -132,6 +132,8 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Exact form less candidate has a variance of lower order than M³."""
     try:
         power, coefficient = variance_ignored(candidate.rhs)
+    except VanishingDivisorError as reason:
+        return refuted(f"it has no value everywhere, as Eq. 11 has: {reason}")
     except (NotExactError, UndeterminedError, ValueError) as reason:
         return undecided(str(reason))
     if power < LEADING_ORDER:

@@ -115,13 +115,18 @@ def outcome_text(outcome: Outcome) -> str:
     return "\n".join(parts)
 
 
+def _count(number: int, one: str, more: str) -> str:
+    return f"{number} {one if number == 1 else more}"
+
+
 def summary_line(outcome: Outcome) -> str:
     """One line for one equation."""
     kinds = [check.kind for check in outcome.checks]
-    counts = f"{kinds.count('proof')} proofs, {kinds.count('witness')} witnesses"
+    proofs = _count(kinds.count("proof"), "proof", "proofs")
+    witnesses = _count(kinds.count("witness"), "witness", "witnesses")
     return (
         f"{outcome.derivation.number:3}  {outcome.verdict:<9}  {outcome.derivation.title}: "
-        f"{counts}, {counts_text(outcome)} ({outcome.seconds:.2f} s)"
+        f"{proofs}, {witnesses}, {counts_text(outcome)} ({outcome.seconds:.2f} s)"
     )
 
 

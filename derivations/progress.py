@@ -51,13 +51,18 @@ class LiveBar(Silence):
     def __init__(self, console: "Console", total: int, *, lines: bool) -> None:
         """Make the bar; ``lines`` says whether the console may also have lines of text."""
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+        from rich.table import Column
 
         self._console = console
         self._lines = lines
         self._bar = Progress(
             BarColumn(bar_width=24),
             MofNCompleteColumn(),
-            TextColumn("{task.description}", markup=False),
+            TextColumn(
+                "{task.description}",
+                markup=False,
+                table_column=Column(no_wrap=True, overflow="ellipsis"),
+            ),
             console=console,
             transient=True,
         )

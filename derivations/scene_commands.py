@@ -57,7 +57,7 @@ def _planned(scene: Path, tolerance: str | None) -> "Plan":
 
 
 def explain(scene: _Scene, tolerance: _Tolerance = None, as_json: _Json = False) -> None:
-    """Say what 'run' would do with a scene, and why, without doing it."""
+    """Say what 'run' would do, and why."""
     from numeric.result import plan_data
 
     planned = _planned(scene, tolerance)
@@ -191,7 +191,7 @@ def _csv(rows: list[dict[str, Any]]) -> str:
 
 
 def stability(as_json: _Json = False) -> None:
-    """Measure the engine's errors against certified enclosures, hard cases included."""
+    """Measure the engine's errors in hard cases."""
     from numeric.stability import cases, closed_form_rows, measure
 
     rows = []

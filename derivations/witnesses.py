@@ -31,7 +31,7 @@ def compare(pairs: Iterator[tuple[str, object, object]]) -> Ruling:
         if printed != true:
             return Ruling(Verdict.DISAGREES, f"{where}: printed {printed}, exact {true}")
         count += 1
-    return Ruling(Verdict.AGREES, f"{count} values equal as fractions")
+    return Ruling(Verdict.AGREES, f"equal as fractions: {count} compared")
 
 
 def geometry(

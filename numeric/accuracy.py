@@ -9,12 +9,16 @@ import flint
 import numpy as np
 
 from numeric.answers import Table
-from numeric.decimals import decimal_string
 from numeric.lattice import Array
-from numeric.systems import Balls, Hardware, NumberSystem, midpoint
+from numeric.systems import Balls, Hardware, NumberSystem
 
-# A printed decimal may be off by one unit in its last digit, which is at most 20 ball radii.
+# A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.
 PRINTED = 20
+
+
+def most_digits(system: Balls) -> int:
+    """Give the digits to which even an exact number is printed."""
+    return int(system.bits * 0.30103) + 1
 
 
 @dataclass(frozen=True)
@@ -41,7 +45,7 @@ def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:
                 return Accuracy(math.inf, True, system.name, float(system.bits))
             largest = largest.max(value.abs_lower())
             radius = radius.max(value.rad())
-    if radius == 0:
+    if radius == 0 and largest == 0:
         return Accuracy(0.0, True, system.name, 0.0)
     note = ""
     if not largest > 0:
@@ -50,8 +54,11 @@ def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:
         largest = system.number(floor)
         note = "no change can be told from zero; the error is relative to σ/r instead"
     ratio = (radius / largest).upper()
-    lost = max(system.bits + float(ratio.log() / flint.arb.const_log2()), 0.0)
-    return Accuracy(_up(ratio * PRINTED), True, system.name, round(lost, 1), note)
+    lost = 0.0
+    if ratio > 0:
+        lost = max(system.bits + float(ratio.log() / flint.arb.const_log2()), 0.0)
+    printed = ratio * PRINTED + flint.arb(10) ** (1 - most_digits(system))
+    return Accuracy(_up(printed), True, system.name, round(lost, 1), note)
 
 
 def _up(value: Any) -> float:
@@ -59,8 +66,11 @@ def _up(value: Any) -> float:
     return max(float(value.upper()) * (1 + 1e-15), 5e-324)
 
 
-def of_floats(table: Table, longer: Table, system: Hardware) -> Accuracy:
-    """Estimate the error of one float solution from one with a longer significand."""
+def of_floats(table: Table, longer: Table, whole: Table, system: Hardware) -> Accuracy:
+    """Estimate the error of a float solution from one with a longer significand.
+
+    ``table`` and ``longer`` are the two solutions of some realisations out of ``whole``.
+    """
     largest, error = 0.0, 0.0
     for name in table.small:
         a, b = table.numbers[name], longer.numbers[name]
@@ -68,9 +78,12 @@ def of_floats(table: Table, longer: Table, system: Hardware) -> Accuracy:
             continue
         largest = max(largest, float(np.abs(a).max()))
         error = max(error, float(max(abs(float(y - x)) for x, y in zip(a, b, strict=True))))
-    unit = 2.0**-system.bits
+    unit = 4 * 2.0**-system.bits  # no estimate can promise less than a few roundings
     if not largest:
-        return Accuracy(0.0 if not error else math.inf, False, system.name, 0.0)
+        bound = math.inf if error else 0.0
+        if not error and any(np.any(whole.numbers[name]) for name in whole.small):
+            bound = unit  # what was compared is exactly zero, the rest of the answer is not
+        return Accuracy(bound, False, system.name, 0.0, "estimated, not certified")
     if not math.isfinite(largest) or not math.isfinite(error):
         return Accuracy(math.inf, False, system.name, float(system.bits))
     ratio = max(2 * error / largest, unit)
@@ -81,21 +94,19 @@ def of_floats(table: Table, longer: Table, system: Hardware) -> Accuracy:
 def strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dict[str, list[str]]:
     """Print the number columns, each number with the digits that its error leaves."""
     if isinstance(system, Balls):
-        most = int(system.bits * 0.30103) + 1
+        most = most_digits(system)
         return {k: [_ball_string(v, most) for v in c] for k, c in table.numbers.items()}
     largest = max(
         (float(np.abs(table.numbers[k]).max()) for k in table.small if len(table.numbers[k])),
         default=0.0,
     )
-    error = accuracy.error_bound * largest
+    error = accuracy.error_bound * largest if math.isfinite(accuracy.error_bound) else math.inf
     return {k: _float_strings(column, error) for k, column in table.numbers.items()}
 
 
 def _ball_string(value: Any, most: int) -> str:
     if value.contains(0):
         return "0"
-    if value.is_exact():
-        return decimal_string(midpoint(value), None)
     return str(value.str(most, radius=False))
 
 
@@ -103,7 +114,7 @@ def _float_strings(column: Array, error: float) -> list[str]:
     result = []
     for value in column.tolist():
         off = error + abs(value) * 2.0**-52
-        if not value or not math.isfinite(value) or abs(value) <= off:
+        if not value or not math.isfinite(value) or not abs(value) > off:
             result.append("0" if math.isfinite(value) else str(value))
             continue
         digits = math.floor(math.log10(abs(value))) - math.floor(math.log10(off))

@@ -17,7 +17,7 @@ from numeric import closed_forms, plain
 from numeric.engine import Solved
 from numeric.forces import Forces
 from numeric.lattice import Array, Layer, pick
-from numeric.moments import Moments
+from numeric.moments import Moments, unit_near
 from numeric.planner import Plan
 from numeric.radii import DrawnRadii
 from numeric.systems import NumberSystem, array
@@ -61,6 +61,9 @@ class Gatherer:
 
     def _one(self, solved: Solved, number: int | None) -> Table:
         raise NotImplementedError
+
+    def _unit(self) -> float:
+        return unit_near(self.plan.radii.relative_std())
 
     def _home(self, i: int) -> int:
         width = self.plan.scene.packing.width
@@ -130,9 +133,9 @@ class ContactForces(Gatherer):
         branches: list[str] = []
         columns: list[tuple[Array, Array]] = []
         last = self.plan.scene.packing.height if width is not None else len(forces.rows) - 1
-        stopped = 0 if forces.stopped is None else forces.stopped[1] + 1
+        lowest = 0 if forces.stopped is None else forces.stopped[1]
         zero = array(self.system, [Fraction(0)])[0]
-        for upper in range(max(stopped, 1), last + 1):
+        for upper in range(lowest + 1, last + 1):
             everything = None if width is None else Layer(upper, upper % 2, width)
             for branch, step in (("+", -1), ("-", 1)):
                 if upper < len(forces.rows):
@@ -155,8 +158,8 @@ class ContactForces(Gatherer):
         return Table(
             {"i": i, "j": j, "branch": branches},
             {
-                "force": np.concatenate([c[0] for c in columns] or [empty]),
-                "change": np.concatenate([c[1] for c in columns] or [empty]),
+                "force": np.concatenate([empty, *(c[0] for c in columns)]),
+                "change": np.concatenate([empty, *(c[1] for c in columns)]),
             },
             ("change",),
         )
@@ -217,13 +220,15 @@ class BaseReactions(Gatherer):
         layer = rows[0]
         if width is not None:
             layer = Layer(0, 0, width)
+        forces = solved.forces
+        if forces is not None and forces.stopped is not None and forces.stopped[1]:
+            layer = Layer(0, 0, 0)  # the sweep did not come down to the base
         own = self.plan.load.on((layer,), strength, system)
         zero = array(system, [Fraction(0)] * layer.count)
         plus = zero if own.plus[0] is None else own.plus[0]
         minus = zero if own.minus[0] is None else own.minus[0]
         change_plus, change_minus = zero, zero
-        forces = solved.forces
-        if forces is not None and len(rows) > 1 and not forces.stopped:
+        if forces is not None and len(rows) > 1 and layer.count:
             F, g, a, b = self._above(solved, layer, number)
             plus, minus = plus + F["+"], minus + F["-"]
             f = {s: F[s] + g[s] for s in "+-"}
@@ -288,7 +293,7 @@ class Profile(Gatherer):
                 continue
             for branch in "+-":
                 F, g = self._whole(forces, upper, branch, width, zero)
-                ordered, moments = self.moments.get((upper, branch), (None, Moments()))
+                ordered, moments = self.moments.get((upper, branch), (None, Moments(self._unit())))
                 # Under a surface or bulk load F is one number: nothing may be subtracted from it.
                 alike = self.plan.load.loaded is None
                 if ordered is None:
@@ -316,7 +321,7 @@ class Profile(Gatherer):
         """One row a layer and branch, base first."""
         keys = sorted(self.moments)
         ordered = [self.moments[key][0] for key in keys]
-        mean = [self.moments[key][1].mean for key in keys]
+        mean = [self.moments[key][1].average().item() for key in keys]
         std = [self.moments[key][1].std(self.system).item() for key in keys]
         count = [self.moments[key][1].count for key in keys]
         index: dict[str, list[Any]] = {
@@ -369,8 +374,9 @@ class Response(Gatherer):
     def __init__(self, plan: Plan, system: NumberSystem) -> None:
         """Start empty."""
         super().__init__(plan, system)
-        self.moments = Moments()
+        self.moments = Moments(self._unit())
         self.last: Table | None = None
+        self.ordered: tuple[Array, Array] = (array(system, []), array(system, []))
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Take in realisations."""
@@ -386,9 +392,9 @@ class Response(Gatherer):
         assert forces is not None
         ny = plain.axes(self.plan.scene.n_x, system)[1]
         index: dict[str, list[Any]] = {"i": [], "j": [], "branch": []}
-        parts: list[tuple[Array, Array, Array, Array]] = []
+        parts: list[tuple[Array, ...]] = []
         lowest = 0 if forces.stopped is None else forces.stopped[1]
-        for upper in range(max(lowest, 1), len(forces.rows)):
+        for upper in range(lowest + 1, len(forces.rows)):
             layer = forces.rows[upper]
             for branch, step, F, g in _both(forces, upper, number):
                 tilt = array(system, [Fraction(0)] * layer.count)
@@ -403,11 +409,12 @@ class Response(Gatherer):
                 index["i"] += [self._home(i + step) for i in layer.sites()]
                 index["j"] += [upper - 1] * layer.count
                 index["branch"] += [branch] * layer.count
-                parts.append((F + g, g, F * ny + vertical_change, vertical_change))
+                parts.append((F + g, g, F * ny + vertical_change, vertical_change, F))
         nothing = array(system, [])
-        columns = [np.concatenate([part[k] for part in parts] or [nothing]) for k in range(4)]
+        columns = [np.concatenate([nothing, *(part[k] for part in parts)]) for k in range(5)]
+        self.ordered = (columns[4], columns[4] * ny)
         names = ("force", "change", "vertical", "vertical_change")
-        return Table(index, dict(zip(names, columns, strict=True)), ("change", "vertical_change"))
+        return Table(index, dict(zip(names, columns, strict=False)), ("change", "vertical_change"))
 
     def table(self) -> Table:
         """One row a contact."""
@@ -415,12 +422,14 @@ class Response(Gatherer):
         if self.plan.realisations == 1:
             return self.last
         half = len(self.last.index["i"])
-        mean, std = self.moments.mean, self.moments.std(self.system)
+        mean, std = self.moments.average(), self.moments.std(self.system)
         return Table(
             self.last.index,
             {
+                "force_mean": self.ordered[0] + mean[:half],
                 "force_mean_change": mean[:half],
                 "force_std": std[:half],
+                "vertical_mean": self.ordered[1] + mean[half:],
                 "vertical_mean_change": mean[half:],
                 "vertical_std": std[half:],
             },
@@ -437,7 +446,8 @@ class Changes(Gatherer):
         forces = solved.forces
         assert forces is not None
         parts = [g for j in range(1, len(forces.rows)) for _, _, _, g in _both(forces, j, number)]
-        return Table({}, {"change": np.concatenate(parts)}, ("change",))
+        nothing = array(self.system, [])
+        return Table({}, {"change": np.concatenate([nothing, *parts])}, ("change",))
 
 
 GATHERERS: dict[str, Callable[[Plan, NumberSystem], Gatherer]] = {

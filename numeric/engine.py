@@ -55,16 +55,14 @@ def solve(plan: Plan, realisations: Sequence[int], system: NumberSystem, work: W
         return Solved(system, solved, None, None, seconds)
     strength = plan.load.strength(n_x, system)
     loads = plan.load.on(plan.force_rows, strength, system)
-    if plan.route == "exact":
-        forces = sweep(
-            solved,
-            plan.force_rows,
-            loads,
-            stop_at_tension=plan.scene.effects.stop_at_tension,
-            work=work,
-        )
-    else:
-        forces = first_order.forces(solved, plan.force_rows, loads, work)
+    forces = sweep(
+        solved,
+        plan.force_rows,
+        loads,
+        linear=plan.route == "first-order",
+        stop_at_tension=plan.scene.effects.stop_at_tension,
+        work=work,
+    )
     clock.stop("balance forces")
     return Solved(system, solved, forces, None, seconds)
 
@@ -72,8 +70,9 @@ def solve(plan: Plan, realisations: Sequence[int], system: NumberSystem, work: W
 def _sweeps(
     plan: Plan, system: NumberSystem
 ) -> tuple[Callable[..., Packing], Callable[..., Forces]]:
-    """Give the exact sweeps: for much work the compiled ones, same numbers, where numba is."""
-    if system is FLOAT64 and plan.region.beads * plan.realisations >= COMPILED_FROM:
+    """Give the sweeps: for much exact work the compiled ones, same numbers, where numba is."""
+    much = plan.region.beads * plan.realisations >= COMPILED_FROM
+    if much and system is FLOAT64 and plan.route == "exact":
         try:
             from numeric import fast
         except ImportError:
@@ -111,12 +110,21 @@ def _ordered(plan: Plan, system: NumberSystem) -> Solved:
 
 def _line_sums(plan: Plan, realisation: int, system: NumberSystem, work: Work) -> Solved:
     start = perf_counter()
+    seconds = {"read radii": 0.0, "draw radii": 0.0, "line sums": 0.0}
 
     def radius_at(i: int, j: int) -> Any:
+        begun = perf_counter()
         layer = Layer(j, i, 1)
         work.did("radii", layer)
         work.did("summed", layer)
-        return plan.radii.row(layer, [realisation], system)[0]
+        radius = plan.radii.row(layer, [realisation], system)[0]
+        seconds["draw radii"] += perf_counter() - begun
+        seconds["read radii"] = seconds["draw radii"]
+        return radius
+
+    def finished(single: tuple[Any, Any]) -> Solved:
+        seconds["line sums"] = perf_counter() - start - seconds["draw radii"]
+        return Solved(system, None, None, single, seconds)
 
     n_x = plan.scene.n_x
     if not plan.needs_forces:
@@ -126,7 +134,7 @@ def _line_sums(plan: Plan, realisation: int, system: NumberSystem, work: Work) -
             first_order.line_sum(lines.along(0, j))[-1],
             first_order.line_sum(lines.across(i, j))[-1],
         )
-        return Solved(system, None, None, single, {"line sums": perf_counter() - start})
+        return finished(single)
     contact = plan.scene.contact
     i, j, branch = contact
     side, other = (1, "-") if branch == "+" else (-1, "+")
@@ -146,4 +154,4 @@ def _line_sums(plan: Plan, realisation: int, system: NumberSystem, work: Work) -
         n_x=n_x,
         system=system,
     )
-    return Solved(system, None, None, (own, change), {"line sums": perf_counter() - start})
+    return finished((own, change))

@@ -353,6 +353,7 @@ def sweep_down(
     rows: tuple[Layer, ...],
     loads: Loads,
     *,
+    linear: bool = False,
     stop_at_tension: bool = False,
     work: Work | None = None,
 ) -> Forces:
@@ -360,12 +361,15 @@ def sweep_down(
     given = [_stacked(loads.plus), _stacked(loads.minus)]
     if (
         not isinstance(solved, CompiledPacking)
+        or linear
         or stop_at_tension
         or len(rows) != len(solved.rho)
         or not (rows is solved.region.rows or _is_whole(rows, solved.region.width))
         or any(len(r) and r.shape[1:] != (solved.region.width,) for _, r in given)
     ):
-        return forces.sweep_down(solved, rows, loads, stop_at_tension=stop_at_tension, work=work)
+        return forces.sweep_down(
+            solved, rows, loads, linear=linear, stop_at_tension=stop_at_tension, work=work
+        )
     plus, minus = solved.blocks
     size = plus[0].shape
     F, g = _pairs((1, *size[1:]), size)

@@ -16,7 +16,6 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from numeric.forces import Forces, Loads
 from numeric.lattice import Array, Layer, Region, pick, shifted
 from numeric.load_spec import LoadSpec
 from numeric.packing import Packing, metric, raised
@@ -197,44 +196,4 @@ def displace(
         minus.append(raised(beta_minus, 0, m))
     return Packing(
         n_x, system, region, rho, tuple(c_plus), tuple(c_minus), tuple(plus), tuple(minus)
-    )
-
-
-def forces(
-    packing: Packing, rows: tuple[Layer, ...], loads: Loads, work: Work | None = None
-) -> Forces:
-    """Carry loads down to first order: sums along the diagonals, nothing to invert (Eqs. 6–11)."""
-    system, width = packing.system, packing.region.width
-    zero = zeros(system, 1)[0]
-    top = len(rows) - 1
-    nothing = (zeros(system, 0), zeros(system, 0))
-    ordered, change = [nothing] * (top + 1), [nothing] * (top + 1)
-    for j in range(top, 0, -1):
-        layer = rows[j]
-        if not layer.count:
-            break
-        Fp, Fm, gp, gm = (zeros(system, layer.count) for _ in range(4))
-        if j < top:
-            right, left = shifted(layer, 1), Layer(j + 1, layer.first - 1, layer.count)
-            above, packed = rows[j + 1], packing.region.rows[j + 1]
-            Fp, gp = (pick(v[j + 1][0], above, right, width, zero) for v in (ordered, change))
-            Fm, gm = (pick(v[j + 1][1], above, left, width, zero) for v in (ordered, change))
-            ap, bp = (pick(v, packed, right, width, zero) for v in packing.plus[j + 1])
-            am, bm = (pick(v, packed, left, width, zero) for v in packing.minus[j + 1])
-            gp, gm = gp + (Fp * ap + Fm * am), gm + (Fp * bp + Fm * bm)
-        if (Lp := loads.plus[j]) is not None and (Lm := loads.minus[j]) is not None:
-            Fp, Fm = Fp + Lp, Fm + Lm
-        a = [pick(v, packing.region.rows[j], layer, width) for v in packing.plus[j]]
-        b = [pick(v, packing.region.rows[j], layer, width) for v in packing.minus[j]]
-        if work is not None:
-            work.did("balanced", layer, gp.size // layer.count)
-        ordered[j] = (Fp, Fm)
-        change[j] = (gp - (Fp * a[0] + Fm * b[0]), gm - (Fp * a[1] + Fm * b[1]))
-    return Forces(
-        system,
-        rows,
-        tuple(f[0] for f in ordered),
-        tuple(f[1] for f in ordered),
-        tuple(g[0] for g in change),
-        tuple(g[1] for g in change),
     )

@@ -64,10 +64,14 @@ def sweep_down(
     rows: tuple[Layer, ...],
     loads: Loads,
     *,
+    linear: bool = False,
     stop_at_tension: bool = False,
     work: Work | None = None,
 ) -> Forces:
-    """Carry loads down from the highest of ``rows`` through the beads of ``rows``, exactly.
+    """Carry loads down from the highest of ``rows`` through the beads of ``rows``.
+
+    Exactly; or, with ``linear``, to first order: then forces are sums down the diagonals, and there
+    is nothing to invert (Eqs. 6–11, for a packing of ``first_order.displace``).
 
     ``rows[j]`` for j = 0 … top lie within the packing's region; ``loads`` belong to them. Beads
     above or beside the rows pass no force on to them. The caller activates the number system.
@@ -90,21 +94,27 @@ def sweep_down(
 
         plus = tuple(here(v, packing.region.rows[j]) for v in packing.plus[j])
         minus = tuple(here(v, packing.region.rows[j]) for v in packing.minus[j])
-        Fp, Fm, sum_plus, sum_minus = _from_above(packing, rows, j, ordered=ordered, change=change)
+        Fp, Fm, sum_plus, sum_minus = _from_above(
+            packing, rows, j, ordered=ordered, change=change, linear=linear
+        )
         Lp, Lm = loads.plus[j], loads.minus[j]
         Fp = Fp if Lp is None else Fp + Lp
         Fm = Fm if Lm is None else Fm + Lm
         sum_plus = sum_plus - Fp * plus[0] - Fm * minus[0]
         sum_minus = sum_minus - Fp * plus[1] - Fm * minus[1]
-        # Cramer for g⁺(1 + a⁺, b⁺) + g⁻(a⁻, 1 + b⁻) = (sum_plus, sum_minus)
-        det = 1 + (plus[0] + minus[1] + (plus[0] * minus[1] - minus[0] * plus[1]))
-        _check_standing(det, layer, system)
-        gp = (sum_plus * (1 + minus[1]) - sum_minus * minus[0]) / det
-        gm = (sum_minus * (1 + plus[0]) - sum_plus * plus[1]) / det
+        gp, gm = sum_plus, sum_minus
+        if not linear:
+            # Cramer for g⁺(1 + a⁺, b⁺) + g⁻(a⁻, 1 + b⁻) = (sum_plus, sum_minus)
+            det = 1 + (plus[0] + minus[1] + (plus[0] * minus[1] - minus[0] * plus[1]))
+            _check_standing(det, layer, system)
+            gp = (sum_plus * (1 + minus[1]) - sum_minus * minus[0]) / det
+            gm = (sum_minus * (1 + plus[0]) - sum_plus * plus[1]) / det
         if work is not None:
             work.did("balanced", layer, gp.size // layer.count)
         ordered[j], change[j] = (Fp, Fm), (gp, gm)
-        if stop_at_tension and (stopped := first_tension(layer, Fp + gp, Fm + gm, system)):
+        if stop_at_tension:
+            stopped = first_tension(layer, (Fp + gp, gp), (Fm + gm, gm), system)
+        if stopped is not None:
             break
     return Forces(
         system,
@@ -118,20 +128,34 @@ def sweep_down(
 
 
 def first_tension(
-    layer: Layer, plus: Array, minus: Array, system: NumberSystem
+    layer: Layer, plus: tuple[Array, Array], minus: tuple[Array, Array], system: NumberSystem
 ) -> tuple[int, int, str] | None:
     """Name the leftmost contact (i, j, branch) below ``layer`` that surely pulls, or None.
 
-    Raises ``UndecidedError`` where balls leave a sign open.
+    ``plus`` and ``minus`` are pairs (force, change). Raises ``UndecidedError`` where balls leave a
+    sign open; what floats leave open counts as holding.
     """
-    for values, branch, step in ((plus, "+", -1), (minus, "-", 1)):
-        pulls, holds = system.signs(-values)
+    for (force, change), branch, step in ((plus, "+", -1), (minus, "-", 1)):
+        pulls, undecided = pulling(force, change, system)
         if pulls.any():
             q = int(np.argwhere(pulls)[0][-1])
             return layer.first + 2 * q + step, layer.j - 1, branch
-        if not holds.all():
+        if undecided.any() and system.dtype is object:
             raise UndecidedError(f"layer {layer.j}: balls are too wide for the sign of a force")
     return None
+
+
+def pulling(force: Array, change: Array, system: NumberSystem) -> tuple[Array, Array]:
+    """Tell contacts that surely pull and those whose sign is open; two boolean arrays.
+
+    Balls decide by their own radius. Hardware floats have none: there a force is taken as open
+    within 2^-40 of its layer's largest change, far above their measured error below M*.
+    """
+    if system.dtype is object:
+        pulls, holds = system.signs(-force)
+        return pulls, ~(pulls | holds)
+    room = 2.0**-40 * np.abs(change).max(initial=0)
+    return force < -room, (np.abs(force) <= room) & (force != 0)
 
 
 def _from_above(
@@ -141,8 +165,12 @@ def _from_above(
     *,
     ordered: list[tuple[Array, Array]],
     change: list[tuple[Array, Array]],
+    linear: bool,
 ) -> tuple[Array, Array, Array, Array]:
-    """Collect (F⁺, F⁻) and the components of Σ g N + Σ F δn of the contacts above layer j."""
+    """Collect (F⁺, F⁻) and the components of Σ g N + Σ F δn of the contacts above layer j.
+
+    ``linear`` leaves g δn out, which is of second order.
+    """
     system, width, layer = packing.system, packing.region.width, rows[j]
     zero = zeros(system, 1)[0]
     if j == len(rows) - 1:
@@ -161,7 +189,7 @@ def _from_above(
     Fm, gm = get(ordered[j + 1][1], above, left), get(change[j + 1][1], above, left)
     ap, bp = (get(v, packed, right) for v in packing.plus[j + 1])
     am, bm = (get(v, packed, left) for v in packing.minus[j + 1])
-    fp, fm = Fp + gp, Fm + gm
+    fp, fm = (Fp, Fm) if linear else (Fp + gp, Fm + gm)
     return Fp, Fm, gp + (fp * ap + fm * am), gm + (fp * bp + fm * bm)
 
 

@@ -15,18 +15,24 @@ def histogram(
 ) -> list[tuple[Fraction, Fraction, int]]:
     """Count ``values`` into equal bins: [(low edge, high edge, count)], low ≤ value < high.
 
-    The outer edges are doubles just outside the extreme values, so that every number system has
-    the same bins; values that are all alike make one bin. Raises ``UndecidedError`` where a ball
-    lies across an edge.
+    The outer edges lie a little outside of the extreme values, by unequal shares of their distance:
+    symmetric values then have no edge at zero, which no ball around zero could be told from.
+    Values that are all alike make one bin. Every number system has the same bins. Raises
+    ``UndecidedError`` where a ball lies across an edge all the same.
     """
     if not len(values):
         return []
     rough = np.array([float(v) for v in values])
-    low, high = float(np.nextafter(rough.min(), -np.inf)), float(np.nextafter(rough.max(), np.inf))
+    least, most = Fraction(float(rough.min())), Fraction(float(rough.max()))
+    span = most - least
+    if not span:
+        one = float(rough[0])
+        return [
+            (Fraction(np.nextafter(one, -np.inf)), Fraction(np.nextafter(one, np.inf)), len(values))
+        ]
+    low, high = float(least - span / 1009), float(most + span / 2003)
     edges = [Fraction(low) + (Fraction(high) - Fraction(low)) * k / bins for k in range(bins + 1)]
     counts = [0] * bins
-    if rough.min() == rough.max():
-        return [(Fraction(low), Fraction(high), len(values))]
     if isinstance(system, Balls):
         bounds = [system.number(e) for e in edges]
         for value in values:

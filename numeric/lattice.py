@@ -7,7 +7,6 @@ q of layer j is i = 2q + (j mod 2), 0 ≤ i < 2W. Lengths are in units of the me
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -142,15 +141,3 @@ def pick(values: Array, source: Layer, wanted: Layer, width: int | None, zero: A
 def shifted(layer: Layer, by: int) -> Layer:
     """Give the row one step up (by = +1) or down (by = −1) and right: sites (i + 1, j + by)."""
     return Layer(layer.j + by, layer.first + 1, layer.count)
-
-
-def lattice_direction(spacing: Fraction, radius: Fraction) -> Fraction:
-    """Give n_x = s/4r, checked to lie within the range where ordered beads don't overlap (Eq. 1).
-
-    Raises ``ValueError`` unless 2r < s < 2√3 r.
-    """
-    if radius <= 0 or not 4 * radius**2 < spacing**2 < 12 * radius**2 or spacing < 0:
-        raise ValueError(
-            f"spacing {spacing} must lie strictly between 2 r and 2*sqrt(3) r, r = {radius}"
-        )
-    return spacing / (4 * radius)

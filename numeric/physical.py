@@ -8,11 +8,10 @@ they are certified.
 
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
-from numeric.forces import Forces
+from numeric.forces import Forces, pulling
 from numeric.lattice import Array
 from numeric.packing import Packing
 
@@ -99,25 +98,13 @@ class Physicality:
                 continue
             for F, g, branch, step in ((Fp, gp, "+", -1), (Fm, gm, "-", 1)):
                 f = F + g
-                pulls, holds = forces.system.signs(-f)
+                pulls, undecided = pulling(f, g, forces.system)
                 self.contacts += f.size
                 self.tensile += int(np.count_nonzero(pulls))
-                self.undecided_signs += f.size - int(np.count_nonzero(pulls | holds))
+                self.undecided_signs += int(np.count_nonzero(undecided))
                 if pulls.any() and self.first_tensile is None:
                     q = int(np.argwhere(pulls)[0][-1])
                     self.first_tensile = (layer.first + 2 * q + step, layer.j - 1, branch)
-
-    def look_at_force(self, force: Any, system: Any, contact: tuple[int, int, str]) -> None:
-        """Look at the sign of one contact force."""
-        one = np.empty(1, dtype=system.dtype)
-        one[0] = force
-        pulls, holds = system.signs(-one)
-        self.forces_known = True
-        self.contacts += 1
-        self.tensile += int(pulls[0])
-        self.undecided_signs += int(not (pulls[0] or holds[0]))
-        if pulls[0]:
-            self.first_tensile = contact
 
 
 def _home(i: int, period: int | None) -> int:

@@ -4,12 +4,12 @@ One planner serves both explaining and running: the runner takes its regions, it
 steps from here and adds nothing but the measured cost.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
 from numeric import budget, first_order, regions
-from numeric.lattice import Region, whole
+from numeric.lattice import Region, standing_on_base, whole
 from numeric.load_spec import LoadSpec
 from numeric.radii import DrawnRadii, MeasuredRadii, Monodisperse, Radii
 from numeric.regions import Rows
@@ -58,7 +58,6 @@ class Plan:
     memory: int
     estimated_seconds: float
     sees_images: bool
-    notes: tuple[str, ...] = field(default=())
 
     @cached_property
     def needs_forces(self) -> bool:
@@ -206,7 +205,7 @@ class _Planner:
             return regions.triangle(*self.scene.site, self.width)
         if not any(layer.count for layer in force_rows):
             return Region(self.width, ())
-        return regions.geometry_for(force_rows, self.width)
+        return standing_on_base(force_rows, self.width)
 
     # How it is answered
 

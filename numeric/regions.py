@@ -11,7 +11,7 @@ through δn of the contact itself, on two diagonals of the other orientation.
 
 from collections.abc import Iterable
 
-from numeric.lattice import Layer, Region, hull, row, standing_on_base, supports
+from numeric.lattice import Layer, Region, hull, row, supports
 
 Site = tuple[int, int]
 Rows = tuple[Layer, ...]
@@ -96,20 +96,13 @@ def contact_rows(contact: tuple[int, int, str], reach: Rows, width: int | None) 
     return rows
 
 
-def geometry_for(force_rows: Rows, width: int | None) -> Region:
-    """Give the beads whose positions the force balance of ``force_rows`` needs."""
-    return standing_on_base(force_rows, width)
-
-
 def contact_beads(j: int, height: int) -> int:
     """Count the beads on which the exact f^±_ij depends (surface or bulk load, W ≥ 2M − j).
+
+    The cone above the contact holds M − j beads of the surface; layer m lies M − m below it, and
+    the triangles widen by one bead a layer: 2M − j − m beads, summed over m = 0 … M.
 
     >>> contact_beads(0, 1), contact_beads(0, 64)
     (3, 6240)
     """
     return (height + 1) * (3 * height - 2 * j) // 2
-
-
-def width_free_of_images(region: Region) -> int:
-    """Give the smallest W at which a question about a slab sees no periodic image."""
-    return max((layer.last - layer.first) // 2 + 1 for layer in region.rows)

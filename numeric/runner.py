@@ -22,6 +22,8 @@ from numeric.work import Progress, Work
 
 MOST_BITS = 8192
 DEFAULT_BINS = 20
+# Realisations that are solved twice to estimate the error: four of packings that are small.
+FEW, SMALL = 4, 20_000
 
 
 class ToleranceError(ArithmeticError):
@@ -110,14 +112,16 @@ def _chunks(realisations: Sequence[int], size: int) -> Iterator[Sequence[int]]:
 
 
 def _estimate(plan: Plan, attempt: _Attempt) -> Accuracy:
-    """Solve the first realisation again with a longer significand, and compare."""
+    """Solve the first realisations again with a longer significand, and compare."""
     start = perf_counter()
     longer: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
-    one = replace(plan, realisations=1)
+    few = range(min(plan.realisations, FEW if plan.region.beads < SMALL else 1))
+    part = replace(plan, realisations=len(few))
     table = attempt.table
-    if plan.realisations > 1:
-        table = _attempt(one, FLOAT64, [0], None).table
-    accuracy = of_floats(table, _attempt(one, longer, [0], None).table, FLOAT64)
+    if len(few) < plan.realisations:
+        table = _attempt(part, FLOAT64, few, None).table
+    again = _attempt(part, longer, few, None).table
+    accuracy = of_floats(table, again, attempt.table, FLOAT64)
     attempt.seconds["estimate the error"] = perf_counter() - start
     return accuracy
 

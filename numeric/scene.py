@@ -243,6 +243,16 @@ def check(scene: Scene) -> None:
         raise SceneError(
             "effects.stop_at_tension", True, 'only has a meaning with geometry = "exact"'
         )
+    if (
+        scene.effects.stop_at_tension
+        and scene.ask.quantity == "response"
+        and scene.ask.realisations > 1
+    ):
+        raise SceneError(
+            "effects.stop_at_tension",
+            True,
+            "can't be averaged: each realisation of a response would stop elsewhere",
+        )
 
 
 def _check_packing(scene: Scene) -> None:

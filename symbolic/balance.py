@@ -21,6 +21,11 @@ def balance_matrix() -> sympy.ImmutableMatrix:
     return sympy.ImmutableMatrix([[1, phi + epsilon * tilt_minus], [phi + epsilon * tilt_plus, 1]])
 
 
+def inverted() -> sympy.ImmutableMatrix:
+    """Return the inverse of the balance matrix, as its adjugate over its determinant."""
+    return balance_matrix().inv(method="ADJ")
+
+
 def incoming(kind: str) -> sympy.ImmutableMatrix:
     """P dotted with n⁺ and n⁻: n⁺ + n⁻ for "load", N⁺ for "+", N⁻ for "-" (unit forces)."""
     along = {
@@ -34,6 +39,6 @@ def incoming(kind: str) -> sympy.ImmutableMatrix:
 @cache
 def solved(kind: str) -> tuple[tuple[sympy.Expr, sympy.Expr], tuple[sympy.Expr, sympy.Expr]]:
     """Forces (f⁺, f⁻) of the supports: their values at ε = 0, and their slopes in ε there."""
-    forces = balance_matrix().inv() * incoming(kind)
+    forces = inverted() * incoming(kind)
     at_zero, slope = forces.subs(epsilon, 0), sympy.diff(forces, epsilon).subs(epsilon, 0)
-    return tuple(at_zero), tuple(slope)
+    return tuple(map(sympy.cancel, at_zero)), tuple(map(sympy.factor, slope))

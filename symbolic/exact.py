@@ -158,6 +158,25 @@ class RationalFunction:
         """Decide whether this is zero, given n_x² + n_y² = 1."""
         return self.domain.vanishes(self.numerator)
 
+    def at(self, values: Mapping[sympy.Expr, Fraction]) -> Fraction:
+        """Value at a point; ``ZeroDivisionError`` where the denominator vanishes."""
+        return self._value(self.numerator, values) / self._value(self.denominator, values)
+
+    def _value(self, polynomial: Polynomial, values: Mapping[sympy.Expr, Fraction]) -> Fraction:
+        total = Fraction(0)
+        for exponents, c in polynomial.to_dict().items():
+            term = Fraction(int(c.p), int(c.q))
+            for generator, power in zip(self.domain.generators, exponents, strict=True):
+                if power:
+                    term *= values[generator] ** int(power)
+            total += term
+        return total
+
+    def holds(self, symbol: sympy.Expr) -> bool:
+        """Whether a generator occurs."""
+        place = self.domain.position[symbol]
+        return bool(self.numerator.degrees()[place] or self.denominator.degrees()[place])
+
     def degree(self, symbol: sympy.Expr) -> int:
         """Degree in ``symbol``, which the denominator must not hold."""
         position = self.domain.position[symbol]

@@ -4,7 +4,7 @@ A refutation is an explicit counterexample, found with Fractions on a small pack
 a normal form that is zero. The two share no code, and what neither settles is undecided.
 """
 
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
@@ -15,7 +15,7 @@ import sympy
 from symbolic import explicit
 from symbolic import symbols as sy
 from symbolic.affine import Region
-from symbolic.exact import Domain, NotExactError
+from symbolic.exact import Domain, NotExactError, RationalFunction
 from symbolic.reading import Reader
 from symbolic.vectors import CARTESIAN, LINE_SUM, Basis
 
@@ -62,15 +62,19 @@ GEOMETRIES = (
 _OTHERS = {sy.sigma: Fraction(3, 7), sy.f_load: Fraction(11, 5), sy.m_g: Fraction(13, 9)}
 
 
-def _samples(region: Region, free: tuple[sympy.Symbol, ...]) -> list[dict[sympy.Symbol, int]]:
-    """Return points of the region, a generic one first, then its corners.
+def _samples(
+    region: Region, free: tuple[sympy.Symbol, ...]
+) -> Iterator[dict[sympy.Symbol, Fraction | int]]:
+    """Yield a generic point of the region on either lattice, then corners on the first.
 
     Indices that the region leaves free take any value.
     """
-    excesses = [tuple(3 + 2 * a for a in range(len(region)))]
-    excesses += list(islice(product((0, 1, 2), repeat=len(region)), 9))
     anywhere = {symbol: 5 + 2 * a for a, symbol in enumerate(free)}
-    return [{**anywhere, **region.sample(*e)} for e in excesses]
+    generic = tuple(3 + 2 * a for a in range(len(region)))
+    corners = islice(product((0, 1), repeat=len(region)), 4)
+    first, second = GEOMETRIES
+    for geometry, excess in ((first, generic), (second, generic), *((first, c) for c in corners)):
+        yield {**geometry, **_OTHERS, **anywhere, **region.sample(*excess)}
 
 
 def counterexample(
@@ -83,24 +87,21 @@ def counterexample(
             key=str,
         )
     )
-    for geometry in GEOMETRIES:
-        for point in _samples(region, free):
-            values: explicit.Values = {**geometry, **_OTHERS, **point}
-            pairs: tuple[tuple[explicit.Weights, explicit.Weights], ...]
-            if is_vector:
-                one, two = (explicit.vector_weights(side, values) for side in (left, right))
-                pairs = tuple(zip(one, two, strict=True))
-            else:
-                pairs = ((explicit.weights(left, values), explicit.weights(right, values)),)
-            for a, b in pairs:
-                if a != b:
-                    key = min(k for k in a.keys() | b.keys() if a.get(k) != b.get(k))
-                    where = ", ".join(f"{s} = {v}" for s, v in point.items())
-                    name = f"{key[0]}({key[1]}, {key[2]})" if key[0] else "the constant term"
-                    return (
-                        f"at {where or 'any site'}, φ = {values[sy.phi]}: {name} has the weight "
-                        f"{a.get(key, 0)} on the left and {b.get(key, 0)} on the right"
-                    )
+    for values in _samples(region, free):
+        if is_vector:
+            both = [explicit.vector_weights(side, values) for side in (left, right)]
+            pairs = list(zip(*both, strict=True))
+        else:
+            pairs = [(explicit.weights(left, values), explicit.weights(right, values))]
+        for one, other in pairs:
+            if one != other:
+                key = min(k for k in one.keys() | other.keys() if one.get(k) != other.get(k))
+                where = ", ".join(f"{s} = {values[s]}" for s in (*free, *region.lower_bounds))
+                name = f"{key[0]}({key[1]}, {key[2]})" if key[0] else "the constant term"
+                return (
+                    f"at {where or 'any site'}, φ = {values[sy.phi]}: {name} has the weight "
+                    f"{one.get(key, 0)} on the left and {other.get(key, 0)} on the right"
+                )
     return None
 
 
@@ -131,7 +132,11 @@ def decide_linear(
 
 
 def decide_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
-    """Rule on left = right as rational functions of their symbols, n_x² + n_y² = 1 given."""
+    """Rule on left = right as rational functions, n_x² + n_y² = 1 and φ = n_y² − n_x² given.
+
+    All other symbols and lattice quantities are independent variables here; both sides may be
+    undefined where a denominator vanishes.
+    """
     unknowns = sorted(
         left.free_symbols
         | right.free_symbols
@@ -146,7 +151,24 @@ def decide_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
         return undecided(str(reason))
     if difference.is_zero():
         return proved("the difference is the zero rational function")
-    return refuted(f"the difference is {difference.to_sympy()}, not zero")
+    return _apart(difference)
+
+
+def _apart(difference: RationalFunction) -> Ruling:
+    """Refute an identity by values of its symbols at which the two sides differ."""
+    generators = difference.domain.generators
+    for geometry in GEOMETRIES:
+        # distinct odd primes for what is free; n_x, n_y and φ as on one of the lattices
+        values = {g: Fraction(sympy.prime(place + 2)) for place, g in enumerate(generators)}
+        values |= {s: Fraction(geometry[s]) for s in (sy.n_x, sy.n_y, sy.phi)}
+        try:
+            found = difference.at(values)
+        except ZeroDivisionError:
+            continue
+        if found:
+            where = ", ".join(f"{g} = {values[g]}" for g in generators if difference.holds(g))
+            return refuted(f"left minus right is {found} at {where or 'any value'}")
+    return undecided("the difference is not the zero function, yet no values show it")
 
 
 def decide_vector_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
@@ -169,17 +191,15 @@ def _cartesian(symbol: sympy.Symbol) -> tuple[sympy.Expr, sympy.Expr]:
 
 
 def all_of(*rulings: Ruling) -> Ruling:
-    """Return the worst of several rulings: refuted before undecided before proved."""
+    """Return the worst of several rulings; all proved, their notes together."""
     for verdict in (Verdict.REFUTED, Verdict.UNDECIDED):
         for ruling in rulings:
             if ruling.verdict is verdict:
                 return ruling
-    return rulings[0]
+    notes = dict.fromkeys(ruling.note for ruling in rulings)
+    return proved("; ".join(notes))
 
 
 def from_test(outcome: bool, note: str, otherwise: str = "") -> Ruling:
     """Turn a decided yes or no into a ruling."""
     return proved(note) if outcome else refuted(otherwise or f"not so: {note}")
-
-
-Decision = Callable[[], Ruling]

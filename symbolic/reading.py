@@ -9,6 +9,7 @@ from symbolic.affine import Affine, Region
 from symbolic.exact import FIELD, NotExactError, RationalFunction
 from symbolic.linear_forms import LinearForm
 from symbolic.symbols import (
+    INDICES,
     Braces,
     DeltaNMinus,
     DeltaNPlus,
@@ -16,10 +17,22 @@ from symbolic.symbols import (
     MatrixTimes,
     SecondDifference,
     SiteFunction,
+    phi,
 )
 from symbolic.vectors import LINE_SUM, Basis
 
 Vector = tuple[LinearForm, LinearForm]
+
+
+_COSINES = (-sympy.Rational(1, 2), sympy.Rational(1, 2))  # φ lies between these, by Eq. 1
+
+
+class UnsafeDivisorError(NotExactError):
+    """A divisor is not shown to be different from zero everywhere in the region."""
+
+
+class VanishingDivisorError(UnsafeDivisorError):
+    """A divisor is zero for an admissible φ."""
 
 
 class UnsafeBoundsError(NotExactError):
@@ -85,7 +98,27 @@ class Reader:
         return LinearForm.constant(self._coefficient(expression))
 
     def _coefficient(self, expression: sympy.Expr) -> RationalFunction:
+        if self.region is not None:
+            for power in expression.atoms(sympy.Pow):
+                if power.exp.is_negative:
+                    self._assert_never_zero(power.base)
         return FIELD.from_sympy(expression)
+
+    def _assert_never_zero(self, divisor: sympy.Expr) -> None:
+        """Accept positive symbols, polynomials in φ without root, index sums of one sign."""
+        if isinstance(divisor, sympy.Mul):
+            for factor in divisor.args:
+                self._assert_never_zero(factor)
+        elif isinstance(divisor, sympy.Pow) and divisor.exp.is_Integer:
+            self._assert_never_zero(divisor.base)
+        elif divisor.free_symbols == {phi}:
+            # the number of roots in an interval is decided exactly (Sturm)
+            if sympy.Poly(divisor, phi).count_roots(*_COSINES):
+                raise VanishingDivisorError(f"{divisor} vanishes for a φ between −½ and ½")
+        elif not (divisor.is_positive or divisor == -1):
+            assert self.region is not None
+            if not self.region.differ(affine.from_sympy(divisor), affine.ZERO):
+                raise UnsafeDivisorError(f"{divisor} may vanish for {self.region}")
 
     def _atom(self, atom: SiteFunction) -> LinearForm | Vector:
         i, j = (affine.from_sympy(index) for index in atom.args)
@@ -167,6 +200,8 @@ class Reader:
 
     def _series(self, series: sympy.Sum) -> LinearForm | Vector:
         index, low, high = series.limits[-1]
+        if index not in INDICES:
+            raise NotExactError(f"{index} is no index of the exact domain")
         inner_limits = series.limits[:-1]
         body = sympy.Sum(series.function, *inner_limits) if inner_limits else series.function
         bounds = affine.from_sympy(low), affine.from_sympy(high)
@@ -206,7 +241,10 @@ def split_by_cases(
     body: sympy.Expr, index: sympy.Symbol, low: Affine, high: Affine
 ) -> list[tuple[sympy.Expr, Affine, Affine]]:
     """Split Σ over braces {a : index ≤ e; b : index > e} into one sum for each case."""
-    (braces,) = body.atoms(Braces)
+    found = body.atoms(Braces)
+    if len(found) != 1:
+        raise NotExactError("more than one pair of braces in a sum")
+    (braces,) = found
     first, second, braced_index, last = braces.args
     if braced_index != index:
         raise NotExactError(f"braces over {braced_index} in a sum over {index}")

@@ -73,12 +73,13 @@ def take_apart(form: LinearForm, region: Region) -> Pieces:
             if crossing and not any(_outside(crossing, run, region) for run in (one, other)):
                 sites[crossing] = None
     _assert_distinct(list(sites), region)
+    _assert_lines_apart(runs, region)
     special = {}
     for site in sites:
         counted = tuple(
             run.weight.substitute({LAYER: affine.to_field(site.j)})
             for run in runs
-            if _on_line(site, run.ray) and _inside(site, run, region)
+            if _meets(site, run, region)
         )
         full = form.sites.get(site, FIELD.zero)
         for part in counted:
@@ -126,8 +127,38 @@ def _crossing(one: Ray, other: Ray) -> Site | None:
     return plus.site(tuple(c // 2 for c in twice))
 
 
-def _on_line(site: Site, ray: Ray) -> bool:
-    return site == ray.site(site.j) and site.family == ray.family
+def _meets(site: Site, run: Run, region: Region) -> bool:
+    """Decide whether a run passes through a site: always in the region, or never."""
+    if site.family != run.ray.family or _outside(site, run, region):
+        return False
+    on_line = run.ray.site(site.j)
+    if site == on_line:
+        return _inside(site, run, region)
+    if region.differ(site.i, on_line.i):
+        return False
+    raise UndeterminedError(
+        f"whether ({affine.to_sympy(site.i)}, {affine.to_sympy(site.j)}) lies on the line "
+        f"({affine.to_sympy(on_line.i)}, {affine.to_sympy(site.j)})"
+    )
+
+
+def _assert_lines_apart(runs: tuple[Run, ...], region: Region) -> None:
+    """Two runs of parallel lines must lie on different lines, or in different layers."""
+    for a, one in enumerate(runs):
+        for other in runs[:a]:
+            parallel = (one.ray.family, one.ray.slope) == (other.ray.family, other.ray.slope)
+            if not parallel or one.ray.line == other.ray.line:
+                continue
+            apart = (
+                region.differ(one.ray.line, other.ray.line)
+                or region.below(one.last, other.first)
+                or region.below(other.last, one.first)
+            )
+            if not apart:
+                raise UndeterminedError(
+                    f"whether the lines {affine.to_sympy(one.ray.line)} and "
+                    f"{affine.to_sympy(other.ray.line)} are one"
+                )
 
 
 def _outside(site: Site, run: Run, region: Region) -> bool:

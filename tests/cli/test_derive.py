@@ -19,7 +19,7 @@ from symbolic.kernel import Verdict
 from tests.derivations import fakes
 
 ROOT = Path(__file__).parents[2]
-COMMAND = [sys.executable, "-m", "derivations.cli"]
+COMMAND = [sys.executable, "-m", "derivations"]
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "100"}
 
 
@@ -182,7 +182,7 @@ def test_a_full_disk_under_standard_output(arguments: list[str]) -> None:
 
 
 def test_a_closed_pipe_is_no_traceback() -> None:
-    shell = f"{sys.executable} -m derivations.cli derive 1 2 3 | head -c 1"
+    shell = f"{sys.executable} -m derivations derive 1 2 3 | head -c 1"
     done = run("bash", "-c", shell + '; exit "${PIPESTATUS[0]}"')
     assert done.returncode == 3
     assert done.stderr == ""

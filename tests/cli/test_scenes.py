@@ -1,6 +1,8 @@
 """The commands for scenes, as a user calls them."""
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -167,6 +169,28 @@ def test_an_interrupted_run(
     assert (status, shown) == (130, "")
     assert "interrupted" in err
     assert not out.exists()
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="asks Linux for the peak")
+@pytest.mark.parametrize("tolerance", ["", "tolerance = 1e-30"])
+def test_memory_stays_within_what_was_announced(tolerance: str, tmp_path: Path) -> None:
+    scene = written(
+        tmp_path,
+        "[packing]\nheight = 60\nwidth = 122\n[disorder]\nkind = 'uniform'\n"
+        f"relative_std = 1e-5\n[ask]\nquantity = 'contact_forces'\n{tolerance}\n",
+    )
+    program = (
+        "import sys; from derivations.cli import main; "
+        "status = main(['run', sys.argv[1], '--json']); "
+        "lines = open('/proc/self/status').read().splitlines(); "
+        "print(*[line.split()[1] for line in lines if line.startswith('VmHWM')], file=sys.stderr); "
+        "raise SystemExit(status)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(scene)], capture_output=True, text=True, check=True
+    )
+    kilobytes = int(done.stderr.split()[-1])
+    assert kilobytes * 1024 <= json.loads(done.stdout)["memory_bytes"]
 
 
 def test_the_stability_table(

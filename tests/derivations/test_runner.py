@@ -60,7 +60,7 @@ def test_run_alone_prints_everything(capsys: pytest.CaptureFixture[str]) -> None
 
 def test_the_summary_counts(capsys: pytest.CaptureFixture[str]) -> None:
     line = summary_line(run(fakes.PREMISE))
-    assert "2 proofs, 1 witnesses" in line
+    assert "2 proofs, 1 witness," in line
     assert "proved" in line
 
 

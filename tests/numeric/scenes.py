@@ -76,11 +76,13 @@ def scenes(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
     load = draw(st.sampled_from(["surface", "bulk", "point"]))
     sections["load"] = {"kind": load}
     if load == "point":
-        sections["load"]["at"] = draw(site(width, 1, height))
+        sections["load"]["at"] = draw(site(width, 0, height))
     if draw(st.booleans()):
         sections["load"]["angle_deg"] = draw(st.integers(-20, 20))
     geometry = draw(st.sampled_from(["ordered", "first-order", "exact"]))
     sections["effects"] = {"geometry": geometry}
+    if geometry == "exact" and draw(st.booleans()):
+        sections["effects"]["stop_at_tension"] = True
     quantities = [
         "contact", "contact_forces", "positions", "profile", "histogram", "base_reactions"
     ]  # fmt: skip
@@ -91,7 +93,8 @@ def scenes(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
     if quantity == "contact":
         branch = draw(st.sampled_from("+-"))
         sections["ask"]["at"] = [*draw(site(width, 0, height - 1)), branch]
-    if kind and draw(st.booleans()):
+    averaged = quantity == "response" and "stop_at_tension" in sections["effects"]
+    if kind and not averaged and draw(st.booleans()):
         sections["ask"]["realisations"] = draw(st.integers(1, 3))
     return sections
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from numeric.runner import Outcome
+from numeric.runner import Outcome, ToleranceError
 from tests.numeric.scenes import answer, basic, planned, scene, scenes, site
 
 SMALL = {
@@ -32,6 +32,15 @@ def numbers(outcome: Outcome, small_only: bool = False) -> Iterator[tuple[str, s
                 yield key, value
 
 
+def certified(sections: dict[str, dict[str, Any]]) -> Outcome:
+    """Answer in balls; a force that is exactly zero has no sign, whatever the precision."""
+    try:
+        return answer(sections)
+    except ToleranceError as error:
+        assume("stop_at_tension" not in sections["effects"])
+        raise error
+
+
 @given(scenes())
 def test_the_stated_error_holds(sections: dict[str, dict[str, Any]]) -> None:
     """Each number of a float run lies within its bound, and one printed digit, of the true one.
@@ -40,7 +49,9 @@ def test_the_stated_error_holds(sections: dict[str, dict[str, Any]]) -> None:
     """
     rough = answer(sections)
     sections["ask"]["tolerance"] = "=1e-25"
-    sharp = answer(sections)
+    sharp = certified(sections)
+    if rough.stopped != sharp.stopped:  # a force too close to zero for floats to see it pull
+        return
     assert sharp.accuracy.certified
     assert sharp.accuracy.error_bound <= 1e-25
     assert len(rough.rows) == len(sharp.rows)
@@ -58,9 +69,9 @@ def test_more_digits_confirm_the_printed_ones(sections: dict[str, dict[str, Any]
     """Certified strings are off by at most one in their last digit: 15 digits against 60."""
     assume(sections["ask"]["quantity"] != "histogram")
     sections["ask"]["tolerance"] = "=1e-15"
-    short = answer(sections)
+    short = certified(sections)
     sections["ask"]["tolerance"] = "=1e-60"
-    long = answer(sections)
+    long = certified(sections)
     for (_, a), (_, b) in zip(numbers(short), numbers(long), strict=True):
         if a != "0":
             assert abs(Fraction(a) - Fraction(b)) <= unit_of_last_digit(a) * Fraction(11, 10)
@@ -271,6 +282,29 @@ def test_the_sweep_stops_at_tension() -> None:
     assert min(r["j"] for r in stopped.rows) == j
     assert everything.physical is not None
     assert everything.physical.tensile == len(pulling) > 0
+
+
+def test_the_scatter_of_forces_is_that_of_the_exact_first_order_theory() -> None:
+    """Far below M*: 150 realisations of 13 contacts a layer, correlated within it.
+
+    Were all contacts of a layer one, the standard deviation would have a relative error of
+    1/√300 = 6 %; four of those are allowed, and a missing factor √2 is not.
+    """
+    sections = basic(6, 13, quantity="profile", realisations=150)
+    for kind in ("surface", "bulk"):
+        sections["load"] = {"kind": kind}
+        for row in answer(sections).rows:
+            assert abs(float(row["std"]) / float(row["first_order_std"]) - 1) < 0.24
+
+
+def test_a_slab_carries_single_loads(tmp_path: Path) -> None:
+    """Loads far from each other, negative columns, tilted: the base bears them."""
+    (tmp_path / "loads.csv").write_text("i,j,fx,fy\n-4,4,0.5,-2\n7,3,0,-1\n2,0,0,-3\n")
+    sections = basic(5, None, quantity="base_reactions", tolerance="=1e-25")
+    sections["load"] = {"kind": "file", "file": "loads.csv"}
+    rows = answer(sections, tmp_path).rows
+    assert abs(sum(Fraction(r["fx"]) for r in rows) + Fraction(1, 2)) < Fraction(1, 10**20)
+    assert abs(sum(Fraction(r["fy"]) for r in rows) - 6) < Fraction(1, 10**20)
 
 
 def test_a_tolerance_out_of_reach_says_why() -> None:

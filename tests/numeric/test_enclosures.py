@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from numeric import first_order, packing, taylor
 from numeric.engine import Solved, solve
 from numeric.exact import plain_form
-from numeric.forces import Forces
+from numeric.forces import Forces, sweep_down
 from numeric.lattice import Layer, column, whole
 from numeric.load_spec import LoadSpec
 from numeric.loads import sites
@@ -131,7 +131,7 @@ def test_first_order_sweep_is_the_first_taylor_coefficient(case: Case) -> None:
         rows = tuple(radii.row(layer, [0], system) for layer in region.rows)
         loads = spec.on(region.rows, rational_strength(spec, case.n, system), system)
         p = first_order.displace(case.n[0], region, rows, system)
-        f = first_order.forces(p, region.rows, loads)
+        f = sweep_down(p, region.rows, loads, linear=True)
     for i, j in sites(case.width, case.height):
         q = column(i, j, case.width)
         plus, minus = t.line_sums(i, j)

@@ -1,5 +1,6 @@
 """The compiled sweeps against the NumPy sweeps: every bit, every count, every error."""
 
+import sys
 from fractions import Fraction
 from typing import Any
 
@@ -135,3 +136,25 @@ def test_the_engine_takes_the_compiled_sweeps_for_much_work(
     assert bits(quick.packing) == bits(usual.packing)
     assert bits(quick.forces) == bits(usual.forces)
     assert usual_work == quick_work
+
+
+def test_without_numba_the_engine_takes_the_numpy_sweeps(monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = planned(basic(6, 14))
+    monkeypatch.setattr(engine, "COMPILED_FROM", 1)
+    monkeypatch.delattr("numeric.fast")
+    monkeypatch.setitem(sys.modules, "numeric.fast", None)
+    with FLOAT64.active():
+        assert type(engine.solve(plan, [0], FLOAT64, Work()).packing) is Packing
+
+
+def test_the_compiled_code_fuses_no_product_with_a_sum() -> None:
+    def sample(own: Array, result: Array) -> None:
+        for q in range(own.size):
+            result[q] = own[q] * own[q] + own[q]
+
+    import numba
+
+    compiled = numba.njit(error_model="numpy", nogil=True)(sample)
+    u = 1 + 2.0**-52 * np.arange(1.0, 65.0)
+    compiled(u, found := np.empty_like(u))
+    assert found.tobytes() == (u * u + u).tobytes()
