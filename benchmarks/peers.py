@@ -146,6 +146,7 @@ class CSweep:
         self.rho = np.ascontiguousarray(np.stack(problem.radii()))
         self.blocks = np.zeros((10, *shape))
         self.nothing = np.zeros(problem.width)
+        self.lost = np.zeros((2, 2, problem.width))
         m = metric(problem.n_x, FLOAT64)
         loads = problem.loads()
         last_plus, last_minus = loads.plus[-1], loads.minus[-1]
@@ -156,7 +157,10 @@ class CSweep:
             ctypes.c_ssize_t(problem.height),
             ctypes.c_ssize_t(problem.width),
             *(ctypes.c_double(value) for value in scalars),
-            *(ctypes.c_void_p(a.ctypes.data) for a in (self.nothing, self.rho, *self.blocks)),
+            *(
+                ctypes.c_void_p(a.ctypes.data)
+                for a in (self.nothing, self.lost, self.rho, *self.blocks)
+            ),
         )
 
     def __call__(self) -> Array:

@@ -38,22 +38,30 @@ static void place(ptrdiff_t n, in ap, in am, in bp, in bm, in own, in ra, in rb,
     }
 }
 
-static void balance(ptrdiff_t n, in Fp, in Fm, in Fr, in gr, in ra, in rb, in Fl, in gl, in la,
-                    in lb, in pa, in pb, in ma, in mb, out gp, out gm)
+static void balance(ptrdiff_t n, in Fp, in Fm, in Fr, in gr, in ra, in rb, in er, in Fl, in gl,
+                    in la, in lb, in el, in pa, in pb, in ma, in mb, out gp, out gm, out ep,
+                    out em)
 {
     for (ptrdiff_t q = 0; q < n; q++) {
         double fp = Fr[q] + gr[q], fm = Fl[q] + gl[q];
-        double sp = gr[q] + (fp * ra[q] + fm * la[q]) - Fp[q] * pa[q] - Fm[q] * ma[q];
-        double sm = gl[q] + (fp * rb[q] + fm * lb[q]) - Fp[q] * pb[q] - Fm[q] * mb[q];
-        double det = 1 + (pa[q] + mb[q] + (pa[q] * mb[q] - ma[q] * pb[q]));
-        gp[q] = (sp * (1 + mb[q]) - sm * ma[q]) / det;
-        gm[q] = (sm * (1 + pa[q]) - sp * pb[q]) / det;
+        double tp = fp * ra[q] + fm * la[q] + er[q] - Fp[q] * pa[q] - Fm[q] * ma[q];
+        double tm = fp * rb[q] + fm * lb[q] + el[q] - Fp[q] * pb[q] - Fm[q] * mb[q];
+        double minor = pa[q] * mb[q] - ma[q] * pb[q];
+        double det = 1 + (pa[q] + mb[q] + minor);
+        double sp = gr[q] + tp, sm = gl[q] + tm;
+        tp -= (sp * (pa[q] + minor) + sm * ma[q]) / det;
+        tm -= (sm * (mb[q] + minor) + sp * pb[q]) / det;
+        double hp = gr[q] + tp, hm = gl[q] + tm, kp = hp - gr[q], km = hm - gl[q];
+        ep[q] = (gr[q] - (hp - kp)) + (tp - kp);
+        em[q] = (gl[q] - (hm - km)) + (tm - km);
+        gp[q] = hp;
+        gm[q] = hm;
     }
 }
 
 /* Deposit, then carry a surface load (components load_p, load_m on every bead of the top). */
 void sweep(ptrdiff_t top, ptrdiff_t width, double phi, double inverse, double load_p,
-           double load_m, const double *nothing, const double *rho, double *cp, double *cm,
+           double load_m, const double *nothing, double *lost, const double *rho, double *cp, double *cm,
            double *pa, double *pb, double *ma, double *mb, double *Fp, double *Fm, double *gp,
            double *gm)
 {
@@ -78,12 +86,15 @@ void sweep(ptrdiff_t top, ptrdiff_t width, double phi, double inverse, double lo
             ptrdiff_t own = j * width + (edge ? (width - 1) * (j % 2) : 1 - j % 2);
             ptrdiff_t l = (edge ? width - 1 : 0), r = (edge ? 0 : 1), up = (j + 1) * width;
             const double *z = nothing;
+            double *mine = lost + j % 2 * 2 * width + own - j * width;
+            const double *old = lost + (j + 1) % 2 * 2 * width;
             int last = j == top;
             balance(edge ? 1 : width - 1, Fp + own, Fm + own, last ? z : Fp + up + r,
                     last ? z : gp + up + r, last ? z : pa + up + r, last ? z : pb + up + r,
-                    last ? z : Fm + up + l, last ? z : gm + up + l, last ? z : ma + up + l,
-                    last ? z : mb + up + l, pa + own, pb + own, ma + own, mb + own, gp + own,
-                    gm + own);
+                    last ? z : old + r, last ? z : Fm + up + l, last ? z : gm + up + l,
+                    last ? z : ma + up + l, last ? z : mb + up + l, last ? z : old + width + l,
+                    pa + own, pb + own, ma + own, mb + own, gp + own, gm + own, mine,
+                    mine + width);
         }
     }
 }

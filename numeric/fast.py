@@ -156,35 +156,43 @@ def _deposit(
 @_compiled
 def _balance(
     F: tuple[Array, Array],
-    from_right: tuple[Array, Array, Array, Array],
-    from_left: tuple[Array, Array, Array, Array],
+    from_right: tuple[Array, Array, Array, Array, Array],
+    from_left: tuple[Array, Array, Array, Array, Array],
     plus: tuple[Array, Array],
     minus: tuple[Array, Array],
     g: tuple[Array, Array],
+    lost: tuple[Array, Array],
 ) -> bool:
     """Balance a run of beads (one layer of ``forces.sweep_down``); say whether all is in order.
 
-    All arrays are (beads,): ``F`` the ordered forces below, ``from_right`` (``from_left``) F, g and
-    the two components of δn of the contacts above, ``plus`` and ``minus`` the δn below; ``g`` is
-    filled.
+    All arrays are (beads,): ``F`` the ordered forces below, ``from_right`` (``from_left``) F, g,
+    the two components of δn and what the sum of g has lost, of the contacts above, ``plus`` and
+    ``minus`` the δn below; ``g`` and ``lost`` are filled.
     """
     F_plus, F_minus = F
-    F_right, g_right, right_a, right_b = from_right
-    F_left, g_left, left_a, left_b = from_left
+    F_right, g_right, right_a, right_b, lost_right = from_right
+    F_left, g_left, left_a, left_b, lost_left = from_left
     plus_a, plus_b = plus
     minus_a, minus_b = minus
     g_plus, g_minus = g
+    lost_plus, lost_minus = lost
     good = True
     for q in range(F_plus.size):
         Fp, Fm = F_plus[q], F_minus[q]
         pa, pb, ma, mb = plus_a[q], plus_b[q], minus_a[q], minus_b[q]
         gp, gm = g_right[q], g_left[q]
         fp, fm = F_right[q] + gp, F_left[q] + gm
-        sum_plus = gp + (fp * right_a[q] + fm * left_a[q]) - Fp * pa - Fm * ma
-        sum_minus = gm + (fp * right_b[q] + fm * left_b[q]) - Fp * pb - Fm * mb
-        det = 1 + (pa + mb + (pa * mb - ma * pb))
-        below_plus = (sum_plus * (1 + mb) - sum_minus * ma) / det
-        below_minus = (sum_minus * (1 + pa) - sum_plus * pb) / det
+        turn_plus = fp * right_a[q] + fm * left_a[q] + lost_right[q] - Fp * pa - Fm * ma
+        turn_minus = fp * right_b[q] + fm * left_b[q] + lost_left[q] - Fp * pb - Fm * mb
+        minor = pa * mb - ma * pb
+        det = 1 + (pa + mb + minor)
+        sp, sm = gp + turn_plus, gm + turn_minus
+        turn_plus = turn_plus - (sp * (pa + minor) + sm * ma) / det
+        turn_minus = turn_minus - (sm * (mb + minor) + sp * pb) / det
+        below_plus, below_minus = gp + turn_plus, gm + turn_minus
+        part_plus, part_minus = below_plus - gp, below_minus - gm
+        lost_plus[q] = (gp - (below_plus - part_plus)) + (turn_plus - part_plus)
+        lost_minus[q] = (gm - (below_minus - part_minus)) + (turn_minus - part_minus)
         g_plus[q], g_minus[q] = below_plus, below_minus
         good &= (
             (det * det > 0)
@@ -228,6 +236,7 @@ def _sweep_down(
     """
     layers, width = F[0].shape
     nothing = np.zeros(width)
+    lost = np.zeros((2, 2, width))  # of a layer and the one above, taking turns
     good = True
     for j in range(layers - 1, 0, -1):
         up = min(j + 1, layers - 1)
@@ -248,11 +257,24 @@ def _sweep_down(
                 left, right = slice(width - 1, width), slice(0, 1)
             good &= _balance(
                 (F[0][j, first:last], F[1][j, first:last]),
-                (above[0][right], above[1][right], right_a[right], right_b[right]),
-                (beside[0][left], beside[1][left], left_a[left], left_b[left]),
+                (
+                    above[0][right],
+                    above[1][right],
+                    right_a[right],
+                    right_b[right],
+                    lost[(j + 1) % 2, 0, right],
+                ),
+                (
+                    beside[0][left],
+                    beside[1][left],
+                    left_a[left],
+                    left_b[left],
+                    lost[(j + 1) % 2, 1, left],
+                ),
                 (plus[0][j, first:last], plus[1][j, first:last]),
                 (minus[0][j, first:last], minus[1][j, first:last]),
                 (g[0][j, first:last], g[1][j, first:last]),
+                (lost[j % 2, 0, first:last], lost[j % 2, 1, first:last]),
             )
     return good
 
