@@ -171,9 +171,10 @@ def table(problem: Problem) -> None:
     )
     error = float(own.max() / np.abs(exact).max())
     print(
-        f"{problem.height} × {problem.width} beads, σ/r = {float(problem.relative_std):g}, surface"
+        f"{problem.height} × {problem.width} beads, surface load, σ/r = "
+        f"{float(problem.relative_std):g};"
     )
-    print("load; errors relative to the largest |change|; setting LAMMPS up is not counted.\n")
+    print("errors relative to the largest |change|; setting LAMMPS up is not counted.\n")
     print("| by | stiffness | error | seconds | / NumPy sweep | / fast sweep |")
     print("|---|---:|---:|---:|---:|---:|")
     print(f"| fast sweep | | {error:.1e} | {compiled:.2g} | {compiled / numpy:.2g} | 1 |")
