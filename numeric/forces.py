@@ -113,10 +113,8 @@ def sweep_down(
             sp, sm = gp + turn_plus, gm + turn_minus
             turn_plus = turn_plus - (sp * (plus[0] + minor) + sm * minus[0]) / det
             turn_minus = turn_minus - (sm * (minus[1] + minor) + sp * plus[1]) / det
-        (gp, lost_plus), (gm, lost_minus) = (
-            _added(gp, turn_plus, system),
-            _added(gm, turn_minus, system),
-        )
+        gp, lost_plus = _added(gp, turn_plus, system)
+        gm, lost_minus = _added(gm, turn_minus, system)
         lost = (lost_plus, lost_minus)
         if work is not None:
             work.did("balanced", layer, gp.size // layer.count)
