@@ -50,7 +50,9 @@ def data_file(problem: Problem, stiffness: float) -> tuple[str, str]:
     M, W = problem.height, problem.width
     nx, ny = (float(v) for v in plain.axes(problem.n_x, FLOAT64))
     rho = problem.radii()
-    atoms, bonds, coefficients = [], [], []
+    atoms: list[str] = []
+    bonds: list[str] = []
+    coefficients: list[str] = []
     for j in range(M + 1):
         for q, i in enumerate(full_layer(j, W).sites()):
             kind = 1 if j == 0 else 3 if j == M else 2
@@ -139,10 +141,9 @@ def witnessed(problem: Problem, stiffness: float, style: str, goal: float = 1e-1
 
 def sweep_seconds(problem: Problem, compiled: bool) -> float:
     """Median seconds of our own sweep."""
-    sweeps = None
-    if compiled:
-        from numeric import fast as sweeps
-    solve = problem.solver(sweeps=sweeps)
+    from numeric import fast
+
+    solve = problem.solver(sweeps=fast if compiled else None)
     spent = []
     for _ in range(51):
         start = perf_counter()

@@ -123,7 +123,7 @@ def force_balance(N: Directions, one: Any = 1.0) -> Balance:
 
 def changes(unknowns: Array, ordered: Any, width: int) -> Array:
     """Subtract the ordered force from the solution; (layers from 1 up, W, branch)."""
-    return (unknowns - ordered).reshape(-1, width, 2)[::-1]
+    return np.asarray((unknowns - ordered).reshape(-1, width, 2)[::-1])
 
 
 def stacked(forces: Forces) -> Array:
