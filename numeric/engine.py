@@ -1,6 +1,6 @@
 """The engine: solves a plan for some realisations in one number system, counting its work."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
@@ -11,8 +11,11 @@ from numeric.lattice import Layer
 from numeric.packing import Packing
 from numeric.planner import Plan
 from numeric.radii import rows_of
-from numeric.systems import NumberSystem
+from numeric.systems import FLOAT64, NumberSystem
 from numeric.work import Work
+
+# Beads from which on the compiled sweeps repay loading the compiler (half a second).
+COMPILED_FROM = 2_000_000
 
 
 @dataclass(frozen=True)
@@ -41,8 +44,9 @@ def solve(plan: Plan, realisations: Sequence[int], system: NumberSystem, work: W
     rho = rows_of(plan.radii, plan.region.rows, realisations, system, work)
     clock.stop("read radii", "draw radii")
     n_x = plan.scene.n_x
+    deposit, sweep = _sweeps(plan, system)
     if plan.route == "exact":
-        solved = packing.deposit(n_x, plan.region, rho, system, work)
+        solved = deposit(n_x, plan.region, rho, system, work)
         clock.stop("deposit")
     else:
         solved = first_order.displace(n_x, plan.region, rho, system, work)
@@ -51,7 +55,7 @@ def solve(plan: Plan, realisations: Sequence[int], system: NumberSystem, work: W
         return Solved(system, solved, None, None, seconds)
     strength = plan.load.strength(n_x, system)
     loads = plan.load.on(plan.force_rows, strength, system)
-    forces = sweep_down(
+    forces = sweep(
         solved,
         plan.force_rows,
         loads,
@@ -61,6 +65,21 @@ def solve(plan: Plan, realisations: Sequence[int], system: NumberSystem, work: W
     )
     clock.stop("balance forces")
     return Solved(system, solved, forces, None, seconds)
+
+
+def _sweeps(
+    plan: Plan, system: NumberSystem
+) -> tuple[Callable[..., Packing], Callable[..., Forces]]:
+    """Give the sweeps: for much exact work the compiled ones, same numbers, where numba is."""
+    much = plan.region.beads * plan.realisations >= COMPILED_FROM
+    if much and system is FLOAT64 and plan.route == "exact":
+        try:
+            from numeric import fast
+        except ImportError:
+            pass
+        else:
+            return fast.deposit, fast.sweep_down
+    return packing.deposit, sweep_down
 
 
 class _Clock:

@@ -12,6 +12,7 @@ n⁺ and n⁻, so that the linear part of a layer is a shift and an addition.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -81,6 +82,7 @@ def sweep_down(
     top = len(rows) - 1
     system, width = packing.system, packing.region.width
     stopped = None
+    lost: tuple[Any, Any] = (0, 0)
     nothing = (zeros(system, 0), zeros(system, 0))
     ordered: list[tuple[Array, Array]] = [nothing] * (top + 1)
     change: list[tuple[Array, Array]] = [nothing] * (top + 1)
@@ -94,21 +96,26 @@ def sweep_down(
 
         plus = tuple(here(v, packing.region.rows[j]) for v in packing.plus[j])
         minus = tuple(here(v, packing.region.rows[j]) for v in packing.minus[j])
-        Fp, Fm, sum_plus, sum_minus = _from_above(
-            packing, rows, j, ordered=ordered, change=change, linear=linear
+        Fp, Fm, gp, gm, turn_plus, turn_minus = _from_above(
+            packing, rows, j, ordered=ordered, change=change, lost=lost, linear=linear
         )
         Lp, Lm = loads.plus[j], loads.minus[j]
         Fp = Fp if Lp is None else Fp + Lp
         Fm = Fm if Lm is None else Fm + Lm
-        sum_plus = sum_plus - Fp * plus[0] - Fm * minus[0]
-        sum_minus = sum_minus - Fp * plus[1] - Fm * minus[1]
-        gp, gm = sum_plus, sum_minus
+        turn_plus = turn_plus - Fp * plus[0] - Fm * minus[0]
+        turn_minus = turn_minus - Fp * plus[1] - Fm * minus[1]
         if not linear:
-            # Cramer for g⁺(1 + a⁺, b⁺) + g⁻(a⁻, 1 + b⁻) = (sum_plus, sum_minus)
-            det = 1 + (plus[0] + minus[1] + (plus[0] * minus[1] - minus[0] * plus[1]))
+            # Cramer for h⁺(1 + a⁺, b⁺) + h⁻(a⁻, 1 + b⁻) = (s⁺, s⁻), written for h − s, which is
+            # small of second order.
+            minor = plus[0] * minus[1] - minus[0] * plus[1]
+            det = 1 + (plus[0] + minus[1] + minor)
             _check_standing(det, layer, system)
-            gp = (sum_plus * (1 + minus[1]) - sum_minus * minus[0]) / det
-            gm = (sum_minus * (1 + plus[0]) - sum_plus * plus[1]) / det
+            sp, sm = gp + turn_plus, gm + turn_minus
+            turn_plus = turn_plus - (sp * (plus[0] + minor) + sm * minus[0]) / det
+            turn_minus = turn_minus - (sm * (minus[1] + minor) + sp * plus[1]) / det
+        gp, lost_plus = _added(gp, turn_plus, system)
+        gm, lost_minus = _added(gm, turn_minus, system)
+        lost = (lost_plus, lost_minus)
         if work is not None:
             work.did("balanced", layer, gp.size // layer.count)
         ordered[j], change[j] = (Fp, Fm), (gp, gm)
@@ -165,17 +172,18 @@ def _from_above(
     *,
     ordered: list[tuple[Array, Array]],
     change: list[tuple[Array, Array]],
+    lost: tuple[Any, Any],
     linear: bool,
-) -> tuple[Array, Array, Array, Array]:
-    """Collect (F⁺, F⁻) and the components of Σ g N + Σ F δn of the contacts above layer j.
+) -> tuple[Array, Array, Array, Array, Array, Array]:
+    """Collect F^±, g^± and the components of Σ (F + g) δn of the contacts above layer j.
 
-    ``linear`` leaves g δn out, which is of second order.
+    ``linear`` leaves g δn out, which is of second order. The last two hold what was ``lost``, too.
     """
     system, width, layer = packing.system, packing.region.width, rows[j]
     zero = zeros(system, 1)[0]
     if j == len(rows) - 1:
         nothing = zeros(system, layer.count)
-        return nothing, nothing, nothing, nothing
+        return (nothing,) * 6
     above = rows[j + 1]
     # The contact above and to the right of (i, j) has the upper bead (i + 1, j + 1).
     right = Layer(j + 1, layer.first + 1, layer.count)
@@ -190,7 +198,24 @@ def _from_above(
     ap, bp = (get(v, packed, right) for v in packing.plus[j + 1])
     am, bm = (get(v, packed, left) for v in packing.minus[j + 1])
     fp, fm = (Fp, Fm) if linear else (Fp + gp, Fm + gm)
-    return Fp, Fm, gp + (fp * ap + fm * am), gm + (fp * bp + fm * bm)
+    turn_plus, turn_minus = fp * ap + fm * am, fp * bp + fm * bm
+    if system.dtype is not object:
+        turn_plus = turn_plus + get(lost[0], above, right)
+        turn_minus = turn_minus + get(lost[1], above, left)
+    return Fp, Fm, gp, gm, turn_plus, turn_minus
+
+
+def _added(force: Array, turn: Array, system: NumberSystem) -> tuple[Array, Any]:
+    """Add, and give what the rounding lost (Knuth's two-sum), which the next layer takes along.
+
+    One force passes straight down through every layer: without this its roundings pile up. Balls
+    and series know their own errors, big floats have digits to spare.
+    """
+    total = force + turn
+    if system.dtype is object:
+        return total, None
+    part = total - force
+    return total, (force - (total - part)) + (turn - part)
 
 
 def _check_standing(det: Array, layer: Layer, system: NumberSystem) -> None:

@@ -124,6 +124,9 @@ def pick(values: Array, source: Layer, wanted: Layer, width: int | None, zero: A
     offset = (wanted.first - source.first) // 2
     if offset >= 0 and offset + wanted.count <= source.count:
         return values[..., offset : offset + wanted.count]
+    if source.count == wanted.count == width:  # a whole layer, turned
+        turn = offset % width
+        return np.concatenate((values[..., turn:], values[..., :turn]), axis=-1)
     index = np.arange(offset, offset + wanted.count)
     if width is not None:
         index %= width

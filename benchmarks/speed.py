@@ -1,0 +1,367 @@
+"""How fast the sweeps are, and how exact, beside what one would otherwise write.
+
+Run with ``python benchmarks/speed.py`` (needs ``pip install -e '.[bench]'``, and gcc for the part
+"c"). Times are medians of rounds in which all competitors take turns, so that a busy machine
+slows all alike; targets are ratios. ``--skip PART`` leaves parts out. Exit status 1 when a target
+is missed.
+"""
+
+import argparse
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from statistics import median
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from derive_speed import COMMAND
+from derive_speed import in_turn as processes_in_turn
+from peers import (
+    CSweep,
+    Problem,
+    changes,
+    directions,
+    force_balance,
+    plain_directions,
+    stacked,
+)
+
+from numeric import closed_forms, plain
+from numeric.budget import initial_bits
+from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat
+
+HEIGHT, WIDTH, BATCHES = 256, 512, (8,)
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line of the table; ``target`` is a bound from below (">") or above ("<"), or none."""
+
+    what: str
+    value: float
+    unit: str = ""
+    sense: str = ""
+    target: float = 0
+
+    @property
+    def met(self) -> bool:
+        """Whether the target holds; always, where there is none."""
+        if not self.sense:
+            return True
+        return self.value >= self.target if self.sense == ">" else self.value <= self.target
+
+    def __str__(self) -> str:
+        """Give the line in Markdown."""
+        sign = {">": "at least", "<": "at most", "": ""}[self.sense]
+        target = f"{sign} {self.target:g}" if self.sense else ""
+        verdict = ("met" if self.met else "MISSED") if self.sense else ""
+        return f"| {self.what} | {self.value:.3g}{self.unit} | {target} | {verdict} |"
+
+
+def in_turn(tasks: dict[str, Callable[[], Any]], rounds: int) -> dict[str, float]:
+    """Median seconds of each task; each is warmed up once, then they take turns."""
+    spent: dict[str, list[float]] = {name: [] for name in tasks}
+    for task in tasks.values():
+        task()
+    for _ in range(rounds):
+        for name, task in tasks.items():
+            start = perf_counter()
+            task()
+            spent[name].append(perf_counter() - start)
+    return {name: median(times) for name, times in spent.items()}
+
+
+def forces() -> Iterator[Line]:
+    """Exact forces of one packing, geometry included, against sparse solvers given the geometry."""
+    from scipy.sparse import csc_matrix
+    from scipy.sparse.linalg import spsolve
+
+    from numeric import fast
+
+    problem = Problem(HEIGHT, WIDTH)
+    numpy, compiled = problem.solver(), problem.solver(sweeps=fast)
+    batches = {
+        f"batch of {size}": (size, problem.solver(realisations=size, sweeps=fast))
+        for size in BATCHES
+    }
+    solved, found = numpy()
+    n = plain.axes(problem.n_x, FLOAT64)
+    reference = stacked(problem.solver(LONGDOUBLE)()[1])
+
+    def error(values: Any) -> float:
+        return float(np.abs(values - reference).max() / np.abs(reference).max())
+
+    def sparse(geometry: Any) -> tuple[Any, Any]:
+        b = force_balance(geometry)
+        size = len(b.right)
+        return csc_matrix((b.values, (b.rows, b.columns)), shape=(size, size)), b.right
+
+    A, right = sparse(directions(solved, n))
+
+    def best() -> Any:
+        return spsolve(A, right, permc_spec="NATURAL")
+
+    def default() -> Any:
+        return spsolve(A, right)
+
+    together = {name: solve for name, (_, solve) in batches.items()}
+    quick = in_turn({"numpy": numpy, "fast": compiled, **together, "best": best}, 15)
+    slow = in_turn({"best": best, "default": default}, 5)
+    peer = quick["best"]
+    yield Line("spsolve, NATURAL ordering", 1e3 * peer, " ms")
+    yield Line("spsolve, default ordering / NATURAL", slow["default"] / slow["best"])
+    yield Line("NumPy sweep", 1e3 * quick["numpy"], " ms")
+    yield Line("fast sweep", 1e3 * quick["fast"], " ms")
+    yield Line("spsolve (NATURAL) / NumPy sweep", peer / quick["numpy"], "", ">", 2)
+    yield Line("spsolve (NATURAL) / fast sweep", peer / quick["fast"], "", ">", 20)
+    for name, (size, _) in batches.items():
+        yield Line(f"fast sweep, each of a {name}", 1e3 * quick[name] / size, " ms")
+        yield Line("spsolve (NATURAL) / that", size * peer / quick[name], "", ">", 35)
+    ordered = 1 / (2 * n[1])
+    own = error(stacked(found))
+    yield Line("error of change, sweep (NumPy and fast alike)", own)
+    assert np.array_equal(stacked(found), stacked(compiled()[1]))
+    given = error(changes(best(), ordered, WIDTH))
+    yield Line("error of spsolve (NATURAL), geometry given / sweep", given / own, "", ">", 1000)
+    usual = error(changes(default(), ordered, WIDTH))
+    yield Line("error of spsolve (default), geometry given / sweep", usual / own)
+    laid = plain.deposit(problem.n_x, problem.radii(), FLOAT64)
+    A, right = sparse(plain_directions(laid))
+    positions = error(changes(best(), ordered, WIDTH))
+    yield Line("error of spsolve, geometry from positions / sweep", positions / own, "", ">", 1000)
+
+
+SIZES = {
+    "like the packing above": ((70, 142), (223, 448), (706, 1414), (2235, 4474)),
+    "layers of 512": ((19, 512), (194, 512), (1952, 512), (19530, 512)),
+}
+
+
+def size() -> Iterator[Line]:
+    """Time per bead from 1e4 to 1e7 beads, and memory."""
+    from numeric import fast
+
+    for shape, sizes in SIZES.items():
+        each = {}
+        for height, width in sizes:
+            problem = Problem(height, width)
+            solve = problem.solver(sweeps=fast)
+            beads = (height + 1) * width
+            found = in_turn({"fast": solve}, 5 if beads > 1e6 else 31)["fast"]
+            each[beads] = 1e9 * found / beads
+            yield Line(f"fast, {height} × {width}", each[beads], " ns a bead")
+        flat = max(each.values()) / min(each.values())
+        yield Line(f"slowest / fastest of these, {shape}", flat, "", "<", 1.5)
+    probe = [sys.executable, __file__, "--probe-memory"]
+    done = subprocess.run(probe, check=True, capture_output=True, text=True)
+    yield Line("memory / arrays of the answer, 4e6 beads", float(done.stdout), "", "<", 1.5)
+
+
+def resident(name: str) -> int:
+    """Bytes in memory: "VmRSS" now, "VmHWM" at the most. (Linux; maxrss is the parent's, too.)"""
+    for line in Path("/proc/self/status").read_text().splitlines():
+        if line.startswith(name):
+            return int(line.split()[1]) * 1024
+    raise SystemExit("the memory of a process can be read on Linux only")
+
+
+def probe_memory() -> float:
+    """Peak memory of one solution beyond what was there before, over the arrays that it gives."""
+    from numeric import fast
+
+    Problem(3, 4).solver(sweeps=fast)()
+    solve = Problem(1414, 2828).solver(sweeps=fast)
+    before = resident("VmRSS")
+    packing, forces = solve()
+    peak = resident("VmHWM")
+    answer = [packing.c_plus, packing.c_minus, forces.change_plus, forces.change_minus]
+    answer += [forces.ordered_plus, forces.ordered_minus]
+    answer += [*zip(*packing.plus, strict=True), *zip(*packing.minus, strict=True)]
+    return (peak - before) / sum(layer.nbytes for block in answer for layer in block)
+
+
+def against_c() -> Iterator[Line]:
+    """The fast sweep against the same arithmetic in C, and both against memory."""
+    from numeric import fast
+
+    problem = Problem(HEIGHT, WIDTH)
+    solve = problem.solver(sweeps=fast)
+    with tempfile.TemporaryDirectory() as folder:
+        alike = CSweep(problem, Path(folder), "-ffp-contract=off")
+        fused = CSweep(problem, Path(folder), "-ffp-contract=fast")
+        blocks = alike()
+        packing, forces = solve()
+        same = [
+            np.array_equal(np.stack(packing.c_plus), blocks[0]),
+            np.array_equal(np.stack(packing.c_minus), blocks[1]),
+            np.array_equal(np.stack(forces.change_plus[1:]), blocks[8][1:]),
+            np.array_equal(np.stack(forces.change_minus[1:]), blocks[9][1:]),
+        ]
+        yield Line("C gives the same bits (1: yes)", float(all(same)), "", ">", 1)
+        quick = in_turn({"fast": solve, "alike": alike, "fused": fused}, 31)
+        c = min(quick["alike"], quick["fused"])
+        yield Line("C, gcc -O3 -march=native, memory at hand", 1e3 * c, " ms")
+        yield Line("fast sweep, memory and all / C", quick["fast"] / c, "", "<", 3)
+        large = Problem(2235, 4474)
+        many = in_turn({"fast": large.solver(sweeps=fast), "memory": alike.bandwidth()}, 5)
+    bandwidth = 32 * 20e6 / many["memory"]
+    # Read: radii, F, δn; written: c, δn, F, g, whose cache lines are fetched first.
+    moved = 8 * (1 + 2 + 4 + 2 * 10) * (large.height + 1) * large.width
+    yield Line("memory bandwidth of one core (a = b + c)", bandwidth / 1e9, " GB/s")
+    yield Line("fast sweep of 1e7 beads, share of it", 100 * moved / many["fast"] / bandwidth, " %")
+
+
+def digits() -> Iterator[Line]:
+    """50 certified digits with balls, against mpmath."""
+    tolerance = Fraction(1, 10**50)
+
+    def pair(problem: Problem) -> tuple[Balls, BigFloat]:
+        bits = initial_bits(tolerance, problem.height)
+        return Balls(bits), BigFloat(int(bits * 0.30103))
+
+    problem = Problem(32, 66)
+    balls, floats = pair(problem)
+    solve = problem.solver(balls)
+    with balls.active():
+        found = stacked(solve()[1]).reshape(-1)
+        largest = max(abs(float(value)) for value in found)
+        radius = max(float(value.rad()) for value in found)
+    yield Line(
+        "balls, 32 × 66: certified relative error of change", radius / largest, "", "<", 1e-50
+    )
+    spent = in_turn({"balls": solve, "mpmath": problem.solver(floats)}, 3)
+    yield Line("mpmath sweep / balls, 32 × 66", spent["mpmath"] / spent["balls"])
+
+    small = Problem(8, 9)
+    balls, floats = pair(small)
+    context = floats.context
+    laid, forces = small.solver(floats)()
+    n = plain.axes(small.n_x, floats)
+    b = force_balance(directions(laid, n), context.mpf(1))
+    A = context.zeros(len(b.right))
+    for row, column, value in zip(b.rows.tolist(), b.columns.tolist(), b.values, strict=True):
+        A[row, column] = value
+    right = context.matrix(b.right.tolist())
+    spent = in_turn({"balls": small.solver(balls), "lu": lambda: context.lu_solve(A, right)}, 3)
+    unknowns = np.array(list(context.lu_solve(A, right)), dtype=object)
+    off = changes(unknowns, 1 / (2 * n[1]), small.width) - stacked(forces)
+    assert max(abs(value) for value in off.reshape(-1)) < 1e-55, "they solve the same system"
+    yield Line("mpmath.lu_solve, geometry given / balls, 8 × 9", spent["lu"] / spent["balls"])
+
+
+def profile() -> Iterator[Line]:
+    """The exact profile of σ_f in closed form against Monte Carlo, surface load."""
+    from numeric import fast
+
+    problem, realisations = Problem(64, 130), 256
+    phi, std = 1 - 2 * problem.n_x**2, problem.relative_std
+
+    def closed(number: Any = float) -> list[Any]:
+        parameters = (number(phi), number(std), 1)
+        return [
+            closed_forms.surface_variance(problem.height, j, *parameters)
+            for j in range(problem.height)
+        ]
+
+    def simulated() -> Any:
+        _, found = problem.solver(realisations=realisations, sweeps=fast)()
+        squares = [
+            np.mean(np.square([p, m]))
+            for p, m in zip(found.change_plus[1:], found.change_minus[1:], strict=True)
+        ]
+        return np.sqrt(squares) / float(found.ordered_plus[1][0])
+
+    spent = in_turn({"closed": closed, "simulated": simulated}, 3)
+    exact = np.sqrt(np.array(closed()))
+    error = float(np.sqrt(np.mean((simulated() / exact - 1) ** 2)))
+    fractions = closed(Fraction)
+    rounding = max(
+        abs(float(Fraction(a) / b - 1)) for a, b in zip(closed(), fractions, strict=True)
+    )
+    yield Line("closed form, 64 layers", 1e3 * spent["closed"], " ms")
+    yield Line("  its rounding error of σ_f² (against fractions)", rounding)
+    yield Line(f"Monte Carlo (fast), {realisations} realisations", spent["simulated"], " s")
+    yield Line("  its error of σ_f, root mean square over layers", error)
+    yield Line("  seconds, Monte Carlo / closed form", spent["simulated"] / spent["closed"])
+    for goal in (1e-3, rounding or 1e-16):
+        times = (error / goal) ** 2
+        name = f"to an error of {goal:.1g} (by 1/√N)"
+        yield Line(f"realisations {name}, closed form: none", realisations * times)
+        yield Line(
+            f"  seconds, Monte Carlo / closed form, {name}",
+            times * spent["simulated"] / spent["closed"],
+        )
+
+
+TYPER = """
+import typer
+app = typer.Typer()
+@app.command()
+def nothing(number: str) -> None: ...
+@app.command()
+def other() -> None: ...
+app({arguments})
+"""
+
+
+def start() -> Iterator[Line]:
+    """Start-up of two commands against a bare interpreter and a typer program that does nothing."""
+    commands = {"--help": ["--help"], "show": ["show", "13"]}
+    found = processes_in_turn(
+        {
+            "bare": ["-c", "pass"],
+            "typer --help": ["-c", TYPER.format(arguments=["--help"])],
+            "typer show": ["-c", TYPER.format(arguments=["nothing", "13"])],
+            **{name: [*COMMAND, *arguments] for name, arguments in commands.items()},
+        }
+    )
+    bare = found["bare"].seconds
+    yield Line("python -c pass", 1e3 * bare, " ms")
+    for name in commands:
+        typer = found[f"typer {name}"].seconds - bare
+        yield Line(f"typer, {name} of a program that does nothing, on top", 1e3 * typer, " ms")
+        ratio = found[name].seconds / (2 * bare + typer)
+        yield Line(f"{name} / (2 × python -c pass + typer)", ratio, "", "<", 1)
+
+
+PARTS: dict[str, Callable[[], Iterator[Line]]] = {
+    "forces": forces,
+    "size": size,
+    "c": against_c,
+    "digits": digits,
+    "profile": profile,
+    "start": start,
+}
+
+
+def main() -> int:
+    """Measure, print the table, and compare with the targets."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--skip", nargs="*", choices=list(PARTS), default=[])
+    parser.add_argument("--probe-memory", action="store_true", help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.probe_memory:
+        print(probe_memory())
+        return 0
+    print(f"Forces of a packing of {HEIGHT} layers of {WIDTH} beads, σ/r = 1e-6, surface load;")
+    print("errors are relative to the largest |change|.\n")
+    print("| measured | value | target | |")
+    print("|---|---:|---|---|")
+    missed = 0
+    for name, part in PARTS.items():
+        if name in options.skip:
+            continue
+        print(f"| **{name}** | | | |")
+        for line in part():
+            print(line, flush=True)
+            missed += not line.met
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

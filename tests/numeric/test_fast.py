@@ -1,0 +1,160 @@
+"""The compiled sweeps against the NumPy sweeps: every bit, every count, every error."""
+
+import sys
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from numeric import engine, forces, packing
+from numeric.forces import Forces, Loads, NotStandingError
+from numeric.lattice import Array, Region, whole
+from numeric.packing import Packing, UnbuildableError
+from numeric.systems import FLOAT64, LONGDOUBLE
+from numeric.work import Work
+from tests.numeric.scenes import basic, planned
+
+pytest.importorskip("numba")
+from numeric import fast
+
+SIZES = st.tuples(st.integers(1, 9), st.integers(1, 3), st.integers(1, 33))
+N_X = st.fractions(Fraction(51, 100), Fraction(86, 100), max_denominator=10**6)
+
+
+@st.composite
+def radii(draw: st.DrawFn, largest: float = 0.05) -> tuple[Region, tuple[Array, ...]]:
+    """A packing, or a batch of them, with |δr/r| up to ``largest``."""
+    height, batch, width = draw(SIZES)
+    size = draw(st.sampled_from([largest, largest * 1e-3, largest * 1e-9, 1e-300]))
+    shape = (height + 1, width) if batch == 1 else (height + 1, batch, width)
+    values = draw(arrays(np.float64, shape, elements=st.floats(-1, 1)))
+    return whole(width, height), tuple(values * size)
+
+
+@st.composite
+def loads_on(draw: st.DrawFn, region: Region) -> Loads:
+    width = region.width
+    assert width is not None
+    row = st.none() | arrays(np.float64, width, elements=st.floats(-3, 3))
+    rows = st.tuples(*[row] * len(region.rows))
+    return Loads(draw(rows), draw(rows))
+
+
+def bits(solved: Packing | Forces) -> Any:
+    names = (
+        ("rho", "c_plus", "c_minus", "plus", "minus")
+        if isinstance(solved, Packing)
+        else ("ordered_plus", "ordered_minus", "change_plus", "change_minus")
+    )
+
+    def raw(value: Any) -> Any:
+        if isinstance(value, tuple):
+            return [raw(v) for v in value]
+        return value.shape, value.dtype, value.tobytes()
+
+    return [raw(getattr(solved, name)) for name in names]
+
+
+def outcome(function: Any, *arguments: Any, **keywords: Any) -> tuple[Any, str]:
+    with FLOAT64.active():
+        try:
+            return function(*arguments, **keywords), ""
+        except (UnbuildableError, NotStandingError) as error:
+            return None, str(error)
+
+
+@given(st.data(), N_X, radii())
+def test_every_bit_is_that_of_the_numpy_sweep(
+    data: st.DataObject, n_x: Fraction, case: tuple[Region, tuple[Array, ...]]
+) -> None:
+    region, rho = case
+    loads = data.draw(loads_on(region))
+    work, compiled_work = Work(trace=True), Work(trace=True)
+    solved, why = outcome(packing.deposit, n_x, region, rho, FLOAT64, work)
+    compiled, compiled_why = outcome(fast.deposit, n_x, region, rho, FLOAT64, compiled_work)
+    assert compiled_why == why
+    assume(solved is not None)
+    assert isinstance(compiled, fast.CompiledPacking)
+    assert bits(compiled) == bits(solved)
+    found, why = outcome(forces.sweep_down, solved, region.rows, loads, work=work)
+    quick, quick_why = outcome(fast.sweep_down, compiled, region.rows, loads, work=compiled_work)
+    assert quick_why == why
+    if found is not None:
+        assert bits(quick) == bits(found)
+        assert compiled_work == work
+
+
+@given(N_X, radii(largest=0.9), st.sampled_from([0.0, -1.0, np.nan, np.inf, 1e200]))
+def test_what_cannot_be_built_is_named_alike(
+    n_x: Fraction, case: tuple[Region, tuple[Array, ...]], odd: float
+) -> None:
+    region, rho = case
+    rho[len(rho) // 2][..., 0] += odd
+    solved, why = outcome(packing.deposit, n_x, region, rho, FLOAT64)
+    compiled, compiled_why = outcome(fast.deposit, n_x, region, rho, FLOAT64)
+    assert compiled_why == why
+    if solved is not None:
+        assert bits(compiled) == bits(solved)
+
+
+@given(radii(), st.booleans(), st.booleans())
+def test_what_is_not_compiled_is_left_to_the_numpy_sweep(
+    case: tuple[Region, tuple[Array, ...]], stop: bool, part: bool
+) -> None:
+    region, rho = case
+    n_x = Fraction(3, 4)
+    none = Loads((None,) * len(rho), (None,) * len(rho))
+    longer = tuple(r.astype(np.longdouble) for r in rho)
+    with LONGDOUBLE.active():
+        solved = fast.deposit(n_x, region, longer, LONGDOUBLE)
+    assert type(solved) is Packing
+    compiled = fast.deposit(n_x, region, rho, FLOAT64)
+    rows = region.rows[: len(rho) - part]
+    cut = Loads(none.plus[: len(rows)], none.minus[: len(rows)])
+    quick = fast.sweep_down(compiled, rows, cut, stop_at_tension=stop and rho[0].ndim == 1)
+    assert bits(quick) == bits(forces.sweep_down(compiled, rows, cut))
+
+
+def test_the_engine_takes_the_compiled_sweeps_for_much_work(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene = basic(6, 9, quantity="contact_forces", realisations=4)
+    scene["packing"]["allow_images"] = True
+    plan = planned(scene)
+    with FLOAT64.active():
+        usual = engine.solve(plan, range(4), FLOAT64, usual_work := Work())
+        monkeypatch.setattr(engine, "COMPILED_FROM", 1)
+        quick = engine.solve(plan, range(4), FLOAT64, quick_work := Work())
+    assert type(usual.packing) is Packing
+    assert isinstance(quick.packing, fast.CompiledPacking)
+    assert usual.forces is not None
+    assert quick.forces is not None
+    assert bits(quick.packing) == bits(usual.packing)
+    assert bits(quick.forces) == bits(usual.forces)
+    assert usual_work == quick_work
+
+
+def test_without_numba_the_engine_takes_the_numpy_sweeps(monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = planned(basic(6, 14))
+    monkeypatch.setattr(engine, "COMPILED_FROM", 1)
+    monkeypatch.delattr("numeric.fast")
+    monkeypatch.setitem(sys.modules, "numeric.fast", None)
+    with FLOAT64.active():
+        assert type(engine.solve(plan, [0], FLOAT64, Work()).packing) is Packing
+
+
+def test_the_compiled_code_fuses_no_product_with_a_sum() -> None:
+    def sample(own: Array, result: Array) -> None:
+        for q in range(own.size):
+            result[q] = own[q] * own[q] + own[q]
+
+    import numba
+
+    compiled = numba.njit(error_model="numpy", nogil=True)(sample)
+    u = 1 + 2.0**-52 * np.arange(1.0, 65.0)
+    compiled(u, found := np.empty_like(u))
+    assert found.tobytes() == (u * u + u).tobytes()

@@ -1,0 +1,34 @@
+"""What rounding leaves of a change: a few units in the last place, whatever the height."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from numeric.forces import sweep_down
+from numeric.lattice import Array, whole
+from numeric.load_spec import LoadSpec
+from numeric.packing import deposit
+from numeric.radii import DrawnRadii, rows_of
+from numeric.systems import FLOAT64, LONGDOUBLE, Hardware
+
+N_X = Fraction(3, 4)
+
+
+def changes(system: Hardware, height: int, width: int) -> Array:
+    region = whole(width, height)
+    radii = DrawnRadii("uniform", Fraction(1, 10**6), 1, width)
+    load = LoadSpec("surface", height, width)
+    with system.active():
+        packing = deposit(N_X, region, rows_of(radii, region.rows, [0], system), system)
+        loads = load.on(region.rows, load.strength(N_X, system), system)
+        forces = sweep_down(packing, region.rows, loads)
+    return np.concatenate([*forces.change_plus, *forces.change_minus])
+
+
+@pytest.mark.skipif(LONGDOUBLE.bits <= FLOAT64.bits, reason="long double is no longer than double")
+@pytest.mark.parametrize("height", [16, 1024])
+def test_errors_do_not_pile_up_as_forces_pass_straight_down(height: int) -> None:
+    exact = changes(LONGDOUBLE, height, 16)
+    error = np.abs(changes(FLOAT64, height, 16) - exact).max() / np.abs(exact).max()
+    assert error < 16 * 2.0**-FLOAT64.bits
