@@ -9,6 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from numeric import budget, first_order, regions
+from numeric.images import sees_images
 from numeric.lattice import Region, standing_on_base, whole
 from numeric.load_spec import LoadSpec
 from numeric.radii import DrawnRadii, MeasuredRadii, Monodisperse, Radii
@@ -117,7 +118,7 @@ class _Planner:
         return Plan(
             self.scene, radii, load, route, region, force_rows, realisations,
             self.tolerance, system, tuple(steps), tuple(self.skipped), memory, seconds,
-            self._sees_images(route, region),
+            sees_images(self.scene, load, route),
         )  # fmt: skip
 
     def _system(self, route: str) -> NumberSystem:
@@ -272,26 +273,6 @@ class _Planner:
             )
             return 1
         return asked
-
-    def _sees_images(self, route: str, region: Region) -> bool:
-        if self.width is None or route == "ordered" or not region.rows:
-            return False
-        if route == "exact":
-            return any(self._slab_width(region, j) > self.width for j in range(len(region.rows)))
-        return self.width <= self.height
-
-    def _slab_width(self, region: Region, j: int) -> int:
-        """Beads of layer j that a single answer would visit in an infinite slab."""
-        height = region.top
-        load = self.scene.load
-        if self.quantity == "positions":
-            tip = self.height if self.scene.ask.at is None else self.scene.site[1]
-            return tip - j + 1
-        if load.kind == "point":
-            assert load.at is not None
-            return load.at[1] - j + 1
-        lowest = self.scene.contact[1] if budget.one_contact(self.scene) else 0
-        return max(2 * height - lowest - j, 0)
 
     def _line_beads(self, load: LoadSpec) -> int:
         """Count the beads of the line sums, as in regions: see ``first_order.contact_beads``."""
