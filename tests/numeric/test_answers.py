@@ -163,11 +163,12 @@ def test_realisations_are_independent_of_the_batch(quantity: str) -> None:
 
         from numeric.runner import _attempt
         from numeric.systems import FLOAT64
+        from numeric.work import Work
 
         plan = planned(basic(4, 9, quantity=quantity, realisations=5))
-        together = _attempt(plan, FLOAT64, range(5), None).table
+        together = _attempt(plan, FLOAT64, range(5), Work()).table
         for k in range(5):
-            alone = _attempt(replace(plan, realisations=1), FLOAT64, [k], None).table
+            alone = _attempt(replace(plan, realisations=1), FLOAT64, [k], Work()).table
             n = len(alone.numbers["change"])
             assert (
                 together.numbers["change"][k * n : (k + 1) * n] == alone.numbers["change"]

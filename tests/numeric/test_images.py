@@ -29,15 +29,12 @@ class Known:
     def relative_std(self) -> Fraction:
         return Fraction(1, 1000)
 
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+        values = [self.special.get(s, _rule(s[0] % self.period, s[1])) for s in sites]
+        return array(system, values)
+
     def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
-        home = [(i, layer.j) for i in layer.sites()]
-        one = [self.special.get(s, _rule(s[0] % self.period, s[1])) for s in home]
-        values = array(system, one)
-        return (
-            values
-            if len(realisations) == 1
-            else values.reshape(1, -1).repeat(len(realisations), axis=0)
-        )
+        return self.at([(i, layer.j) for i in layer.sites()], 0, system)
 
 
 def _rule(i: int, j: int) -> Fraction:
