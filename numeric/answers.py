@@ -274,7 +274,11 @@ class BaseReactions(Gatherer):
 
 
 class Profile(Gatherer):
-    """Mean and standard deviation of the forces, layer by layer and branch by branch."""
+    """Mean force, mean and standard deviation of its change, by layer and branch.
+
+    Under a surface or bulk load all ordered forces of a layer are equal, and the standard deviation
+    of the change is that of the force, σ_f.
+    """
 
     def __init__(self, plan: Plan, system: NumberSystem) -> None:
         """Start empty."""
@@ -282,7 +286,7 @@ class Profile(Gatherer):
         self.moments: dict[tuple[int, str], tuple[Any, Moments]] = {}
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
-        """Merge the deviations from the layer's mean ordered force."""
+        """Merge the changes of the contacts; ordered forces only enter the mean."""
         forces = solved.forces
         assert forces is not None
         width = self.plan.scene.packing.width
@@ -294,11 +298,10 @@ class Profile(Gatherer):
             for branch in "+-":
                 F, g = self._whole(forces, upper, branch, width, zero)
                 ordered, moments = self.moments.get((upper, branch), (None, Moments(self._unit())))
-                # Under a surface or bulk load F is one number: nothing may be subtracted from it.
-                alike = self.plan.load.loaded is None
                 if ordered is None:
-                    ordered = F[0] if alike else F.sum() / len(F)
-                moments.add((g if alike else (F - ordered) + g).reshape(-1))
+                    # under a surface or bulk load F is one number, which a sum would round
+                    ordered = F[0] if self.plan.load.loaded is None else F.sum() / len(F)
+                moments.add(g.reshape(-1))
                 self.moments[upper, branch] = (ordered, moments)
 
     def _whole(
