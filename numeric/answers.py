@@ -231,12 +231,10 @@ class BaseReactions(Gatherer):
         if forces is not None and len(rows) > 1 and layer.count:
             F, g, a, b = self._above(solved, layer, number)
             plus, minus = plus + F["+"], minus + F["-"]
-            f = {s: F[s] + g[s] for s in "+-"}
+            # to first order, a change of the force times one of its direction is left out
+            f = F if self.plan.route == "first-order" else {s: F[s] + g[s] for s in "+-"}
             change_plus = g["+"] + (f["+"] * a["+"] + f["-"] * a["-"])
             change_minus = g["-"] + (f["+"] * b["+"] + f["-"] * b["-"])
-            if self.plan.route == "first-order":
-                change_plus = g["+"] + (F["+"] * a["+"] + F["-"] * a["-"])
-                change_minus = g["-"] + (F["+"] * b["+"] + F["-"] * b["-"])
         cx, cy = (change_plus - change_minus) * nx, (change_plus + change_minus) * ny
         return Table(
             {"i": [self._home(i) for i in layer.sites()], "j": [0] * layer.count},
@@ -311,14 +309,16 @@ class Profile(Gatherer):
         if upper >= len(forces.rows):
             nothing = array(self.system, [Fraction(0)] * width)
             return nothing, nothing
-        for name, _, F, g in _both(forces, upper, None):
-            if name == branch:
-                layer = forces.rows[upper]
-                return (
-                    pick(F, layer, everything, width, zero),
-                    pick(g, layer, everything, width, zero),
-                )
-        raise ValueError(branch)
+        F, g = (
+            (forces.ordered_plus, forces.change_plus)
+            if branch == "+"
+            else (forces.ordered_minus, forces.change_minus)
+        )
+        layer = forces.rows[upper]
+        return (
+            pick(F[upper], layer, everything, width, zero),
+            pick(g[upper], layer, everything, width, zero),
+        )
 
     def table(self) -> Table:
         """One row a layer and branch, base first."""
