@@ -128,6 +128,8 @@ def _solved(planned: "Plan", scene: Path) -> dict[str, Any]:
         _fail(f"{scene.name}: {error}", WRONG_INPUT)
     except ToleranceError as error:
         _fail(f"{scene.name}: {error}", NOT_REACHED)
+    except ArithmeticError as error:
+        _fail(f"{scene.name}: a number left the range of the arithmetic ({error})", NOT_REACHED)
     except MemoryError:
         _fail(f"{scene.name}: the memory is full; ask for less", NOT_REACHED)
     return outcome_data(outcome)

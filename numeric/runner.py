@@ -158,7 +158,7 @@ def _within(accuracy: Accuracy, tolerance: Fraction) -> bool:
 
 
 def critical_height(relative_std: Fraction) -> float:
-    """Give M* = (σ/r)^(−2/3), where contacts begin to pull (Eq. 15).
+    """Give M* = (σ/r)^(−2/3), where contacts begin to pull (Eq. 15); inf beyond a float's range.
 
     >>> critical_height(Fraction(1, 1000))
     100.0
@@ -167,7 +167,7 @@ def critical_height(relative_std: Fraction) -> float:
         return math.inf
     # The exponents of numerator and denominator may lie outside a float's range.
     log = _log10(relative_std.numerator) - _log10(relative_std.denominator)
-    return round(10 ** (-2 * log / 3), 9)
+    return round(10 ** (-2 * log / 3), 9) if log > -460 else math.inf
 
 
 def _log10(n: int) -> float:

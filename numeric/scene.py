@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
-from numeric.decimals import exact
+from numeric.decimals import decimal_string, exact
 
 LARGEST_FILE = 1_000_000  # bytes of a scene file; far more than any scene needs
 Number = Annotated[Fraction, BeforeValidator(exact)]
@@ -34,7 +34,7 @@ class SceneError(ValueError):
 
 def _shown(value: object) -> str:
     if isinstance(value, Fraction):
-        value = float(value) if abs(value) < 10**300 else "…"
+        return decimal_string(value, None)
     if isinstance(value, int) and abs(value) > 10**40:
         return "a number of more than 40 digits"
     text = f'"{value}"' if isinstance(value, str) else str(value)
@@ -300,6 +300,8 @@ def _check_disorder(scene: Scene) -> None:
         raise SceneError("disorder.relative_std", None, f'is required with kind = "{d.kind}"')
     if d.relative_std < 0:
         raise SceneError("disorder.relative_std", d.relative_std, "must not be negative")
+    if d.relative_std > 10**100:
+        raise SceneError("disorder.relative_std", d.relative_std, "must be at most 1e100")
     reach = {"uniform": 3 * d.relative_std**2, "two-point": d.relative_std**2}.get(d.kind)
     if reach is not None and reach >= 1:
         below = "1/√3 = 0.57735…" if d.kind == "uniform" else "1"

@@ -5,9 +5,10 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
 
-from numeric.decimals import parse
+from numeric.decimals import parse, short
 
 Site = tuple[int, int]
+MOST = 10**100  # of δr/r: gaps between beads are measured in float64, which holds their squares
 
 
 class TableError(ValueError):
@@ -83,7 +84,11 @@ def read_radii(
         _check_site(where, site, width, height)
         if delta <= -radius:
             raise TableError(
-                f"{where}: bead {site}: delta_r = {float(delta):.6g} leaves no positive radius"
+                f"{where}: bead {site}: delta_r = {short(delta)} leaves no positive radius"
+            )
+        if delta > MOST * radius:
+            raise TableError(
+                f"{where}: bead {site}: delta_r = {short(delta)} must be at most 1e100 r"
             )
         if width is not None or needed(site):
             if site in rho:

@@ -1,6 +1,8 @@
 """What is wrong with a scene or its files is said, with the key, the value and what is allowed."""
 
+import json
 import string
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -9,9 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from numeric.planner import plan
+from numeric.result import outcome_data
 from numeric.scene import SceneError, parse_scene
 from numeric.tables import TableError
-from tests.numeric.scenes import basic, planned, scene
+from tests.numeric.scenes import answer, basic, planned, scene
 
 WRONG: list[tuple[str, str, Any, str]] = [
     ("packing", "height", 0, "greater than or equal to 1"),
@@ -112,6 +115,56 @@ def test_too_large_is_refused_with_its_size_before_anything_is_done() -> None:
         plan(scene(basic(100, 201)), memory_limit=100_000_000)
     with pytest.raises(SceneError, match="days"):
         planned(basic(60, 122, quantity="profile", realisations=10**9))
+
+
+def test_what_float64_cannot_hold_needs_a_tolerance(tmp_path: Path) -> None:
+    far = {"radius": "=1e400", "spacing": "=3e400"}
+    near = {"radius": "=1e-400", "spacing": "=3e-400"}
+    for quantity, packing, std, says in [
+        ("contact_forces", {}, "=1e-301", "disorder.relative_std = 1e-301: "),
+        ("contact_forces", {}, "=1e-3000", "disorder.relative_std = 1e-3000: "),
+        ("profile", {}, "=1e-400", "disorder.relative_std"),
+        ("positions", far, "=1e-4", r"packing.radius = 1e\+400"),
+        ("positions", near, "=1e-4", "packing.radius = 1e-400"),
+    ]:
+        sections = basic(3, 8, quantity=quantity)
+        sections["packing"].update(packing)
+        sections["disorder"]["relative_std"] = std
+        for geometry in ("exact", "first-order"):
+            sections["effects"] = {"geometry": geometry}
+            with pytest.raises(SceneError, match=says):
+                planned(sections)
+        sections["ask"]["tolerance"] = "=1e-9"
+        outcome = answer(sections)
+        assert 0 < outcome.accuracy.error_bound <= 1e-9
+        name = {"positions": "dx", "profile": "std"}.get(quantity, "change")
+        assert any(row[name] != "0" for row in outcome.rows)
+        json.dumps(outcome_data(outcome), allow_nan=False)
+        if quantity == "profile":
+            assert all("e-" in row["first_order_std"] for row in outcome.rows)
+
+
+@pytest.mark.parametrize("force", ["1e400", "-1e-400"])
+def test_loads_that_float64_cannot_hold_need_a_tolerance(force: str, tmp_path: Path) -> None:
+    (tmp_path / "loads.csv").write_text(f"i,j,fx,fy\n1,3,0,{force}\n")
+    sections = basic(3, 8)
+    sections["load"] = {"kind": "file", "file": "loads.csv"}
+    with pytest.raises(SceneError, match=r'load.file = "loads.csv".*bead \(1, 3\)'):
+        planned(sections, tmp_path)
+    sections["ask"]["tolerance"] = "=1e-9"
+    assert any(row["change"] != "0" for row in answer(sections, tmp_path).rows)
+
+
+def test_bins_far_below_the_smallest_float() -> None:
+    sections = basic(3, 8, quantity="histogram", tolerance="=1e-10", bins=7)
+    counts = []
+    for std in ("=1e-400", "=1e-200"):
+        sections["disorder"]["relative_std"] = std
+        rows = answer(sections).rows
+        assert all(Fraction(row["low"]) < Fraction(row["high"]) for row in rows)
+        counts.append([row["count"] for row in rows])
+    assert len(counts[0]) == 7
+    assert counts[0] == counts[1]
 
 
 def radii_file(folder: Path, text: str) -> dict[str, dict[str, Any]]:
