@@ -174,7 +174,7 @@ def _show(data: dict[str, Any], as_json: bool) -> None:
     accuracy = data["accuracy"]
     bound = accuracy["error_bound"]
     kind = "certified" if accuracy["certified"] else "estimated"
-    shown = "unknown" if bound is None else f"{bound:.2g}"
+    shown = f"{bound:.2g}" if isinstance(bound, float) else bound or "unknown"
     print(
         f"# error {shown}, {kind}, in {accuracy['arithmetic']}; bits lost {accuracy['bits_lost']}"
     )

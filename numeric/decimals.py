@@ -1,5 +1,6 @@
 """Decimals as written: read exactly into fractions, written with as many digits as known."""
 
+import math
 import re
 from decimal import Decimal
 from fractions import Fraction
@@ -92,6 +93,17 @@ def _exponent(value: Fraction) -> int:
     while value < Fraction(10) ** guess:
         guess -= 1
     return guess
+
+
+def bound_string(value: Fraction) -> str:
+    """Write a positive bound in three digits, rounded up.
+
+    >>> bound_string(Fraction(12301, 10**404))
+    '1.24e-400'
+    """
+    exponent = _exponent(value)
+    scaled = math.ceil(value * Fraction(10) ** (2 - exponent))
+    return short(Fraction(scaled) * Fraction(10) ** (exponent - 2))
 
 
 def _figures(value: Fraction, digits: int) -> tuple[str, str, int]:
