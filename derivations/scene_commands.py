@@ -49,6 +49,7 @@ def _fail(message: str, status: int) -> NoReturn:
 
 def _planned(scene: Path, tolerance: str | None) -> "Plan":
     """Read and plan a scene, or leave with a message."""
+    from numeric.budget import memory_limit
     from numeric.decimals import parse
     from numeric.planner import plan
     from numeric.scene import SceneError, read_scene
@@ -66,6 +67,13 @@ def _planned(scene: Path, tolerance: str | None) -> "Plan":
         return plan(read_scene(scene), asked)
     except (SceneError, TableError) as error:
         _fail(f"{scene.name}: {error}", WRONG_INPUT)
+    except MemoryError:
+        free = memory_limit() / 1e6
+        _fail(
+            f"{scene.name}: reading and planning it takes more than the free memory, "
+            f"{free:.3g} MB: ask for a smaller packing or give smaller files",
+            WRONG_INPUT,
+        )
 
 
 def explain(scene: _Scene, tolerance: _Tolerance = None, as_json: _Json = False) -> None:

@@ -263,7 +263,9 @@ class _Planner:
             for layer in rows:
                 for i in layer.sites():
                     if (i, layer.j) not in measured:
-                        raise TableError(f"{disorder.file}: bead {(i, layer.j)} is missing")
+                        raise TableError(
+                            f"disorder.file: {disorder.file}: bead {(i, layer.j)} is missing"
+                        )
         return MeasuredRadii(measured, self.width)
 
     def _realisations(self, route: str) -> int:

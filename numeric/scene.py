@@ -15,7 +15,9 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 
 from numeric.decimals import decimal_string, exact
 
-LARGEST_FILE = 1_000_000  # bytes of a scene file; far more than any scene needs
+LARGEST_FILE = 64_000  # bytes of a scene file; far more than any scene needs
+# Dots outside of whole-line comments: a dotted key makes a table a dot, in quadratic time.
+MOST_DOTS = 200
 Number = Annotated[Fraction, BeforeValidator(exact)]
 Count = Annotated[int, Field(ge=1)]
 
@@ -145,16 +147,18 @@ class Scene(Section):
 def read_scene(path: Path) -> Scene:
     """Read and check a scene file. Raises ``SceneError``."""
     try:
-        size = path.stat().st_size
-        if size > LARGEST_FILE:
-            raise SceneError(str(path), None, f"a scene has at most {LARGEST_FILE} bytes")
-        text = path.read_bytes().decode("utf-8")
-    except FileNotFoundError:
-        raise SceneError(str(path), None, "there is no such file") from None
+        if not path.is_file():  # a device or a pipe may have no end
+            why = "a scene must be an ordinary file" if path.exists() else "there is no such file"
+            raise SceneError(str(path), None, why)
+        with path.open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+        text = content.decode("utf-8")
     except UnicodeDecodeError:
         raise SceneError(str(path), None, "a scene must be UTF-8 text") from None
     except OSError as error:
         raise SceneError(str(path), None, f"can't be read ({error.strerror})") from None
+    if len(content) > LARGEST_FILE:
+        raise SceneError(str(path), None, f"a scene has at most {LARGEST_FILE} bytes")
     return parse_scene(text, path.parent)
 
 
@@ -168,6 +172,11 @@ def parse_scene(text: str, folder: Path = Path()) -> Scene:
 "contact_forces", "positions", "profile", "histogram", "response", "base_reactions"; did you \
 mean "profile"?
     """
+    lines = [line for line in text.splitlines() if not line.lstrip().startswith("#")]
+    dots = sum(line.count(".") for line in lines)
+    if dots > MOST_DOTS:
+        allowed = f"at most {MOST_DOTS} outside of comments: keys are at most one section deep"
+        raise SceneError("scene", None, f"has {dots} dots, {allowed}")
     try:
         raw = tomllib.loads(text, parse_float=Decimal)
     except (tomllib.TOMLDecodeError, ArithmeticError, RecursionError) as error:

@@ -1,6 +1,7 @@
 """What is wrong with a scene or its files is said, with the key, the value and what is allowed."""
 
 import json
+import os
 import string
 from fractions import Fraction
 from pathlib import Path
@@ -12,9 +13,9 @@ from hypothesis import strategies as st
 
 from numeric.planner import plan
 from numeric.result import outcome_data
-from numeric.scene import SceneError, parse_scene
+from numeric.scene import SceneError, parse_scene, read_scene
 from numeric.tables import TableError
-from tests.numeric.scenes import answer, basic, planned, scene
+from tests.numeric.scenes import answer, basic, planned, scene, toml
 
 WRONG: list[tuple[str, str, Any, str]] = [
     ("packing", "height", 0, "greater than or equal to 1"),
@@ -191,6 +192,7 @@ GOOD = ["0,0,0.01", "2,0,-0.02", "1,1,1e-3", "3,1,0"]
         ([*GOOD, "5,1,0"], r"\(5, 1\) lies outside"),
         ([*GOOD[:3], "3,1"], "2 values where 3"),
         ([*GOOD[:3], "x,1,0"], "whole number"),
+        ([*GOOD[:3], "0_3,1,0"], "i = '0_3' must be a whole number"),
         ([*GOOD[:3], '"3,1,0'], "CSV"),
     ],
 )
@@ -216,6 +218,34 @@ def test_any_radii_file_gives_an_answer_or_a_message(
     sections = radii_file(folder, "\n".join(["i,j,delta_r", *lines]))
     with pytest.raises(TableError):  # never four good lines by chance: the header's packing has 4
         planned(sections, folder)
+
+
+def test_endless_files_are_refused_at_once(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    for path in (Path("/dev/zero"), pipe, tmp_path):
+        with pytest.raises(SceneError, match="ordinary file"):
+            read_scene(path)
+        for kind, section in (("disorder", "disorder"), ("load", "load")):
+            sections = basic(1, 2)
+            sections[section] = {"kind": "file", "file": str(path)}
+            with pytest.raises(TableError, match=rf"{kind}\.file.*ordinary file"):
+                planned(sections)
+    large = tmp_path / "large"
+    for content, says in (
+        (b"#" * 64_001, "at most 64000 bytes"),
+        (b"a.b = '" + 300 * b".", "dots"),
+    ):
+        large.write_bytes(content)
+        with pytest.raises(SceneError, match=says):
+            read_scene(large)
+    with pytest.raises(TableError, match="line 2: a line has at most"):
+        planned(radii_file(tmp_path, "i,j,delta_r\n" + "0" * 100_000), tmp_path)
+
+
+def test_comments_may_have_dots() -> None:
+    text = toml(basic())
+    assert parse_scene("# " + "." * 1000 + "\n" + text) == parse_scene(text)
 
 
 keys = st.sampled_from(
