@@ -31,7 +31,22 @@ class SceneError(ValueError):
         super().__init__(
             f"{key} = {shown}: {allowed}" if value is not None else f"{key}: {allowed}"
         )
-        self.key = key
+        self.key, self.allowed = key, allowed
+
+
+class Written(Decimal):
+    """A decimal that remembers how it was written."""
+
+    text: str
+
+    def __new__(cls, text: str) -> "Written":
+        """Keep the text."""
+        number = super().__new__(cls, text)
+        number.text = text
+        return number
+
+    def __repr__(self) -> str:
+        return self.text
 
 
 def _shown(value: object) -> str:
@@ -39,7 +54,15 @@ def _shown(value: object) -> str:
         return decimal_string(value, None)
     if isinstance(value, int) and abs(value) > 10**40:
         return "a number of more than 40 digits"
-    text = f'"{value}"' if isinstance(value, str) else str(value)
+    if isinstance(value, bool):
+        text = str(value).lower()
+    elif isinstance(value, Written):
+        text = value.text
+    else:
+        try:
+            text = f'"{value}"' if isinstance(value, str) else str(value).replace("'", '"')
+        except (RecursionError, ValueError):  # nested deeply, or an integer of thousands of digits
+            text = "…"
     return text if len(text) <= 60 else text[:57] + "…"
 
 
@@ -178,7 +201,7 @@ mean "profile"?
         allowed = f"at most {MOST_DOTS} outside of comments: keys are at most one section deep"
         raise SceneError("scene", None, f"has {dots} dots, {allowed}")
     try:
-        raw = tomllib.loads(text, parse_float=Decimal)
+        raw = tomllib.loads(text, parse_float=Written)
     except (tomllib.TOMLDecodeError, ArithmeticError, RecursionError) as error:
         reason = "is nested too deeply" if isinstance(error, RecursionError) else str(error)
         raise SceneError("scene", None, f"is no valid TOML: {reason}") from None
@@ -189,9 +212,16 @@ mean "profile"?
     try:
         scene = Scene.model_validate(raw)
     except ValidationError as error:
-        raise _explained(error) from None
+        raise _explained(error, raw) from None
     scene = scene.model_copy(update={"folder": folder})
-    check(scene)
+    try:
+        check(scene)
+    except SceneError as error:  # say the number as it was written, not as it was understood
+        section, _, key = error.key.partition(".")
+        value = raw.get(section, {}).get(key)
+        if not isinstance(value, Written):
+            raise
+        raise SceneError(error.key, value, error.allowed) from None
     return scene
 
 
@@ -206,7 +236,15 @@ def _unknown(key: str, model: type[BaseModel]) -> str:
     return f"is unknown; {hint}allowed are {', '.join(known)}"
 
 
-def _explained(error: ValidationError) -> SceneError:
+# Forms of lists, whose elements say nothing when they are named alone.
+_LISTS = {
+    "load.at": "must be a bead, at = [k, l], of whole numbers",
+    "ask.at": 'must be a contact, at = [i, j, "+"] or [i, j, "-"], or for positions a bead, '
+    "at = [i, j]",
+}
+
+
+def _explained(error: ValidationError, raw: dict[str, Any]) -> SceneError:
     """Turn pydantic's first error into one line in the words of a scene."""
     first = error.errors()[0]
     path = [str(part) for part in first["loc"] if not str(part).startswith("function-")]
@@ -231,11 +269,16 @@ def _explained(error: ValidationError) -> SceneError:
         close = difflib.get_close_matches(f'"{value}"', allowed, n=1)
         hint = f"; did you mean {close[0]}?" if close else ""
         return SceneError(key, value, f"must be one of {', '.join(allowed)}{hint}")
+    if key in _LISTS:
+        return SceneError(key, raw[path[0]][path[1]], _LISTS[key])
     if kind == "value_error":
         return SceneError(key, value, str(context["error"]))
     if kind in {"model_type", "model_attributes_type", "dict_type"}:
         return SceneError(key, value, f"must be a section, written [{key}]")
-    return SceneError(key, value, first["msg"].lower().replace("input should", "must"))
+    rule = first["msg"].lower().replace("input should", "must")
+    if kind == "int_type":
+        rule += ", written without point or exponent"
+    return SceneError(key, value, rule)
 
 
 def _choices(annotation: Any) -> tuple[str, ...]:
@@ -352,8 +395,9 @@ def _check_site(scene: Scene, key: str, site: Any, highest: int) -> None:
     if not 0 <= j <= highest:
         raise SceneError(key, site, f"j must be from 0 to {highest}")
     if (width is not None and not 0 <= i < 2 * width) or abs(i) >= 2**60:
-        limit = 2**60 if width is None else 2 * width
-        raise SceneError(key, site, f"i must be from 0 to {limit - 1}")
+        if width is None:
+            raise SceneError(key, site, "i must be above -2^60 and below 2^60")
+        raise SceneError(key, site, f"i must be from 0 to {2 * width - 1}")
 
 
 def _check_ask(scene: Scene) -> None:

@@ -11,8 +11,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from numeric.forces import NotStandingError
+from numeric.packing import UnbuildableError
 from numeric.planner import plan
-from numeric.result import outcome_data
+from numeric.radii import RadiusError
+from numeric.result import outcome_data, plan_data
+from numeric.runner import ToleranceError, run
 from numeric.scene import SceneError, parse_scene, read_scene
 from numeric.tables import TableError
 from tests.numeric.scenes import answer, basic, planned, scene, toml
@@ -63,6 +67,42 @@ def test_errors_name_the_key_and_what_is_allowed(
         scene(sections)
     assert f"{section}.{key}" in str(caught.value)
     assert says in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("section", "key", "written", "says"),
+    [
+        ("packing", "spacing", "1.99999999999999999999", "strictly between"),
+        ("packing", "spacing", "2.0e0", "strictly between"),
+        ("packing", "radius", "-0.0", "greater than 0"),
+        ("packing", "height", "3e0", "valid integer, written without point or exponent"),
+        ("packing", "allow_images", "1.50", "boolean"),
+        ("disorder", "relative_std", "-1E-3", "negative"),
+        ("ask", "tolerance", "0", "between 0 and 1"),
+        ("ask", "tolerance", "0.000", "between 0 and 1"),
+        ("load", "at", '"+"', "a bead, at = [k, l]"),
+        ("load", "at", '[1, "+"]', "a bead, at = [k, l]"),
+        ("ask", "at", "[0, 1.50]", 'a contact, at = [i, j, "+"]'),
+        ("effects", "stop_at_tension", "true", "geometry"),
+    ],
+)
+def test_values_are_shown_as_they_were_written(
+    section: str, key: str, written: str, says: str
+) -> None:
+    sections = basic()
+    sections["effects"] = {"geometry": "ordered"}
+    sections.setdefault(section, {})[key] = f"={written}"
+    with pytest.raises(SceneError) as caught:
+        scene(sections)
+    assert str(caught.value).startswith(f"{section}.{key} = {written}: ")
+    assert says in str(caught.value)
+
+
+def test_columns_of_a_slab_may_be_negative() -> None:
+    planned(basic(4, None, quantity="contact", at=[-3, 1, "+"]))
+    for i in (-(2**60), 2**60):
+        with pytest.raises(SceneError, match=r"above -2\^60 and below 2\^60"):
+            scene(basic(4, None, quantity="contact", at=[i, 0, "+"]))
 
 
 @pytest.mark.parametrize(
@@ -269,17 +309,71 @@ changes = st.lists(
 )
 
 
+# What a run may end with beside an answer; anything else would be a traceback.
+REFUSALS = (
+    SceneError, TableError, UnbuildableError, NotStandingError, RadiusError, ToleranceError
+)  # fmt: skip
+
+
+def solved_or_refused(sections: dict[str, dict[str, Any]], folder: Path = Path()) -> None:
+    """Plan a scene, and run it if it is small; every end but an answer must be a message."""
+    message = None
+    try:
+        made = planned(sections, folder)
+        plan_data(made)
+        if made.estimated_seconds < 0.1 and made.system.bits <= 2000:
+            outcome = run(made)
+            json.dumps(outcome_data(outcome), allow_nan=False)
+            disordered = made.route != "ordered" and outcome.stopped is None
+            if disordered and made.load.loaded is None and outcome.physical:
+                assert outcome.accuracy.error_bound > 0
+    except REFUSALS as error:
+        message = str(error)
+    assert message is None or 10 < len(message) < 600
+
+
 @given(changes)
-def test_any_scene_gives_a_plan_or_a_message(made: list[tuple[str, str, Any]]) -> None:
+def test_any_scene_gives_an_answer_or_a_message(made: list[tuple[str, str, Any]]) -> None:
     sections = basic()
     for section, key, value in made:
         sections.setdefault(section, {})[key] = value
-    message = None
-    try:
-        planned(sections)
-    except (SceneError, TableError) as error:
-        message = str(error)
-    assert message is None or 10 < len(message) < 600
+    solved_or_refused(sections)
+
+
+far = st.sampled_from(
+    ["1e-5", "0.3", "1", "3.0", "1e-300", "1e-301", "1e-330", "1e-400", "1e-465", "1e-3000",
+     "1e-4999", "1e100", "1e101", "1e150", "1e280", "1e308", "1e400", "1e4999"]
+)  # fmt: skip
+quantities = st.sampled_from(["contact_forces", "positions", "profile", "histogram", "contact"])
+
+
+@given(st.data())
+def test_numbers_far_outside_of_floats_give_an_answer_or_a_message(
+    tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
+) -> None:
+    folder = tmp_path_factory.mktemp("far")
+    sections = basic(2, 3, quantity=data.draw(quantities))
+    if sections["ask"]["quantity"] == "contact":
+        sections["ask"]["at"] = [0, 0, "+"]
+    radius = data.draw(far)
+    mantissa, _, exponent = radius.partition("e")
+    sections["packing"]["radius"] = f"={radius}"
+    if data.draw(st.booleans()):
+        sections["packing"]["spacing"] = f"={3 * float(mantissa)}e{exponent or 0}"
+    kind = data.draw(st.sampled_from(["uniform", "normal", "two-point", "file"]))
+    if kind == "file":
+        sections["disorder"] = {"kind": "file", "file": "radii.csv"}
+        lines = [f"{i},{j},{data.draw(far)}" for j in range(3) for i in range(j % 2, 6, 2)]
+        (folder / "radii.csv").write_text("\n".join(["i,j,delta_r", *lines]))
+    else:
+        sections["disorder"] = {"kind": kind, "relative_std": f"={data.draw(far)}"}
+    if data.draw(st.booleans()):
+        sections["load"] = {"kind": "file", "file": "loads.csv", "magnitude": f"={data.draw(far)}"}
+        (folder / "loads.csv").write_text(f"i,j,fx,fy\n0,2,{data.draw(far)},-{data.draw(far)}")
+    sections["effects"] = {"geometry": data.draw(st.sampled_from(["exact", "first-order"]))}
+    if data.draw(st.booleans()):
+        sections["ask"]["tolerance"] = f"={data.draw(st.sampled_from(['1e-9', '1e-330']))}"
+    solved_or_refused(sections, folder)
 
 
 @given(st.text(max_size=200))
