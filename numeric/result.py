@@ -1,8 +1,10 @@
 """Plans and outcomes as plain data: what ``--json`` prints and what result files hold."""
 
 import math
+from fractions import Fraction
 from typing import Any
 
+from numeric.decimals import bound_string
 from numeric.physical import Physicality
 from numeric.planner import Plan
 from numeric.runner import Outcome, critical_height
@@ -51,7 +53,7 @@ def outcome_data(outcome: Outcome) -> dict[str, Any]:
     accuracy = outcome.accuracy
     data["results"] = {outcome.plan.scene.ask.quantity: outcome.rows}
     data["accuracy"] = {
-        "error_bound": accuracy.error_bound if math.isfinite(accuracy.error_bound) else None,
+        "error_bound": _bound(accuracy.error_bound),
         "certified": accuracy.certified,
         "arithmetic": accuracy.arithmetic,
         "bits_lost": accuracy.bits_lost,
@@ -71,8 +73,7 @@ def physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     """Say whether an exact packing is one that beads could make."""
     highest = critical_height(plan.radii.relative_std())
     pulls = found.tensile + found.undecided_signs
-    alone = plan.load.kind == "point"
-    sound = not (found.overlaps or found.undecided_gaps or (pulls and not alone))
+    sound = not (found.overlaps or found.undecided_gaps or pulls)
     data: dict[str, Any] = {
         "physical": sound,
         "smallest_gap": found.smallest_gap,
@@ -84,10 +85,10 @@ def physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
         "height": plan.scene.packing.height,
         "critical_height": highest if math.isfinite(highest) else None,
     }
-    if pulls and alone:
+    if pulls and plan.load.loaded is not None:
         data["note"] = (
-            "a load on one bead pulls contacts inside its cone: its response is to be added to "
-            "that of other loads, so tension alone does not count here"
+            "loads on single beads pull contacts inside their cones: such a packing stands when "
+            "other loads press these contacts more"
         )
     if found.first_tensile is not None:
         i, j, branch = found.first_tensile
@@ -95,6 +96,13 @@ def physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
         home = i if period is None else i % (2 * period)
         data["first_tensile"] = {"i": home, "j": j, "branch": branch}
     return data
+
+
+def _bound(bound: float | Fraction) -> float | str | None:
+    """Give a number where a float can hold it, else a decimal string; None stands for infinity."""
+    if isinstance(bound, Fraction):
+        return bound_string(bound)
+    return bound if math.isfinite(bound) else None
 
 
 def _rounded(seconds: float | None) -> float | None:
