@@ -282,3 +282,10 @@ def test_a_bead_drawn_alone_is_the_one_in_its_row(
     sites = [(2 * column + j % 2, j) for column, j in where]
     rows = [radii.row(Layer(j, i, 1), [k], FLOAT64)[0] for i, j in sites]
     assert radii.at(sites, k, FLOAT64).tolist() == rows
+
+
+def test_estimates_know_what_is_printed_and_what_is_solved_together() -> None:
+    few, many = (planned(basic(quantity="histogram", bins=n)) for n in (10, 10**6))
+    assert many.estimated_seconds > few.estimated_seconds + 10
+    one, batch = (planned(basic(quantity="profile", realisations=n)) for n in (1, 1000))
+    assert batch.memory > one.memory + 900 * one.region.beads * budget.FLOAT_BEAD
