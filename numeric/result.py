@@ -33,17 +33,23 @@ def plan_data(plan: Plan) -> dict[str, Any]:
 def outcome_data(outcome: Outcome) -> dict[str, Any]:
     """Give a finished run; see scenes/README.md for the schema of each quantity."""
     data = plan_data(outcome.plan)
+    work = outcome.work
     visited = {
-        "read radii": outcome.work.radii,
-        "draw radii": outcome.work.radii,
-        "deposit": outcome.work.deposited,
-        "line sums": outcome.work.summed,
-        "balance forces": outcome.work.balanced,
+        "read radii": work.radii,
+        "draw radii": work.radii,
+        "deposit": work.deposited,
+        "line sums": work.summed,
+        "balance forces": work.balanced,
+        "check that it is physical": work.checked,
+        "estimate the error": work.again,
     }
     for step in data["plan"]:
-        step["seconds"] = _rounded(outcome.seconds.get(step["step"]))
-        step["arithmetic"] = outcome.accuracy.arithmetic
-        step["beads"] = visited.get(step["step"], step["beads"])
+        name = step["step"]
+        clock = "radii" if name in {"read radii", "draw radii"} else name
+        step["seconds"] = _rounded(work.seconds.get(clock, 0.0))
+        names = work.arithmetic_again if name == "estimate the error" else work.arithmetic
+        step["arithmetic"] = ", then ".join(names)
+        step["beads"] = visited.get(name, 0)
     accuracy = outcome.accuracy
     data["results"] = {outcome.plan.scene.ask.quantity: outcome.rows}
     data["accuracy"] = {

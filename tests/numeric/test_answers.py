@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from numeric.result import outcome_data
 from numeric.runner import Outcome, ToleranceError, _attempt
 from numeric.systems import FLOAT64
+from numeric.work import Work
 from tests.numeric.scenes import answer, basic, planned, scene, scenes, site
 
 SMALL = {
@@ -165,9 +166,9 @@ def test_images_are_seen_exactly_where_the_region_needs_more_width(
 def test_realisations_are_independent_of_the_batch(quantity: str) -> None:
     """Each realisation of a batch is bit for bit the one solved alone."""
     plan = planned(basic(4, 9, quantity=quantity, realisations=5))
-    together = _attempt(plan, FLOAT64, range(5), None).table
+    together = _attempt(plan, FLOAT64, range(5), Work()).table
     for k in range(5):
-        alone = _attempt(replace(plan, realisations=1), FLOAT64, [k], None).table
+        alone = _attempt(replace(plan, realisations=1), FLOAT64, [k], Work()).table
         for name, column in alone.numbers.items():
             n = len(column)
             assert n
