@@ -14,27 +14,21 @@ from fractions import Fraction
 from functools import partial
 from statistics import median
 from time import perf_counter
-from typing import Any, TypeVar
-
-import flint
-import mpmath
+from typing import TypeVar
 
 from numeric import planner
 from numeric.answers import Profile, Table
-from numeric.budget import initial_bits
+from numeric.cost_truth import BEYOND, DIGITS, IncomparableError, Truth
 from numeric.cost_ways import answer, solve_plainly, why_not_plain
 from numeric.forces import NotStandingError
 from numeric.packing import UnbuildableError, UndecidedError
-from numeric.planner import Plan, Skipped
+from numeric.planner import Skipped
 from numeric.radii import RadiusError
-from numeric.runner import MOST_BITS, ToleranceError
 from numeric.scene import Scene, SceneError
 from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
 
-DIGITS = (20, 30, 50, 100, 300)
-# The reference's radius has to lie this far below the last digit of the most precise way.
-BEYOND = Fraction(1, 10 ** (max(DIGITS) + 20))
 LEAST_RUNS, MOST_RUNS, ENOUGH_SECONDS = 3, 15, 0.2
+_FAILURES = (UnbuildableError, UndecidedError, NotStandingError, RadiusError, IncomparableError)
 T = TypeVar("T")
 Notice = Callable[[str], None]
 """Called with the name of each way before it is measured."""
@@ -129,21 +123,20 @@ def _study_one(scene: Scene, notice: Notice) -> Study:
     one = scene.model_copy(update={"ask": scene.ask.model_copy(update={"realisations": 1})})
     plan = planner.plan(one, BEYOND)
     notice("reference")
-    true = _Truth(plan)
+    true = Truth(plan)
     nothing = Decimal(0)
     rows: list[Row] = []
     skipped = list(_never(scene))
 
-    def measure(way: str, system: NumberSystem, work: Callable[[], Table], model: Any) -> None:
+    def measure(
+        way: str, system: NumberSystem, work: Callable[[], Table], model: Truth | None
+    ) -> None:
         notice(f"{way}, {system.name}")
         try:
             table, seconds, peak = measured(work)
             error, bound = true.error(table), true.bound(table)
             rounding = error if model is None else model.error(table, true.largest)
-        except (UnbuildableError, UndecidedError, NotStandingError, RadiusError) as failed:
-            skipped.append(Skipped(f"{way}, {system.name}", str(failed)))
-            return
-        except _IncomparableError as failed:
+        except _FAILURES as failed:
             skipped.append(Skipped(f"{way}, {system.name}", str(failed)))
             return
         wrong = nothing if model is None else true.error(model.table)
@@ -154,7 +147,7 @@ def _study_one(scene: Scene, notice: Notice) -> Study:
             skipped.append(Skipped("first-order line sums", "they do not stop at tension"))
         else:
             linear = planner.plan(with_geometry(one, "first-order"), BEYOND)
-            model = _Truth(linear)
+            model = Truth(linear)
             name = "first-order line sums"
             measure(name, FLOAT64, partial(answer, linear, FLOAT64, [0]), model)
     else:
@@ -187,90 +180,6 @@ def _never(scene: Scene) -> Iterator[Skipped]:
         yield Skipped(way, why)
     if LONGDOUBLE.bits <= FLOAT64.bits:
         yield Skipped("longdouble", "on this machine it is no longer than float64")
-
-
-class _IncomparableError(ArithmeticError):
-    """An answer has not the rows of the reference, or is not finite."""
-
-
-class _Truth:
-    """A certified reference: balls so small that no error shown depends on them."""
-
-    def __init__(self, plan: Plan) -> None:
-        """Raise the precision until the largest radius, relative to the largest change, fits."""
-        bits = initial_bits(BEYOND, plan.scene.packing.height)
-        why = ""
-        while bits <= MOST_BITS:
-            self.system = Balls(bits)
-            bits *= 2
-            try:
-                self.table = answer(plan, self.system, [0])
-            except (UndecidedError, NotStandingError) as error:
-                why = f"at {self.system.bits} bits: {error}"
-                continue
-            with self.system.active():
-                self.largest, radius = flint.arb(0), flint.arb(0)
-                for value in self._entries(self.table):
-                    self.largest = self.largest.max(value.abs_lower())
-                    radius = radius.max(value.rad())
-                if not radius.is_zero() and not self.largest > 0:
-                    why = f"at {self.system.bits} bits no change can be told from zero"
-                    continue
-                if self.largest.is_zero():
-                    raise SceneError("ask.quantity", plan.scene.ask.quantity, "it is exactly zero")
-                self.radius = decimal((radius / self.largest).upper())
-                if radius / self.largest < Balls(self.system.bits).number(BEYOND):
-                    return
-                why = f"at {self.system.bits} bits its radius is still {self.radius:.1e}"
-        raise ToleranceError(f"no certified reference was found: {why}")
-
-    def _entries(self, table: Table) -> Iterator[Any]:
-        for name in self.table.small:
-            yield from table.numbers[name]
-
-    def error(self, table: Table, largest: Any = None) -> Decimal:
-        """Bound the distance of a table from the enclosure, relative to the largest change."""
-        if any(len(table.numbers[n]) != len(self.table.numbers[n]) for n in self.table.small):
-            raise _IncomparableError("it stopped at another contact than the reference")
-        worst = flint.arb(0)
-        with self.system.active():
-            for value, ball in zip(self._entries(table), self._entries(self.table), strict=True):
-                worst = worst.max((exactly(value) - ball).abs_upper())
-            return decimal((worst / (largest or self.largest)).upper())
-
-    def bound(self, table: Table) -> Decimal | None:
-        """Give what a table in balls certifies of itself; None for other arithmetic."""
-        with self.system.active():
-            radii = [v.rad() for v in self._entries(table) if isinstance(v, flint.arb)]
-            if not radii:
-                return None
-            worst = flint.arb(0)
-            for radius in radii:
-                worst = worst.max(radius)
-            return decimal((worst / self.largest).upper())
-
-
-def exactly(value: Any) -> Any:
-    """Give a number (of a ball, its midpoint) as an arb at the precision that is active."""
-    if isinstance(value, flint.arb):
-        if not value.is_finite():
-            raise _IncomparableError("its enclosure is infinite")
-        return value.mid()
-    if hasattr(value, "_mpf_"):
-        return flint.arb(flint.fmpq(*map(int, mpmath.libmp.to_rational(value._mpf_))))
-    try:
-        return flint.arb(flint.fmpq(*map(int, value.as_integer_ratio())))
-    except (ValueError, OverflowError) as error:
-        raise _IncomparableError("a number is not finite") from error
-
-
-def decimal(value: Any) -> Decimal:
-    """Give an arb to five digits; a Decimal's exponent has no end where a float's has.
-
-    >>> decimal(flint.arb(10) ** -400)
-    Decimal('1.0000E-400')
-    """
-    return Decimal(f"{Decimal(value.mid().str(20, radius=False)):.4E}")
 
 
 def measured(work: Callable[[], T]) -> tuple[T, list[float], int]:

@@ -1,7 +1,7 @@
 """Studies of cost as plain data: what ``cost --json`` prints, and the table for a terminal."""
 
 from dataclasses import asdict
-from decimal import Decimal
+from decimal import ROUND_CEILING, Context, Decimal
 from typing import Any
 
 from numeric.cost import Row, Study
@@ -35,12 +35,13 @@ def _plain(value: Any) -> Any:
 
 
 def short(value: Decimal) -> str:
-    """Print an error to three digits.
+    """Print an error to three digits, rounded up.
 
     >>> short(Decimal("1.23456E-337")), short(Decimal(0))
-    ('1.23e-337', '0')
+    ('1.24e-337', '0')
     """
-    return f"{value:.2e}" if value else "0"
+    up = Context(prec=3, rounding=ROUND_CEILING).create_decimal(value)
+    return f"{up:.2e}" if value else "0"
 
 
 def csv_rows(data: dict[str, Any]) -> list[dict[str, Any]]:

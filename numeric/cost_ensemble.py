@@ -22,13 +22,12 @@ from numeric.cost import (
     Reference,
     Row,
     Study,
-    decimal,
-    exactly,
     marked,
     measured,
     row,
     with_geometry,
 )
+from numeric.cost_truth import decimal, exactly
 from numeric.cost_ways import answer
 from numeric.lattice import Array
 from numeric.planner import Plan, Skipped

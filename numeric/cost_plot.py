@@ -42,7 +42,8 @@ def draw(study: Study, title: str) -> Figure:
     FigureCanvasAgg(figure)
     axes = figure.subplots()
     rows = [row for row in study.rows if row.error]
-    _scale(axes, rows)
+    floor = [math.log10(study.sampling_floor)] if study.sampling_floor else []
+    _scale(axes, [_x(row) for row in rows], [_y(row) for row in rows] + floor)
     for line in _lines(rows):
         marker, grey = STYLES.get(line[0].way, ("D", "0.1"))
         dashes = "--" if line[0].arithmetic.startswith("mpmath") else "-"
@@ -53,13 +54,12 @@ def draw(study: Study, title: str) -> Figure:
             axes.plot(spread, [_y(row)] * 2, color=grey, linewidth=0.6, zorder=1)
             face = grey if row.pareto else "white"
             axes.plot(_x(row), _y(row), marker, color=grey, markerfacecolor=face, zorder=3)
-    if study.sampling_floor:
-        floor = math.log10(study.sampling_floor)
+    for level in floor:
         n = max((row.realisations or 0 for row in rows), default=0)
-        axes.axhline(floor, color="0.3", linestyle=":", linewidth=1)
+        axes.axhline(level, color="0.3", linestyle=":", linewidth=1)
         axes.annotate(
             f"sampling floor: standard error of {n} realisations",
-            (0.01, floor), xycoords=("axes fraction", "data"), xytext=(0, 3),
+            (0.01, level), xycoords=("axes fraction", "data"), xytext=(0, 3),
             textcoords="offset points", fontsize=8, color="0.3",
         )  # fmt: skip
     taken = [_around(axes, row) for row in rows]
@@ -109,8 +109,9 @@ def _name(axes: Axes, line: list[Row], grey: str, taken: list[Bbox]) -> None:
         if row is line[-1]:
             text = f"{row.way}: {text}" if text else row.way
         note = axes.annotate(
-            text, (_x(row), _y(row)), xytext=(8, 0), textcoords="offset points", fontsize=7.5, color=grey,
-            va="center", bbox={"boxstyle": "square,pad=0.05", "fc": "white", "ec": "none"},
+            text, (_x(row), _y(row)), xytext=(8, 0), textcoords="offset points", fontsize=7.5,
+            color=grey, va="center",
+            bbox={"boxstyle": "square,pad=0.05", "fc": "white", "ec": "none"},
             arrowprops={"arrowstyle": "-", "color": grey, "linewidth": 0.4, "shrinkB": 3},
         )  # fmt: skip
         for reach in range(8, 120, 8):
@@ -119,7 +120,7 @@ def _name(axes: Axes, line: list[Row], grey: str, taken: list[Bbox]) -> None:
                 spots += [(s * reach, v * up, a) for v in (1, -1) for s, a in _SIDES]
             if any(_fits(note, spot, canvas, axes.bbox, taken) for spot in spots):
                 break
-        taken.append(note.get_window_extent(canvas.get_renderer()))
+        taken.append(Text.get_window_extent(note, canvas.get_renderer()))
 
 
 _SIDES = ((1, "left"), (-1, "right"))
@@ -131,6 +132,7 @@ def _fits(
     """Put a label at a spot and say whether it hides nothing there."""
     note.set_position(spot[:2])
     note.set_horizontalalignment(spot[2])
+    note.update_positions(canvas.get_renderer())  # of the arrow it has, and of the text
     box = Text.get_window_extent(note, canvas.get_renderer())
     return bool(
         inside.x0 <= box.x0 and box.x1 <= inside.x1 and inside.y0 <= box.y0 and box.y1 <= inside.y1
@@ -146,12 +148,9 @@ def _short(row: Row) -> str:
     return row.arithmetic.replace(" digits", "").replace(",", "")
 
 
-def _scale(axes: Axes, rows: list[Row]) -> None:
+def _scale(axes: Axes, x: list[float], y: list[float]) -> None:
     """Set limits with room for labels, and ticks at powers of ten."""
-    for axis, values, room in (
-        ("x", [_x(r) for r in rows], 0.35),
-        ("y", [_y(r) for r in rows], 0.08),
-    ):
+    for axis, values, room in (("x", x, 0.35), ("y", y, 0.08)):
         low, high = min(values), max(values)
         more = max((high - low) * room, 0.3)
         low, high = low - more, high + more
