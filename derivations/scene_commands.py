@@ -137,26 +137,25 @@ def cost(
 
     command = shlex.join(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
 
-    def answer() -> tuple[tuple[dict[str, Any], list[str]], dict[str, str | bytes]]:
+    def answer() -> tuple[dict[str, Any], dict[str, str | bytes]]:
         found = _studied(scene)
         data = study_data(found, command)
         files: dict[str, str | bytes] = {
             "cost.json": json.dumps(data, indent=2) + "\n",
             "cost.csv": _csv(csv_rows(data)),
         }
-        shown = lines(data)
         if out is not None:
             try:
                 from numeric.cost_plot import plots
             except ImportError:
-                shown.append("No plot: matplotlib is missing; pip install 'force-diffusion[plots]'")
-                print(f"force-diffusion: {shown[-1]}", file=sys.stderr)
+                missing = "no plot: matplotlib is missing; pip install 'force-diffusion[plots]'"
+                print(f"force-diffusion: {missing}", file=sys.stderr)
             else:
                 files |= plots(found, command, scene.stem)
-        return (data, shown), files
+        return data, files
 
-    data, shown = _published(out, answer)
-    print(json.dumps(data, indent=2) if as_json else "\n".join(shown))
+    data = _published(out, answer)
+    print(json.dumps(data, indent=2) if as_json else "\n".join(lines(data)))
 
 
 def _studied(scene: Path) -> "Study":

@@ -102,7 +102,7 @@ def decimal(value: Any, digits: int = 5) -> Decimal:
     """Round an arb up to so many digits; a Decimal's exponent has no end where a float's has.
 
     >>> decimal(flint.arb(1) / 3 * flint.arb(10) ** -400)
-    Decimal('3.3334E-400')
+    Decimal('3.3334E-401')
     """
     # Twenty digits are within one unit of the last place, which the factor makes up for.
     shown = Decimal(value.upper().str(20, radius=False)) * (1 + Decimal("1e-18"))
