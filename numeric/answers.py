@@ -231,12 +231,10 @@ class BaseReactions(Gatherer):
         if forces is not None and len(rows) > 1 and layer.count:
             F, g, a, b = self._above(solved, layer, number)
             plus, minus = plus + F["+"], minus + F["-"]
-            f = {s: F[s] + g[s] for s in "+-"}
+            # to first order, a change of the force times one of its direction is left out
+            f = F if self.plan.route == "first-order" else {s: F[s] + g[s] for s in "+-"}
             change_plus = g["+"] + (f["+"] * a["+"] + f["-"] * a["-"])
             change_minus = g["-"] + (f["+"] * b["+"] + f["-"] * b["-"])
-            if self.plan.route == "first-order":
-                change_plus = g["+"] + (F["+"] * a["+"] + F["-"] * a["-"])
-                change_minus = g["-"] + (F["+"] * b["+"] + F["-"] * b["-"])
         cx, cy = (change_plus - change_minus) * nx, (change_plus + change_minus) * ny
         return Table(
             {"i": [self._home(i) for i in layer.sites()], "j": [0] * layer.count},
@@ -274,7 +272,11 @@ class BaseReactions(Gatherer):
 
 
 class Profile(Gatherer):
-    """Mean and standard deviation of the forces, layer by layer and branch by branch."""
+    """Mean force, mean and standard deviation of its change, by layer and branch.
+
+    Under a surface or bulk load all ordered forces of a layer are equal, and the standard deviation
+    of the change is that of the force, σ_f.
+    """
 
     def __init__(self, plan: Plan, system: NumberSystem) -> None:
         """Start empty."""
@@ -282,7 +284,7 @@ class Profile(Gatherer):
         self.moments: dict[tuple[int, str], tuple[Any, Moments]] = {}
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
-        """Merge the deviations from the layer's mean ordered force."""
+        """Merge the changes of the contacts; ordered forces only enter the mean."""
         forces = solved.forces
         assert forces is not None
         width = self.plan.scene.packing.width
@@ -294,11 +296,10 @@ class Profile(Gatherer):
             for branch in "+-":
                 F, g = self._whole(forces, upper, branch, width, zero)
                 ordered, moments = self.moments.get((upper, branch), (None, Moments(self._unit())))
-                # Under a surface or bulk load F is one number: nothing may be subtracted from it.
-                alike = self.plan.load.loaded is None
                 if ordered is None:
-                    ordered = F[0] if alike else F.sum() / len(F)
-                moments.add((g if alike else (F - ordered) + g).reshape(-1))
+                    # under a surface or bulk load F is one number, which a sum would round
+                    ordered = F[0] if self.plan.load.loaded is None else F.sum() / len(F)
+                moments.add(g.reshape(-1))
                 self.moments[upper, branch] = (ordered, moments)
 
     def _whole(
@@ -308,14 +309,16 @@ class Profile(Gatherer):
         if upper >= len(forces.rows):
             nothing = array(self.system, [Fraction(0)] * width)
             return nothing, nothing
-        for name, _, F, g in _both(forces, upper, None):
-            if name == branch:
-                layer = forces.rows[upper]
-                return (
-                    pick(F, layer, everything, width, zero),
-                    pick(g, layer, everything, width, zero),
-                )
-        raise ValueError(branch)
+        F, g = (
+            (forces.ordered_plus, forces.change_plus)
+            if branch == "+"
+            else (forces.ordered_minus, forces.change_minus)
+        )
+        layer = forces.rows[upper]
+        return (
+            pick(F[upper], layer, everything, width, zero),
+            pick(g[upper], layer, everything, width, zero),
+        )
 
     def table(self) -> Table:
         """One row a layer and branch, base first."""

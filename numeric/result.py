@@ -65,8 +65,7 @@ def physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     """Say whether an exact packing is one that beads could make."""
     highest = critical_height(plan.radii.relative_std())
     pulls = found.tensile + found.undecided_signs
-    alone = plan.load.kind == "point"
-    sound = not (found.overlaps or found.undecided_gaps or (pulls and not alone))
+    sound = not (found.overlaps or found.undecided_gaps or pulls)
     data: dict[str, Any] = {
         "physical": sound,
         "smallest_gap": found.smallest_gap,
@@ -78,10 +77,10 @@ def physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
         "height": plan.scene.packing.height,
         "critical_height": highest if math.isfinite(highest) else None,
     }
-    if pulls and alone:
+    if pulls and plan.load.loaded is not None:
         data["note"] = (
-            "a load on one bead pulls contacts inside its cone: its response is to be added to "
-            "that of other loads, so tension alone does not count here"
+            "loads on single beads pull contacts inside their cones: such a packing stands when "
+            "other loads press these contacts more"
         )
     if found.first_tensile is not None:
         i, j, branch = found.first_tensile
