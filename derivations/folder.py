@@ -81,8 +81,10 @@ class OutputFolder:
         """
         for name, content in files.items():
             try:
-                data = content if isinstance(content, bytes) else content.encode("utf-8")
-                (self._aside / name).write_bytes(data)
+                if isinstance(content, bytes):
+                    (self._aside / name).write_bytes(content)
+                else:
+                    (self._aside / name).write_text(content, encoding="utf-8")
             except OSError as failure:  # a write that fails half-way names no file
                 failure.filename = str(self.folder / name)
                 raise
