@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-import shlex
 import sys
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, nullcontext
@@ -133,6 +132,8 @@ def cost(
     as_json: _Json = False,
 ) -> None:
     """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
+    import shlex
+
     from numeric.cost_data import csv_rows, lines, study_data
 
     command = shlex.join(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
