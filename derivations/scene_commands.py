@@ -50,6 +50,7 @@ def _fail(message: str, status: int) -> NoReturn:
 
 def _planned(scene: Path, tolerance: str | None) -> "Plan":
     """Read and plan a scene, or leave with a message."""
+    from numeric.budget import memory_limit
     from numeric.decimals import parse
     from numeric.planner import plan
     from numeric.scene import SceneError, read_scene
@@ -67,6 +68,13 @@ def _planned(scene: Path, tolerance: str | None) -> "Plan":
         return plan(read_scene(scene), asked)
     except (SceneError, TableError) as error:
         _fail(f"{scene.name}: {error}", WRONG_INPUT)
+    except MemoryError:
+        free = memory_limit() / 1e6
+        _fail(
+            f"{scene.name}: reading and planning it takes more than the free memory, "
+            f"{free:.3g} MB: ask for a smaller packing or give smaller files",
+            WRONG_INPUT,
+        )
 
 
 def explain(scene: _Scene, tolerance: _Tolerance = None, as_json: _Json = False) -> None:
@@ -205,6 +213,8 @@ def _solved(planned: "Plan", scene: Path) -> dict[str, Any]:
         _fail(f"{scene.name}: {error}", WRONG_INPUT)
     except ToleranceError as error:
         _fail(f"{scene.name}: {error}", NOT_REACHED)
+    except ArithmeticError as error:
+        _fail(f"{scene.name}: a number left the range of the arithmetic ({error})", NOT_REACHED)
     except MemoryError:
         _fail(f"{scene.name}: the memory is full; ask for less", NOT_REACHED)
     return outcome_data(outcome)
@@ -249,7 +259,7 @@ def _show(data: dict[str, Any], as_json: bool) -> None:
     accuracy = data["accuracy"]
     bound = accuracy["error_bound"]
     kind = "certified" if accuracy["certified"] else "estimated"
-    shown = "unknown" if bound is None else f"{bound:.2g}"
+    shown = f"{bound:.2g}" if isinstance(bound, float) else bound or "unknown"
     print(
         f"# error {shown}, {kind}, in {accuracy['arithmetic']}; bits lost {accuracy['bits_lost']}"
     )

@@ -10,7 +10,7 @@ import numpy as np
 
 from numeric.answers import Table
 from numeric.lattice import Array
-from numeric.systems import Balls, Hardware, NumberSystem
+from numeric.systems import Balls, Hardware, NumberSystem, midpoint
 
 # A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.
 PRINTED = 20
@@ -26,10 +26,11 @@ class Accuracy:
     """Error of the answer's small columns, relative to the largest entry of them.
 
     ``certified``: a rigorous bound (balls). Otherwise it is estimated from a second solution with a
-    longer significand. ``bits_lost``: bits of the arithmetic that the answer lacks.
+    longer significand. ``bits_lost``: bits of the arithmetic that the answer lacks. A bound below
+    what a float can hold is a fraction.
     """
 
-    error_bound: float
+    error_bound: float | Fraction
     certified: bool
     arithmetic: str
     bits_lost: float
@@ -61,9 +62,12 @@ def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:
     return Accuracy(_up(printed), True, system.name, round(lost, 1), note)
 
 
-def _up(value: Any) -> float:
-    """Round a small positive ball up to a float that is not zero."""
-    return max(float(value.upper()) * (1 + 1e-15), 5e-324)
+def _up(value: Any) -> float | Fraction:
+    """Round a small positive ball up to a float; below the range of floats, to a fraction."""
+    upper = midpoint(value.upper())
+    if upper < Fraction(1, 10**300):
+        return upper
+    return float(upper) * (1 + 1e-15) if upper < 10**300 else math.inf
 
 
 def of_floats(table: Table, longer: Table, whole: Table, system: Hardware) -> Accuracy:
@@ -100,7 +104,9 @@ def strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dict[str,
         (float(np.abs(table.numbers[k]).max()) for k in table.small if len(table.numbers[k])),
         default=0.0,
     )
-    error = accuracy.error_bound * largest if math.isfinite(accuracy.error_bound) else math.inf
+    error = (
+        float(accuracy.error_bound) * largest if math.isfinite(accuracy.error_bound) else math.inf
+    )
     return {k: _float_strings(column, error) for k, column in table.numbers.items()}
 
 

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from numeric import closed_forms, plain
+from numeric.decimals import decimal_string
 from numeric.engine import Solved
 from numeric.forces import Forces
 from numeric.lattice import Array, Layer, pick
@@ -366,7 +367,11 @@ class Profile(Gatherer):
         variance = closed_forms.bulk_variance if bulk else closed_forms.surface_variance
         phi = 1 - 2 * plan.scene.n_x**2
         factor = float(variance(plan.scene.packing.height, j, phi, 1, 1))
-        return f"{math.sqrt(factor) * ordered * float(plan.radii.relative_std()):.12g}"
+        std, size = plan.radii.relative_std(), math.sqrt(factor) * ordered
+        if std > Fraction(1, 10**290):
+            return f"{size * float(std):.12g}"
+        value = Fraction(size) * std  # a float would round it to zero
+        return decimal_string(value, abs(value) / 10**12)
 
 
 class Response(Gatherer):

@@ -1,5 +1,6 @@
 """Decimals as written: read exactly into fractions, written with as many digits as known."""
 
+import math
 import re
 from decimal import Decimal
 from fractions import Fraction
@@ -66,6 +67,18 @@ def decimal_string(value: Fraction, error: Fraction | None) -> str:
     return _rounded(value, digits)
 
 
+def short(value: Fraction) -> str:
+    """Write a number for a message, in a few digits, however far outside a float's range.
+
+    >>> short(Fraction(1, 3)), short(Fraction(25, 10**5000))
+    ('0.333333', '2.5e-4999')
+    """
+    if not value or Fraction(1, 10**300) < abs(value) < 10**300:
+        return f"{float(value):.6g}"
+    sign, figures, exponent = _figures(value, 6)
+    return _scientific(sign, figures.rstrip("0"), exponent)
+
+
 def _exponent(value: Fraction) -> int:
     """Give the power of ten of the leading digit, exactly.
 
@@ -82,14 +95,30 @@ def _exponent(value: Fraction) -> int:
     return guess
 
 
-def _rounded(value: Fraction, digits: int) -> str:
+def bound_string(value: Fraction) -> str:
+    """Write a positive bound in three digits, rounded up.
+
+    >>> bound_string(Fraction(12301, 10**404))
+    '1.24e-400'
+    """
+    exponent = _exponent(value)
+    scaled = math.ceil(value * Fraction(10) ** (2 - exponent))
+    return short(Fraction(scaled) * Fraction(10) ** (exponent - 2))
+
+
+def _figures(value: Fraction, digits: int) -> tuple[str, str, int]:
     exponent = _exponent(value)
     scaled = round(abs(value) * Fraction(10) ** (digits - 1 - exponent))
     if scaled == 10**digits:
         scaled //= 10
         exponent += 1
-    figures = str(scaled).rstrip("0") if digits == 40 else str(scaled)
-    sign = "-" if value < 0 else ""
+    return "-" if value < 0 else "", str(scaled), exponent
+
+
+def _rounded(value: Fraction, digits: int) -> str:
+    sign, figures, exponent = _figures(value, digits)
+    if digits == 40:
+        figures = figures.rstrip("0")
     if -5 <= exponent < len(figures) + 3 and exponent < 40:
         if exponent < 0:
             return f"{sign}0.{'0' * (-exponent - 1)}{figures}"

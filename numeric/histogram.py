@@ -7,7 +7,7 @@ import numpy as np
 
 from numeric.lattice import Array
 from numeric.packing import UndecidedError
-from numeric.systems import Balls, NumberSystem
+from numeric.systems import Balls, NumberSystem, midpoint
 
 
 def histogram(
@@ -22,26 +22,51 @@ def histogram(
     """
     if not len(values):
         return []
-    rough = np.array([float(v) for v in values])
+    unit = Fraction(1)
+    if isinstance(system, Balls):
+        unit, rough = _scaled(values)
+    else:
+        rough = np.array([float(v) for v in values])
     least, most = Fraction(float(rough.min())), Fraction(float(rough.max()))
     span = most - least
     if not span:
         one = float(rough[0])
-        return [
-            (Fraction(np.nextafter(one, -np.inf)), Fraction(np.nextafter(one, np.inf)), len(values))
-        ]
+        ends = [Fraction(np.nextafter(one, to)) * unit for to in (-np.inf, np.inf)]
+        if isinstance(system, Balls):
+            _count(values, ends, system)
+        return [(ends[0], ends[1], len(values))]
     low, high = float(least - span / 1009), float(most + span / 2003)
     edges = [Fraction(low) + (Fraction(high) - Fraction(low)) * k / bins for k in range(bins + 1)]
     counts = [0] * bins
     if isinstance(system, Balls):
-        bounds = [system.number(e) for e in edges]
-        for value in values:
-            counts[_place(value, bounds)] += 1
+        edges = [edge * unit for edge in edges]
+        counts = _count(values, edges, system)
     else:
         inner = np.array([float(e) for e in edges[1:-1]])
         for k in np.searchsorted(inner, rough, side="right"):
             counts[int(k)] += 1
     return list(zip(edges[:-1], edges[1:], counts, strict=True))
+
+
+def _scaled(values: Array) -> tuple[Fraction, Array]:
+    """Give midpoints as floats of order 1, and the power of two that they were divided by."""
+    if not all(value.is_finite() for value in values):
+        raise UndecidedError("a change has no finite enclosure")
+    exact = [midpoint(value) for value in values]
+    largest = max(abs(value) for value in exact)
+    shift = largest.numerator.bit_length() - largest.denominator.bit_length() if largest else 0
+    unit = Fraction(2) ** shift
+    return unit, np.array([float(value / unit) for value in exact])
+
+
+def _count(values: Array, edges: list[Fraction], system: Balls) -> list[int]:
+    bounds = [system.number(edge) for edge in edges]
+    counts = [0] * (len(edges) - 1)
+    for value in values:
+        if not bounds[0] <= value < bounds[-1]:
+            raise UndecidedError(f"the ball {value} lies across the edge of a bin")
+        counts[_place(value, bounds)] += 1
+    return counts
 
 
 def _place(value: Any, bounds: list[Any]) -> int:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
-from numeric import budget, first_order, regions
+from numeric import budget, first_order, float_range, regions
 from numeric.lattice import Region, standing_on_base, whole
 from numeric.load_spec import LoadSpec
 from numeric.radii import DrawnRadii, MeasuredRadii, Monodisperse, Radii
@@ -104,6 +104,8 @@ class _Planner:
         radii, route = self._route(region, ordered, closed)
         realisations = self._realisations(route)
         system = self._system(route)
+        if system is FLOAT64:
+            float_range.check(self.scene, radii, load)
         steps = [
             replace(step, beads=step.beads * realisations, arithmetic=system.name)
             for step in self._steps(route, region, force_rows, load)
@@ -261,7 +263,9 @@ class _Planner:
             for layer in rows:
                 for i in layer.sites():
                     if (i, layer.j) not in measured:
-                        raise TableError(f"{disorder.file}: bead {(i, layer.j)} is missing")
+                        raise TableError(
+                            f"disorder.file: {disorder.file}: bead {(i, layer.j)} is missing"
+                        )
         return MeasuredRadii(measured, self.width)
 
     def _realisations(self, route: str) -> int:

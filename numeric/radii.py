@@ -14,6 +14,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from numeric.decimals import short
 from numeric.lattice import Array, Layer
 from numeric.normal import normal_deviates
 from numeric.systems import NumberSystem, array, from_floats, zeros
@@ -21,6 +22,8 @@ from numeric.work import Work
 
 # Columns of a slab may be negative; counters must not be.
 _OFFSET = 2**62
+# Rows with a radius below r/1000 are looked through bead by bead.
+_NEARLY = Fraction(999, 1000)
 
 
 class RadiusError(ValueError):
@@ -101,7 +104,7 @@ class DrawnRadii:
         """Scale the deviates; a radius that is not positive raises ``RadiusError``."""
         rows = [self.deviates(layer, k) for k in realisations]
         for deviates in rows:
-            if deviates.size and deviates.min() * float(self.std) < -0.999:
+            if deviates.size and self.std * Fraction(float(deviates.min())) < -_NEARLY:
                 self._check(deviates, layer)
         values = rows[0] if len(rows) == 1 else np.stack(rows)
         return np.asarray(from_floats(system, values) * system.scalar(self.std))
@@ -109,8 +112,8 @@ class DrawnRadii:
     def _check(self, deviates: Array, layer: Layer) -> None:
         for i, u in zip(layer.sites(), deviates, strict=True):
             if self.std * Fraction(float(u)) <= -1:
-                shown = float(1 + self.std * Fraction(float(u)))
-                raise RadiusError((i, layer.j), f"the drawn radius is {shown:.3g} r, not positive")
+                shown = short(1 + self.std * Fraction(float(u)))
+                raise RadiusError((i, layer.j), f"the drawn radius is {shown} r, not positive")
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,10 @@
 """Plans and outcomes as plain data: what ``--json`` prints and what result files hold."""
 
 import math
+from fractions import Fraction
 from typing import Any
 
+from numeric.decimals import bound_string
 from numeric.physical import Physicality
 from numeric.planner import Plan
 from numeric.runner import Outcome, critical_height
@@ -45,7 +47,7 @@ def outcome_data(outcome: Outcome) -> dict[str, Any]:
     accuracy = outcome.accuracy
     data["results"] = {outcome.plan.scene.ask.quantity: outcome.rows}
     data["accuracy"] = {
-        "error_bound": accuracy.error_bound if math.isfinite(accuracy.error_bound) else None,
+        "error_bound": _bound(accuracy.error_bound),
         "certified": accuracy.certified,
         "arithmetic": accuracy.arithmetic,
         "bits_lost": accuracy.bits_lost,
@@ -88,6 +90,13 @@ def physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
         home = i if period is None else i % (2 * period)
         data["first_tensile"] = {"i": home, "j": j, "branch": branch}
     return data
+
+
+def _bound(bound: float | Fraction) -> float | str | None:
+    """Give a number where a float can hold it, else a decimal string; None stands for infinity."""
+    if isinstance(bound, Fraction):
+        return bound_string(bound)
+    return bound if math.isfinite(bound) else None
 
 
 def _rounded(seconds: float | None) -> float | None:

@@ -9,8 +9,8 @@ from typing import Any
 
 from numeric.accuracy import Accuracy, of_balls, of_floats, strings
 from numeric.answers import GATHERERS, Table
-from numeric.budget import chunk_size
-from numeric.decimals import decimal_string
+from numeric.budget import chunk_size, initial_bits
+from numeric.decimals import decimal_string, short
 from numeric.engine import solve
 from numeric.forces import NotStandingError
 from numeric.histogram import histogram
@@ -132,8 +132,13 @@ def _certified(
     """Raise the precision until the enclosure is small enough, or say why that does not help."""
     begun = perf_counter()
     floor = plan.radii.relative_std()
-    why = "no enclosure was found"
-    while system.bits <= MOST_BITS:
+    if system.bits > MOST_BITS:
+        raise ToleranceError(
+            f"the tolerance can't be reached: {short(plan.tolerance or floor)} at height "
+            f"{plan.scene.packing.height} needs {system.bits} bits or more, and {MOST_BITS} are "
+            f"the most; ask for about {_least_tolerance(plan)} at best"
+        )
+    while True:
         try:
             attempt = _attempt(plan, system, range(plan.realisations), progress)
             with system.active():
@@ -141,15 +146,33 @@ def _certified(
             if plan.tolerance is None or _within(accuracy, plan.tolerance):
                 attempt.seconds["certify"] = perf_counter() - begun
                 return attempt, accuracy, system
-            why = f"at {system.bits} bits the error is still {accuracy.error_bound:.2g}"
+            why = f"at {system.bits} bits {_still(accuracy)}"
         except (UndecidedError, NotStandingError) as error:
             why = f"at {system.bits} bits: {error}"
-        system = Balls(2 * system.bits)
-    raise ToleranceError(
-        f"the tolerance can't be reached: {why}, and precisions up to {MOST_BITS} bits were tried"
-        f"; the height is {plan.scene.packing.height}, and the theory holds well below "
-        f"M* = (σ/r)^(-2/3) = {critical_height(floor):.3g}"
-    )
+        if system.bits == MOST_BITS:
+            break
+        system = Balls(min(2 * system.bits, MOST_BITS))
+    message = f"the tolerance can't be reached: {why}, and more than {MOST_BITS} are not tried"
+    height, highest = plan.scene.packing.height, critical_height(floor)
+    if height > highest / 2:
+        message += (
+            f"; the height is {height}, and the theory holds well below "
+            f"M* = (σ/r)^(-2/3) = {highest:.3g}"
+        )
+    raise ToleranceError(message)
+
+
+def _least_tolerance(plan: Plan) -> str:
+    """Give the power of ten that the highest precision starts with, at this height."""
+    digits = MOST_BITS - initial_bits(Fraction(1), plan.scene.packing.height)
+    return f"1e-{int(digits * 0.30102)}"
+
+
+def _still(accuracy: Accuracy) -> str:
+    bound = accuracy.error_bound
+    if not math.isfinite(bound):
+        return "nothing is left of the answer"
+    return f"the error is still {short(Fraction(bound))}"
 
 
 def _within(accuracy: Accuracy, tolerance: Fraction) -> bool:
@@ -158,7 +181,7 @@ def _within(accuracy: Accuracy, tolerance: Fraction) -> bool:
 
 
 def critical_height(relative_std: Fraction) -> float:
-    """Give M* = (σ/r)^(−2/3), where contacts begin to pull (Eq. 15).
+    """Give M* = (σ/r)^(−2/3), where contacts begin to pull (Eq. 15); inf beyond a float's range.
 
     >>> critical_height(Fraction(1, 1000))
     100.0
@@ -167,7 +190,7 @@ def critical_height(relative_std: Fraction) -> float:
         return math.inf
     # The exponents of numerator and denominator may lie outside a float's range.
     log = _log10(relative_std.numerator) - _log10(relative_std.denominator)
-    return round(10 ** (-2 * log / 3), 9)
+    return round(10 ** (-2 * log / 3), 9) if log > -460 else math.inf
 
 
 def _log10(n: int) -> float:

@@ -13,9 +13,11 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
-from numeric.decimals import exact
+from numeric.decimals import decimal_string, exact
 
-LARGEST_FILE = 1_000_000  # bytes of a scene file; far more than any scene needs
+LARGEST_FILE = 64_000  # bytes of a scene file; far more than any scene needs
+# Dots outside of whole-line comments: a dotted key makes a table a dot, in quadratic time.
+MOST_DOTS = 200
 Number = Annotated[Fraction, BeforeValidator(exact)]
 Count = Annotated[int, Field(ge=1)]
 
@@ -29,15 +31,38 @@ class SceneError(ValueError):
         super().__init__(
             f"{key} = {shown}: {allowed}" if value is not None else f"{key}: {allowed}"
         )
-        self.key = key
+        self.key, self.allowed = key, allowed
+
+
+class Written(Decimal):
+    """A decimal that remembers how it was written."""
+
+    text: str
+
+    def __new__(cls, text: str) -> "Written":
+        """Keep the text."""
+        number = super().__new__(cls, text)
+        number.text = text
+        return number
+
+    def __repr__(self) -> str:
+        return self.text
 
 
 def _shown(value: object) -> str:
     if isinstance(value, Fraction):
-        value = float(value) if abs(value) < 10**300 else "…"
+        return decimal_string(value, None)
     if isinstance(value, int) and abs(value) > 10**40:
         return "a number of more than 40 digits"
-    text = f'"{value}"' if isinstance(value, str) else str(value)
+    if isinstance(value, bool):
+        text = str(value).lower()
+    elif isinstance(value, Written):
+        text = value.text
+    else:
+        try:
+            text = f'"{value}"' if isinstance(value, str) else str(value).replace("'", '"')
+        except (RecursionError, ValueError):  # nested deeply, or an integer of thousands of digits
+            text = "…"
     return text if len(text) <= 60 else text[:57] + "…"
 
 
@@ -145,16 +170,18 @@ class Scene(Section):
 def read_scene(path: Path) -> Scene:
     """Read and check a scene file. Raises ``SceneError``."""
     try:
-        size = path.stat().st_size
-        if size > LARGEST_FILE:
-            raise SceneError(str(path), None, f"a scene has at most {LARGEST_FILE} bytes")
-        text = path.read_bytes().decode("utf-8")
-    except FileNotFoundError:
-        raise SceneError(str(path), None, "there is no such file") from None
+        if not path.is_file():  # a device or a pipe may have no end
+            why = "a scene must be an ordinary file" if path.exists() else "there is no such file"
+            raise SceneError(str(path), None, why)
+        with path.open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+        text = content.decode("utf-8")
     except UnicodeDecodeError:
         raise SceneError(str(path), None, "a scene must be UTF-8 text") from None
     except OSError as error:
         raise SceneError(str(path), None, f"can't be read ({error.strerror})") from None
+    if len(content) > LARGEST_FILE:
+        raise SceneError(str(path), None, f"a scene has at most {LARGEST_FILE} bytes")
     return parse_scene(text, path.parent)
 
 
@@ -168,8 +195,13 @@ def parse_scene(text: str, folder: Path = Path()) -> Scene:
 "contact_forces", "positions", "profile", "histogram", "response", "base_reactions"; did you \
 mean "profile"?
     """
+    lines = [line for line in text.splitlines() if not line.lstrip().startswith("#")]
+    dots = sum(line.count(".") for line in lines)
+    if dots > MOST_DOTS:
+        allowed = f"at most {MOST_DOTS} outside of comments: keys are at most one section deep"
+        raise SceneError("scene", None, f"has {dots} dots, {allowed}")
     try:
-        raw = tomllib.loads(text, parse_float=Decimal)
+        raw = tomllib.loads(text, parse_float=Written)
     except (tomllib.TOMLDecodeError, ArithmeticError, RecursionError) as error:
         reason = "is nested too deeply" if isinstance(error, RecursionError) else str(error)
         raise SceneError("scene", None, f"is no valid TOML: {reason}") from None
@@ -180,9 +212,16 @@ mean "profile"?
     try:
         scene = Scene.model_validate(raw)
     except ValidationError as error:
-        raise _explained(error) from None
+        raise _explained(error, raw) from None
     scene = scene.model_copy(update={"folder": folder})
-    check(scene)
+    try:
+        check(scene)
+    except SceneError as error:  # say the number as it was written, not as it was understood
+        section, _, key = error.key.partition(".")
+        value = raw.get(section, {}).get(key)
+        if not isinstance(value, Written):
+            raise
+        raise SceneError(error.key, value, error.allowed) from None
     return scene
 
 
@@ -197,7 +236,15 @@ def _unknown(key: str, model: type[BaseModel]) -> str:
     return f"is unknown; {hint}allowed are {', '.join(known)}"
 
 
-def _explained(error: ValidationError) -> SceneError:
+# Forms of lists, whose elements say nothing when they are named alone.
+_LISTS = {
+    "load.at": "must be a bead, at = [k, l], of whole numbers",
+    "ask.at": 'must be a contact, at = [i, j, "+"] or [i, j, "-"], or for positions a bead, '
+    "at = [i, j]",
+}
+
+
+def _explained(error: ValidationError, raw: dict[str, Any]) -> SceneError:
     """Turn pydantic's first error into one line in the words of a scene."""
     first = error.errors()[0]
     path = [str(part) for part in first["loc"] if not str(part).startswith("function-")]
@@ -222,11 +269,16 @@ def _explained(error: ValidationError) -> SceneError:
         close = difflib.get_close_matches(f'"{value}"', allowed, n=1)
         hint = f"; did you mean {close[0]}?" if close else ""
         return SceneError(key, value, f"must be one of {', '.join(allowed)}{hint}")
+    if key in _LISTS:
+        return SceneError(key, raw[path[0]][path[1]], _LISTS[key])
     if kind == "value_error":
         return SceneError(key, value, str(context["error"]))
     if kind in {"model_type", "model_attributes_type", "dict_type"}:
         return SceneError(key, value, f"must be a section, written [{key}]")
-    return SceneError(key, value, first["msg"].lower().replace("input should", "must"))
+    rule = first["msg"].lower().replace("input should", "must")
+    if kind == "int_type":
+        rule += ", written without point or exponent"
+    return SceneError(key, value, rule)
 
 
 def _choices(annotation: Any) -> tuple[str, ...]:
@@ -300,6 +352,8 @@ def _check_disorder(scene: Scene) -> None:
         raise SceneError("disorder.relative_std", None, f'is required with kind = "{d.kind}"')
     if d.relative_std < 0:
         raise SceneError("disorder.relative_std", d.relative_std, "must not be negative")
+    if d.relative_std > 10**100:
+        raise SceneError("disorder.relative_std", d.relative_std, "must be at most 1e100")
     reach = {"uniform": 3 * d.relative_std**2, "two-point": d.relative_std**2}.get(d.kind)
     if reach is not None and reach >= 1:
         below = "1/√3 = 0.57735…" if d.kind == "uniform" else "1"
@@ -341,8 +395,9 @@ def _check_site(scene: Scene, key: str, site: Any, highest: int) -> None:
     if not 0 <= j <= highest:
         raise SceneError(key, site, f"j must be from 0 to {highest}")
     if (width is not None and not 0 <= i < 2 * width) or abs(i) >= 2**60:
-        limit = 2**60 if width is None else 2 * width
-        raise SceneError(key, site, f"i must be from 0 to {limit - 1}")
+        if width is None:
+            raise SceneError(key, site, "i must be above -2^60 and below 2^60")
+        raise SceneError(key, site, f"i must be from 0 to {2 * width - 1}")
 
 
 def _check_ask(scene: Scene) -> None:

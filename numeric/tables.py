@@ -1,23 +1,41 @@
 """Measured radii and loads from CSV files: decimals read exactly, every error naming its line."""
 
 import csv
+import re
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
+from typing import TextIO
 
-from numeric.decimals import parse
+from numeric.decimals import parse, short
 
 Site = tuple[int, int]
+_WHOLE = re.compile(r"[+-]?[0-9]{1,18}", re.ASCII)
+LONGEST_LINE = 20_000  # characters; a number has at most 5000
+MOST = 10**100  # of δr/r: gaps between beads are measured in float64, which holds their squares
 
 
 class TableError(ValueError):
     """A radii or loads file can't be used; the message names the file, line and bead."""
 
 
+@contextmanager
+def _named(key: str) -> Iterator[None]:
+    """Put the scene's key before what is wrong with its file."""
+    try:
+        yield
+    except TableError as error:
+        raise TableError(f"{key}: {error}") from None
+
+
 def _rows(path: Path, header: list[str]) -> Iterator[tuple[str, Site, list[Fraction]]]:
     try:
+        if not path.is_file():  # a device or a pipe may have no end
+            why = "must be an ordinary file" if path.exists() else "there is no such file"
+            raise TableError(f"{path}: {why}")
         with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader(file, strict=True)
+            reader = csv.reader(_lines(path, file), strict=True)
             first = next(reader, None)
             if first is None or [name.strip() for name in first] != header:
                 raise TableError(f"{path.name}: the first line must be {','.join(header)}")
@@ -25,12 +43,22 @@ def _rows(path: Path, header: list[str]) -> Iterator[tuple[str, Site, list[Fract
                 if not row:
                     continue
                 yield _parsed(f"{path.name}, line {reader.line_num}", row, header)
-    except FileNotFoundError:
-        raise TableError(f"{path}: there is no such file") from None
     except OSError as error:
         raise TableError(f"{path}: can't be read ({error.strerror})") from None
     except (UnicodeDecodeError, csv.Error) as error:
         raise TableError(f"{path.name}: is no CSV text in UTF-8 ({error})") from None
+
+
+def _lines(path: Path, file: TextIO) -> Iterator[str]:
+    """Give the lines; one without end must not fill the memory."""
+    number = 0
+    while line := file.readline(LONGEST_LINE + 1):
+        number += 1
+        if len(line) > LONGEST_LINE:
+            raise TableError(
+                f"{path.name}, line {number}: a line has at most {LONGEST_LINE} characters"
+            )
+        yield line
 
 
 def _parsed(where: str, row: list[str], header: list[str]) -> tuple[str, Site, list[Fraction]]:
@@ -38,12 +66,12 @@ def _parsed(where: str, row: list[str], header: list[str]) -> tuple[str, Site, l
         raise TableError(f"{where}: {len(row)} values where {len(header)} are expected")
     coordinates = []
     for name, text in zip(header[:2], row, strict=False):
-        if not text.strip().lstrip("+-").isascii() or len(text) > 20:
-            raise TableError(f"{where}: {name} must be a whole number")
-        try:
-            coordinates.append(int(text))
-        except ValueError:
-            raise TableError(f"{where}: {name} = {text!r} must be a whole number") from None
+        if not _WHOLE.fullmatch(text.strip()):
+            shown = text if len(text) <= 40 else text[:40] + "…"
+            raise TableError(
+                f"{where}: {name} = {shown!r} must be a whole number of at most 18 digits"
+            )
+        coordinates.append(int(text))
     site = (coordinates[0], coordinates[1])
     values = []
     for name, text in zip(header[2:], row[2:], strict=True):
@@ -65,6 +93,7 @@ def _check_site(where: str, site: Site, width: int | None, height: int) -> None:
         )
 
 
+@_named("disorder.file")
 def read_radii(
     path: Path,
     *,
@@ -83,7 +112,11 @@ def read_radii(
         _check_site(where, site, width, height)
         if delta <= -radius:
             raise TableError(
-                f"{where}: bead {site}: delta_r = {float(delta):.6g} leaves no positive radius"
+                f"{where}: bead {site}: delta_r = {short(delta)} leaves no positive radius"
+            )
+        if delta > MOST * radius:
+            raise TableError(
+                f"{where}: bead {site}: delta_r = {short(delta)} must be at most 1e100 r"
             )
         if width is not None or needed(site):
             if site in rho:
@@ -97,6 +130,7 @@ def read_radii(
     return rho
 
 
+@_named("load.file")
 def read_loads(
     path: Path, *, magnitude: Fraction, width: int | None, height: int
 ) -> dict[Site, tuple[Fraction, Fraction]]:

@@ -20,7 +20,8 @@ from numeric.loads import sites
 from numeric.normal import cosine_of_turn, logarithm
 from numeric.planner import Plan
 from numeric.radii import DrawnRadii, MeasuredRadii
-from numeric.runner import critical_height
+from numeric.result import outcome_data
+from numeric.runner import ToleranceError, critical_height
 from numeric.systems import FLOAT64, Balls, BigFloat, NumberSystem, Series, midpoint
 from numeric.work import Work
 from tests.numeric.scenes import answer, basic, planned
@@ -310,3 +311,25 @@ def test_own_logarithm_and_cosine(x: float, turn: float) -> None:
 def test_critical_height_far_outside_of_floats() -> None:
     assert critical_height(Fraction(1, 10**300)) == pytest.approx(1e200, rel=1e-9)
     assert critical_height(Fraction(0)) == math.inf
+    assert critical_height(Fraction(1, 10**4999)) == math.inf
+    assert critical_height(Fraction(10**4999)) == 0
+
+
+def test_tolerances_below_the_smallest_float() -> None:
+    sections = basic(4, None, quantity="contact", at=[0, 0, "+"], tolerance="=1e-400")
+    outcome = answer(sections)
+    assert outcome.accuracy.arithmetic.startswith("arb balls, 13")
+    bound = outcome_data(outcome)["accuracy"]["error_bound"]
+    assert isinstance(bound, str)
+    assert outcome.accuracy.error_bound <= Fraction(bound) <= Fraction(1, 10**400)
+
+
+def test_the_limit_of_tolerances_is_said_as_it_is() -> None:
+    sections = basic(4, None, quantity="contact", at=[0, 0, "+"], tolerance="=1e-5000")
+    with pytest.raises(ToleranceError, match=r"1e-5000 .* needs 16\d\d\d bits") as caught:
+        answer(sections)
+    assert "tried" not in str(caught.value)
+    assert "M*" not in str(caught.value)
+    least = str(caught.value).split("about ")[1].split()[0]
+    sections["ask"]["tolerance"] = f"={least}"
+    assert answer(sections).accuracy.error_bound <= Fraction(least)

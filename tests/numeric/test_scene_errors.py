@@ -1,6 +1,9 @@
 """What is wrong with a scene or its files is said, with the key, the value and what is allowed."""
 
+import json
+import os
 import string
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -8,10 +11,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from numeric.forces import NotStandingError
+from numeric.packing import UnbuildableError
 from numeric.planner import plan
-from numeric.scene import SceneError, parse_scene
+from numeric.radii import RadiusError
+from numeric.result import outcome_data, plan_data
+from numeric.runner import ToleranceError, run
+from numeric.scene import SceneError, parse_scene, read_scene
 from numeric.tables import TableError
-from tests.numeric.scenes import basic, planned, scene
+from tests.numeric.scenes import answer, basic, planned, scene, toml
 
 WRONG: list[tuple[str, str, Any, str]] = [
     ("packing", "height", 0, "greater than or equal to 1"),
@@ -59,6 +67,42 @@ def test_errors_name_the_key_and_what_is_allowed(
         scene(sections)
     assert f"{section}.{key}" in str(caught.value)
     assert says in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("section", "key", "written", "says"),
+    [
+        ("packing", "spacing", "1.99999999999999999999", "strictly between"),
+        ("packing", "spacing", "2.0e0", "strictly between"),
+        ("packing", "radius", "-0.0", "greater than 0"),
+        ("packing", "height", "3e0", "valid integer, written without point or exponent"),
+        ("packing", "allow_images", "1.50", "boolean"),
+        ("disorder", "relative_std", "-1E-3", "negative"),
+        ("ask", "tolerance", "0", "between 0 and 1"),
+        ("ask", "tolerance", "0.000", "between 0 and 1"),
+        ("load", "at", '"+"', "a bead, at = [k, l]"),
+        ("load", "at", '[1, "+"]', "a bead, at = [k, l]"),
+        ("ask", "at", "[0, 1.50]", 'a contact, at = [i, j, "+"]'),
+        ("effects", "stop_at_tension", "true", "geometry"),
+    ],
+)
+def test_values_are_shown_as_they_were_written(
+    section: str, key: str, written: str, says: str
+) -> None:
+    sections = basic()
+    sections["effects"] = {"geometry": "ordered"}
+    sections.setdefault(section, {})[key] = f"={written}"
+    with pytest.raises(SceneError) as caught:
+        scene(sections)
+    assert str(caught.value).startswith(f"{section}.{key} = {written}: ")
+    assert says in str(caught.value)
+
+
+def test_columns_of_a_slab_may_be_negative() -> None:
+    planned(basic(4, None, quantity="contact", at=[-3, 1, "+"]))
+    for i in (-(2**60), 2**60):
+        with pytest.raises(SceneError, match=r"above -2\^60 and below 2\^60"):
+            scene(basic(4, None, quantity="contact", at=[i, 0, "+"]))
 
 
 @pytest.mark.parametrize(
@@ -114,6 +158,56 @@ def test_too_large_is_refused_with_its_size_before_anything_is_done() -> None:
         planned(basic(60, 122, quantity="profile", realisations=10**9))
 
 
+def test_what_float64_cannot_hold_needs_a_tolerance(tmp_path: Path) -> None:
+    far = {"radius": "=1e400", "spacing": "=3e400"}
+    near = {"radius": "=1e-400", "spacing": "=3e-400"}
+    for quantity, packing, std, says in [
+        ("contact_forces", {}, "=1e-301", "disorder.relative_std = 1e-301: "),
+        ("contact_forces", {}, "=1e-3000", "disorder.relative_std = 1e-3000: "),
+        ("profile", {}, "=1e-400", "disorder.relative_std"),
+        ("positions", far, "=1e-4", r"packing.radius = 1e\+400"),
+        ("positions", near, "=1e-4", "packing.radius = 1e-400"),
+    ]:
+        sections = basic(3, 8, quantity=quantity)
+        sections["packing"].update(packing)
+        sections["disorder"]["relative_std"] = std
+        for geometry in ("exact", "first-order"):
+            sections["effects"] = {"geometry": geometry}
+            with pytest.raises(SceneError, match=says):
+                planned(sections)
+        sections["ask"]["tolerance"] = "=1e-9"
+        outcome = answer(sections)
+        assert 0 < outcome.accuracy.error_bound <= 1e-9
+        name = {"positions": "dx", "profile": "std"}.get(quantity, "change")
+        assert any(row[name] != "0" for row in outcome.rows)
+        json.dumps(outcome_data(outcome), allow_nan=False)
+        if quantity == "profile":
+            assert all("e-" in row["first_order_std"] for row in outcome.rows)
+
+
+@pytest.mark.parametrize("force", ["1e400", "-1e-400"])
+def test_loads_that_float64_cannot_hold_need_a_tolerance(force: str, tmp_path: Path) -> None:
+    (tmp_path / "loads.csv").write_text(f"i,j,fx,fy\n1,3,0,{force}\n")
+    sections = basic(3, 8)
+    sections["load"] = {"kind": "file", "file": "loads.csv"}
+    with pytest.raises(SceneError, match=r'load.file = "loads.csv".*bead \(1, 3\)'):
+        planned(sections, tmp_path)
+    sections["ask"]["tolerance"] = "=1e-9"
+    assert any(row["change"] != "0" for row in answer(sections, tmp_path).rows)
+
+
+def test_bins_far_below_the_smallest_float() -> None:
+    sections = basic(3, 8, quantity="histogram", tolerance="=1e-10", bins=7)
+    counts = []
+    for std in ("=1e-400", "=1e-200"):
+        sections["disorder"]["relative_std"] = std
+        rows = answer(sections).rows
+        assert all(Fraction(row["low"]) < Fraction(row["high"]) for row in rows)
+        counts.append([row["count"] for row in rows])
+    assert len(counts[0]) == 7
+    assert counts[0] == counts[1]
+
+
 def radii_file(folder: Path, text: str) -> dict[str, dict[str, Any]]:
     (folder / "radii.csv").write_bytes(text.encode("utf-8", "surrogateescape"))
     sections = basic(1, 2)
@@ -138,6 +232,7 @@ GOOD = ["0,0,0.01", "2,0,-0.02", "1,1,1e-3", "3,1,0"]
         ([*GOOD, "5,1,0"], r"\(5, 1\) lies outside"),
         ([*GOOD[:3], "3,1"], "2 values where 3"),
         ([*GOOD[:3], "x,1,0"], "whole number"),
+        ([*GOOD[:3], "0_3,1,0"], "i = '0_3' must be a whole number"),
         ([*GOOD[:3], '"3,1,0'], "CSV"),
     ],
 )
@@ -165,6 +260,34 @@ def test_any_radii_file_gives_an_answer_or_a_message(
         planned(sections, folder)
 
 
+def test_endless_files_are_refused_at_once(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    for path in (Path("/dev/zero"), pipe, tmp_path):
+        with pytest.raises(SceneError, match="ordinary file"):
+            read_scene(path)
+        for kind, section in (("disorder", "disorder"), ("load", "load")):
+            sections = basic(1, 2)
+            sections[section] = {"kind": "file", "file": str(path)}
+            with pytest.raises(TableError, match=rf"{kind}\.file.*ordinary file"):
+                planned(sections)
+    large = tmp_path / "large"
+    for content, says in (
+        (b"#" * 64_001, "at most 64000 bytes"),
+        (b"a.b = '" + 300 * b".", "dots"),
+    ):
+        large.write_bytes(content)
+        with pytest.raises(SceneError, match=says):
+            read_scene(large)
+    with pytest.raises(TableError, match="line 2: a line has at most"):
+        planned(radii_file(tmp_path, "i,j,delta_r\n" + "0" * 100_000), tmp_path)
+
+
+def test_comments_may_have_dots() -> None:
+    text = toml(basic())
+    assert parse_scene("# " + "." * 1000 + "\n" + text) == parse_scene(text)
+
+
 keys = st.sampled_from(
     ["height", "width", "radius", "spacing", "kind", "relative_std", "seed", "file", "at",
      "magnitude", "angle_deg", "geometry", "quantity", "tolerance", "realisations", "bins", "x"]
@@ -186,17 +309,71 @@ changes = st.lists(
 )
 
 
+# What a run may end with beside an answer; anything else would be a traceback.
+REFUSALS = (
+    SceneError, TableError, UnbuildableError, NotStandingError, RadiusError, ToleranceError
+)  # fmt: skip
+
+
+def solved_or_refused(sections: dict[str, dict[str, Any]], folder: Path = Path()) -> None:
+    """Plan a scene, and run it if it is small; every end but an answer must be a message."""
+    message = None
+    try:
+        made = planned(sections, folder)
+        plan_data(made)
+        if made.estimated_seconds < 0.1 and made.system.bits <= 2000:
+            outcome = run(made)
+            json.dumps(outcome_data(outcome), allow_nan=False)
+            disordered = made.route != "ordered" and outcome.stopped is None
+            if disordered and made.load.loaded is None and outcome.physical:
+                assert outcome.accuracy.error_bound > 0
+    except REFUSALS as error:
+        message = str(error)
+    assert message is None or 10 < len(message) < 600
+
+
 @given(changes)
-def test_any_scene_gives_a_plan_or_a_message(made: list[tuple[str, str, Any]]) -> None:
+def test_any_scene_gives_an_answer_or_a_message(made: list[tuple[str, str, Any]]) -> None:
     sections = basic()
     for section, key, value in made:
         sections.setdefault(section, {})[key] = value
-    message = None
-    try:
-        planned(sections)
-    except (SceneError, TableError) as error:
-        message = str(error)
-    assert message is None or 10 < len(message) < 600
+    solved_or_refused(sections)
+
+
+far = st.sampled_from(
+    ["1e-5", "0.3", "1", "3.0", "1e-300", "1e-301", "1e-330", "1e-400", "1e-465", "1e-3000",
+     "1e-4999", "1e100", "1e101", "1e150", "1e280", "1e308", "1e400", "1e4999"]
+)  # fmt: skip
+quantities = st.sampled_from(["contact_forces", "positions", "profile", "histogram", "contact"])
+
+
+@given(st.data())
+def test_numbers_far_outside_of_floats_give_an_answer_or_a_message(
+    tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
+) -> None:
+    folder = tmp_path_factory.mktemp("far")
+    sections = basic(2, 3, quantity=data.draw(quantities))
+    if sections["ask"]["quantity"] == "contact":
+        sections["ask"]["at"] = [0, 0, "+"]
+    radius = data.draw(far)
+    mantissa, _, exponent = radius.partition("e")
+    sections["packing"]["radius"] = f"={radius}"
+    if data.draw(st.booleans()):
+        sections["packing"]["spacing"] = f"={3 * float(mantissa)}e{exponent or 0}"
+    kind = data.draw(st.sampled_from(["uniform", "normal", "two-point", "file"]))
+    if kind == "file":
+        sections["disorder"] = {"kind": "file", "file": "radii.csv"}
+        lines = [f"{i},{j},{data.draw(far)}" for j in range(3) for i in range(j % 2, 6, 2)]
+        (folder / "radii.csv").write_text("\n".join(["i,j,delta_r", *lines]))
+    else:
+        sections["disorder"] = {"kind": kind, "relative_std": f"={data.draw(far)}"}
+    if data.draw(st.booleans()):
+        sections["load"] = {"kind": "file", "file": "loads.csv", "magnitude": f"={data.draw(far)}"}
+        (folder / "loads.csv").write_text(f"i,j,fx,fy\n0,2,{data.draw(far)},-{data.draw(far)}")
+    sections["effects"] = {"geometry": data.draw(st.sampled_from(["exact", "first-order"]))}
+    if data.draw(st.booleans()):
+        sections["ask"]["tolerance"] = f"={data.draw(st.sampled_from(['1e-9', '1e-330']))}"
+    solved_or_refused(sections, folder)
 
 
 @given(st.text(max_size=200))
