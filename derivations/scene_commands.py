@@ -5,9 +5,10 @@ import io
 import json
 import sys
 from collections.abc import Callable, Mapping
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from dataclasses import asdict
 from pathlib import Path
+from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeVar
 
 import typer
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from numeric.cost import Study
     from numeric.planner import Plan
 
+# Seconds from which on progress is shown.
+MOMENT = 1.0
 WRONG_INPUT = 2
 NOT_REACHED = 3
 STATUSES = (
@@ -223,8 +226,8 @@ def _solved(planned: "Plan", scene: Path) -> dict[str, Any]:
 def _progress(
     planned: "Plan",
 ) -> tuple[AbstractContextManager[object], Callable[[str, int], None] | None]:
-    """A bar on a terminal, for work that takes longer than a moment."""
-    if planned.estimated_seconds < 1 or not sys.stderr.isatty():
+    """A bar on a terminal, for work that takes longer than a moment, whatever was estimated."""
+    if not sys.stderr.isatty():
         return nullcontext(), None
     from rich.console import Console
     from rich.progress import Progress
@@ -232,7 +235,20 @@ def _progress(
     bar = Progress(console=Console(stderr=True), transient=True)
     total = sum(step.beads for step in planned.steps)
     task = bar.add_task("solving", total=total)
-    return bar, lambda kind, beads: bar.update(task, advance=beads, description=kind)
+    done, shown = 0, perf_counter() + MOMENT
+    stack = ExitStack()
+
+    def progress(kind: str, beads: int) -> None:
+        nonlocal done, shown
+        done += beads
+        if perf_counter() < shown:  # single beads may come a million a second
+            return
+        if not bar.live.is_started:
+            stack.enter_context(bar)
+        bar.update(task, completed=done, description=kind)
+        shown = perf_counter() + MOMENT / 10
+
+    return stack, progress
 
 
 def _plan_lines(data: dict[str, Any]) -> list[str]:

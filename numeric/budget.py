@@ -15,6 +15,8 @@ INTERPRETER = 100_000_000
 # Seconds of a step for a bead, of all steps for a layer, and of a draw for a layer; measured on one
 # core, good to a factor of a few.
 FLOAT_STEP, BALL_STEP, LAYER, DRAW = 3e-7, 1e-5, 9e-4, 3e-5
+# Seconds of a step for a bead of line sums, of all for a realisation of them; of a printed bin.
+LINE_STEP, LINE_SUM, BIN = 2.5e-6, 3e-4, 2e-5
 LONGEST = 24 * 3600.0
 # Realisations that are solved twice to estimate the error: four of packings that are small.
 FEW, SMALL = 4, 20_000
@@ -140,7 +142,11 @@ def seconds(
         each = BALL_STEP * max(system.bits / 256, 1)
     layers = len(region.rows)
     chunks = -(-realisations // chunk_size(region, system, scene))
-    spent = steps * each + chunks * layers * LAYER + realisations * layers * DRAW
+    spent = (scene.ask.bins or 0) * BIN
+    if steps and not layers:  # line sums go bead by bead
+        spent += steps * max(each, LINE_STEP) + realisations * LINE_SUM
+    else:
+        spent += steps * each + chunks * layers * LAYER + realisations * layers * DRAW
     if spent > LONGEST:
         key, value = ("packing.height", scene.packing.height)
         if realisations > 1:

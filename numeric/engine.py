@@ -15,7 +15,7 @@ from numeric.work import Work
 
 # Beads from which on the compiled sweeps repay loading the compiler (half a second).
 COMPILED_FROM = 2_000_000
-# Beads of a diagonal that are drawn together.
+# Beads of diagonals that are drawn together.
 BLOCK = 10_000
 
 
@@ -109,14 +109,13 @@ def _along(
     else:
         i, j = plan.scene.site
         lines = [first_order.Line(i - j, 1, j), first_order.Line(i + j, -1, j)]
+    sites = list(dict.fromkeys((line.at(m), m) for line in lines for m in range(line.top + 1)))
     known: dict[tuple[int, int], Any] = {}
-    for line in lines:
-        for at in range(0, line.top + 1, BLOCK):
-            layers = range(at, min(at + BLOCK, line.top + 1))
-            sites = [site for m in layers if (site := (line.at(m), m)) not in known]
-            known.update(zip(sites, plan.radii.at(sites, realisation, system), strict=True))
-            for i, m in sites:
-                work.did("radii", Layer(m, i, 1))
+    for at in range(0, len(sites), BLOCK):
+        block = sites[at : at + BLOCK]
+        known.update(zip(block, plan.radii.at(block, realisation, system), strict=True))
+        for i, m in block:
+            work.did("radii", Layer(m, i, 1))
     return known
 
 

@@ -36,15 +36,16 @@ def histogram(
             _count(values, ends, system)
         return [(ends[0], ends[1], len(values))]
     low, high = float(least - span / 1009), float(most + span / 2003)
-    edges = [Fraction(low) + (Fraction(high) - Fraction(low)) * k / bins for k in range(bins + 1)]
+    step = (Fraction(high) - Fraction(low)) / bins
+    edges = [Fraction(low) + step * k for k in range(bins + 1)]
     counts = [0] * bins
     if isinstance(system, Balls):
         edges = [edge * unit for edge in edges]
         counts = _count(values, edges, system)
     else:
         inner = np.array([float(e) for e in edges[1:-1]])
-        for k in np.searchsorted(inner, rough, side="right"):
-            counts[int(k)] += 1
+        places = np.searchsorted(inner, rough, side="right")
+        counts = np.bincount(places, minlength=bins).tolist()
     return list(zip(edges[:-1], edges[1:], counts, strict=True))
 
 

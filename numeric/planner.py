@@ -114,7 +114,10 @@ class _Planner:
             replace(step, beads=step.beads * realisations, arithmetic=system.name)
             for step in self._steps(route, region, force_rows, load)
         ]
-        at_once = max((step.beads for step in steps), default=0) if closed else region.beads
+        together = min(realisations, budget.chunk_size(region, system, self.scene))
+        at_once = region.beads * together
+        if closed:  # one realisation after the other
+            at_once = max((step.beads for step in steps), default=0) // realisations
         if route != "ordered":
             steps.append(self._judging(region, steps, realisations, system))
         if route == "ordered" and not closed:

@@ -196,10 +196,9 @@ def _product(factor: int, values: Array) -> tuple[Array, Array]:
     half, mask = np.uint64(32), np.uint64(2**32 - 1)
     f1, f0 = np.uint64(factor >> 32), np.uint64(factor & (2**32 - 1))
     v1, v0 = values >> half, values & mask
-    low = f0 * v0
-    middle = f1 * v0 + (low >> half)
+    middle = f1 * v0 + (f0 * v0 >> half)
     cross = f0 * v1 + (middle & mask)
-    return f1 * v1 + (middle >> half) + (cross >> half), (cross << half) | (low & mask)
+    return f1 * v1 + (middle >> half) + (cross >> half), values * np.uint64(factor)
 
 
 def rows_of(

@@ -86,7 +86,7 @@ def _attempt(plan: Plan, system: NumberSystem, realisations: Sequence[int], work
             gatherer.add(solved, chunk)
         table = gatherer.table()
         bins = None
-        if plan.scene.ask.quantity == "histogram":
+        if plan.scene.ask.quantity == "histogram" and not work.repeating:
             values = table.numbers["change"]
             bins = histogram(values, plan.scene.ask.bins or DEFAULT_BINS, system)
     return _Attempt(table, bins, physical, stopped)
@@ -190,10 +190,11 @@ def _log10(n: int) -> float:
 def _rows(attempt: _Attempt, accuracy: Accuracy, system: NumberSystem) -> list[dict[str, Any]]:
     """Print the answer, row by row."""
     if attempt.bins is not None:
-        return [
-            {"low": decimal_string(low, None), "high": decimal_string(high, None), "count": count}
-            for low, high, count in attempt.bins
-        ]
+        rows: list[dict[str, Any]] = []
+        for low, high, count in attempt.bins:  # a bin begins where the last one ends
+            start = rows[-1]["high"] if rows else decimal_string(low, None)
+            rows.append({"low": start, "high": decimal_string(high, None), "count": count})
+        return rows
     with system.active():
         printed = strings(attempt.table, accuracy, system)
     columns = {**attempt.table.index, **printed}
