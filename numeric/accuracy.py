@@ -123,6 +123,7 @@ def _float_strings(column: Array, error: float) -> list[str]:
         if not value or not math.isfinite(value) or not abs(value) > off:
             result.append("0" if math.isfinite(value) else str(value))
             continue
-        digits = math.floor(math.log10(abs(value))) - math.floor(math.log10(off))
+        # two digits beyond the error: cutting the rest off adds at most a twentieth of it
+        digits = math.floor(math.log10(abs(value))) - math.floor(math.log10(off)) + 2
         result.append(f"{value:.{min(max(digits, 1), 17)}g}")
     return result

@@ -232,12 +232,10 @@ class BaseReactions(Gatherer):
         if forces is not None and len(rows) > 1 and layer.count:
             F, g, a, b = self._above(solved, layer, number)
             plus, minus = plus + F["+"], minus + F["-"]
-            f = {s: F[s] + g[s] for s in "+-"}
+            # to first order, a change of the force times one of its direction is left out
+            f = F if self.plan.route == "first-order" else {s: F[s] + g[s] for s in "+-"}
             change_plus = g["+"] + (f["+"] * a["+"] + f["-"] * a["-"])
             change_minus = g["-"] + (f["+"] * b["+"] + f["-"] * b["-"])
-            if self.plan.route == "first-order":
-                change_plus = g["+"] + (F["+"] * a["+"] + F["-"] * a["-"])
-                change_minus = g["-"] + (F["+"] * b["+"] + F["-"] * b["-"])
         cx, cy = (change_plus - change_minus) * nx, (change_plus + change_minus) * ny
         return Table(
             {"i": [self._home(i) for i in layer.sites()], "j": [0] * layer.count},
@@ -275,7 +273,11 @@ class BaseReactions(Gatherer):
 
 
 class Profile(Gatherer):
-    """Mean and standard deviation of the forces, layer by layer and branch by branch."""
+    """Mean force, mean and standard deviation of its change, by layer and branch.
+
+    Under a surface or bulk load all ordered forces of a layer are equal, and the standard deviation
+    of the change is that of the force, σ_f.
+    """
 
     def __init__(self, plan: Plan, system: NumberSystem) -> None:
         """Start empty."""
@@ -283,7 +285,7 @@ class Profile(Gatherer):
         self.moments: dict[tuple[int, str], tuple[Any, Moments]] = {}
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
-        """Merge the deviations from the layer's mean ordered force."""
+        """Merge the changes of the contacts; ordered forces only enter the mean."""
         forces = solved.forces
         assert forces is not None
         width = self.plan.scene.packing.width
@@ -295,11 +297,10 @@ class Profile(Gatherer):
             for branch in "+-":
                 F, g = self._whole(forces, upper, branch, width, zero)
                 ordered, moments = self.moments.get((upper, branch), (None, Moments(self._unit())))
-                # Under a surface or bulk load F is one number: nothing may be subtracted from it.
-                alike = self.plan.load.loaded is None
                 if ordered is None:
-                    ordered = F[0] if alike else F.sum() / len(F)
-                moments.add((g if alike else (F - ordered) + g).reshape(-1))
+                    # under a surface or bulk load F is one number, which a sum would round
+                    ordered = F[0] if self.plan.load.loaded is None else F.sum() / len(F)
+                moments.add(g.reshape(-1))
                 self.moments[upper, branch] = (ordered, moments)
 
     def _whole(
@@ -309,14 +310,16 @@ class Profile(Gatherer):
         if upper >= len(forces.rows):
             nothing = array(self.system, [Fraction(0)] * width)
             return nothing, nothing
-        for name, _, F, g in _both(forces, upper, None):
-            if name == branch:
-                layer = forces.rows[upper]
-                return (
-                    pick(F, layer, everything, width, zero),
-                    pick(g, layer, everything, width, zero),
-                )
-        raise ValueError(branch)
+        F, g = (
+            (forces.ordered_plus, forces.change_plus)
+            if branch == "+"
+            else (forces.ordered_minus, forces.change_minus)
+        )
+        layer = forces.rows[upper]
+        return (
+            pick(F[upper], layer, everything, width, zero),
+            pick(g[upper], layer, everything, width, zero),
+        )
 
     def table(self) -> Table:
         """One row a layer and branch, base first."""
@@ -330,7 +333,7 @@ class Profile(Gatherer):
             "branch": [branch for _, branch in keys],
             "samples": count,
         }
-        if self._theory_applies():
+        if self.theory_applies():
             index["first_order_std"] = [
                 self._theory(j - 1, float(mean)) for (j, _), mean in zip(keys, ordered, strict=True)
             ]
@@ -344,7 +347,8 @@ class Profile(Gatherer):
             ("mean_change", "std"),
         )
 
-    def _theory_applies(self) -> bool:
+    def theory_applies(self) -> bool:
+        """Say whether Eqs. 13 and 14 at finite M hold for the packings of this plan."""
         plan = self.plan
         width, height = plan.scene.packing.width, plan.scene.packing.height
         return (

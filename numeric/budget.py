@@ -16,6 +16,8 @@ INTERPRETER = 100_000_000
 # core, good to a factor of a few.
 FLOAT_STEP, BALL_STEP, LAYER, DRAW = 3e-7, 1e-5, 9e-4, 3e-5
 LONGEST = 24 * 3600.0
+# Realisations that are solved twice to estimate the error: four of packings that are small.
+FEW, SMALL = 4, 20_000
 
 
 def one_contact(scene: Scene) -> bool:
@@ -35,6 +37,11 @@ def chunk_size(region: Region, system: NumberSystem, scene: Scene) -> int:
     if system.dtype is object or scene.effects.stop_at_tension:
         return 1
     return max(1, 200_000 // max(region.beads, 1))
+
+
+def repeated(region: Region, realisations: int) -> int:
+    """Say how many realisations are solved again to estimate the error."""
+    return min(realisations, FEW if region.beads < SMALL else 1)
 
 
 def memory_limit() -> int:

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from time import perf_counter
 from typing import Any
 
 from numeric import first_order, packing
@@ -16,6 +15,8 @@ from numeric.work import Work
 
 # Beads from which on the compiled sweeps repay loading the compiler (half a second).
 COMPILED_FROM = 2_000_000
+# Beads of a diagonal that are drawn together.
+BLOCK = 10_000
 
 
 @dataclass(frozen=True)
@@ -30,41 +31,38 @@ class Solved:
     packing: Packing | None
     forces: Forces | None
     single: tuple[Any, Any] | None
-    seconds: dict[str, float]
 
 
 def solve(plan: Plan, realisations: Sequence[int], system: NumberSystem, work: Work) -> Solved:
     """Solve what the plan asks; the caller activates ``system``."""
     if plan.route == "ordered":
-        return _ordered(plan, system)
+        with work.timed("closed form"):
+            return _ordered(plan, system)
     if plan.route == "line sums":
         return _line_sums(plan, realisations[0], system, work)
-    seconds: dict[str, float] = {}
-    clock = _Clock(seconds)
-    rho = rows_of(plan.radii, plan.region.rows, realisations, system, work)
-    clock.stop("read radii", "draw radii")
     n_x = plan.scene.n_x
+    with work.timed("radii"):
+        rho = rows_of(plan.radii, plan.region.rows, realisations, system, work)
     deposit, sweep = _sweeps(plan, system)
     if plan.route == "exact":
-        solved = deposit(n_x, plan.region, rho, system, work)
-        clock.stop("deposit")
+        with work.timed("deposit"):
+            solved = deposit(n_x, plan.region, rho, system, work)
     else:
-        solved = first_order.displace(n_x, plan.region, rho, system, work)
-        clock.stop("line sums")
+        with work.timed("line sums"):
+            solved = first_order.displace(n_x, plan.region, rho, system, work)
     if not plan.needs_forces:
-        return Solved(system, solved, None, None, seconds)
-    strength = plan.load.strength(n_x, system)
-    loads = plan.load.on(plan.force_rows, strength, system)
-    forces = sweep(
-        solved,
-        plan.force_rows,
-        loads,
-        linear=plan.route == "first-order",
-        stop_at_tension=plan.scene.effects.stop_at_tension,
-        work=work,
-    )
-    clock.stop("balance forces")
-    return Solved(system, solved, forces, None, seconds)
+        return Solved(system, solved, None, None)
+    with work.timed("balance forces"):
+        strength = plan.load.strength(n_x, system)
+        forces = sweep(
+            solved,
+            plan.force_rows,
+            plan.load.on(plan.force_rows, strength, system),
+            linear=plan.route == "first-order",
+            stop_at_tension=plan.scene.effects.stop_at_tension,
+            work=work,
+        )
+    return Solved(system, solved, forces, None)
 
 
 def _sweeps(
@@ -82,20 +80,7 @@ def _sweeps(
     return packing.deposit, sweep_down
 
 
-class _Clock:
-    def __init__(self, seconds: dict[str, float]) -> None:
-        self.seconds = seconds
-        self.start = perf_counter()
-
-    def stop(self, *steps: str) -> None:
-        now = perf_counter()
-        for step in steps:
-            self.seconds[step] = now - self.start
-        self.start = now
-
-
 def _ordered(plan: Plan, system: NumberSystem) -> Solved:
-    start = perf_counter()
     forces, single = None, None
     n_x = plan.scene.n_x
     if plan.needs_forces:
@@ -105,36 +90,53 @@ def _ordered(plan: Plan, system: NumberSystem) -> Solved:
             single = (plan.load.ordered_force(plan.scene.contact, strength, system), zero)
         else:
             forces = plan.load.ordered_forces(plan.force_rows, strength, system)
-    return Solved(system, None, forces, single, {"closed form": perf_counter() - start})
+    return Solved(system, None, forces, single)
 
 
 def _line_sums(plan: Plan, realisation: int, system: NumberSystem, work: Work) -> Solved:
-    start = perf_counter()
-    seconds = {"read radii": 0.0, "draw radii": 0.0, "line sums": 0.0}
+    with work.timed("radii"):
+        known = _along(plan, realisation, system, work)
+    with work.timed("line sums"):
+        return Solved(system, None, None, _summed(plan, known, system, work))
+
+
+def _along(
+    plan: Plan, realisation: int, system: NumberSystem, work: Work
+) -> dict[tuple[int, int], Any]:
+    """Read the radii of the diagonals that the answer depends on, each bead once."""
+    if plan.needs_forces:
+        lines = first_order.lines_read(plan.scene.contact, plan.load)
+    else:
+        i, j = plan.scene.site
+        lines = [first_order.Line(i - j, 1, j), first_order.Line(i + j, -1, j)]
+    known: dict[tuple[int, int], Any] = {}
+    for line in lines:
+        for at in range(0, line.top + 1, BLOCK):
+            layers = range(at, min(at + BLOCK, line.top + 1))
+            sites = [site for m in layers if (site := (line.at(m), m)) not in known]
+            known.update(zip(sites, plan.radii.at(sites, realisation, system), strict=True))
+            for i, m in sites:
+                work.did("radii", Layer(m, i, 1))
+    return known
+
+
+def _summed(
+    plan: Plan, known: dict[tuple[int, int], Any], system: NumberSystem, work: Work
+) -> tuple[Any, Any]:
+    """Give (c⁺, c⁻) of the one bead, or (force, change) of the one contact."""
 
     def radius_at(i: int, j: int) -> Any:
-        begun = perf_counter()
-        layer = Layer(j, i, 1)
-        work.did("radii", layer)
-        work.did("summed", layer)
-        radius = plan.radii.row(layer, [realisation], system)[0]
-        seconds["draw radii"] += perf_counter() - begun
-        seconds["read radii"] = seconds["draw radii"]
-        return radius
-
-    def finished(single: tuple[Any, Any]) -> Solved:
-        seconds["line sums"] = perf_counter() - start - seconds["draw radii"]
-        return Solved(system, None, None, single, seconds)
+        work.did("summed", Layer(j, i, 1))
+        return known[i, j]
 
     n_x = plan.scene.n_x
     if not plan.needs_forces:
         i, j = plan.scene.site
         lines = first_order.Diagonals(i, j, 1, radius_at, {})
-        single = (
+        return (
             first_order.line_sum(lines.along(0, j))[-1],
             first_order.line_sum(lines.across(i, j))[-1],
         )
-        return finished(single)
     contact = plan.scene.contact
     i, j, branch = contact
     side, other = (1, "-") if branch == "+" else (-1, "+")
@@ -154,4 +156,4 @@ def _line_sums(plan: Plan, realisation: int, system: NumberSystem, work: Work) -
         n_x=n_x,
         system=system,
     )
-    return finished((own, change))
+    return own, change

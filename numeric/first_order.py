@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 from numeric.lattice import Array, Layer, Region, pick, shifted
 from numeric.load_spec import LoadSpec
@@ -128,6 +128,37 @@ def crossing_layers(contact: tuple[int, int, str], load: LoadSpec) -> tuple[list
         [m for m in layers if load.carries(i + side * (m - j), m, other)],
         [m for m in layers if load.carries(i + side * (m - j + 1), m - 1, other)],
     )
+
+
+class Line(NamedTuple):
+    """Beads up a diagonal from (start, 0) to layer ``top``; i grows by ``step`` a layer."""
+
+    start: int
+    step: int
+    top: int
+
+    def at(self, m: int) -> int:
+        """Give i in layer m."""
+        return self.start + self.step * m
+
+
+def lines_read(contact: tuple[int, int, str], load: LoadSpec) -> list[Line]:
+    """Give the diagonals that ``contact_change`` reads."""
+    i, j, branch = contact
+    side = 1 if branch == "+" else -1
+    start = i - side * j
+    above, below = crossing_layers(contact, load)
+    lines = []
+    if above:
+        lines.append(Line(start - 2 * side, side, max(above) + 1))
+    if above or below:
+        lines.append(Line(start, side, max([*above, *below])))
+    if below:
+        lines.append(Line(start + 2 * side, side, max(below) - 1))
+    if load.carries(*contact):
+        lines.append(Line(i + side * (j + 2), -side, j + 1))
+        lines.append(Line(i + side * j, -side, j))
+    return lines
 
 
 def beads_read(contact: tuple[int, int, str], load: LoadSpec) -> int:

@@ -9,14 +9,18 @@ from fractions import Fraction
 from functools import cached_property
 
 from numeric import budget, first_order, float_range, regions
+from numeric.images import sees_images
 from numeric.lattice import Region, standing_on_base, whole
 from numeric.load_spec import LoadSpec
 from numeric.radii import DrawnRadii, MeasuredRadii, Monodisperse, Radii
 from numeric.regions import Rows
 from numeric.scene import DisorderSection, Scene
-from numeric.systems import FLOAT64, Balls, NumberSystem
+from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
 from numeric.tables import Site, TableError, read_loads, read_radii
 
+PHYSICAL = "check that it is physical"
+# What errors of float64 are estimated with: an own long double, where the platform has one.
+LONGER: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
 FORCE_QUANTITIES = {
     "contact", "contact_forces", "profile", "histogram", "response", "base_reactions"
 }  # fmt: skip
@@ -111,6 +115,8 @@ class _Planner:
             for step in self._steps(route, region, force_rows, load)
         ]
         at_once = max((step.beads for step in steps), default=0) if closed else region.beads
+        if route != "ordered":
+            steps.append(self._judging(region, steps, realisations, system))
         if route == "ordered" and not closed:
             at_once = 0
         memory = self._refuse(region, at_once, realisations, system)
@@ -119,7 +125,7 @@ class _Planner:
         return Plan(
             self.scene, radii, load, route, region, force_rows, realisations,
             self.tolerance, system, tuple(steps), tuple(self.skipped), memory, seconds,
-            self._sees_images(route, region),
+            sees_images(self.scene, load, route),
         )  # fmt: skip
 
     def _system(self, route: str) -> NumberSystem:
@@ -277,26 +283,6 @@ class _Planner:
             return 1
         return asked
 
-    def _sees_images(self, route: str, region: Region) -> bool:
-        if self.width is None or route == "ordered" or not region.rows:
-            return False
-        if route == "exact":
-            return any(self._slab_width(region, j) > self.width for j in range(len(region.rows)))
-        return self.width <= self.height
-
-    def _slab_width(self, region: Region, j: int) -> int:
-        """Beads of layer j that a single answer would visit in an infinite slab."""
-        height = region.top
-        load = self.scene.load
-        if self.quantity == "positions":
-            tip = self.height if self.scene.ask.at is None else self.scene.site[1]
-            return tip - j + 1
-        if load.kind == "point":
-            assert load.at is not None
-            return load.at[1] - j + 1
-        lowest = self.scene.contact[1] if budget.one_contact(self.scene) else 0
-        return max(2 * height - lowest - j, 0)
-
     def _line_beads(self, load: LoadSpec) -> int:
         """Count the beads of the line sums, as in regions: see ``first_order.contact_beads``."""
         if self.quantity == "positions":
@@ -338,17 +324,25 @@ class _Planner:
                 visited = sum(layer.count for layer in force_rows[1:])
                 add("balance forces", self._force_reason(load), visited)
             if route == "exact":
-                add("check that it is physical", "gaps, overlaps and signs, always", region.beads)
-        if route != "ordered":
-            if self.tolerance is None:
-                add(
-                    "estimate the error",
-                    "the first realisations again with a longer significand",
-                    0,
-                )
-            else:
-                add("certify", "balls enclose the answer; bits are added until it fits", 0)
+                add(PHYSICAL, "gaps, overlaps and signs, always", region.beads)
         return steps
+
+    def _judging(
+        self, region: Region, steps: list[Step], realisations: int, system: NumberSystem
+    ) -> Step:
+        """Give the last step, which says how accurate the answer is."""
+        if self.tolerance is not None:
+            why = "balls enclose the answer; bits are added, and all is done again, until it fits"
+            return Step("certify", why, 0, system.name)
+        few = budget.repeated(region, realisations)
+        passes = 1 if few == realisations else 2
+        visits = sum(s.beads for s in steps if s.step != PHYSICAL) // realisations
+        return Step(
+            "estimate the error",
+            "the first realisations again with a longer significand",
+            passes * few * visits,
+            LONGER.name if passes == 1 else f"{system.name}, then {LONGER.name}",
+        )
 
     def _region_reason(self, region: Region) -> str:
         if self.width is not None and region.beads == self.width * (self.height + 1):

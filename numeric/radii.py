@@ -41,6 +41,9 @@ class Radii(Protocol):
     def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
         """Give δr/r; shape (count,) for one realisation, (realisations, count) for more."""
 
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+        """Give δr/r of single beads, the same as in their rows; shape (sites,)."""
+
     def relative_std(self) -> Fraction:
         """σ_δr/r: of the distribution, or as measured."""
 
@@ -53,6 +56,10 @@ class Monodisperse:
         """Zeros."""
         shape = (layer.count,) if len(realisations) == 1 else (len(realisations), layer.count)
         return zeros(system, *shape)
+
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+        """Zeros."""
+        return zeros(system, len(sites))
 
     def relative_std(self) -> Fraction:
         """Zero."""
@@ -92,13 +99,16 @@ class DrawnRadii:
             counter=[q + _OFFSET - 1, j, 0, 0], key=[self.seed, realisation]
         )
         words = generator.random_raw(4 * count).reshape(count, 4)
-        first = np.ascontiguousarray(words[:, 0])
+        return self._deviates(words[:, 0], words[:, 1])
+
+    def _deviates(self, first: Array, second: Array) -> Array:
+        first = np.ascontiguousarray(first)
         if self.kind == "two-point":
             return np.asarray(np.where(first >> np.uint64(63), 1.0, -1.0))
         if self.kind == "uniform":
             odd = ((first >> np.uint64(11)) << np.uint64(1)).astype(np.int64) + 1 - 2**53
             return np.asarray(odd.astype(np.float64) * 2.0**-53 * np.sqrt(3.0))
-        return normal_deviates(first, np.ascontiguousarray(words[:, 1]))
+        return normal_deviates(first, np.ascontiguousarray(second))
 
     def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
         """Scale the deviates; a radius that is not positive raises ``RadiusError``."""
@@ -109,11 +119,26 @@ class DrawnRadii:
         values = rows[0] if len(rows) == 1 else np.stack(rows)
         return np.asarray(from_floats(system, values) * system.scalar(self.std))
 
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+        """Put all counters through Philox at once: a generator for each bead would be slow."""
+        columns = ((i - j % 2) // 2 for i, j in sites)
+        if self.width is not None:
+            columns = (q % self.width for q in columns)
+        low = np.fromiter((q + _OFFSET for q in columns), np.uint64, len(sites))
+        high = np.fromiter((j for _, j in sites), np.uint64, len(sites))
+        deviates = self._deviates(*philox(low, high, (self.seed, realisation)))
+        if deviates.size and deviates.min() * float(self.std) < -0.999:
+            self._check_sites(deviates, sites)
+        return np.asarray(from_floats(system, deviates) * system.scalar(self.std))
+
     def _check(self, deviates: Array, layer: Layer) -> None:
-        for i, u in zip(layer.sites(), deviates, strict=True):
+        self._check_sites(deviates, [(i, layer.j) for i in layer.sites()])
+
+    def _check_sites(self, deviates: Array, sites: Sequence[tuple[int, int]]) -> None:
+        for site, u in zip(sites, deviates, strict=True):
             if self.std * Fraction(float(u)) <= -1:
                 shown = short(1 + self.std * Fraction(float(u)))
-                raise RadiusError((i, layer.j), f"the drawn radius is {shown} r, not positive")
+                raise RadiusError(site, f"the drawn radius is {shown} r, not positive")
 
 
 @dataclass(frozen=True)
@@ -134,14 +159,47 @@ class MeasuredRadii:
 
     def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
         """Look the radii up; a bead that the file lacks raises ``RadiusError``."""
+        one = self.at([(i, layer.j) for i in layer.sites()], 0, system)
+        return one if len(realisations) == 1 else np.stack([one] * len(realisations))
+
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+        """Look single beads up."""
         values = []
-        for i in layer.sites():
-            site = (i if self.width is None else i % (2 * self.width), layer.j)
+        for i, j in sites:
+            site = (i if self.width is None else i % (2 * self.width), j)
             if site not in self.rho:
                 raise RadiusError(site, "the radii file has no line for it")
             values.append(self.rho[site])
-        one = array(system, values)
-        return one if len(realisations) == 1 else np.stack([one] * len(realisations))
+        return array(system, values)
+
+
+def philox(low: Array, high: Array, key: tuple[int, int]) -> tuple[Array, Array]:
+    """Give the first two words of Philox4x64-10 for each counter (low, high, 0, 0).
+
+    The same words as NumPy's generator, which can only count upwards from one counter.
+    """
+    a, b = low, high
+    c = d = np.zeros(len(low), dtype=np.uint64)
+    for k in range(10):
+        first, second = (
+            np.uint64((word + k * weyl) % 2**64)
+            for word, weyl in zip(key, (0x9E3779B97F4A7C15, 0xBB67AE8584CAA73B), strict=True)
+        )
+        a_high, a_low = _product(0xD2E7470EE14C6C93, a)
+        c_high, c_low = _product(0xCA5A826395121157, c)
+        a, b, c, d = c_high ^ b ^ first, c_low, a_high ^ d ^ second, a_low
+    return a, b
+
+
+def _product(factor: int, values: Array) -> tuple[Array, Array]:
+    """Give the upper and lower 64 bits of products, from halves of 32 bits."""
+    half, mask = np.uint64(32), np.uint64(2**32 - 1)
+    f1, f0 = np.uint64(factor >> 32), np.uint64(factor & (2**32 - 1))
+    v1, v0 = values >> half, values & mask
+    low = f0 * v0
+    middle = f1 * v0 + (low >> half)
+    cross = f0 * v1 + (middle & mask)
+    return f1 * v1 + (middle >> half) + (cross >> half), (cross << half) | (low & mask)
 
 
 def rows_of(

@@ -33,17 +33,23 @@ def plan_data(plan: Plan) -> dict[str, Any]:
 def outcome_data(outcome: Outcome) -> dict[str, Any]:
     """Give a finished run; see scenes/README.md for the schema of each quantity."""
     data = plan_data(outcome.plan)
+    work = outcome.work
     visited = {
-        "read radii": outcome.work.radii,
-        "draw radii": outcome.work.radii,
-        "deposit": outcome.work.deposited,
-        "line sums": outcome.work.summed,
-        "balance forces": outcome.work.balanced,
+        "read radii": work.radii,
+        "draw radii": work.radii,
+        "deposit": work.deposited,
+        "line sums": work.summed,
+        "balance forces": work.balanced,
+        "check that it is physical": work.checked,
+        "estimate the error": work.again,
     }
     for step in data["plan"]:
-        step["seconds"] = _rounded(outcome.seconds.get(step["step"]))
-        step["arithmetic"] = outcome.accuracy.arithmetic
-        step["beads"] = visited.get(step["step"], step["beads"])
+        name = step["step"]
+        clock = "radii" if name in {"read radii", "draw radii"} else name
+        step["seconds"] = _rounded(work.seconds.get(clock, 0.0))
+        names = work.arithmetic_again if name == "estimate the error" else work.arithmetic
+        step["arithmetic"] = ", then ".join(names)
+        step["beads"] = visited.get(name, 0)
     accuracy = outcome.accuracy
     data["results"] = {outcome.plan.scene.ask.quantity: outcome.rows}
     data["accuracy"] = {
@@ -67,8 +73,7 @@ def physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     """Say whether an exact packing is one that beads could make."""
     highest = critical_height(plan.radii.relative_std())
     pulls = found.tensile + found.undecided_signs
-    alone = plan.load.kind == "point"
-    sound = not (found.overlaps or found.undecided_gaps or (pulls and not alone))
+    sound = not (found.overlaps or found.undecided_gaps or pulls)
     data: dict[str, Any] = {
         "physical": sound,
         "smallest_gap": found.smallest_gap,
@@ -80,10 +85,10 @@ def physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
         "height": plan.scene.packing.height,
         "critical_height": highest if math.isfinite(highest) else None,
     }
-    if pulls and alone:
+    if pulls and plan.load.loaded is not None:
         data["note"] = (
-            "a load on one bead pulls contacts inside its cone: its response is to be added to "
-            "that of other loads, so tension alone does not count here"
+            "loads on single beads pull contacts inside their cones: such a packing stands when "
+            "other loads press these contacts more"
         )
     if found.first_tensile is not None:
         i, j, branch = found.first_tensile

@@ -9,21 +9,19 @@ from typing import Any
 
 from numeric.accuracy import Accuracy, of_balls, of_floats, strings
 from numeric.answers import GATHERERS, Table
-from numeric.budget import chunk_size, initial_bits
+from numeric.budget import chunk_size, initial_bits, repeated
 from numeric.decimals import decimal_string, short
-from numeric.engine import solve
+from numeric.engine import Solved, solve
 from numeric.forces import NotStandingError
 from numeric.histogram import histogram
 from numeric.packing import UndecidedError
 from numeric.physical import Physicality
-from numeric.planner import Plan
-from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
+from numeric.planner import LONGER, PHYSICAL, Plan
+from numeric.systems import FLOAT64, Balls, NumberSystem
 from numeric.work import Progress, Work
 
 MOST_BITS = 8192
 DEFAULT_BINS = 20
-# Realisations that are solved twice to estimate the error: four of packings that are small.
-FEW, SMALL = 4, 20_000
 
 
 class ToleranceError(ArithmeticError):
@@ -40,7 +38,6 @@ class Outcome:
     physical: Physicality | None
     stopped: tuple[int, int, str] | None
     work: Work
-    seconds: dict[str, float]
     total_seconds: float
 
 
@@ -50,8 +47,6 @@ class _Attempt:
     bins: list[tuple[Fraction, Fraction, int]] | None
     physical: Physicality | None
     stopped: tuple[int, int, str] | None
-    work: Work
-    seconds: dict[str, float]
 
 
 def run(plan: Plan, progress: Progress | None = None) -> Outcome:
@@ -60,20 +55,21 @@ def run(plan: Plan, progress: Progress | None = None) -> Outcome:
     Raises ``ToleranceError``, and what the sweeps raise for a packing that can't be built.
     """
     start = perf_counter()
+    work = Work(progress=progress)
     system: NumberSystem
     if isinstance(plan.system, Balls):
-        attempt, accuracy, system = _certified(plan, plan.system, progress)
+        attempt, accuracy, system = _certified(plan, plan.system, work)
     else:
         system = plan.system
-        attempt = _attempt(plan, system, range(plan.realisations), progress)
-        accuracy = _estimate(plan, attempt)
+        attempt = _attempt(plan, system, range(plan.realisations), work)
+        accuracy = _estimate(plan, attempt, work)
     rows = _rows(attempt, accuracy, system)
     if not accuracy.certified and not accuracy.error_bound and _squares_vanish(plan):
         note = "every change is zero, or below what float64 holds: a tolerance tells which"
         accuracy = replace(accuracy, error_bound=math.inf, note=note)
     return Outcome(
-        plan, rows, accuracy, attempt.physical, attempt.stopped, attempt.work,
-        attempt.seconds, perf_counter() - start,
+        plan, rows, accuracy, attempt.physical, attempt.stopped, work,
+        perf_counter() - start,
     )  # fmt: skip
 
 
@@ -82,27 +78,17 @@ def _squares_vanish(plan: Plan) -> bool:
     return 0 < plan.radii.relative_std() ** 2 < Fraction(1, 10**300)
 
 
-def _attempt(
-    plan: Plan, system: NumberSystem, realisations: Sequence[int], progress: Progress | None
-) -> _Attempt:
-    work = Work(progress=progress)
-    physical = Physicality() if plan.route == "exact" else None
+def _attempt(plan: Plan, system: NumberSystem, realisations: Sequence[int], work: Work) -> _Attempt:
+    work.uses(system.name)
+    physical = Physicality() if plan.route == "exact" and not work.repeating else None
     gatherer = GATHERERS[plan.scene.ask.quantity](plan, system)
-    seconds: dict[str, float] = {}
     stopped = None
     size = 1 if plan.route == "line sums" else chunk_size(plan.region, system, plan.scene)
     with system.active():
         for chunk in _chunks(realisations, size):
             solved = solve(plan, chunk, system, work)
-            for step, spent in solved.seconds.items():
-                seconds[step] = seconds.get(step, 0.0) + spent
-            clock = perf_counter()
             if physical is not None and solved.packing is not None:
-                physical.look_at_gaps(solved.packing)
-                if solved.forces is not None:
-                    physical.look_at_forces(solved.forces)
-            name = "check that it is physical"
-            seconds[name] = seconds.get(name, 0.0) + perf_counter() - clock
+                _check(physical, solved, len(chunk), work)
             if solved.forces is not None and stopped is None:
                 stopped = solved.forces.stopped
             gatherer.add(solved, chunk)
@@ -111,7 +97,17 @@ def _attempt(
         if plan.scene.ask.quantity == "histogram":
             values = table.numbers["change"]
             bins = histogram(values, plan.scene.ask.bins or DEFAULT_BINS, system)
-    return _Attempt(table, bins, physical, stopped, work, seconds)
+    return _Attempt(table, bins, physical, stopped)
+
+
+def _check(physical: Physicality, solved: Solved, realisations: int, work: Work) -> None:
+    assert solved.packing is not None
+    with work.timed(PHYSICAL):
+        physical.look_at_gaps(solved.packing)
+        if solved.forces is not None:
+            physical.look_at_forces(solved.forces)
+    for layer in solved.packing.region.rows:
+        work.did("checked", layer, realisations)
 
 
 def _chunks(realisations: Sequence[int], size: int) -> Iterator[Sequence[int]]:
@@ -119,26 +115,20 @@ def _chunks(realisations: Sequence[int], size: int) -> Iterator[Sequence[int]]:
         yield realisations[at : at + size]
 
 
-def _estimate(plan: Plan, attempt: _Attempt) -> Accuracy:
+def _estimate(plan: Plan, attempt: _Attempt, work: Work) -> Accuracy:
     """Solve the first realisations again with a longer significand, and compare."""
-    start = perf_counter()
-    longer: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
-    few = range(min(plan.realisations, FEW if plan.region.beads < SMALL else 1))
+    few = range(repeated(plan.region, plan.realisations))
     part = replace(plan, realisations=len(few))
-    table = attempt.table
-    if len(few) < plan.realisations:
-        table = _attempt(part, FLOAT64, few, None).table
-    again = _attempt(part, longer, few, None).table
-    accuracy = of_floats(table, again, attempt.table, FLOAT64)
-    attempt.seconds["estimate the error"] = perf_counter() - start
-    return accuracy
+    with work.repeat("estimate the error"):
+        table = attempt.table
+        if len(few) < plan.realisations:
+            table = _attempt(part, FLOAT64, few, work).table
+        again = _attempt(part, LONGER, few, work).table
+        return of_floats(table, again, attempt.table, FLOAT64)
 
 
-def _certified(
-    plan: Plan, system: Balls, progress: Progress | None
-) -> tuple[_Attempt, Accuracy, Balls]:
+def _certified(plan: Plan, system: Balls, work: Work) -> tuple[_Attempt, Accuracy, Balls]:
     """Raise the precision until the enclosure is small enough, or say why that does not help."""
-    begun = perf_counter()
     floor = plan.radii.relative_std()
     if system.bits > MOST_BITS:
         raise ToleranceError(
@@ -148,11 +138,10 @@ def _certified(
         )
     while True:
         try:
-            attempt = _attempt(plan, system, range(plan.realisations), progress)
-            with system.active():
+            attempt = _attempt(plan, system, range(plan.realisations), work)
+            with work.timed("certify"), system.active():
                 accuracy = of_balls(attempt.table, system, floor)
             if plan.tolerance is None or _within(accuracy, plan.tolerance):
-                attempt.seconds["certify"] = perf_counter() - begun
                 return attempt, accuracy, system
             why = f"at {system.bits} bits {_still(accuracy)}"
         except (UndecidedError, NotStandingError) as error:

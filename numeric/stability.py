@@ -22,7 +22,7 @@ from numeric.lattice import Array, whole
 from numeric.load_spec import LoadSpec
 from numeric.packing import Packing, UnbuildableError, UndecidedError, deposit
 from numeric.physical import Physicality
-from numeric.radii import DrawnRadii, rows_of
+from numeric.radii import DrawnRadii, MeasuredRadii, Radii, rows_of
 from numeric.runner import critical_height
 from numeric.systems import FLOAT64, Balls, NumberSystem
 
@@ -85,8 +85,21 @@ def cases() -> Iterator[Case]:
         (384, "0.003"),
     ):
         yield Case("breakdown", height, 16, Fraction(std), bits=1024)
-    for power in (-498, 498):
+    for power in (-498, 0, 498):
         yield Case("units", 16, 34, Fraction(1, 10**6), radius=Fraction(2) ** power)
+
+
+def _radii(case: Case) -> Radii:
+    """Draw the radii; in the group "units" as lengths, as a radii file gives them."""
+    drawn = DrawnRadii("uniform", case.relative_std, SEED, case.width)
+    if case.group != "units":
+        return drawn
+    lengths = {
+        (i, layer.j): Fraction(deviate) * case.relative_std * case.radius
+        for layer in whole(case.width, case.height).rows
+        for i, deviate in zip(layer.sites(), drawn.deviates(layer, 0).tolist(), strict=True)
+    }
+    return MeasuredRadii({site: dr / case.radius for site, dr in lengths.items()}, case.width)
 
 
 def measure(case: Case) -> Row:
@@ -94,7 +107,7 @@ def measure(case: Case) -> Row:
     # The scale drops out before anything is rounded: s/r and δr/r are exact rationals.
     n_x = (case.spacing * case.radius) / (4 * case.radius)
     region = whole(case.width, case.height)
-    radii = DrawnRadii("uniform", case.relative_std, SEED, case.width)
+    radii = _radii(case)
     load = LoadSpec("surface", case.height, case.width)
 
     def changes(system: NumberSystem, rho: tuple[Array, ...]) -> tuple[Packing, Forces]:
@@ -163,8 +176,8 @@ def _row(
         highest = critical_height(case.relative_std)
         if case.height > highest:
             note = f"beyond M* = {highest:.3g}"
-        if case.radius != 1:
-            note = "r = 2^498" if case.radius > 1 else "r = 2^-498"
+        if case.group == "units":
+            note = {1: "r = 1", 2**498: "r = 2^498"}.get(int(case.radius), "r = 2^-498")
     return Row(
         case.group, case.height, case.width, float(case.relative_std),
         f"{float(case.spacing):.14g}", *_shown(deviation), *_shown(plainly), _shown(balls)[0],

@@ -1,6 +1,8 @@
 """Answers as a user gets them: bounds hold, routes agree, units and batches change nothing."""
 
+import statistics
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -9,7 +11,10 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from numeric.runner import Outcome, ToleranceError
+from numeric.result import outcome_data
+from numeric.runner import Outcome, ToleranceError, _attempt
+from numeric.systems import FLOAT64
+from numeric.work import Work
 from tests.numeric.scenes import answer, basic, planned, scene, scenes, site
 
 SMALL = {
@@ -43,9 +48,11 @@ def certified(sections: dict[str, dict[str, Any]]) -> Outcome:
 
 @given(scenes())
 def test_the_stated_error_holds(sections: dict[str, dict[str, Any]]) -> None:
-    """Each number of a float run lies within its bound, and one printed digit, of the true one.
+    """Each printed number of a float run lies within its bound of the true one.
 
     A bound in float64 is an estimate (twice the distance from long double), the other is rigorous.
+    Cutting off digits adds at most a twentieth of the bound, and 17 digits are the most that are
+    printed.
     """
     rough = answer(sections)
     sections["ask"]["tolerance"] = "=1e-25"
@@ -61,7 +68,8 @@ def test_the_stated_error_holds(sections: dict[str, dict[str, Any]]) -> None:
     largest = max((abs(Fraction(v)) for _, v in numbers(sharp, small_only=True)), default=0)
     for (_, a), (_, b) in zip(numbers(rough, True), numbers(sharp, True), strict=True):
         error = abs(Fraction(a) - Fraction(b))
-        assert error <= Fraction(rough.accuracy.error_bound) * largest + unit_of_last_digit(a)
+        allowed = Fraction(rough.accuracy.error_bound) * largest * Fraction(21, 20)
+        assert error <= allowed + abs(Fraction(b)) * Fraction(1, 10**16)
 
 
 @given(scenes())
@@ -154,27 +162,73 @@ def test_images_are_seen_exactly_where_the_region_needs_more_width(
     assert planned(sections).sees_images is sees
 
 
-@pytest.mark.parametrize("quantity", ["profile", "histogram", "contact_forces"])
+@pytest.mark.parametrize("quantity", ["contact_forces", "positions", "base_reactions"])
 def test_realisations_are_independent_of_the_batch(quantity: str) -> None:
     """Each realisation of a batch is bit for bit the one solved alone."""
-    many = answer(basic(4, 9, quantity=quantity, realisations=5))
-    if quantity == "contact_forces":
-        from dataclasses import replace
+    plan = planned(basic(4, 9, quantity=quantity, realisations=5))
+    together = _attempt(plan, FLOAT64, range(5), Work()).table
+    for k in range(5):
+        alone = _attempt(replace(plan, realisations=1), FLOAT64, [k], Work()).table
+        for name, column in alone.numbers.items():
+            n = len(column)
+            assert n
+            assert (together.numbers[name][k * n : (k + 1) * n] == column).all()
 
-        from numeric.runner import _attempt
-        from numeric.systems import FLOAT64
 
-        plan = planned(basic(4, 9, quantity=quantity, realisations=5))
-        together = _attempt(plan, FLOAT64, range(5), None).table
-        for k in range(5):
-            alone = _attempt(replace(plan, realisations=1), FLOAT64, [k], None).table
-            n = len(alone.numbers["change"])
-            assert (
-                together.numbers["change"][k * n : (k + 1) * n] == alone.numbers["change"]
-            ).all()
-    else:
-        count = [row.get("samples", row.get("count")) for row in many.rows]
-        assert sum(c for c in count if c) > 0
+def test_a_profile_is_the_moments_of_all_contact_forces() -> None:
+    forces = answer(basic(4, 9, quantity="contact_forces", realisations=5)).rows
+    for row in answer(basic(4, 9, quantity="profile", realisations=5)).rows:
+        changes = [
+            float(f["change"]) for f in forces if (f["j"], f["branch"]) == (row["j"], row["branch"])
+        ]
+        assert row["samples"] == len(changes) == 45
+        scale = max(map(abs, changes))
+        # sums of 45 floats, printed with two digits more than the error that is stated
+        assert abs(float(row["mean_change"]) - statistics.fmean(changes)) < 1e-13 * scale
+        assert abs(float(row["std"]) - statistics.pstdev(changes)) < 1e-13 * scale
+
+
+def test_a_profile_under_a_point_load_keeps_the_digits_of_its_changes() -> None:
+    """The spread of the ordered forces, of order one, stays out of changes of order 1e-30."""
+    sections = basic(4, 9, quantity="profile")
+    sections["disorder"]["relative_std"] = "=1e-30"
+    sections["load"] = {"kind": "point", "at": [4, 4]}
+    for row in answer(sections).rows:
+        assert 1e-32 < float(row["std"]) < 1e-28
+
+
+def test_what_is_physical_does_not_depend_on_how_a_load_is_written(tmp_path: Path) -> None:
+    sections = basic(6, 20, quantity="contact_forces")
+    sections["load"] = {"kind": "point", "at": [6, 6]}
+    point = outcome_data(answer(sections))["physical"]
+    (tmp_path / "load.csv").write_text("i,j,fx,fy\n6,6,0,-1\n")
+    sections["load"] = {"kind": "file", "file": "load.csv"}
+    listed = outcome_data(answer(sections, tmp_path))["physical"]
+    assert point == listed
+    assert point["tensile_contacts"]
+    assert not point["physical"]
+
+
+@pytest.mark.parametrize("power", [-498, -1, 498])
+def test_lengths_scaled_by_a_power_of_two_change_no_bit(tmp_path: Path, power: int) -> None:
+    """r, s and a file's δr all scaled: the dimensionless answer is the same, digit for digit."""
+    answers = []
+    for factor in (Fraction(1), Fraction(2) ** power):
+        lines = ["i,j,delta_r"]
+        for j in range(5):
+            lines += [
+                f"{i},{j},{decimal(Fraction((7 * i + 3 * j) % 11 - 5, 1024) * factor)[1:]}"
+                for i in range(j % 2, 18, 2)
+            ]
+        (tmp_path / "radii.csv").write_text("\n".join(lines) + "\n")
+        sections = basic(4, 9, quantity="contact_forces")
+        sections["packing"].update(
+            radius=decimal(factor), spacing=decimal(factor * Fraction(11, 4))
+        )
+        sections["disorder"] = {"kind": "file", "file": "radii.csv"}
+        answers.append(answer(sections, tmp_path))
+    assert answers[0].rows == answers[1].rows
+    assert answers[0].accuracy == answers[1].accuracy
 
 
 @given(st.integers(-498, 498), st.sampled_from(["contact_forces", "profile", "base_reactions"]))
@@ -192,6 +246,8 @@ def test_units_change_no_bit(power: int, quantity: str) -> None:
 
 def decimal(value: Fraction) -> str:
     """Write a dyadic fraction as the decimal that it is."""
+    if value < 0:
+        return "=-" + decimal(-value)[1:]
     places = value.denominator.bit_length() - 1
     digits = str(value.numerator * 5**places).rjust(places + 1, "0")
     head = digits[:-places] if places else digits

@@ -8,12 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from numeric import first_order, regions
+from numeric import budget, first_order, regions
 from numeric.engine import solve
+from numeric.lattice import Layer
 from numeric.planner import Plan
-from numeric.radii import MeasuredRadii
+from numeric.radii import DrawnRadii, MeasuredRadii
+from numeric.result import outcome_data, plan_data
 from numeric.runner import run
-from numeric.systems import Balls
+from numeric.systems import FLOAT64, Balls
 from numeric.work import Work
 from tests.numeric.scenes import answer, basic, planned
 
@@ -206,19 +208,77 @@ def test_disorder_of_zero_width_is_no_disorder() -> None:
     assert answer(sections).rows == answer(none).rows
 
 
-def test_the_plan_is_what_runs() -> None:
-    for geometry in ("exact", "first-order"):
-        for quantity in ("contact_forces", "positions", "profile"):
-            sections = basic(quantity=quantity)
-            sections["effects"] = {"geometry": geometry}
-            outcome = run(planned(sections))
-            done = {
-                "draw radii": outcome.work.radii,
-                "deposit": outcome.work.deposited,
-                "line sums": outcome.work.summed,
-                "balance forces": outcome.work.balanced,
-            }
-            for step in outcome.plan.steps:
-                if step.step in done:
-                    assert step.beads == done.pop(step.step)
-            assert not any(done.values())
+def scene_of(geometry: str, quantity: str, realisations: int) -> dict[str, dict[str, Any]]:
+    sections = basic(quantity=quantity, realisations=realisations)
+    sections["effects"] = {"geometry": geometry}
+    if quantity == "contact":
+        sections["ask"]["at"] = [2, 2, "+"]
+    return sections
+
+
+@pytest.mark.parametrize("realisations", [1, 3, 7])
+@pytest.mark.parametrize("quantity", ["contact", "contact_forces", "positions", "profile"])
+@pytest.mark.parametrize("geometry", ["exact", "first-order"])
+def test_the_plan_is_what_runs(geometry: str, quantity: str, realisations: int) -> None:
+    outcome = run(planned(scene_of(geometry, quantity, realisations)))
+    before, after = plan_data(outcome.plan)["plan"], outcome_data(outcome)["plan"]
+    for planned_step, done in zip(before, after, strict=True):
+        for key in ("step", "beads", "arithmetic"):
+            assert planned_step[key] == done[key]
+    work = outcome.work
+    counted = (work.radii, work.deposited, work.summed, work.balanced, work.checked, work.again)
+    assert sum(step["beads"] for step in after) == sum(counted)
+
+
+def test_progress_is_told_of_every_visit() -> None:
+    told: list[int] = []
+    plan = planned(scene_of("exact", "contact_forces", 7))
+    outcome = run(plan, progress=lambda kind, beads: told.append(beads))
+    assert sum(told) == sum(step["beads"] for step in outcome_data(outcome)["plan"])
+    assert sum(told) == sum(step.beads for step in plan.steps)
+
+
+@pytest.mark.parametrize("tolerance", [None, "=1e-12"])
+@pytest.mark.parametrize("geometry", ["exact", "first-order"])
+@pytest.mark.parametrize("quantity", ["contact", "contact_forces", "profile"])
+def test_clocks_do_not_overlap(geometry: str, quantity: str, tolerance: str | None) -> None:
+    sections = scene_of(geometry, quantity, 6)
+    if tolerance:
+        sections["ask"]["tolerance"] = tolerance
+    data = outcome_data(run(planned(sections)))
+    assert sum(step["seconds"] for step in data["plan"]) <= data["seconds"] + 1e-5
+
+
+def test_precisions_that_failed_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    sections = basic(quantity="contact", at=[2, 2, "+"], tolerance="=1e-20")
+    monkeypatch.setattr(budget, "initial_bits", lambda tolerance, height: 24)
+    plan = planned(sections)
+    outcome = run(plan)
+    passes = outcome.work.arithmetic
+    assert passes == [f"arb balls, {24 * 2**k} bits" for k in range(len(passes))]
+    assert len(passes) > 2
+    data = outcome_data(outcome)
+    beads = regions.contact_beads(2, 6)
+    for step in data["plan"]:
+        assert step["arithmetic"] == ", then ".join(passes)
+        if step["step"] in {"draw radii", "deposit"}:
+            assert step["beads"] == len(passes) * beads
+    assert data["accuracy"]["arithmetic"] == passes[-1]
+    assert sum(step["seconds"] for step in data["plan"]) <= data["seconds"] + 1e-5
+
+
+@settings(deadline=None)
+@given(
+    st.integers(0, 2**64 - 1),
+    st.integers(0, 10**9),
+    st.lists(st.tuples(st.integers(-(2**59), 2**59), st.integers(0, 10**7)), max_size=5),
+    st.sampled_from(["uniform", "normal", "two-point"]),
+    st.sampled_from([None, 5]),
+)
+def test_a_bead_drawn_alone_is_the_one_in_its_row(
+    seed: int, k: int, where: list[tuple[int, int]], kind: str, width: int | None
+) -> None:
+    radii = DrawnRadii(kind, Fraction(1, 1000), seed, width)
+    sites = [(2 * column + j % 2, j) for column, j in where]
+    rows = [radii.row(Layer(j, i, 1), [k], FLOAT64)[0] for i, j in sites]
+    assert radii.at(sites, k, FLOAT64).tolist() == rows
