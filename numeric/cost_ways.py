@@ -65,7 +65,7 @@ def solve_plainly(
     rho = rows_of(plan.radii, region.rows, realisations, system, work)
     packing = plain.deposit(scene.n_x, rho, system)
     if not plan.needs_forces:
-        return Solved(system, _line_sums(plan, packing, rho), None, None, {})
+        return Solved(system, _line_sums(plan, packing, rho), None, None)
     nx, ny = packing.n
     strength = plan.load.strength(scene.n_x, system)
     on = plan.load.on(region.rows, strength, system)
@@ -95,7 +95,7 @@ def solve_plainly(
         system, plan.force_rows, wanted(ordered.ordered_plus), wanted(ordered.ordered_minus),
         wanted(changes[0]), wanted(changes[1]),
     )  # fmt: skip
-    return Solved(system, None, forces, None, {})
+    return Solved(system, None, forces, None)
 
 
 def _line_sums(plan: Plan, packing: plain.PlainPacking, rho: tuple[Any, ...]) -> Packing:
