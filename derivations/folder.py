@@ -12,7 +12,10 @@ MANIFEST = "manifest.json"
 DOCUMENT = "equations.tex"
 PROGRAM = "force-diffusion"
 
-_OURS = re.compile(r"eq\d\d\.tex|equations\.tex|manifest\.json|result\.json|[a-z_]{1,20}\.csv")
+_OURS = re.compile(
+    r"eq\d\d\.tex|equations\.tex|manifest\.json|result\.json"
+    r"|cost\.(json|png|svg)|[a-z_]{1,20}\.csv"
+)
 _LATEX_LEAVES = re.compile(r"equations\.(aux|log|out|pdf|synctex\.gz|fls|fdb_latexmk)")
 _ASIDE = ".force-diffusion-"
 
@@ -71,14 +74,17 @@ class OutputFolder:
         self.folder = folder
         self._aside = aside
 
-    def publish(self, files: Mapping[str, str]) -> None:
+    def publish(self, files: Mapping[str, str | bytes]) -> None:
         """Write every file aside, then rename them into place, dropping our older ones.
 
         At each moment every file in the folder is whole and the manifest owns all of them.
         """
         for name, content in files.items():
             try:
-                (self._aside / name).write_text(content, encoding="utf-8")
+                if isinstance(content, bytes):
+                    (self._aside / name).write_bytes(content)
+                else:
+                    (self._aside / name).write_text(content, encoding="utf-8")
             except OSError as failure:  # a write that fails half-way names no file
                 failure.filename = str(self.folder / name)
                 raise

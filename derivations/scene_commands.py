@@ -1,19 +1,20 @@
-"""The commands for scenes, ``run``, ``explain``, ``stability``: a thin layer over ``numeric``."""
+"""The commands for scenes: a thin layer over ``numeric``."""
 
 import csv
 import io
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, ExitStack, nullcontext
 from dataclasses import asdict
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeVar
 
 import typer
 
 if TYPE_CHECKING:
+    from numeric.cost import Study
     from numeric.planner import Plan
 
 # Seconds from which on progress is shown.
@@ -96,9 +97,28 @@ def run(
 ) -> None:
     """Answer a scene's question."""
     planned = _planned(scene, tolerance)
+    quantity = planned.scene.ask.quantity
+
+    def answer() -> tuple[dict[str, Any], dict[str, str | bytes]]:
+        data = _solved(planned, scene)
+        return data, {
+            "result.json": json.dumps(data, indent=2) + "\n",
+            f"{quantity}.csv": _csv(data["results"][quantity]),
+        }
+
+    _show(_published(out, answer), as_json)
+
+
+T = TypeVar("T")
+
+
+def _published(
+    out: Path | None,
+    answer: Callable[[], tuple[T, Mapping[str, str | bytes]]],
+) -> T:
+    """Answer, and write the files into the folder, which is looked at before anything is solved."""
     if out is None:
-        _show(_solved(planned, scene), as_json)
-        return
+        return answer()[0]
     from derivations.folder import NotOurFolderError, foreign_files, output_folder, owned_files
 
     refusal = f"--out {out}: give a new folder, an empty one, or one that an earlier run wrote"
@@ -108,18 +128,75 @@ def run(
         _fail(f"{refusal}; this one holds other files", WRONG_INPUT)
     try:
         with output_folder(out) as folder:
-            data = _solved(planned, scene)
-            quantity = planned.scene.ask.quantity
-            files = {
-                "result.json": json.dumps(data, indent=2) + "\n",
-                f"{quantity}.csv": _csv(data["results"][quantity]),
-            }
-            manifest = {"program": "force-diffusion", "files": sorted([*files, "manifest.json"])}
-            files["manifest.json"] = json.dumps(manifest, indent=2) + "\n"
-            folder.publish(files)
+            data, files = answer()
+            names = sorted([*files, "manifest.json"])
+            manifest = {"program": "force-diffusion", "files": names}
+            folder.publish({**files, "manifest.json": json.dumps(manifest, indent=2) + "\n"})
     except NotOurFolderError as foreign:
         _fail(f"{refusal}; this one holds {foreign}", WRONG_INPUT)
-    _show(data, as_json)
+    return data
+
+
+def cost(
+    scene: _Scene,
+    out: Annotated[Path | None, out_option("the study as CSV, JSON and a plot")] = None,
+    as_json: _Json = False,
+) -> None:
+    """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
+    import shlex
+
+    from numeric.cost_data import csv_rows, lines, study_data
+
+    command = shlex.join(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
+
+    def answer() -> tuple[dict[str, Any], dict[str, str | bytes]]:
+        found = _studied(scene)
+        data = study_data(found, command)
+        files: dict[str, str | bytes] = {
+            "cost.json": json.dumps(data, indent=2) + "\n",
+            "cost.csv": _csv(csv_rows(data)),
+        }
+        if out is not None:
+            try:
+                from numeric.cost_plot import plots
+            except ImportError:
+                missing = "no plot: matplotlib is missing; pip install 'force-diffusion[plots]'"
+                print(f"force-diffusion: {missing}", file=sys.stderr)
+            else:
+                files |= plots(found, command, scene.stem)
+        return data, files
+
+    data = _published(out, answer)
+    print(json.dumps(data, indent=2) if as_json else "\n".join(lines(data)))
+
+
+def _studied(scene: Path) -> "Study":
+    """Study a scene, telling a terminal what is measured, or leave with a message."""
+    from numeric.cost import study
+    from numeric.forces import NotStandingError
+    from numeric.packing import UnbuildableError, UndecidedError
+    from numeric.radii import RadiusError
+    from numeric.runner import ToleranceError
+    from numeric.scene import SceneError, read_scene
+    from numeric.tables import TableError
+
+    terminal = sys.stderr.isatty()
+
+    def notice(way: str) -> None:
+        if terminal:
+            print(f"\r\x1b[K{way}", end="", file=sys.stderr, flush=True)
+
+    try:
+        return study(read_scene(scene), notice)
+    except (SceneError, TableError, UnbuildableError, NotStandingError, RadiusError) as error:
+        _fail(f"{scene.name}: {error}", WRONG_INPUT)
+    except (ToleranceError, UndecidedError) as error:
+        _fail(f"{scene.name}: {error}", NOT_REACHED)
+    except MemoryError:
+        _fail(f"{scene.name}: the memory is full; ask for less", NOT_REACHED)
+    finally:
+        if terminal:
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
 
 def _solved(planned: "Plan", scene: Path) -> dict[str, Any]:
@@ -274,4 +351,5 @@ def register(app: typer.Typer) -> None:
     """Add the commands to the command line."""
     app.command(epilog=STATUSES)(run)
     app.command(epilog=STATUSES)(explain)
+    app.command(epilog=STATUSES)(cost)
     app.command()(stability)

@@ -333,7 +333,7 @@ class Profile(Gatherer):
             "branch": [branch for _, branch in keys],
             "samples": count,
         }
-        if self._theory_applies():
+        if self.theory_applies():
             index["first_order_std"] = [
                 self._theory(j - 1, float(mean)) for (j, _), mean in zip(keys, ordered, strict=True)
             ]
@@ -347,7 +347,8 @@ class Profile(Gatherer):
             ("mean_change", "std"),
         )
 
-    def _theory_applies(self) -> bool:
+    def theory_applies(self) -> bool:
+        """Say whether Eqs. 13 and 14 at finite M hold for the packings of this plan."""
         plan = self.plan
         width, height = plan.scene.packing.width, plan.scene.packing.height
         return (

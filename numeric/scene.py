@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
-from numeric.decimals import decimal_string, exact
+from numeric.decimals import decimal_string, exact, short
 
 LARGEST_FILE = 64_000  # bytes of a scene file; far more than any scene needs
 # Dots outside of whole-line comments: a dotted key makes a table a dot, in quadratic time.
@@ -312,7 +312,8 @@ def _check_packing(scene: Scene) -> None:
     if p.radius <= 0:
         raise SceneError("packing.radius", p.radius, "must be greater than 0")
     if not 4 * p.radius**2 < scene.spacing**2 < 12 * p.radius**2 or scene.spacing < 0:
-        ratio = float(scene.spacing / p.radius) if scene.spacing < 10**9 * p.radius else "huge"
+        ratio = decimal_string(scene.spacing / p.radius, None)
+        ratio = ratio if len(ratio) <= 45 else short(scene.spacing / p.radius)
         raise SceneError(
             "packing.spacing",
             scene.spacing,

@@ -32,7 +32,10 @@ WRONG = [
     (["show", "12", "--exact"], "13 or 14"),
     (["show", "13", "--exact", "--as", "steps"], "steps"),
     (["list", "13"], "13"),
-    (["prove", "13"], "no command 'prove'. Use derive, show, list, run, explain or stability"),
+    (
+        ["prove", "13"],
+        "no command 'prove'. Use derive, show, list, run, explain, cost or stability",
+    ),
 ]
 
 

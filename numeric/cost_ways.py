@@ -1,0 +1,109 @@
+"""Ways to answer a scene: any plan in any number system, also in the plain form, as one table."""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from numeric import plain
+from numeric.answers import GATHERERS, Table
+from numeric.budget import chunk_size
+from numeric.engine import Solved, solve
+from numeric.forces import Forces
+from numeric.lattice import Array, Layer, full_layer, pick, whole
+from numeric.packing import Packing
+from numeric.planner import Plan
+from numeric.radii import rows_of
+from numeric.systems import NumberSystem, zeros
+from numeric.work import Work
+
+Solver = Callable[[Plan, Sequence[int], NumberSystem, Work], Solved]
+
+PLAIN_QUANTITIES = {"contact", "contact_forces", "positions"}
+
+
+def answer(
+    plan: Plan, system: NumberSystem, realisations: Sequence[int], solver: Solver = solve
+) -> Table:
+    """Answer a plan's question for some realisations; units as in the scene's own answer.
+
+    Raises what the sweeps raise for a packing that can't be built, or not be decided.
+    """
+    size = 1 if plan.route == "line sums" else chunk_size(plan.region, system, plan.scene)
+    with system.active():
+        gatherer = GATHERERS[plan.scene.ask.quantity](plan, system)
+        for at in range(0, len(realisations), size):
+            chunk = realisations[at : at + size]
+            gatherer.add(solver(plan, chunk, system, Work()), chunk)
+        return gatherer.table()
+
+
+def why_not_plain(plan: Plan) -> str | None:
+    """Say why the plain form can't answer a plan; None where it can."""
+    if plan.route != "exact":
+        return "it solves the exact packing, and the scene asks for less"
+    if plan.scene.packing.width is None:
+        return "it is written for periodic packings; the scene's is an infinite slab"
+    if plan.scene.effects.stop_at_tension:
+        return "it does not stop at tension"
+    quantity = plan.scene.ask.quantity
+    if quantity not in PLAIN_QUANTITIES:
+        return f"it gives forces and positions, from which '{quantity}' is not gathered"
+    return None
+
+
+def solve_plainly(
+    plan: Plan, realisations: Sequence[int], system: NumberSystem, work: Work
+) -> Solved:
+    """Solve one realisation of a periodic packing in the plain form, like ``engine.solve``.
+
+    The ordered values are subtracted from solved positions and forces, which is where the plain
+    form loses its digits. Only what the gatherers of ``PLAIN_QUANTITIES`` read is filled in.
+    """
+    scene = plan.scene
+    width = scene.packing.width
+    assert width is not None
+    region = whole(width, scene.packing.height)
+    rho = rows_of(plan.radii, region.rows, realisations, system, work)
+    packing = plain.deposit(scene.n_x, rho, system)
+    if not plan.needs_forces:
+        return Solved(system, _line_sums(plan, packing, rho), None, None)
+    nx, ny = packing.n
+    strength = plan.load.strength(scene.n_x, system)
+    on = plan.load.on(region.rows, strength, system)
+
+    def cartesian(row: Layer) -> plain.Vector | None:
+        plus, minus = on.plus[row.j], on.minus[row.j]
+        if plus is None or minus is None:
+            return None
+        return plain.Vector((minus - plus) * nx, -(plus + minus) * ny)
+
+    found = plain.forces(packing, tuple(cartesian(row) for row in region.rows))
+    # The ordered forces on all beads: rows above the highest load, if there are any, have none.
+    ordered = plan.load.ordered_forces(region.rows, strength, system)
+    zero = zeros(system, 1)[0]
+
+    def wanted(values: Sequence[Array]) -> tuple[Array, ...]:
+        return tuple(
+            pick(values[row.j], full_layer(row.j, width), row, width, zero) if row.j else values[0]
+            for row in plan.force_rows
+        )
+
+    changes = [
+        [f - F for f, F in zip(found.plus, ordered.ordered_plus, strict=True)],
+        [f - F for f, F in zip(found.minus, ordered.ordered_minus, strict=True)],
+    ]
+    forces = Forces(
+        system, plan.force_rows, wanted(ordered.ordered_plus), wanted(ordered.ordered_minus),
+        wanted(changes[0]), wanted(changes[1]),
+    )  # fmt: skip
+    return Solved(system, None, forces, None)
+
+
+def _line_sums(plan: Plan, packing: plain.PlainPacking, rho: tuple[Any, ...]) -> Packing:
+    """Put the displacements into the coordinates c^± = n^±·δx that answers are gathered from."""
+    nx, ny = packing.n
+    moved = plain.displacements(packing)
+    return Packing(
+        plan.scene.n_x, packing.system, packing.region, rho,
+        tuple(d.x * nx + d.y * ny for d in moved), tuple(d.y * ny - d.x * nx for d in moved),
+        (), (),
+    )  # fmt: skip

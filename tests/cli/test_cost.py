@@ -1,0 +1,149 @@
+"""The command ``cost`` as a user calls it."""
+
+import csv
+import io
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from derivations.__main__ import main
+from numeric import cost
+from numeric.runner import ToleranceError
+
+SCENE = """
+[packing]
+height = 3
+width = 5
+[disorder]
+kind = "uniform"
+relative_std = 1e-4
+[ask]
+quantity = "contact_forces"
+"""
+PROFILE = SCENE.replace('"contact_forces"', '"profile"\nrealisations = 4')
+
+
+@pytest.fixture(autouse=True)
+def _one_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cost, "LEAST_RUNS", 1)
+    monkeypatch.setattr(cost, "ENOUGH_SECONDS", 0.0)
+
+
+def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
+    status = main([str(a) for a in arguments])
+    shown = capsys.readouterr()
+    return status, shown.out, shown.err
+
+
+def written(folder: Path, text: str = SCENE) -> Path:
+    path = folder / "scene.toml"
+    path.write_text(text)
+    return path
+
+
+@pytest.mark.parametrize("text", [SCENE, PROFILE])
+def test_json_and_files(text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "out"
+    status, printed, err = call(capsys, "cost", written(tmp_path, text), "--out", out, "--json")
+    assert (status, err) == (0, "")
+    data = json.loads(printed)
+    assert data["rows"]
+    assert json.loads((out / "cost.json").read_text()) == data
+    assert data["command"].startswith("force-diffusion cost ")
+    rows = list(csv.DictReader(io.StringIO((out / "cost.csv").read_text())))
+    assert [row["error"] for row in rows] == [row["error"] for row in data["rows"]]
+    assert rows[0]["command"] == data["command"]
+    assert sorted(path.name for path in out.iterdir()) == [
+        "cost.csv", "cost.json", "cost.png", "cost.svg", "manifest.json"
+    ]  # fmt: skip
+    png = (out / "cost.png").read_bytes()
+    assert png.startswith(b"\x89PNG")
+    assert data["command"].encode() in png
+    svg = (out / "cost.svg").read_text()
+    assert data["command"] in svg
+    status, _, _ = call(capsys, "cost", tmp_path / "scene.toml", "--out", out)  # its own folder
+    assert status == 0
+
+
+def test_the_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, err = call(capsys, "cost", written(tmp_path))
+    assert (status, err) == (0, "")
+    for word in ("deviation form", "plain form", "certified", "Does not apply", "* "):
+        assert word in out
+    status, out, _ = call(capsys, "cost", written(tmp_path, PROFILE))
+    assert status == 0
+    for word in ("Monte Carlo", "finite-M", "estimated", "Standard error"):
+        assert word in out
+
+
+def test_without_matplotlib_only_the_plot_is_missing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delitem(sys.modules, "numeric.cost_plot", raising=False)
+    for name in [name for name in sys.modules if name.split(".")[0] == "matplotlib"]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    out = tmp_path / "out"
+    status, printed, err = call(capsys, "cost", written(tmp_path), "--out", out, "--json")
+    assert status == 0
+    assert json.loads(printed)["rows"]
+    assert "force-diffusion[plots]" in err
+    names = sorted(path.name for path in out.iterdir())
+    assert names == ["cost.csv", "cost.json", "manifest.json"]
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        (SCENE.replace("1e-4", "0"), "exactly zero"),
+        (SCENE.replace("height = 3", "height = 0"), "packing.height"),
+        (SCENE.replace("width = 5", ""), "width"),
+        (SCENE.replace("1e-4", "0.4"), ""),
+    ],
+)
+def test_wrong_scenes(
+    text: str, says: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    status, printed, err = call(capsys, "cost", written(tmp_path, text), "--out", out, "--json")
+    assert (status, printed) == (2, "")
+    assert "scene.toml" in err
+    assert says in err
+    assert "Traceback" not in err
+    assert not out.exists()
+
+
+def test_a_missing_scene_and_a_foreign_folder(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    status, _, err = call(capsys, "cost", tmp_path / "none.toml")
+    assert status == 2
+    assert "none.toml" in err
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "notes").write_text("mine")
+    status, _, err = call(capsys, "cost", written(tmp_path), "--out", tmp_path / "mine")
+    assert status == 2
+    assert "other files" in err
+
+
+@pytest.mark.parametrize(
+    ("failure", "status", "says"),
+    [(KeyboardInterrupt(), 130, "interrupted"), (ToleranceError("no luck"), 3, "no luck")],
+)
+def test_what_ends_it_early(
+    failure: BaseException, status: int, says: str, tmp_path: Path,
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    def fail(*_: Any) -> None:
+        raise failure
+
+    monkeypatch.setattr(cost, "study", fail)
+    out = tmp_path / "out"
+    assert call(capsys, "cost", written(tmp_path), "--out", out)[0] == status
+    assert not out.exists()
+    status, _, err = call(capsys, "cost", written(tmp_path))
+    assert says in err
+    assert "Traceback" not in err

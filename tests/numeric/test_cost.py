@@ -1,0 +1,241 @@
+"""Studies of cost: what the rows say; nothing here depends on how long anything takes."""
+
+from dataclasses import fields
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+import flint
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from numeric import cost
+from numeric.cost import Row, Study, marked, pareto, study, systems
+from numeric.cost_data import csv_rows, lines, study_data
+from numeric.cost_truth import BEYOND, decimal
+from numeric.cost_ways import answer, solve_plainly, why_not_plain
+from numeric.planner import plan
+from numeric.scene import SceneError
+from numeric.systems import FLOAT64, Balls
+from tests.numeric.scenes import basic, scene
+
+
+@pytest.fixture(autouse=True)
+def _one_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cost, "LEAST_RUNS", 1)
+    monkeypatch.setattr(cost, "ENOUGH_SECONDS", 0.0)
+
+
+def profile(geometry: str = "exact", **ask: Any) -> dict[str, dict[str, Any]]:
+    sections = basic(5, 12, quantity="profile", **{"realisations": 8, **ask})
+    sections["effects"] = {"geometry": geometry}
+    return sections
+
+
+def one(found: Study, way: str, arithmetic: str = "float64") -> Row:
+    (row,) = [r for r in found.rows if (r.way, r.arithmetic) == (way, arithmetic)]
+    return row
+
+
+def reasons(found: Study) -> dict[str, str]:
+    return {s.effect: s.reason for s in found.skipped}
+
+
+def check_certified(found: Study) -> None:
+    reference = found.reference
+    assert reference.kind == "certified"
+    assert reference.radius < Decimal(10) ** -310
+    for row in found.rows:
+        assert reference.radius * 1000 < row.error
+        assert row.sampling_error is None
+        assert row.model_error is not None
+        assert row.rounding_error is not None
+        assert row.error <= row.model_error + row.rounding_error + 2 * reference.radius
+        if row.arithmetic.startswith("arb"):
+            assert row.certified_bound is not None
+            assert row.error <= row.certified_bound + 2 * reference.radius
+        else:
+            assert row.certified_bound is None
+        assert row.seconds_min <= row.seconds <= row.seconds_max
+        assert row.runs >= 1
+        assert row.peak_bytes > 0
+    assert found.rows == marked(found.rows)
+    assert any(row.pareto for row in found.rows)
+
+
+def test_one_periodic_packing() -> None:
+    found = study(scene(basic(4, 6)))
+    check_certified(found)
+    arithmetics = {system.name for system in systems()}
+    assert len(arithmetics) >= 11
+    for way in ("exact, deviation form", "exact, plain form"):
+        assert {r.arithmetic for r in found.rows if r.way == way} == arithmetics
+    deviation, plain = (one(found, f"exact, {way} form") for way in ("deviation", "plain"))
+    assert deviation.error <= Decimal("1e-12")
+    assert deviation.error < plain.error
+    assert deviation.model_error == 0
+    linear = one(found, "first-order line sums")
+    assert linear.rounding_error is not None
+    assert linear.rounding_error <= Decimal("1e-12") < Decimal("1e-8") < linear.error
+    assert set(reasons(found)) >= {
+        "printed asymptotic formula", "exact finite-M formula", "Monte Carlo"
+    }  # fmt: skip
+    assert found.sampling_floor is None
+
+
+@pytest.mark.parametrize(
+    ("sections", "way", "why"),
+    [
+        (basic(4, None, quantity="contact", at=[0, 2, "+"]), "exact, plain form", "slab"),
+        (basic(4, 6, quantity="base_reactions"), "exact, plain form", "base_reactions"),
+        (basic(4, 6) | {"effects": {"geometry": "first-order"}}, "exact, deviation form", "asks"),
+        (basic(4, 6) | {"effects": {"stop_at_tension": True}}, "first-order line sums", "stop"),
+        (
+            profile() | {"load": {"kind": "point", "at": [1, 5]}},
+            "exact finite-M formula",
+            "one packing is studied",
+        ),
+    ],
+)
+def test_what_does_not_apply_is_listed_with_the_reason(
+    sections: dict[str, dict[str, Any]], way: str, why: str
+) -> None:
+    found = study(scene(sections))
+    check_certified(found)
+    assert why in reasons(found)[way]
+    assert way not in {row.way for row in found.rows}
+    own = "first-order line sums"
+    if sections.get("effects", {}).get("geometry") != "first-order":
+        own = "exact, deviation form"
+    assert one(found, own).error <= Decimal("1e-12")
+
+
+LOADS: tuple[dict[str, Any], ...] = (
+    {"kind": "surface"},
+    {"kind": "surface", "angle_deg": 7},
+    {"kind": "bulk", "angle_deg": -3},
+    {"kind": "point", "at": [2, 4]},
+)
+
+
+@pytest.mark.parametrize("load", LOADS)
+@pytest.mark.parametrize(
+    "ask",
+    [
+        {"quantity": "contact_forces"},
+        {"quantity": "contact", "at": [1, 1, "-"]},
+        {"quantity": "positions"},
+        {"quantity": "positions", "at": [2, 4]},
+    ],
+)
+def test_both_forms_enclose_the_same(load: dict[str, Any], ask: dict[str, Any]) -> None:
+    planned = plan(scene(basic(5, 9, **ask) | {"load": load}))
+    system = Balls(400)
+    assert why_not_plain(planned) is None
+    with system.active():
+        deviation = answer(planned, system, [0])
+        plainly = answer(planned, system, [0], solve_plainly)
+        assert deviation.index == plainly.index
+        for name in deviation.numbers:
+            pairs = list(zip(deviation.numbers[name], plainly.numbers[name], strict=True))
+            assert pairs
+            for a, b in pairs:
+                assert a.overlaps(b)
+                assert (a - b).abs_upper() < flint.arb(10) ** -90
+
+
+def test_an_ensemble_has_an_estimated_reference_and_a_floor() -> None:
+    found = study(scene(profile()))
+    assert found.reference.kind == "estimated"
+    assert found.reference.radius > 0
+    assert found.sampling_floor is not None
+    exact, printed = one(found, "exact finite-M formula"), one(found, "printed asymptotic formula")
+    assert exact.error < printed.error
+    assert exact.sampling_error is None
+    for way in ("Monte Carlo, exact", "Monte Carlo, first-order"):
+        rows = [row for row in found.rows if row.way == way]
+        assert sorted(row.realisations or 0 for row in rows) == [2, 8]
+        for row in rows:
+            assert row.certified_bound is None
+            assert row.sampling_error is not None
+            assert row.model_error is not None
+            assert row.rounding_error is not None
+            assert row.rounding_error <= Decimal("1e-12") < row.sampling_error
+            # the floor belongs to the largest ensemble; smaller ones scatter √4 times as much
+            assert row.sampling_error < 12 * found.sampling_floor
+            assert row.error <= (row.model_error + row.sampling_error) * Decimal("1.001")
+        exactly = way == "Monte Carlo, exact"
+        assert all((row.model_error == 0) is exactly for row in rows)
+
+
+def test_a_first_order_ensemble_is_known_exactly() -> None:
+    found = study(scene(profile("first-order")))
+    assert found.reference.radius == 0
+    formula = one(found, "exact finite-M formula")
+    assert formula.model_error == 0
+    assert formula.error <= Decimal("1e-12")
+    assert "Monte Carlo, exact" in reasons(found)
+
+
+@pytest.mark.parametrize("change", [{"disorder": {}}, {"effects": {"geometry": "ordered"}}])
+def test_without_any_change_there_is_nothing_to_measure(change: dict[str, Any]) -> None:
+    sections = {k: v for k, v in (basic() | change).items() if v}
+    with pytest.raises(SceneError, match="exactly zero"):
+        study(scene(sections))
+
+
+def test_a_contact_that_no_load_reaches() -> None:
+    sections = basic(5, 20, quantity="contact", at=[21, 1, "+"])
+    with pytest.raises(SceneError, match="exactly zero"):
+        study(scene(sections | {"load": {"kind": "point", "at": [1, 3]}}))
+
+
+points = st.tuples(
+    st.sampled_from([0.5, 1.0, 2.0, 3.0]) | st.floats(1e-6, 1e3),
+    st.sampled_from([Decimal(1), Decimal("1e-400")]) | st.decimals("1e-350", 1, places=360),
+)
+
+
+@given(st.lists(points, min_size=1, max_size=12))
+def test_the_pareto_front(found: list[tuple[float, Decimal]]) -> None:
+    front = pareto(found)
+    best = [point for point, on in zip(found, front, strict=True) if on]
+    assert best
+    for (s, e), on in zip(found, front, strict=True):
+        beaten = [(t, d) for t, d in best if t <= s and d <= e and (t, d) != (s, e)]
+        assert bool(beaten) is not on  # each point is on the front or beaten by one that is
+    ordered = sorted(set(best))
+    assert [e for _, e in ordered] == sorted((e for _, e in ordered), reverse=True)
+
+
+def test_errors_are_rounded_up_and_may_be_smaller_than_floats() -> None:
+    with Balls(2000).active():
+        third = flint.arb(flint.fmpq(1, 3)) * flint.arb(10) ** -400
+        assert decimal(third) == Decimal("3.3334e-401")
+        assert decimal(flint.arb(0)) == 0
+    assert Fraction(1, 10**310) > BEYOND
+
+
+def test_the_data_say_how_they_came_about() -> None:
+    found = study(scene(basic(2, 4)))
+    data = study_data(found, "force-diffusion cost x.toml")
+    assert [row["error"] for row in data["rows"]] == sorted(
+        (row["error"] for row in data["rows"]), key=Decimal, reverse=True
+    )
+    assert set(data["rows"][0]) == {field.name for field in fields(Row)}
+    assert data["reference"]["kind"] == "certified"
+    assert "tracemalloc" in data["peak_memory"]
+    for row in csv_rows(data):
+        assert row["command"] == data["command"] == "force-diffusion cost x.toml"
+        assert row["reference_radius"] == data["reference"]["radius"]
+    text = "\n".join(lines(data))
+    for skip in data["skipped"]:
+        assert skip["reason"] in text
+    assert text.count("\n* ") == sum(row["pareto"] for row in data["rows"])
+
+
+def test_the_float64_row_is_the_answer_of_a_run() -> None:
+    planned = plan(scene(basic(3, 5)))
+    table = answer(planned, FLOAT64, [0])
+    assert len(table.numbers["change"]) == 2 * 3 * 5
