@@ -28,6 +28,13 @@ def compare_leading_order(exact: RationalFunction, candidate: sympy.Expr) -> Rul
     return refuted(f"exact − candidate is of the leading order M^{power} itself: {shown}")
 
 
+def weights_follow(sum_of_squares: sympy.Expr, printed: sympy.Expr, note: str) -> Ruling:
+    """A sum of squared weights in M and j has the leading order that is printed in M and z."""
+    total = FIELD.from_sympy(sum_of_squares)
+    in_layers = FIELD.from_sympy(printed.xreplace({z: j / M}))
+    return from_test((leading(total) - leading(in_layers)).is_zero(), note)
+
+
 def edges_follow(forms: dict[str, ExactForm], printed: sympy.Expr) -> Ruling:
     """The exact forms of the base and of the layer below the surface, at leading order in M."""
     at_zero = FIELD.from_sympy(printed.xreplace({z: sympy.Integer(0)}))

@@ -12,14 +12,19 @@ from derivations import eq11_total_force as eq11
 from derivations import eq12_delta_weights as eq12
 from derivations import eq13_surface_diffusion as eq13
 from derivations import witnesses
-from derivations.asymptotics import compare_leading_order, edges_follow, exact_steps, next_order_is
+from derivations.asymptotics import (
+    compare_leading_order,
+    edges_follow,
+    exact_steps,
+    next_order_is,
+    weights_follow,
+)
 from derivations.record import Claim, Derivation, Step, Witness
 from derivations.runner import run_alone
 from symbolic import affine
 from symbolic.affine import Region
 from symbolic.as_printed import equation, power, terms, times
 from symbolic.certified_sums import certified_sum
-from symbolic.exact import FIELD
 from symbolic.kernel import (
     Ruling,
     all_of,
@@ -47,7 +52,7 @@ from symbolic.symbols import (
     sigma,
     z,
 )
-from symbolic.variance import ExactForm, exact_variances, leading
+from symbolic.variance import ExactForm, exact_variances
 from symbolic.weights import take_apart
 
 RELATIVE_VARIANCE = sympy.Symbol(r"\sigma_f^2(z)/\langle f\rangle_z^2")
@@ -141,10 +146,9 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
 
 
 def _weights() -> Ruling:
-    total = FIELD.from_sympy(sum_of_weights() * eq12.PREFACTOR**2 * sigma**2)
-    printed = FIELD.from_sympy(PRINTED.rhs.xreplace({z: j / M}))
-    ordered = from_test(
-        (leading(total) - leading(printed)).is_zero(),
+    ordered = weights_follow(
+        sum_of_weights() * eq12.PREFACTOR**2 * sigma**2,
+        PRINTED.rhs,
         "6σ² Σ w² of the averaged weights has the printed leading order",
     )
     return all_of(ordered, decide_identity(bulk_weights()[1], AVERAGED))

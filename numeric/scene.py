@@ -19,7 +19,6 @@ LARGEST_FILE = 64_000  # bytes of a scene file; far more than any scene needs
 # Dots outside of whole-line comments: a dotted key makes a table a dot, in quadratic time.
 MOST_DOTS = 200
 Number = Annotated[Fraction, BeforeValidator(exact)]
-Count = Annotated[int, Field(ge=1)]
 
 
 class SceneError(ValueError):

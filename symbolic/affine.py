@@ -52,11 +52,6 @@ def without(value: Affine, symbol: sympy.Symbol) -> Affine:
     return (*value[:place], 0, *value[place + 1 :])
 
 
-def replaced(value: Affine, symbol: sympy.Symbol, image: Affine) -> Affine:
-    """Put an affine expression in place of a symbol."""
-    return add(without(value, symbol), image, coefficient(value, symbol))
-
-
 def from_sympy(expression: sympy.Expr) -> Affine:
     """Read a whole-number affine SymPy expression.
 

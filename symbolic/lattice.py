@@ -8,13 +8,13 @@ from symbolic.symbols import n_x, n_y
 N_PLUS = sympy.ImmutableMatrix([n_x, n_y])
 N_MINUS = sympy.ImmutableMatrix([-n_x, n_y])
 
-_MIRRORED_SYMBOLS = {
+MIRRORED_SYMBOLS = {
     sy.n_plus: sy.n_minus,
     sy.n_minus: sy.n_plus,
     sy.b_plus: sy.b_minus,
     sy.b_minus: sy.b_plus,
 }
-_MIRRORED_FUNCTIONS = {
+MIRRORED_FUNCTIONS = {
     sy.DeltaNPlus: sy.DeltaNMinus,
     sy.DeltaNMinus: sy.DeltaNPlus,
     sy.ForcePlus: sy.ForceMinus,
@@ -29,12 +29,12 @@ def mirror(expression: sympy.Basic) -> sympy.Basic:
 
     Applied to an equation at (i, j), it gives the equation at (i, j) for the other branch.
     """
-    if expression in _MIRRORED_SYMBOLS:
-        return _MIRRORED_SYMBOLS[expression]
+    if expression in MIRRORED_SYMBOLS:
+        return MIRRORED_SYMBOLS[expression]
     if isinstance(expression, sy.SiteFunction):
         across, layer = expression.args
         reflected = -across.xreplace({symbol: -symbol for symbol in _HORIZONTAL})
-        kind = _MIRRORED_FUNCTIONS.get(type(expression), type(expression))
+        kind = MIRRORED_FUNCTIONS.get(type(expression), type(expression))
         return kind(reflected, layer)
     if expression.is_Atom:
         return expression

@@ -5,27 +5,14 @@ an exponent, shift an index or a sum's bound (or the bound between two cases) by
 n⁺ with n⁻, b⁺ with b⁻, δn⁺ with δn⁻, f⁺ with f⁻. Both sides are changed.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import sympy
 
 from symbolic import symbols as sy
+from symbolic.lattice import MIRRORED_FUNCTIONS, MIRRORED_SYMBOLS
 from symbolic.printing.text import text
 
-_SWAPPED_SYMBOLS = {
-    sy.n_plus: sy.n_minus,
-    sy.n_minus: sy.n_plus,
-    sy.b_plus: sy.b_minus,
-    sy.b_minus: sy.b_plus,
-}
-_SWAPPED_FUNCTIONS = {
-    sy.DeltaNPlus: sy.DeltaNMinus,
-    sy.DeltaNMinus: sy.DeltaNPlus,
-    sy.ForcePlus: sy.ForceMinus,
-    sy.ForceMinus: sy.ForcePlus,
-}
-
-Rebuild = Callable[[sympy.Basic], sympy.Basic]
 Change = tuple[str, sympy.Basic]
 
 
@@ -76,11 +63,11 @@ def _here(node: sympy.Basic) -> Iterator[Change]:
         yield f"{node} changed to {node + 1}", node + 1
     elif isinstance(node, sympy.Rational) and not isinstance(node, sympy.Integer):
         yield f"{node} changed to {2 * node}", 2 * node
-    elif node in _SWAPPED_SYMBOLS:
-        other = _SWAPPED_SYMBOLS[node]
+    elif node in MIRRORED_SYMBOLS:
+        other = MIRRORED_SYMBOLS[node]
         yield f"{_brief(node)} replaced by {_brief(other)}", other
-    elif type(node) in _SWAPPED_FUNCTIONS:
-        changed = _SWAPPED_FUNCTIONS[type(node)](*node.args)
+    elif type(node) in MIRRORED_FUNCTIONS:
+        changed = MIRRORED_FUNCTIONS[type(node)](*node.args)
         yield f"{_brief(node)} replaced by {_brief(changed)}", changed
     elif isinstance(node, sy.Braces):
         first, second, index, last = node.args
