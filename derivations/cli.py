@@ -9,6 +9,7 @@ from typer.core import TyperGroup
 
 from derivations import scene_commands
 from derivations.catalogue import modules
+from derivations.publishing import out_option
 
 STATUSES = (
     "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
@@ -81,7 +82,7 @@ def derive(
         list[str] | None,
         typer.Argument(metavar="[N...]", help="Equations to derive; all of them by default."),
     ] = None,
-    out: Annotated[Path | None, scene_commands.out_option("LaTeX and a manifest")] = None,
+    out: Annotated[Path | None, out_option("LaTeX and a manifest")] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the results as JSON and nothing else.")
     ] = False,

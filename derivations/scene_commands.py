@@ -1,17 +1,17 @@
 """The commands for scenes: a thin layer over ``numeric``."""
 
-import csv
-import io
 import json
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import AbstractContextManager, ExitStack, nullcontext
 from dataclasses import asdict
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+from derivations.publishing import NOT_REACHED, WRONG_INPUT, csv_text, fail, out_option, published
 
 if TYPE_CHECKING:
     from numeric.cost import Study
@@ -19,23 +19,10 @@ if TYPE_CHECKING:
 
 # Seconds from which on progress is shown.
 MOMENT = 1.0
-WRONG_INPUT = 2
-NOT_REACHED = 3
 STATUSES = (
     "Exit status: 0 answered, 2 something wrong in the scene or its files, 3 the asked tolerance "
     "can't be reached or the disk failed, 130 interrupted."
 )
-
-
-def _folder(word: str) -> Path:
-    if not word:  # a path would take it for the current folder
-        raise typer.BadParameter("'' names no folder. Give one; '.' is the current folder.")
-    return Path(word)
-
-
-def out_option(what: str) -> Any:
-    """The option ``--out DIR``, which says what is written there."""
-    return typer.Option(metavar="DIR", help=f"Write {what} into this folder.", parser=_folder)
 
 
 _Scene = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene file, in TOML.")]
@@ -44,11 +31,6 @@ _Tolerance = Annotated[
     str | None,
     typer.Option(metavar="T", help="Relative error allowed, such as 1e-30; certified if given."),
 ]
-
-
-def _fail(message: str, status: int) -> NoReturn:
-    print(f"force-diffusion: {message}", file=sys.stderr)
-    raise typer.Exit(status)
 
 
 def _planned(scene: Path, tolerance: str | None) -> "Plan":
@@ -64,16 +46,16 @@ def _planned(scene: Path, tolerance: str | None) -> "Plan":
         try:
             asked = parse(tolerance)
         except ValueError as error:
-            _fail(f"--tolerance: {error}", WRONG_INPUT)
+            fail(f"--tolerance: {error}", WRONG_INPUT)
         if not 0 < asked < 1:
-            _fail(f"--tolerance = {tolerance}: must lie between 0 and 1", WRONG_INPUT)
+            fail(f"--tolerance = {tolerance}: must lie between 0 and 1", WRONG_INPUT)
     try:
         return plan(read_scene(scene), asked)
     except (SceneError, TableError) as error:
-        _fail(f"{scene.name}: {error}", WRONG_INPUT)
+        fail(f"{scene.name}: {error}", WRONG_INPUT)
     except MemoryError:
         free = memory_limit() / 1e6
-        _fail(
+        fail(
             f"{scene.name}: reading and planning it takes more than the free memory, "
             f"{free:.3g} MB: ask for a smaller packing or give smaller files",
             WRONG_INPUT,
@@ -103,38 +85,10 @@ def run(
         data = _solved(planned, scene)
         return data, {
             "result.json": json.dumps(data, indent=2) + "\n",
-            f"{quantity}.csv": _csv(data["results"][quantity]),
+            f"{quantity}.csv": csv_text(data["results"][quantity]),
         }
 
-    _show(_published(out, answer), as_json)
-
-
-T = TypeVar("T")
-
-
-def _published(
-    out: Path | None,
-    answer: Callable[[], tuple[T, Mapping[str, str | bytes]]],
-) -> T:
-    """Answer, and write the files into the folder, which is looked at before anything is solved."""
-    if out is None:
-        return answer()[0]
-    from derivations.folder import NotOurFolderError, foreign_files, output_folder, owned_files
-
-    refusal = f"--out {out}: give a new folder, an empty one, or one that an earlier run wrote"
-    if out.exists() and not out.is_dir():
-        _fail(f"{refusal}; this is a file", WRONG_INPUT)
-    if out.exists() and (foreign_files(out) or "equations.tex" in owned_files(out)):
-        _fail(f"{refusal}; this one holds other files", WRONG_INPUT)
-    try:
-        with output_folder(out) as folder:
-            data, files = answer()
-            names = sorted([*files, "manifest.json"])
-            manifest = {"program": "force-diffusion", "files": names}
-            folder.publish({**files, "manifest.json": json.dumps(manifest, indent=2) + "\n"})
-    except NotOurFolderError as foreign:
-        _fail(f"{refusal}; this one holds {foreign}", WRONG_INPUT)
-    return data
+    _show(published(out, answer), as_json)
 
 
 def cost(
@@ -154,7 +108,7 @@ def cost(
         data = study_data(found, command)
         files: dict[str, str | bytes] = {
             "cost.json": json.dumps(data, indent=2) + "\n",
-            "cost.csv": _csv(csv_rows(data)),
+            "cost.csv": csv_text(csv_rows(data)),
         }
         if out is not None:
             try:
@@ -166,7 +120,7 @@ def cost(
                 files |= plots(found, command, scene.stem)
         return data, files
 
-    data = _published(out, answer)
+    data = published(out, answer)
     print(json.dumps(data, indent=2) if as_json else "\n".join(lines(data)))
 
 
@@ -189,11 +143,11 @@ def _studied(scene: Path) -> "Study":
     try:
         return study(read_scene(scene), notice)
     except (SceneError, TableError, UnbuildableError, NotStandingError, RadiusError) as error:
-        _fail(f"{scene.name}: {error}", WRONG_INPUT)
+        fail(f"{scene.name}: {error}", WRONG_INPUT)
     except (ToleranceError, UndecidedError) as error:
-        _fail(f"{scene.name}: {error}", NOT_REACHED)
+        fail(f"{scene.name}: {error}", NOT_REACHED)
     except MemoryError:
-        _fail(f"{scene.name}: the memory is full; ask for less", NOT_REACHED)
+        fail(f"{scene.name}: the memory is full; ask for less", NOT_REACHED)
     finally:
         if terminal:
             print("\r\x1b[K", end="", file=sys.stderr, flush=True)
@@ -213,13 +167,13 @@ def _solved(planned: "Plan", scene: Path) -> dict[str, Any]:
         with bar:
             outcome = solve(planned, progress=progress)
     except (UnbuildableError, NotStandingError, RadiusError) as error:
-        _fail(f"{scene.name}: {error}", WRONG_INPUT)
+        fail(f"{scene.name}: {error}", WRONG_INPUT)
     except ToleranceError as error:
-        _fail(f"{scene.name}: {error}", NOT_REACHED)
+        fail(f"{scene.name}: {error}", NOT_REACHED)
     except ArithmeticError as error:
-        _fail(f"{scene.name}: a number left the range of the arithmetic ({error})", NOT_REACHED)
+        fail(f"{scene.name}: a number left the range of the arithmetic ({error})", NOT_REACHED)
     except MemoryError:
-        _fail(f"{scene.name}: the memory is full; ask for less", NOT_REACHED)
+        fail(f"{scene.name}: the memory is full; ask for less", NOT_REACHED)
     return outcome_data(outcome)
 
 
@@ -270,7 +224,7 @@ def _show(data: dict[str, Any], as_json: bool) -> None:
         print(json.dumps(data, indent=2))
         return
     quantity, rows = next(iter(data["results"].items()))
-    print(_csv(rows), end="")
+    print(csv_text(rows), end="")
     print(f"# {quantity}: {len(rows)} rows")
     accuracy = data["accuracy"]
     bound = accuracy["error_bound"]
@@ -291,15 +245,6 @@ def _show(data: dict[str, Any], as_json: bool) -> None:
     if "stopped_at_tension" in data:
         print(f"# stopped at the tensile contact {data['stopped_at_tension']}")
     print("\n".join(f"# {line}" for line in _plan_lines(data)))
-
-
-def _csv(rows: list[dict[str, Any]]) -> str:
-    text = io.StringIO()
-    if rows:
-        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    return text.getvalue()
 
 
 def stability(as_json: _Json = False) -> None:
