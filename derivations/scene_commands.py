@@ -14,7 +14,7 @@ import typer
 from derivations.publishing import NOT_REACHED, WRONG_INPUT, csv_text, fail, out_option, published
 
 if TYPE_CHECKING:
-    from numeric.cost import Study
+    from numeric.cost.study import Study
     from numeric.planner import Plan
 
 # Seconds from which on progress is shown.
@@ -99,7 +99,7 @@ def cost(
     """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
     import shlex
 
-    from numeric.cost_data import csv_rows, lines, study_data
+    from numeric.cost.data import csv_rows, lines, study_data
 
     command = shlex.join(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
 
@@ -112,7 +112,7 @@ def cost(
         }
         if out is not None:
             try:
-                from numeric.cost_plot import plots
+                from numeric.cost.plot import plots
             except ImportError:
                 missing = "no plot: matplotlib is missing; pip install 'force-diffusion[plots]'"
                 print(f"force-diffusion: {missing}", file=sys.stderr)
@@ -126,7 +126,7 @@ def cost(
 
 def _studied(scene: Path) -> "Study":
     """Study a scene, telling a terminal what is measured, or leave with a message."""
-    from numeric.cost import study
+    from numeric.cost.study import study
     from numeric.forces import NotStandingError
     from numeric.packing import UnbuildableError, UndecidedError
     from numeric.radii import RadiusError

@@ -11,10 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from numeric import cost
-from numeric.cost import Row, Study, marked, pareto, study, systems
-from numeric.cost_data import csv_rows, lines, study_data
-from numeric.cost_truth import BEYOND, decimal
-from numeric.cost_ways import answer, solve_plainly, why_not_plain
+from numeric.cost.data import csv_rows, lines, study_data
+from numeric.cost.study import Row, Study, marked, pareto, study, systems
+from numeric.cost.truth import BEYOND, decimal
+from numeric.cost.ways import answer, solve_plainly, why_not_plain
 from numeric.planner import plan
 from numeric.scene import SceneError
 from numeric.systems import FLOAT64, Balls

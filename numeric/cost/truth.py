@@ -10,7 +10,7 @@ import mpmath
 
 from numeric.answers import Table
 from numeric.budget import initial_bits
-from numeric.cost_ways import answer
+from numeric.cost.ways import answer
 from numeric.forces import NotStandingError
 from numeric.packing import UndecidedError
 from numeric.planner import Plan

@@ -14,7 +14,7 @@ from matplotlib.text import Text
 from matplotlib.ticker import FixedLocator, FuncFormatter
 from matplotlib.transforms import Bbox
 
-from numeric.cost import Row, Study
+from numeric.cost.study import Row, Study
 
 STYLES = {
     "exact, deviation form": ("o", "0.0"),

@@ -4,7 +4,7 @@ from dataclasses import asdict
 from decimal import ROUND_CEILING, Context, Decimal
 from typing import Any
 
-from numeric.cost import Row, Study
+from numeric.cost.study import Row, Study
 
 MEMORY = "tracemalloc: what Python and NumPy allocate, without the limbs of big numbers"
 ERRORS = "model_error", "rounding_error", "sampling_error"

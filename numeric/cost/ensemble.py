@@ -17,7 +17,7 @@ import numpy as np
 
 from numeric import closed_forms, planner
 from numeric.answers import Table
-from numeric.cost import (
+from numeric.cost.study import (
     Notice,
     Reference,
     Row,
@@ -27,8 +27,8 @@ from numeric.cost import (
     row,
     with_geometry,
 )
-from numeric.cost_truth import decimal, exactly
-from numeric.cost_ways import answer
+from numeric.cost.truth import decimal, exactly
+from numeric.cost.ways import answer
 from numeric.lattice import Array
 from numeric.planner import Plan, Skipped
 from numeric.scene import Scene

@@ -18,8 +18,8 @@ from typing import TypeVar
 
 from numeric import planner
 from numeric.answers import Profile, Table
-from numeric.cost_truth import BEYOND, DIGITS, IncomparableError, Truth
-from numeric.cost_ways import answer, solve_plainly, why_not_plain
+from numeric.cost.truth import BEYOND, DIGITS, IncomparableError, Truth
+from numeric.cost.ways import answer, solve_plainly, why_not_plain
 from numeric.forces import NotStandingError
 from numeric.packing import UnbuildableError, UndecidedError
 from numeric.planner import Skipped
@@ -97,7 +97,7 @@ def study(scene: Scene, notice: Notice = lambda _: None) -> Study:
         why = "every change is exactly zero here: there is nothing that errors could be relative to"
         raise SceneError("ask.quantity", scene.ask.quantity, why)
     if scene.ask.quantity == "profile" and Profile(plan, FLOAT64).theory_applies():
-        from numeric.cost_ensemble import study_ensemble
+        from numeric.cost.ensemble import study_ensemble
 
         return study_ensemble(scene, notice)
     return _study_one(scene, notice)

@@ -1,0 +1,1 @@
+"""What accuracy costs: every way to answer a scene, its error beside its time."""
