@@ -2,7 +2,7 @@
 
 Errors are relative to the largest |change| of the answer, and are distances from a reference. For
 one packing the reference is certified: balls enclose it, and their radius is added to every error.
-For an ensemble (``cost_ensemble``) it is estimated. Times and memory are measurements.
+For an ensemble (``numeric.cost.ensemble``) it is estimated. Times and memory are measurements.
 """
 
 import math

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from derivations.__main__ import main
-from numeric import cost
+from numeric.cost import study as cost
 from numeric.runner import ToleranceError
 
 SCENE = """

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from numeric import cost
+from numeric.cost import study as cost
 from numeric.cost.data import csv_rows, lines, study_data
 from numeric.cost.study import Row, Study, marked, pareto, study, systems
 from numeric.cost.truth import BEYOND, decimal
