@@ -1,0 +1,120 @@
+"""Exact sums against fractions, in any order, any chunking and any tree of merges."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from numeric.ensemble.exact_sum import (
+    ExactSum,
+    digits,
+    total,
+    total_matrix,
+    total_products,
+)
+from numeric.lattice import Array
+
+# Every double there is, with the exponents that cutting treats on their own made likely.
+NUMBERS = st.one_of(
+    st.floats(allow_nan=False, allow_infinity=False),
+    st.floats(-1, 1),
+    st.builds(
+        math.ldexp,
+        st.floats(-1, 1),
+        st.sampled_from([-1074, -1000, -997, -401, -400, -399, -1, 0, 399, 400, 401, 997, 1023]),
+    ),
+    st.sampled_from([1e-300, -1e300, 5e-324, 0.0, -0.0, 1.0]),
+)
+SAMPLES = st.lists(NUMBERS, min_size=1, max_size=40)
+
+
+def sums(values: Array) -> tuple[ExactSum, ExactSum]:
+    cut = digits(values)
+    return total(cut, values.shape[:-1]), total_products(cut, cut, values.shape[:-1])
+
+
+def exactly(values: Array) -> list[Fraction]:
+    return [Fraction(float(v)) for v in values]
+
+
+@given(SAMPLES)
+def test_sums_are_those_of_fractions(samples: list[float]) -> None:
+    values = np.array(samples)
+    first, second = sums(values)
+    assert first.fractions() == [sum(exactly(values))]
+    assert second.fractions() == [sum(v * v for v in exactly(values))]
+
+
+@given(st.data(), SAMPLES)
+def test_any_order_chunking_and_tree_gives_the_same_bytes(
+    data: st.DataObject, samples: list[float]
+) -> None:
+    whole = sums(np.array(samples))
+    shuffled = data.draw(st.permutations(samples))
+    cuts = sorted(data.draw(st.sets(st.integers(1, len(samples)), max_size=6)) | {len(samples)})
+    parts = [sums(np.array(shuffled[a:b])) for a, b in zip([0, *cuts], cuts, strict=False)]
+    while len(parts) > 1:  # merge any two, until one is left
+        a = parts.pop(data.draw(st.integers(0, len(parts) - 1)))
+        b = parts.pop(data.draw(st.integers(0, len(parts) - 1)))
+        parts.append((a[0] + b[0], a[1] + b[1]))
+    assert [s.to_bytes() for s in parts[0]] == [s.to_bytes() for s in whole]
+    assert parts[0] == whole
+
+
+@given(st.lists(st.lists(NUMBERS, min_size=3, max_size=3), min_size=1, max_size=8))
+def test_products_of_all_pairs(rows: list[list[float]]) -> None:
+    values = np.array(rows)  # realisations, variables
+    found = total_matrix(digits(values.T), 3).fractions()
+    columns = [exactly(column) for column in values.T]
+    pairs = [(a, b) for a in range(3) for b in range(a, 3)]
+    meant = [sum(x * y for x, y in zip(columns[a], columns[b], strict=True)) for a, b in pairs]
+    assert found == meant
+    a, b = digits(values.T[:2]), digits(values.T[1:])
+    assert total_products(a, b, (2,)).fractions() == [meant[1], meant[4]]
+
+
+@given(SAMPLES)
+def test_bytes_can_be_read_back(samples: list[float]) -> None:
+    for one in sums(np.array([samples, samples])):
+        written = one.to_bytes()
+        read, end = ExactSum.from_bytes(memoryview(written + b"rest"), (2,))
+        assert (read, end) == (one, len(written))
+        with pytest.raises(ValueError, match="ends early"):
+            ExactSum.from_bytes(memoryview(written[:-1]), (2,))
+
+
+@given(SAMPLES)
+def test_rounding_is_close_and_knows_only_the_number(samples: list[float]) -> None:
+    first, _ = sums(np.array(samples))
+    (meant,) = first.fractions()
+    if abs(meant) >= 2**1023 or 0 < abs(meant) < Fraction(2) ** -1022:
+        return  # out of the range of normal doubles, which a shift avoids
+    found = float(first.rounded())
+    assert abs(Fraction(found) - meant) <= Fraction(math.ulp(found))
+    more = first + ExactSum.of([(-70, np.array(0)), (60, np.array(0))], ())
+    assert more.rounded().tobytes() == first.rounded().tobytes()
+
+
+def test_many_of_the_largest_digits_do_not_overflow() -> None:
+    values = np.full((1, 100_000), 2.0**53 - 1)
+    first, second = sums(values)
+    assert first.fractions() == [100_000 * (2**53 - 1)]
+    assert second.fractions() == [100_000 * (2**53 - 1) ** 2]
+    assert total_matrix(digits(values), 1) == second
+    assert (second + second).over(0).fractions() == [200_000 * (2**53 - 1) ** 2]
+
+
+@pytest.mark.parametrize("odd", [math.nan, math.inf, -math.inf])
+def test_what_is_not_finite_is_refused(odd: float) -> None:
+    with pytest.raises(ArithmeticError, match="not finite"):
+        digits(np.array([1.0, odd]))
+
+
+def test_damaged_digits_are_refused() -> None:
+    written = bytearray(sums(np.array([1.0, 2.0]))[0].to_bytes())
+    written[-1] = 0x7F
+    with pytest.raises(ValueError, match="digits"):
+        ExactSum.from_bytes(memoryview(bytes(written)), ())
