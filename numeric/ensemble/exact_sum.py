@@ -8,7 +8,7 @@ digits as arrays; a digit is small enough for float64 to add thousands of produc
 
 import math
 import struct
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -20,6 +20,8 @@ BITS = 22
 _HALF = 1 << (BITS - 1)
 # 2^11 products of digits (at most 2^21 each) stay within the 2^53 that float64 holds exactly.
 _TOGETHER = 1 << (53 - 2 * (BITS - 1))
+# Numbers cut at once: few enough for a cache, and for memory that stays at hand.
+PIECE = 15_000
 # Numbers beyond 2^±400 are cut after a shift by so many digits: nothing then under- or overflows.
 _EXTREME, _SHIFT = 400, 34
 _HEADER = struct.Struct("<iI")
@@ -36,7 +38,9 @@ def digits(values: Array) -> Digits:
     largest = float(size.max(initial=0.0))
     if not largest < math.inf:  # a nan is not, either
         raise ArithmeticError("a change is not finite")
-    smallest = float(size.min(where=size > 0, initial=math.inf))
+    smallest = float(size.min(initial=math.inf))
+    if smallest < 2.0**-_EXTREME:  # zeros are no trouble
+        smallest = float(size.min(where=size > 0, initial=math.inf))
     if smallest >= 2.0**-_EXTREME and largest < 2.0**_EXTREME:
         return _cut(values, largest)
     found: Digits = []
@@ -125,6 +129,10 @@ class ExactSum:
         planes = [(one.low + k, limb) for one in both for k, limb in enumerate(one.limbs)]
         return ExactSum.of(planes, self.shape)
 
+    def reshaped(self, *shape: int) -> "ExactSum":
+        """Give the same numbers in another shape."""
+        return ExactSum(self.low, self.limbs.reshape(len(self.limbs), *shape))
+
     def over(self, axis: int) -> "ExactSum":
         """Add all numbers along an axis."""
         summed = self.limbs.sum(axis=axis + 1)
@@ -176,21 +184,47 @@ def total(cut: Digits, shape: tuple[int, ...]) -> ExactSum:
     return ExactSum.of([(k, q.sum(axis=-1)) for k, q in cut], shape)
 
 
+def _products(a: Digits, b: Digits, part: slice) -> Iterator[tuple[int, Array]]:
+    """Sum products over a part of the last axis, of at most 2^11 numbers: pairs (k, sums)."""
+    same = a is b
+    for m, (k, p) in enumerate(a):
+        for other, q in b[m if same else 0 :]:
+            product = np.vecdot(p[..., part], q[..., part]).astype(np.int64)
+            yield k + other, product if q is p or not same else 2 * product
+
+
 def total_products(a: Digits, b: Digits, shape: tuple[int, ...]) -> ExactSum:
     """Sum products of two arrays along their last axis; ``shape`` is that of the result."""
-    same = a is b
-    width = a[0][1].shape[-1] if a and b else 0
     summed = ExactSum.zero(*shape)
-    for at in range(0, width, _TOGETHER):
-        part = slice(at, at + _TOGETHER)
-        planes = []
-        for m, (k, p) in enumerate(a):
-            for other, q in b[m if same else 0 :]:
-                product = np.einsum("...w,...w->...", p[..., part], q[..., part])
-                twice = 2 if same and q is not p else 1
-                planes.append((k + other, twice * product.astype(np.int64)))
-        summed = summed + ExactSum.of(planes, shape)
+    for at in range(0, a[0][1].shape[-1] if a and b else 0, _TOGETHER):
+        summed = summed + ExactSum.of(_products(a, b, slice(at, at + _TOGETHER)), shape)
     return summed
+
+
+def rows_and_squares(values: Array) -> tuple[ExactSum, ExactSum]:
+    """Sum the numbers of each row, and their squares: (rows, numbers) → twice (rows,)."""
+    rows, numbers = values.shape
+    first = second = ExactSum.zero(rows)
+    for at in range(0, numbers, _TOGETHER):
+        sums: dict[int, Array] = {}
+        squares: dict[int, Array] = {}
+        step = max(1, PIECE // min(numbers, _TOGETHER))
+        for row in range(0, rows, step):
+            part = slice(row, row + step)
+            cut = digits(values[part, at : at + _TOGETHER])
+            for k, q in cut:
+                _put(sums, k, rows, part, q.sum(axis=-1).astype(np.int64))
+            for k, plane in _products(cut, cut, slice(None)):
+                _put(squares, k, rows, part, plane)
+        first = first + ExactSum.of(sums.items(), (rows,))
+        second = second + ExactSum.of(squares.items(), (rows,))
+    return first, second
+
+
+def _put(planes: dict[int, Array], k: int, rows: int, part: slice, plane: Array) -> None:
+    if k not in planes:
+        planes[k] = np.zeros(rows, dtype=np.int64)
+    planes[k][part] += plane
 
 
 def total_matrix(cut: Digits, size: int) -> ExactSum:

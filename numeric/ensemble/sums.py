@@ -6,23 +6,29 @@ that only the packing decides. Kept are Σ g and Σ g² over all contacts, exact
 errors, since the contacts of one packing are correlated.
 """
 
-import math
 import struct
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
+from operator import add
 
 import numpy as np
 
 from numeric.budget import chunk_size
 from numeric.engine import solve
-from numeric.ensemble.exact_sum import ExactSum, digits, total, total_matrix, total_products
+from numeric.ensemble.exact_sum import (
+    ExactSum,
+    digits,
+    rows_and_squares,
+    total,
+    total_matrix,
+    total_products,
+)
 from numeric.ensemble.measure import Measurement
 from numeric.lattice import Array
 from numeric.systems import FLOAT64
 from numeric.work import Work
 
-# Numbers that are summed up together, few enough for a processor's cache.
-PIECE = 1 << 15
 _COUNT = struct.Struct("<q")
 
 
@@ -111,74 +117,74 @@ def from_bytes(content: bytes, m: Measurement) -> Sums:
 def measured(m: Measurement, realisations: Sequence[int], work: Work | None = None) -> Sums:
     """Solve realisations and sum them up; what the sweeps raise is passed on."""
     work = Work() if work is None else work
-    summed = none(m)
     plan = replace(m.plan, realisations=len(realisations))  # decides who sweeps, never the bits
     size = 1 if plan.route == "line sums" else chunk_size(plan.region, FLOAT64, plan.scene)
+    over_contacts = [none(m)]
+    packings = []
     for at in range(0, len(realisations), size):
         chunk = realisations[at : at + size]
         with FLOAT64.active():
             solved = solve(plan, chunk, FLOAT64, work)
-            with work.timed("statistics"):
-                summed = summed + _summed(m, *m.changes(solved, len(chunk)))
-    return summed
+        with work.timed("statistics"):
+            summed, means = _over_contacts(m, *m.changes(solved, len(chunk)))
+            over_contacts.append(summed)
+            packings.append(means)
+    with work.timed("statistics"):
+        return _over_packings(m, reduce(add, over_contacts), packings)
 
 
-def _summed(m: Measurement, ordered: Array, changes: Array) -> Sums:
-    """Sum up changes, (groups, realisations, members)."""
+def _over_contacts(m: Measurement, ordered: Array, changes: Array) -> tuple[Sums, Array]:
+    """Sum up changes (groups, realisations, members); give also the a, b of each packing.
+
+    Shape of the latter: (2, groups, realisations).
+    """
     groups, realisations, members = changes.shape
-    parts = list(_pieces(groups, realisations * members))
-    change, square, mean, mean_square, tensile = [], [], [], [], []
-    for part in parts:
-        g = changes[part]
-        cut, shape = digits(g), g.shape[:2]
-        first, second = total(cut, shape), total_products(cut, cut, shape)
-        mean.append(first.rounded(-m.unit) / members)
-        mean_square.append(second.rounded(-2 * m.unit) / members)
-        change.append(first.over(1))
-        square.append(second.over(1))
-        tensile.append((ordered[part][:, None] + g < 0).sum(axis=(1, 2)))
-    a, b = np.concatenate(mean), np.concatenate(mean_square)
-    both = digits(np.stack([a, b]))
-    of_a, of_b = [(k, q[0]) for k, q in both], [(k, q[1]) for k, q in both]
-    chosen = of_b if m.quantity == "profile" else of_a
-    products = [
-        total_products(of_a, of_a, (groups,)),
-        total_products(of_a, of_b, (groups,)),
-        total_products(of_b, of_b, (groups,)),
-    ]
-    return Sums(
-        realisations,
-        _joined(change),
-        _joined(square),
-        total(both, (2, groups)),
-        _stacked(products),
-        total_matrix(chosen, groups) if m.covariance else ExactSum.zero(0),
-        np.concatenate(tensile).astype(np.int64),
-        _counted(m, changes),
+    sums = rows_and_squares(changes.reshape(-1, members))
+    by_packing = [one.reshaped(groups, realisations) for one in sums]
+    summed = replace(
+        none(m),
+        realisations=realisations,
+        change=by_packing[0].over(1),
+        square=by_packing[1].over(1),
+        tensile=_pulling(ordered, changes),
+        bins=_counted(m, changes),
+    )
+    means = [one.rounded(-n * m.unit) / members for n, one in enumerate(by_packing, 1)]
+    return summed, np.stack(means)
+
+
+def _pulling(ordered: Array, changes: Array) -> Array:
+    """Count negative forces in each group."""
+    if ordered.min() + changes.min() >= 0:  # then no sum below can be negative
+        return np.zeros(len(changes), np.int64)
+    return np.asarray(np.count_nonzero(ordered[:, None] + changes < 0, axis=(1, 2)))
+
+
+def _over_packings(m: Measurement, summed: Sums, packings: list[Array]) -> Sums:
+    """Add the sums over the a, b of packings, arrays of shape (2, groups, realisations)."""
+    cut = digits(np.concatenate(packings, axis=2))
+    a, b = [(k, q[0]) for k, q in cut], [(k, q[1]) for k, q in cut]
+    shape = (m.groups,)
+    products = [total_products(x, y, shape) for x, y in ((a, a), (a, b), (b, b))]
+    chosen = b if m.quantity == "profile" else a
+    return replace(
+        summed,
+        means=total(cut, (2, m.groups)),
+        products=_stacked(products),
+        pairs=total_matrix(chosen, m.groups) if m.covariance else summed.pairs,
     )
 
 
-def _pieces(groups: int, each: int) -> Iterator[slice]:
-    step = max(1, PIECE // max(each, 1))
-    for at in range(0, groups, step):
-        yield slice(at, min(at + step, groups))
-
-
-def _joined(parts: list[ExactSum]) -> ExactSum:
-    """Put arrays of sums one after the other, along their first axis."""
-    low = min((p.low for p in parts if len(p.limbs)), default=0)
-    high = max((p.low + len(p.limbs) for p in parts if len(p.limbs)), default=0)
-    size = sum(p.shape[0] for p in parts)
-    limbs = np.zeros((high - low, size, *parts[0].shape[1:]), dtype=np.int64)
-    at = 0
-    for p in parts:
-        limbs[p.low - low : p.low - low + len(p.limbs), at : at + p.shape[0]] = p.limbs
-        at += p.shape[0]
-    return ExactSum(low, limbs)
-
-
 def _stacked(parts: list[ExactSum]) -> ExactSum:
-    return _joined([ExactSum(p.low, p.limbs[:, None]) for p in parts])
+    """Put sums of equal shapes into one array, along a new first axis."""
+    shape = (len(parts), *parts[0].shape)
+    planes = []
+    for row, part in enumerate(parts):
+        for k, limb in enumerate(part.limbs):
+            plane = np.zeros(shape, dtype=np.int64)
+            plane[row] = limb
+            planes.append((part.low + k, plane))
+    return ExactSum.of(planes, shape)
 
 
 def _counted(m: Measurement, changes: Array) -> Array:

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from numeric.ensemble.exact_sum import (
     ExactSum,
     digits,
+    rows_and_squares,
     total,
     total_matrix,
     total_products,
@@ -45,6 +46,7 @@ def test_sums_are_those_of_fractions(samples: list[float]) -> None:
     values = np.array(samples)
     first, second = sums(values)
     assert first.fractions() == [sum(exactly(values))]
+    assert rows_and_squares(values[None]) == (first.reshaped(1), second.reshaped(1))
     assert second.fractions() == [sum(v * v for v in exactly(values))]
 
 
@@ -104,6 +106,8 @@ def test_many_of_the_largest_digits_do_not_overflow() -> None:
     assert first.fractions() == [100_000 * (2**53 - 1)]
     assert second.fractions() == [100_000 * (2**53 - 1) ** 2]
     assert total_matrix(digits(values), 1) == second
+    by_row = rows_and_squares(values.reshape(8, -1))
+    assert [by_row[0].over(0), by_row[1].over(0)] == [s.reshaped() for s in (first, second)]
     assert (second + second).over(0).fractions() == [200_000 * (2**53 - 1) ** 2]
 
 
