@@ -150,13 +150,18 @@ class ExactSum:
             total += np.ldexp(limb.astype(np.float64), BITS * (self.low + k) + shift)
         return total
 
+    def integers(self) -> tuple[Array, int]:
+        """Give whole numbers (Python's) and the power of two that they are times."""
+        whole = np.zeros(self.shape, dtype=object)
+        for limb in self.limbs[::-1]:
+            whole = (whole << BITS) + limb.astype(object)
+        return np.asarray(whole, dtype=object), BITS * self.low
+
     def fractions(self) -> list[Fraction]:
         """Give the exact numbers, flattened."""
-        total = np.zeros(math.prod(self.shape), dtype=object)
-        for limb in self.limbs[::-1]:
-            total = (total << BITS) + limb.reshape(-1).astype(object)
-        unit = Fraction(2) ** (BITS * self.low)
-        return [Fraction(int(number)) * unit for number in total]
+        whole, exponent = self.integers()
+        unit = Fraction(2) ** exponent
+        return [int(number) * unit for number in whole.reshape(-1)]
 
     def to_bytes(self) -> bytes:
         """Write as bytes: low, number of digits, digits (int32, little-endian)."""

@@ -1,0 +1,96 @@
+"""The same blocks on a Dask cluster: one that runs somewhere, or one made on this machine."""
+
+from collections.abc import Iterator
+from contextlib import ExitStack
+from dataclasses import dataclass
+from typing import Any
+
+import distributed
+from distributed import Client, LocalCluster
+
+from numeric.ensemble.measure import Measurement
+from numeric.ensemble.scene_key import program_version
+from numeric.ensemble.sums import Sums, from_bytes
+from numeric.ensemble.workers import WorkersError, solve_block
+
+# Seconds until somebody has to answer, and until a worker has to be there.
+PATIENCE = 30
+
+
+def _block(m: Measurement, first: int, stop: int) -> tuple[str, bytes]:
+    return program_version(), solve_block(m, first, stop)
+
+
+@dataclass(frozen=True)
+class Cluster:
+    """Solve blocks on the workers of the scheduler at ``address``; None makes ``workers`` here.
+
+    The scheduler gives the work of a worker that died to another one; a block counts once, when it
+    comes back whole.
+    """
+
+    address: str | None
+    workers: int = 1
+
+    def results(
+        self, m: Measurement, tasks: Iterator[tuple[int, int]]
+    ) -> Iterator[tuple[int, int, Sums]]:
+        """Give (first, stop, sums) of every task, as they come. Raises ``WorkersError``."""
+        with ExitStack() as open_things:
+            client = self._client(open_things)
+            pending: dict[Any, tuple[int, int]] = {}
+            completed = distributed.as_completed()
+            while True:
+                room = 2 * max(sum(client.nthreads().values()), 1) - len(pending)
+                for _ in range(room):
+                    task = next(tasks, None)
+                    if task is None:
+                        break
+                    future = client.submit(_block, m, *task, pure=False)
+                    pending[future] = task
+                    completed.add(future)
+                if not pending:
+                    return
+                future = next(completed)
+                try:
+                    version, content = future.result()
+                except distributed.KilledWorker:
+                    raise WorkersError(
+                        "several workers of the cluster died at the same block, perhaps for want "
+                        "of memory: give them more"
+                    ) from None
+                except distributed.client.FutureCancelledError as error:
+                    raise WorkersError(f"the cluster gave the work up: {error}") from None
+                if version != program_version():
+                    raise WorkersError(
+                        f"a worker has force-diffusion {version}, and this is {program_version()}: "
+                        "numbers could differ; install the same version everywhere"
+                    )
+                first, stop = pending.pop(future)
+                yield first, stop, from_bytes(content, m)
+
+    def _client(self, open_things: ExitStack) -> Client:
+        if self.address is None:
+            cluster = open_things.enter_context(
+                LocalCluster(
+                    n_workers=self.workers, threads_per_worker=1, dashboard_address=None
+                )
+            )
+            return open_things.enter_context(Client(cluster))
+        try:
+            client = open_things.enter_context(
+                Client(self.address, timeout=PATIENCE, set_as_default=False)
+            )
+        except (OSError, ValueError) as error:
+            raise WorkersError(
+                f"no scheduler answers at {self.address} ({error}): give the address that "
+                "'dask scheduler' prints, such as tcp://127.0.0.1:8786"
+            ) from None
+        try:
+            client.wait_for_workers(1, timeout=PATIENCE)
+        except TimeoutError:
+            raise WorkersError(
+                f"the scheduler at {self.address} has no workers: start some with "
+                f"'dask worker {self.address}'"
+            ) from None
+        return client

@@ -1,0 +1,77 @@
+"""How sure an ensemble is of σ_f, and when it may stop.
+
+The unit is the packing: the contacts of one are correlated, packings are independent. Stopping as
+soon as an error looks small favours errors that look too small. So the sums are looked at only at
+fixed sizes, and look k may be wrong with probability α/(k (k + 1)), of which all looks together
+have α: whenever the run stops, its statement holds with at least the confidence 1 − α that was
+asked, as far as means over packings are normal (Student's t, at least 32 packings). The share of a
+look is divided among the groups, so that the statement is about all of them at once.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import mpmath
+
+from numeric.ensemble.estimates import Estimates
+
+FIRST_LOOK = 32
+
+
+def looks(end: int) -> Iterator[int]:
+    """Give the sizes at which sums are looked at, up to ``end``.
+
+    >>> list(looks(200))
+    [32, 48, 64, 96, 128, 192]
+    """
+    size = FIRST_LOOK
+    while size <= end:
+        yield size
+        if 3 * size // 2 <= end:
+            yield 3 * size // 2
+        size *= 2
+
+
+@dataclass(frozen=True)
+class Rule:
+    """Stop when every σ_f is known to ``relative`` of itself, with ``confidence``."""
+
+    relative: float
+    confidence: float
+
+
+def half_width(estimates: Estimates, confidence: float, look: int) -> float:
+    """Give the half-width of the intervals of all σ_f together, relative to σ_f; the largest.
+
+    ``look`` counts looks from 1; 0 is for an ensemble that was of a fixed size from the start.
+    Groups that do not vary at all are left out.
+    """
+    spread = estimates.relative_errors()
+    if not spread:
+        return 0.0
+    wrong = (1 - mpmath.mpf(confidence)) / len(spread)
+    if look:
+        wrong /= look * (look + 1)
+    return max(spread) * student(float(wrong), estimates.realisations - 1)
+
+
+def student(wrong: float, freedom: int) -> float:
+    """Give t with P(|T| > t) = ``wrong`` for Student's T with ``freedom`` degrees of freedom.
+
+    >>> f"{student(0.05, 10):.4f} {student(0.05, 10**6):.4f}"
+    '2.2281 1.9600'
+    """
+    if freedom < 1:
+        return float("inf")
+    with mpmath.workprec(80):
+        half = mpmath.mpf(freedom) / 2
+
+        def excess(x: mpmath.mpf) -> mpmath.mpf:  # P(|T| > t) for x = freedom/(freedom + t²)
+            return mpmath.betainc(half, 0.5, 0, x, regularized=True) - wrong
+
+        low, high = mpmath.mpf(0), mpmath.mpf(1)
+        for _ in range(70):  # bisection always ends, and alike everywhere
+            middle = (low + high) / 2
+            low, high = (middle, high) if excess(middle) < 0 else (low, middle)
+        x = (low + high) / 2
+        return float(mpmath.sqrt(freedom * (1 - x) / x))

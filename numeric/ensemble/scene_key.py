@@ -1,0 +1,75 @@
+"""What an ensemble is, as plain data: all that decides its numbers, and nothing else."""
+
+import hashlib
+import json
+from contextlib import suppress
+from fractions import Fraction
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+from numeric.decimals import short
+from numeric.ensemble.measure import Measurement
+
+# Keys of a scene that say how much is asked, not what.
+_NOT_IN_IT = {"ask": {"realisations", "tolerance", "bins"}}
+
+
+def program_version() -> str:
+    """Version of this package, or "unknown" where it is not installed."""
+    try:
+        return version("force-diffusion")
+    except PackageNotFoundError:
+        return "unknown"
+
+
+def ensemble_key(m: Measurement) -> dict[str, Any]:
+    """Describe the ensemble of a measurement; numbers are exact, as strings."""
+    scene = m.plan.scene
+    sections = scene.model_dump(exclude={"folder": True, **_NOT_IN_IT})
+    sections["packing"]["spacing"] = scene.spacing
+    if scene.load.file is not None:  # its content counts, not its name
+        forces = sorted((list(site), list(map(str, force))) for site, force in _loads(m))
+        digest = hashlib.sha256(json.dumps(forces).encode()).hexdigest()
+        sections["load"]["file"] = f"sha256 {digest}"
+    key = _plain(sections)
+    key["measured"] = {
+        "covariance": m.covariance,
+        "edges": [edge.hex() for edge in m.edges],
+    }
+    key["version"] = {"force-diffusion": program_version()}
+    assert isinstance(key, dict)
+    return key
+
+
+def _loads(m: Measurement) -> Any:
+    return m.plan.load.single.items()
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _plain(one) for name, one in value.items()}
+    if isinstance(value, list):
+        return [_plain(one) for one in value]
+    return str(value) if isinstance(value, Fraction) else value
+
+
+def differences(old: dict[str, Any], new: dict[str, Any]) -> str:
+    """Name the first few keys in which two ensembles differ."""
+    found = []
+    for section in {**old, **new}:
+        a, b = old.get(section) or {}, new.get(section) or {}
+        if not isinstance(a, dict) or not isinstance(b, dict):
+            continue
+        for name in {**a, **b}:
+            if a.get(name) != b.get(name):
+                found.append(f"there {section}.{name} is {_shown(a.get(name))}, "
+                             f"here {_shown(b.get(name))}")  # fmt: skip
+    return "; ".join(found[:3]) or "its description is another"
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, str):
+        with suppress(ValueError):
+            return short(Fraction(value))
+    text = "not given" if value is None else json.dumps(value)
+    return text if len(text) <= 50 else text[:47] + "…"

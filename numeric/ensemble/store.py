@@ -1,0 +1,249 @@
+"""The durable file of an ensemble: sums of finished realisations, in SQLite.
+
+Every finished block is one transaction, so that a run may be killed at any moment. Blocks whose
+sums nobody will need apart are merged in the same transaction: the file stays small. A file is
+trusted only after all of it was checked, and one that is not this scene's is never written to.
+"""
+
+import hashlib
+import json
+import sqlite3
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from numeric.ensemble.measure import Measurement
+from numeric.ensemble.scene_key import differences
+from numeric.ensemble.sums import Sums, from_bytes
+
+APPLICATION, SCHEMA = 0x46444546, 1  # "FDEF"
+_MAGIC = b"SQLite format 3\x00"
+_TABLES = (
+    "CREATE TABLE about (name TEXT PRIMARY KEY, content TEXT NOT NULL, checksum TEXT NOT NULL)",
+    "CREATE TABLE sums (first INTEGER PRIMARY KEY, stop INTEGER NOT NULL, content BLOB NOT NULL, "
+    "checksum TEXT NOT NULL)",
+)
+
+
+class StoreError(ValueError):
+    """A file can't serve as the store of an ensemble: the message says why, and what to do."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """Sums over realisations first … stop − 1."""
+
+    first: int
+    stop: int
+    sums: Sums
+
+
+@dataclass(frozen=True)
+class About:
+    """What a store says of itself: ``key`` describes the ensemble, ``ends`` are sizes asked for."""
+
+    key: dict[str, Any]
+    ends: tuple[int, ...]
+
+
+class Store:
+    """An open store, locked for every other process until it is closed."""
+
+    def __init__(self, path: Path, database: sqlite3.Connection, about: About) -> None:
+        """Take an open database that was checked."""
+        self.path, self.about = path, about
+        self._database = database
+
+    def blocks(self, m: Measurement) -> list[Block]:
+        """Read and check all sums, in the order of their realisations. Raises ``StoreError``."""
+        with _reading(self.path):
+            rows = self._database.execute(
+                "SELECT first, stop, content, checksum FROM sums ORDER BY first"
+            ).fetchall()
+        found: list[Block] = []
+        for first, stop, content, checksum in rows:
+            whole = isinstance(first, int) and isinstance(stop, int) and isinstance(content, bytes)
+            if not whole or checksum != _checksum(self.about.key, first, stop, content):
+                raise _damaged(self.path, "a checksum is wrong")
+            try:
+                sums = from_bytes(content, m)
+            except ValueError as error:
+                raise _damaged(self.path, str(error)) from None
+            before = found[-1].stop if found else 0
+            if not before <= first < stop or sums.realisations != stop - first:
+                raise _damaged(self.path, "its realisations don't follow each other")
+            found.append(Block(first, stop, sums))
+        return found
+
+    def realisations(self) -> int:
+        """Count the realisations that the file holds."""
+        with _reading(self.path):
+            (count,) = self._database.execute(
+                "SELECT coalesce(sum(stop - first), 0) FROM sums"
+            ).fetchone()
+        return int(count)
+
+    def add_end(self, end: int) -> None:
+        """Remember a size that was asked for: blocks on its two sides are never merged."""
+        if end not in self.about.ends:
+            self.about = About(self.about.key, tuple(sorted({*self.about.ends, end})))
+            with self._transaction():
+                _write_about(self._database, self.about)
+
+    def put(self, block: Block, merged: Sequence[Block] = ()) -> None:
+        """Write a block in one transaction; ``merged`` are those that it takes the place of."""
+        content = block.sums.to_bytes()
+        checksum = _checksum(self.about.key, block.first, block.stop, content)
+        with self._transaction():
+            for old in merged:
+                self._database.execute("DELETE FROM sums WHERE first = ?", (old.first,))
+            self._database.execute(
+                "INSERT INTO sums VALUES (?, ?, ?, ?)",
+                (block.first, block.stop, content, checksum),
+            )
+
+    @contextmanager
+    def _transaction(self) -> Iterator[None]:
+        try:
+            self._database.execute("BEGIN IMMEDIATE")
+            yield
+            self._database.execute("COMMIT")
+        except sqlite3.Error as error:
+            raise OSError(None, f"{error}", str(self.path)) from None
+        finally:
+            if self._database.in_transaction:
+                with suppress(sqlite3.Error):
+                    self._database.execute("ROLLBACK")
+
+    def close(self) -> None:
+        """Close the file, and let others have it."""
+        self._database.close()
+
+
+def open_store(path: Path, key: dict[str, Any] | None) -> Store:
+    """Open a store, or make one; without a ``key`` whatever ensemble it holds, and no new one.
+
+    Raises ``StoreError`` for a file that is damaged, of another kind, scene or version, or in use.
+    """
+    new = _looked_at(path, may_be_new=key is not None)
+    with _reading(path):
+        database = sqlite3.connect(path, timeout=0, isolation_level=None)
+    try:
+        with _reading(path):
+            for setting in ("locking_mode = EXCLUSIVE", "synchronous = FULL", "trusted_schema = 0"):
+                database.execute(f"PRAGMA {setting}")
+            database.execute("BEGIN EXCLUSIVE")  # takes the lock, or fails at once
+            if new and not database.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]:
+                assert key is not None
+                _create(database, key)
+            database.execute("COMMIT")
+        return Store(path, database, _checked(path, database, key))
+    except BaseException:
+        database.close()
+        raise
+
+
+def _looked_at(path: Path, *, may_be_new: bool) -> bool:
+    """Say whether a file still has to be made; refuse what is plainly no store of ours."""
+    try:
+        if path.is_dir() or (path.exists() and not path.is_file()):
+            raise StoreError(f"{path} is no ordinary file: give another name")
+        if not path.exists() or not path.stat().st_size:
+            if not may_be_new:
+                raise StoreError(f"{path}: there is no such store")
+            return True
+        with path.open("rb") as file:
+            head = file.read(100)
+    except OSError as error:
+        raise StoreError(f"{path} can't be read: {error.strerror}") from None
+    ours = head[:16] == _MAGIC and int.from_bytes(head[68:72], "big") == APPLICATION
+    if not ours:
+        raise StoreError(
+            f"{path} is not the store of an ensemble, and is left as it is: give another name"
+        )
+    return False
+
+
+@contextmanager
+def _reading(path: Path) -> Iterator[None]:
+    """Turn the database's errors into messages."""
+    try:
+        yield
+    except sqlite3.Error as error:
+        code = (getattr(error, "sqlite_errorcode", None) or 0) & 0xFF
+        if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
+            raise StoreError(
+                f"{path} is in use: another run works on it. Wait for its end, or give another name"
+            ) from None
+        if code in (sqlite3.SQLITE_CANTOPEN, sqlite3.SQLITE_READONLY, sqlite3.SQLITE_PERM):
+            raise StoreError(
+                f"{path} can't be written to ({error}): give a place that can"
+            ) from None
+        if code in (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR):
+            raise OSError(None, f"{error}", str(path)) from None
+        raise _damaged(path, str(error)) from None
+
+
+def _create(database: sqlite3.Connection, key: dict[str, Any]) -> None:
+    for table in _TABLES:
+        database.execute(table)
+    database.execute(f"PRAGMA application_id = {APPLICATION}")
+    database.execute(f"PRAGMA user_version = {SCHEMA}")
+    _write_about(database, About(key, ()))
+
+
+def _write_about(database: sqlite3.Connection, about: About) -> None:
+    for name, value in (("ensemble", about.key), ("ends", list(about.ends))):
+        content = json.dumps(value, sort_keys=True)
+        database.execute(
+            "INSERT OR REPLACE INTO about VALUES (?, ?, ?)", (name, content, _hash(name, content))
+        )
+
+
+def _checked(path: Path, database: sqlite3.Connection, key: dict[str, Any] | None) -> About:
+    with _reading(path):
+        (schema,) = database.execute("PRAGMA user_version").fetchone()
+        if schema != SCHEMA:
+            raise StoreError(
+                f"{path} has the layout {schema} of another version of force-diffusion, and this "
+                f"one reads layout {SCHEMA}: finish it with that version, or give another name"
+            )
+        if [row[0] for row in database.execute("PRAGMA integrity_check")] != ["ok"]:
+            raise _damaged(path, "the database is not in order")
+        tables = sorted(row[0] for row in database.execute("SELECT sql FROM sqlite_master "
+                                                           "WHERE sql IS NOT NULL"))  # fmt: skip
+        if tables != sorted(_TABLES):
+            raise _damaged(path, "its tables are not those of an ensemble")
+        rows = database.execute("SELECT name, content, checksum FROM about").fetchall()
+    found = {}
+    for name, content, checksum in rows:
+        if not isinstance(content, str) or checksum != _hash(name, content):
+            raise _damaged(path, "a checksum is wrong")
+        found[name] = json.loads(content)
+    if set(found) != {"ensemble", "ends"}:
+        raise _damaged(path, "it does not say what it holds")
+    about = About(found["ensemble"], tuple(found["ends"]))
+    if key is not None and about.key != key:
+        raise StoreError(
+            f"{path} holds another ensemble: {differences(about.key, key)}. "
+            "Give another name for this one"
+        )
+    return about
+
+
+def _damaged(path: Path, why: str) -> StoreError:
+    return StoreError(
+        f"{path} is damaged ({why}) and is left as it is: give another name, and the realisations "
+        "are solved again"
+    )
+
+
+def _hash(*parts: str) -> str:
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+def _checksum(key: dict[str, Any], first: int, stop: int, content: bytes) -> str:
+    head = _hash(json.dumps(key, sort_keys=True), str(first), str(stop))
+    return hashlib.sha256(head.encode() + content).hexdigest()

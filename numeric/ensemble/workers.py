@@ -1,0 +1,123 @@
+"""Who solves the blocks: this process, or a pool of processes on this machine."""
+
+import os
+import signal
+import threading
+from collections.abc import Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from multiprocessing import active_children, connection, get_context, parent_process
+
+from numeric.ensemble.measure import Measurement
+from numeric.ensemble.sums import Sums, from_bytes, measured
+from numeric.forces import NotStandingError
+from numeric.packing import UnbuildableError
+from numeric.radii import RadiusError
+
+# Pools in a row that may die without finishing anything.
+PATIENCE = 3
+_TROUBLE = (UnbuildableError, NotStandingError, RadiusError)
+
+
+class RealisationError(ValueError):
+    """A realisation can't be solved; the message says which, and why."""
+
+
+class WorkersError(RuntimeError):
+    """Those who should solve are missing or die; the message says what to do."""
+
+
+def solve_block(m: Measurement, first: int, stop: int) -> bytes:
+    """Sum up realisations first … stop − 1. Raises ``RealisationError``."""
+    try:
+        return measured(m, range(first, stop)).to_bytes()
+    except _TROUBLE as error:
+        for k in range(first, stop):
+            try:
+                measured(m, [k])
+            except _TROUBLE as own:
+                # of one argument: the errors of the sweeps could not be sent between processes
+                raise RealisationError(f"realisation {k}: {own}") from None
+        raise RealisationError(str(error)) from None
+
+
+class InProcess:
+    """Solve one block after the other, here."""
+
+    def results(
+        self, m: Measurement, tasks: Iterator[tuple[int, int]]
+    ) -> Iterator[tuple[int, int, Sums]]:
+        """Give (first, stop, sums) of every task."""
+        for first, stop in tasks:
+            yield first, stop, from_bytes(solve_block(m, first, stop), m)
+
+
+_measurement: Measurement | None = None
+
+
+def _start(m: Measurement) -> None:
+    global _measurement  # noqa: PLW0603: what a worker process is for
+    _measurement = m
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent hears it, and ends us
+    threading.Thread(target=_follow_parent, daemon=True).start()
+
+
+def _follow_parent() -> None:
+    """End with the parent, however it ends: a pool does not see that it was killed."""
+    parent = parent_process()
+    if parent is not None:
+        connection.wait([parent.sentinel])
+        os._exit(1)
+
+
+def _block(first: int, stop: int) -> bytes:
+    assert _measurement is not None
+    return solve_block(_measurement, first, stop)
+
+
+@dataclass(frozen=True)
+class Pool:
+    """Solve blocks in processes of this machine; one that dies is replaced, its work done again."""
+
+    workers: int
+
+    def results(
+        self, m: Measurement, tasks: Iterator[tuple[int, int]]
+    ) -> Iterator[tuple[int, int, Sums]]:
+        """Give (first, stop, sums) of every task, as they come. Raises ``WorkersError``."""
+        again: list[tuple[int, int]] = []
+        deaths = 0
+        while True:
+            others = active_children()
+            pool = ProcessPoolExecutor(
+                self.workers, get_context("spawn"), initializer=_start, initargs=(m,)
+            )
+            pending: dict[tuple[int, int], Future[bytes]] = {}
+            try:
+                while True:
+                    while len(pending) < 2 * self.workers:
+                        task = again.pop() if again else next(tasks, None)
+                        if task is None:
+                            break
+                        pending[task] = pool.submit(_block, *task)
+                    if not pending:
+                        return
+                    wait(pending.values(), return_when=FIRST_COMPLETED)
+                    for task in [t for t, future in pending.items() if future.done()]:
+                        content = pending[task].result()
+                        del pending[task]
+                        deaths = 0
+                        yield *task, from_bytes(content, m)
+            except BrokenProcessPool:
+                deaths += 1
+                if deaths == PATIENCE:
+                    raise WorkersError(
+                        f"worker processes died {PATIENCE} times in a row, perhaps for want of "
+                        "memory: use fewer workers"
+                    ) from None
+                again += pending
+            finally:
+                pool.shutdown(wait=False, cancel_futures=True)
+                for child in set(active_children()).difference(others):
+                    child.terminate()  # nobody waits for what it is still at
