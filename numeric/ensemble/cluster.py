@@ -5,14 +5,14 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from typing import Any
 
-import distributed
-from distributed import Client, LocalCluster
+import distributed as untyped
 
 from numeric.ensemble.measure import Measurement
 from numeric.ensemble.scene_key import program_version
 from numeric.ensemble.sums import Sums, from_bytes
 from numeric.ensemble.workers import WorkersError, solve_block
 
+distributed: Any = untyped  # it has no types
 # Seconds until somebody has to answer, and until a worker has to be there.
 PATIENCE = 30
 
@@ -69,17 +69,17 @@ class Cluster:
                 first, stop = pending.pop(future)
                 yield first, stop, from_bytes(content, m)
 
-    def _client(self, open_things: ExitStack) -> Client:
+    def _client(self, open_things: ExitStack) -> Any:
         if self.address is None:
             cluster = open_things.enter_context(
-                LocalCluster(
+                distributed.LocalCluster(
                     n_workers=self.workers, threads_per_worker=1, dashboard_address=None
                 )
             )
-            return open_things.enter_context(Client(cluster))
+            return open_things.enter_context(distributed.Client(cluster))
         try:
             client = open_things.enter_context(
-                Client(self.address, timeout=PATIENCE, set_as_default=False)
+                distributed.Client(self.address, timeout=PATIENCE, set_as_default=False)
             )
         except (OSError, ValueError) as error:
             raise WorkersError(

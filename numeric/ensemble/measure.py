@@ -171,10 +171,32 @@ class Measurement:
         for upper, branch, row in self._rows:
             a, b = (packing.plus if branch == "+" else packing.minus)[upper]
             source, width = packing.region.rows[upper], packing.region.width
-            tilts.append((pick(a, source, row, width) + pick(b, source, row, width)))
+            tilts.append(pick(a, source, row, width) + pick(b, source, row, width))
         tilt = np.concatenate([t.reshape(len(g), -1) for t in tilts], axis=1)
         force = F + (g if self.plan.route == "exact" else 0)
         return np.asarray((g + force * tilt) * self._ny)
+
+    def ordered(self) -> list[Fraction]:
+        """Give the ordered force of each group (of a group whose forces differ, their mean)."""
+        load, rows = self.plan.load, self.plan.force_rows
+        strength = load.strength(self.plan.scene.n_x, FLOAT64)
+        if self.plan.single_contact:
+            force = load.ordered_force(self.plan.scene.contact, strength, FLOAT64)
+            return [Fraction(float(force))]
+        forces = load.ordered_forces(rows, strength, FLOAT64)
+        of = {"+": forces.ordered_plus, "-": forces.ordered_minus}
+        found = [
+            [Fraction(float(F)) for F in of[branch][upper]] if upper < len(rows) else []
+            for upper, branch, _ in self._rows
+        ]
+        if self.quantity == "profile":
+            return [sum(row, Fraction(0)) / self.members for row in found]
+        single = [force for row in found for force in row]
+        if self.quantity == "histogram":
+            return [sum(single, Fraction(0)) / len(single)]
+        if self.quantity == "response":
+            single += [force * Fraction(self._ny) for force in single]
+        return single
 
     def theory(self) -> list[Fraction] | None:
         """Give σ_f of layers j = 0 … M − 1, exact to first order (Eqs. 13 and 14 at finite M).

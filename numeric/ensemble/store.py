@@ -58,32 +58,35 @@ class Store:
 
     def blocks(self, m: Measurement) -> list[Block]:
         """Read and check all sums, in the order of their realisations. Raises ``StoreError``."""
+        found = []
+        for first, stop, content in self._rows():
+            try:
+                sums = from_bytes(content, m)
+                if sums.realisations != stop - first:
+                    raise ValueError("it holds more or fewer realisations than it says")
+            except ValueError as error:
+                raise _damaged(self.path, str(error)) from None
+            found.append(Block(first, stop, sums))
+        return found
+
+    def ranges(self) -> list[tuple[int, int]]:
+        """Give (first, stop) of all blocks, checked. Raises ``StoreError``."""
+        return [(first, stop) for first, stop, _ in self._rows()]
+
+    def _rows(self) -> Iterator[tuple[int, int, bytes]]:
         with _reading(self.path):
             rows = self._database.execute(
                 "SELECT first, stop, content, checksum FROM sums ORDER BY first"
             ).fetchall()
-        found: list[Block] = []
+        before = 0
         for first, stop, content, checksum in rows:
             whole = isinstance(first, int) and isinstance(stop, int) and isinstance(content, bytes)
             if not whole or checksum != _checksum(self.about.key, first, stop, content):
                 raise _damaged(self.path, "a checksum is wrong")
-            try:
-                sums = from_bytes(content, m)
-            except ValueError as error:
-                raise _damaged(self.path, str(error)) from None
-            before = found[-1].stop if found else 0
-            if not before <= first < stop or sums.realisations != stop - first:
+            if not before <= first < stop:
                 raise _damaged(self.path, "its realisations don't follow each other")
-            found.append(Block(first, stop, sums))
-        return found
-
-    def realisations(self) -> int:
-        """Count the realisations that the file holds."""
-        with _reading(self.path):
-            (count,) = self._database.execute(
-                "SELECT coalesce(sum(stop - first), 0) FROM sums"
-            ).fetchone()
-        return int(count)
+            before = stop
+            yield first, stop, content
 
     def add_end(self, end: int) -> None:
         """Remember a size that was asked for: blocks on its two sides are never merged."""

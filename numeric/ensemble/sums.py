@@ -83,13 +83,9 @@ def _bins(m: Measurement) -> int:
 
 def none(m: Measurement) -> Sums:
     """Give the sums of no realisation."""
-    exact = [ExactSum.zero(*shape) for shape in _shapes(m)]
-    return Sums(
-        0,
-        *exact,
-        tensile=np.zeros(m.groups, np.int64),
-        bins=np.zeros((2, _bins(m)), np.int64),
-    )
+    change, square, means, products, pairs = (ExactSum.zero(*shape) for shape in _shapes(m))
+    tensile, bins = np.zeros(m.groups, np.int64), np.zeros((2, _bins(m)), np.int64)
+    return Sums(0, change, square, means, products, pairs, tensile, bins)
 
 
 def from_bytes(content: bytes, m: Measurement) -> Sums:
@@ -110,8 +106,9 @@ def from_bytes(content: bytes, m: Measurement) -> Sums:
         at += used
     if at != len(content):
         raise ValueError("sums go on after their end")
+    change, square, means, products, pairs = exact
     tensile, bins = whole[: m.groups], whole[m.groups :].reshape(2, -1)
-    return Sums(realisations, *exact, tensile=tensile, bins=bins)
+    return Sums(realisations, change, square, means, products, pairs, tensile, bins)
 
 
 def measured(m: Measurement, realisations: Sequence[int], work: Work | None = None) -> Sums:

@@ -53,12 +53,11 @@ class InProcess:
             yield first, stop, from_bytes(solve_block(m, first, stop), m)
 
 
-_measurement: Measurement | None = None
+_here: list[Measurement] = []  # what this process measures, if it is a worker
 
 
 def _start(m: Measurement) -> None:
-    global _measurement  # noqa: PLW0603: what a worker process is for
-    _measurement = m
+    _here.append(m)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent hears it, and ends us
     threading.Thread(target=_follow_parent, daemon=True).start()
 
@@ -72,8 +71,7 @@ def _follow_parent() -> None:
 
 
 def _block(first: int, stop: int) -> bytes:
-    assert _measurement is not None
-    return solve_block(_measurement, first, stop)
+    return solve_block(_here[0], first, stop)
 
 
 @dataclass(frozen=True)

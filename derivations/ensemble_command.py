@@ -1,0 +1,322 @@
+"""The commands for ensembles: a thin layer over ``numeric.ensemble``."""
+
+import json
+import os
+import sys
+from collections.abc import Callable
+from contextlib import ExitStack
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from derivations.publishing import NOT_REACHED, WRONG_INPUT, csv_text, fail, out_option, published
+
+if TYPE_CHECKING:
+    from numeric.ensemble.measure import Measurement
+    from numeric.ensemble.run import Executor, Result
+    from numeric.ensemble.store import Store
+
+MOST = 10**9
+# Seconds of work from which on starting more processes repays.
+WORTH_WORKERS = 5
+STATUSES = (
+    "Exit status: 0 answered, 2 something wrong in the scene, the options or the store, 3 the "
+    "asked confidence is not reached, or workers or the disk failed, 130 interrupted."
+)
+
+
+class Where(StrEnum):
+    """Where a cluster is made."""
+
+    LOCAL = "local"
+
+
+def ensemble(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A scene file, in TOML.")],
+    realisations: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="Packings to solve, at most; by default as the scene says."),
+    ] = None,
+    store: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Keep what is done in this file, and go on from there."),
+    ] = None,
+    until: Annotated[
+        float | None,
+        typer.Option(metavar="R", help="Stop when every σ_f is known to this share of itself."),
+    ] = None,
+    confidence: Annotated[
+        float, typer.Option(metavar="C", help="With which confidence all are known.")
+    ] = 0.95,
+    workers: Annotated[
+        int | None,
+        typer.Option(metavar="K", help="Processes; by default as many as there are cores."),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Let the Dask cluster there work: tcp://host:8786."),
+    ] = None,
+    cluster: Annotated[
+        Where | None, typer.Option(help="Make a Dask cluster on this machine.")
+    ] = None,
+    covariance: Annotated[
+        bool, typer.Option("--covariance", help="Also give covariances between rows.")
+    ] = False,
+    reach: Annotated[
+        float | None,
+        typer.Option(metavar="X", help="Outer edge of a histogram's bins, in units of force."),
+    ] = None,
+    out: Annotated[Path | None, out_option("the result as JSON and CSV")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
+) -> None:
+    """Statistics over many packings, on many cores, kept in a file as they come."""
+    m, size = _measured(scene, realisations, covariance, reach)
+    _check_numbers(until, confidence, workers)
+    executor = _executor(m, size, workers, scheduler, cluster)
+    found: list[Result] = []
+
+    def answer() -> tuple[dict[str, Any], dict[str, str | bytes]]:
+        from numeric.ensemble.result import result_data
+
+        found.append(_run(scene.name, m, size, executor, store, until, confidence))
+        data = result_data(found[0])
+        files: dict[str, str | bytes] = {
+            "result.json": json.dumps(data, indent=2) + "\n",
+            f"{m.quantity}.csv": csv_text(data["results"][m.quantity]),
+        }
+        if "covariance" in data:
+            files["covariance.csv"] = _matrix_text(data["covariance"])
+        return data, files
+
+    data = published(out, answer)
+    print(json.dumps(data, indent=2) if as_json else "\n".join(_lines(data, m.quantity)))
+    if found[0].reached is False:
+        assert until is not None
+        N, width = found[0].estimates.realisations, found[0].half_width
+        more = f"about {N * (width / until) ** 2:.2g} realisations may do" if width < MOST else ""
+        fail(
+            f"the asked confidence is not reached: σ_f is known to {width:.2g}, not {until:g}; "
+            f"{more or 'more realisations are needed'}",
+            NOT_REACHED,
+        )
+
+
+def _measured(
+    scene: Path, realisations: int | None, covariance: bool, reach: float | None
+) -> tuple["Measurement", int]:
+    """Read the scene and say what is measured, or leave with a message."""
+    from numeric.ensemble.measure import measurement
+    from numeric.scene import SceneError, read_scene
+    from numeric.tables import TableError
+
+    try:
+        read = read_scene(scene)
+        size = read.ask.realisations if realisations is None else realisations
+        if not 2 <= size <= MOST:
+            given = f"--realisations = {size}" if realisations is not None else (
+                f"{scene.name}: ask.realisations = {size}"
+            )  # fmt: skip
+            fail(
+                f"{given}: an ensemble has from 2 to {MOST} packings; say how many with "
+                "--realisations N or in the scene",
+                WRONG_INPUT,
+            )
+        return measurement(read, covariance=covariance, reach=reach), size
+    except (SceneError, TableError) as error:
+        fail(f"{scene.name}: {error}", WRONG_INPUT)
+    except MemoryError:
+        fail(f"{scene.name}: the memory is full; ask for a smaller packing", WRONG_INPUT)
+
+
+def _check_numbers(until: float | None, confidence: float, workers: int | None) -> None:
+    if until is not None and not 0 < until < 1:
+        fail(f"--until = {until:g}: must lie between 0 and 1, such as 0.01", WRONG_INPUT)
+    if not 0 < confidence < 1:
+        fail(f"--confidence = {confidence:g}: must lie between 0 and 1, such as 0.95", WRONG_INPUT)
+    if workers is not None and not 1 <= workers <= 1024:
+        fail(f"--workers = {workers}: must lie between 1 and 1024", WRONG_INPUT)
+
+
+def _executor(
+    m: "Measurement",
+    size: int,
+    workers: int | None,
+    scheduler: str | None,
+    cluster: Where | None,
+) -> "Executor":
+    """Choose who solves, or leave with a message."""
+    from numeric.budget import memory_limit
+    from numeric.ensemble.workers import InProcess, Pool
+
+    if scheduler is not None and (cluster is not None or workers is not None):
+        other = "--workers" if cluster is None else "--cluster"
+        fail(f"--scheduler and {other} exclude each other: leave one out", WRONG_INPUT)
+    room = max(1, memory_limit() // m.plan.memory)
+    if scheduler is None:
+        if workers is not None and workers > room:
+            fail(f"--workers = {workers}: the free memory is enough for {room}", WRONG_INPUT)
+        if workers is None:
+            short = cluster is None and size * m.plan.estimated_seconds < WORTH_WORKERS
+            workers = 1 if short else min(_cores(), room)
+        if cluster is None:
+            return InProcess() if workers == 1 else Pool(workers)
+    try:
+        from numeric.ensemble.cluster import Cluster
+    except ImportError:
+        fail(
+            "a cluster needs Dask, which is missing: pip install 'force-diffusion[cluster]'",
+            WRONG_INPUT,
+        )
+    return Cluster(scheduler, workers or 1)
+
+
+def _cores() -> int:
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # not on this system
+        return os.cpu_count() or 1
+
+
+def _run(
+    name: str,
+    m: "Measurement",
+    size: int,
+    executor: "Executor",
+    path: Path | None,
+    until: float | None,
+    confidence: float,
+) -> "Result":
+    """Run under a progress bar; leave with a message where that fails."""
+    from numeric.ensemble.confidence import Rule
+    from numeric.ensemble.run import run
+    from numeric.ensemble.scene_key import ensemble_key
+    from numeric.ensemble.store import StoreError, open_store
+    from numeric.ensemble.workers import RealisationError, WorkersError
+
+    rule = None if until is None else Rule(until, confidence)
+    store = None
+    try:
+        if path is not None:
+            store = open_store(path, ensemble_key(m))
+        with ExitStack() as stack:
+            progress = _progress(stack, size, until)
+            return run(
+                m, size, executor,
+                store=store, rule=rule, confidence=confidence, progress=progress,
+            )  # fmt: skip
+    except StoreError as error:
+        fail(f"--store {error}", WRONG_INPUT)
+    except RealisationError as error:
+        fail(f"{name}: {error}", WRONG_INPUT)
+    except WorkersError as error:
+        fail(f"{error}.{_kept(store)}", NOT_REACHED)
+    except ArithmeticError as error:
+        fail(f"{name}: a number left the range of the arithmetic ({error})", NOT_REACHED)
+    except MemoryError:
+        fail(f"{name}: the memory is full; use fewer workers.{_kept(store)}", NOT_REACHED)
+    except KeyboardInterrupt:
+        kept = _kept(store) or " Nothing was kept: --store FILE would have."
+        print(f"force-diffusion:{kept}", file=sys.stderr)
+        raise
+    finally:
+        if store is not None:
+            store.close()
+
+
+def _kept(store: "Store | None") -> str:
+    if store is None:
+        return ""
+    done = sum(stop - first for first, stop in store.ranges())
+    return f" {store.path} holds {done} realisations; the same command goes on from there."
+
+
+def _progress(
+    stack: ExitStack, size: int, until: float | None
+) -> Callable[[int, float | None], None]:
+    """A bar with the time left, on a terminal."""
+    if not sys.stderr.isatty():
+        return lambda done, width: None
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+    from rich.progress import TimeElapsedColumn as Elapsed
+    from rich.progress import TimeRemainingColumn as Left
+
+    columns = (
+        TextColumn("realisations"), BarColumn(), MofNCompleteColumn(),
+        Elapsed(), TextColumn("left"), Left(), TextColumn("{task.description}"),
+    )  # fmt: skip
+    bar = Progress(*columns, console=Console(stderr=True), transient=True)
+    task = None
+
+    def progress(done: int, width: float | None) -> None:
+        nonlocal task
+        if task is None:  # what a store held took no time now
+            task = bar.add_task("", total=size, completed=done)
+            stack.enter_context(bar)
+        bar.update(task, completed=done)
+        if width is not None and until is not None:
+            bar.update(task, description=f"σ_f to {width:.2g}, until {until:g}")
+
+    return progress
+
+
+def _matrix_text(covariance: dict[str, Any]) -> str:
+    """The matrix as CSV: a column a row of the result, under that row's label."""
+    labels = [":".join(map(str, one)) for one in zip(*covariance["labels"].values(), strict=True)]
+    rows = [dict(zip(labels, map(repr, row), strict=True)) for row in covariance["matrix"]]
+    return csv_text(rows)
+
+
+def _lines(data: dict[str, Any], quantity: str) -> list[str]:
+    rows, about, sure = data["results"][quantity], data["ensemble"], data["confidence"]
+    lines = [csv_text(rows).rstrip("\n"), f"# {quantity}: {len(rows)} rows"]
+    lines.append(f"# {about['realisations']} packings, {about['arithmetic']}")
+    width = sure["largest_relative_half_width"]
+    if width is not None:
+        looks = f", looked at {sure['looks']} times" if sure["looks"] else ""
+        lines.append(
+            f"# every std together within {width:.2g} of itself, with confidence "
+            f"{sure['level']:g}{looks}"
+        )
+    lines += [f"# left out: {s['effect']}: {s['reason']}" for s in data["skipped"]]
+    return lines
+
+
+def ensemble_status(
+    store: Annotated[Path, typer.Argument(metavar="FILE", help="The store of an ensemble.")],
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
+) -> None:
+    """Say what the store of an ensemble holds, and check it."""
+    from numeric.ensemble.store import StoreError, open_store
+
+    try:
+        opened = open_store(store, None)
+        try:
+            ranges = opened.ranges()
+        finally:
+            opened.close()
+    except StoreError as error:
+        fail(str(error), WRONG_INPUT)
+    data = {
+        "realisations": sum(stop - first for first, stop in ranges),
+        "ranges": [list(one) for one in ranges],
+        "sizes_asked_for": list(opened.about.ends),
+        "ensemble": opened.about.key,
+    }
+    if as_json:
+        print(json.dumps(data, indent=2))
+        return
+    print(f"{store}: sound, {data['realisations']} realisations")
+    asked = ", ".join(map(str, opened.about.ends))
+    print(f"sizes asked for: {asked}")
+    for section, keys in opened.about.key.items():
+        shown = keys or {}
+        print(f"{section}: " + ", ".join(f"{k} = {v}" for k, v in shown.items() if v is not None))
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands to the command line."""
+    app.command(epilog=STATUSES)(ensemble)
+    app.command("ensemble-status", epilog=STATUSES)(ensemble_status)
