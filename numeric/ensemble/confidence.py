@@ -8,14 +8,17 @@ asked, as far as means over packings are normal (Student's t, at least 32 packin
 look is divided among the groups, so that the statement is about all of them at once.
 """
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import mpmath
+import flint
 
 from numeric.ensemble.estimates import Estimates
+from numeric.systems import Balls
 
 FIRST_LOOK = 32
+_BALLS = Balls(128)
 
 
 def looks(end: int) -> Iterator[int]:
@@ -49,10 +52,8 @@ def half_width(estimates: Estimates, confidence: float, look: int) -> float:
     spread = estimates.relative_errors()
     if not spread:
         return 0.0
-    wrong = (1 - mpmath.mpf(confidence)) / len(spread)
-    if look:
-        wrong /= look * (look + 1)
-    return max(spread) * student(float(wrong), estimates.realisations - 1)
+    wrong = (1 - confidence) / len(spread) / (look * (look + 1) if look else 1)
+    return max(spread) * student(wrong, estimates.realisations - 1)
 
 
 def student(wrong: float, freedom: int) -> float:
@@ -62,16 +63,17 @@ def student(wrong: float, freedom: int) -> float:
     '2.2281 1.9600'
     """
     if freedom < 1:
-        return float("inf")
-    with mpmath.workprec(80):
-        half = mpmath.mpf(freedom) / 2
+        return math.inf
+    with _BALLS.active():
+        half = flint.arb(freedom) / 2
 
-        def excess(x: mpmath.mpf) -> mpmath.mpf:  # P(|T| > t) for x = freedom/(freedom + t²)
-            return mpmath.betainc(half, 0.5, 0, x, regularized=True) - wrong
+        def likelier(t: float) -> bool:
+            x = freedom / (freedom + flint.arb(t) ** 2)
+            return bool(x.beta_lower(half, flint.arb(1) / 2, True) > wrong)
 
-        low, high = mpmath.mpf(0), mpmath.mpf(1)
-        for _ in range(70):  # bisection always ends, and alike everywhere
-            middle = (low + high) / 2
-            low, high = (middle, high) if excess(middle) < 0 else (low, middle)
-        x = (low + high) / 2
-        return float(mpmath.sqrt(freedom * (1 - x) / x))
+        low, high = 0.0, 1.0
+        while likelier(high):
+            low, high = high, 2 * high
+        while low < (middle := (low + high) / 2) < high:  # until doubles end: alike everywhere
+            low, high = (middle, high) if likelier(middle) else (low, middle)
+        return high

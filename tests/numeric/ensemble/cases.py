@@ -1,0 +1,43 @@
+"""Small ensembles for the tests."""
+
+from typing import Any
+
+from numeric.ensemble.measure import Measurement, measurement
+from tests.numeric.scenes import scene
+
+PROFILE: dict[str, dict[str, Any]] = {
+    "packing": {"height": 4, "width": 6},
+    "disorder": {"kind": "uniform", "relative_std": "=1e-4", "seed": 5},
+    "ask": {"quantity": "profile"},
+}
+CASES: dict[str, dict[str, dict[str, Any]]] = {
+    "profile": PROFILE,
+    "profile of a bulk load": {**PROFILE, "load": {"kind": "bulk"}},
+    "profile, first order": {**PROFILE, "effects": {"geometry": "first-order"}},
+    "profile below a point load": {**PROFILE, "load": {"kind": "point", "at": [3, 3]}},
+    "contact of a slab": {
+        **PROFILE,
+        "packing": {"height": 5},
+        "ask": {"quantity": "contact", "at": [0, 2, "-"]},
+    },
+    "contact by line sums": {
+        **PROFILE,
+        "effects": {"geometry": "first-order"},
+        "ask": {"quantity": "contact", "at": [0, 2, "+"]},
+    },
+    "all contacts": {**PROFILE, "ask": {"quantity": "contact_forces"}},
+    "response": {
+        **PROFILE,
+        "packing": {"height": 4},
+        "load": {"kind": "point", "at": [0, 4]},
+        "ask": {"quantity": "response"},
+    },
+    "histogram of all": {**PROFILE, "ask": {"quantity": "histogram", "bins": 11}},
+    "histogram of one": {**PROFILE, "ask": {"quantity": "histogram", "at": [0, 2, "+"]}},
+}
+
+
+def case(name: str, *, covariance: bool = False, **disorder: Any) -> Measurement:
+    sections = CASES[name]
+    sections = {**sections, "disorder": {**sections["disorder"], **disorder}}
+    return measurement(scene(sections), covariance=covariance)

@@ -1,0 +1,49 @@
+"""When an ensemble is sure enough."""
+
+import math
+
+import pytest
+
+from numeric.ensemble.confidence import half_width, looks, student
+from numeric.ensemble.estimates import Estimates
+from numeric.ensemble.sums import measured
+from tests.numeric.ensemble.cases import case
+
+
+@pytest.mark.parametrize(
+    ("wrong", "freedom", "meant"),
+    [
+        # P(|T| > t) in closed form: 1 − 2 atan(t)/π for one degree of freedom,
+        # 1 − t/√(2 + t²) for two
+        (0.5, 1, 1.0),
+        (0.1, 1, math.tan(0.45 * math.pi)),
+        (0.01, 2, 0.99 * math.sqrt(2 / (1 - 0.99**2))),
+        (1e-9, 2, (1 - 1e-9) * math.sqrt(2 / (1 - (1 - 1e-9) ** 2))),
+    ],
+)
+def test_student(wrong: float, freedom: int, meant: float) -> None:
+    assert student(wrong, freedom) == pytest.approx(meant, rel=1e-6)
+
+
+def test_student_becomes_normal_and_needs_two() -> None:
+    assert student(0.31731050786291404, 10**8) == pytest.approx(1, rel=1e-6)
+    assert student(0.05, 0) == math.inf
+
+
+def test_looks_are_few_and_their_shares_add_up() -> None:
+    found = list(looks(10**9))
+    assert found == sorted(set(found))
+    assert len(found) < 60
+    assert sum(1 / (k * (k + 1)) for k in range(1, len(found) + 1)) < 1
+
+
+def test_more_looks_and_more_confidence_ask_for_more() -> None:
+    estimates = Estimates(m := case("profile"), measured(case("profile"), range(40)))
+    fixed = half_width(estimates, 0.95, 0)
+    assert fixed == pytest.approx(
+        student(0.05 / m.groups, 39)
+        * max(e / s for e, s in zip(estimates.std_error, estimates.std, strict=True) if e)
+    )
+    assert fixed < half_width(estimates, 0.95, 1) < half_width(estimates, 0.95, 2)
+    assert fixed < half_width(estimates, 0.99, 0)
+    assert half_width(Estimates(m, measured(m, range(1))), 0.95, 0) == math.inf
