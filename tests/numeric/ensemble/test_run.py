@@ -1,0 +1,250 @@
+"""An ensemble is the same to the bit for any workers, blocks, order and interruption."""
+
+import random
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from numeric.ensemble import profile, run, workers
+from numeric.ensemble.confidence import Rule
+from numeric.ensemble.measure import Measurement
+from numeric.ensemble.run import Executor, Result
+from numeric.ensemble.scene_key import ensemble_key
+from numeric.ensemble.store import Block, Store, StoreError, open_store
+from numeric.ensemble.sums import Sums, measured
+from numeric.ensemble.workers import InProcess, Pool, RealisationError, WorkersError
+from numeric.scene import SceneError
+from tests.numeric.ensemble.cases import CASES, PROFILE, case
+from tests.numeric.scenes import scene
+
+M = case("profile", covariance=True)
+WHOLE = measured(M, range(150)).to_bytes()
+
+
+class Shuffled:
+    """Workers that take several blocks, finish them in any order, and may fail."""
+
+    def __init__(self, seed: int, failing: bool = False) -> None:
+        self.random, self.failing = random.Random(seed), failing
+
+    def results(
+        self, m: Measurement, tasks: Iterator[tuple[int, int]]
+    ) -> Iterator[tuple[int, int, Sums]]:
+        pending: list[tuple[int, int]] = []
+        while True:
+            while len(pending) < 6 and (task := next(tasks, None)):
+                pending.append(task)
+            if not pending:
+                return
+            if self.failing and self.random.random() < 0.2:
+                raise WorkersError("they are gone")
+            first, stop = pending.pop(self.random.randrange(len(pending)))
+            yield first, stop, measured(m, range(first, stop))
+
+
+def size_of_blocks(monkeypatch: pytest.MonkeyPatch, size: int) -> None:
+    monkeypatch.setattr(run, "BLOCK", size * M.plan.region.beads)
+
+
+def on_file(path: Path, m: Measurement, size: int, executor: Executor, **more: Any) -> Result:
+    store = open_store(path, ensemble_key(m))
+    try:
+        return run.run(m, size, executor, store=store, **more)
+    finally:
+        store.close()
+
+
+def bytes_of(result: Result) -> bytes:
+    return result.estimates.sums.to_bytes()
+
+
+@settings(max_examples=10)
+@given(st.integers(0, 10**6), st.integers(5, 200))
+def test_any_order_and_any_blocks(seed: int, size: int) -> None:
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        size_of_blocks(monkeypatch, size)
+        assert bytes_of(run.run(M, 150, Shuffled(seed))) == WHOLE
+
+
+@settings(max_examples=6)
+@given(st.integers(0, 10**6), st.integers(8, 40))
+def test_what_fails_goes_on_from_the_file(
+    tmp_path_factory: pytest.TempPathFactory, seed: int, size: int
+) -> None:
+    path = tmp_path_factory.mktemp("store") / "ensemble.fd"
+    seen = []
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        while True:
+            size_of_blocks(monkeypatch, size)
+            try:
+                found = on_file(path, M, 150, Shuffled(seed, failing=True))
+                break
+            except WorkersError:
+                seed, size = seed + 1, size % 40 + 8
+                store = open_store(path, None)
+                seen.append(sum(stop - first for first, stop in store.ranges()))
+                store.close()
+    assert bytes_of(found) == WHOLE
+    assert seen == sorted(seen)  # nothing finished was lost
+
+
+def test_a_pool_of_processes_one_of_which_is_killed(monkeypatch: pytest.MonkeyPatch) -> None:
+    import os
+    import signal
+    from multiprocessing import active_children
+
+    size_of_blocks(monkeypatch, 10)
+    others = active_children()
+    killed = []
+
+    def kill_one(done: int, width: float | None) -> None:
+        if done and not killed:
+            victim = next(c for c in active_children() if c not in others)
+            assert victim.pid is not None
+            killed.append(victim.pid)
+            os.kill(victim.pid, signal.SIGKILL)
+
+    assert bytes_of(run.run(M, 150, Pool(2), progress=kill_one)) == WHOLE
+    assert killed
+
+
+def test_workers_that_always_die_are_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(workers, "solve_block", None)  # what is not sent can't be told apart
+    monkeypatch.setattr(workers, "_start", _die)
+    with pytest.raises(WorkersError, match="died 3 times"):
+        run.run(M, 40, Pool(1))
+
+
+def _die(m: Measurement) -> None:
+    import os
+
+    os._exit(1)
+
+
+def test_a_file_grows_with_looks_and_not_with_blocks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    size_of_blocks(monkeypatch, 1)
+    path = tmp_path / "ensemble.fd"
+    for size in (100, 150, 100, 150):
+        on_file(path, M, size, Shuffled(size))
+    store = open_store(path, None)
+    assert store.ranges() == [
+        (0, 32),
+        (32, 48),
+        (48, 64),
+        (64, 96),
+        (96, 100),
+        (100, 128),
+        (128, 150),
+    ]
+    assert store.about.ends == (100, 150)
+    store.close()
+    assert bytes_of(on_file(path, M, 100, Nobody())) == measured(M, range(100)).to_bytes()
+    with pytest.raises(StoreError, match="ask for 128 or 150"):
+        on_file(path, M, 140, Nobody())
+    assert bytes_of(on_file(path, M, 150, Nobody())) == WHOLE
+
+
+class Nobody:
+    """Nothing may be left to do."""
+
+    def results(
+        self, m: Measurement, tasks: Iterator[tuple[int, int]]
+    ) -> Iterator[tuple[int, int, Sums]]:
+        assert next(tasks, None) is None
+        return iter(())
+
+
+@settings(max_examples=5)
+@given(st.integers(0, 10**6), st.integers(10, 64))
+def test_where_it_stops_depends_on_nothing_but_the_sums(seed: int, size: int) -> None:
+    rule = Rule(0.12, 0.9)
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        usual = run.run(M, 300, InProcess(), rule=rule)
+        size_of_blocks(monkeypatch, size)
+        found = run.run(M, 300, Shuffled(seed), rule=rule)
+    assert usual.reached
+    assert 32 < usual.estimates.realisations < 300
+    assert usual.half_width <= 0.12
+    assert bytes_of(found) == bytes_of(usual)
+    assert (found.look, found.half_width) == (usual.look, usual.half_width)
+
+
+def test_a_file_with_more_does_not_change_where_it_stops(tmp_path: Path) -> None:
+    rule = Rule(0.12, 0.9)
+    path = tmp_path / "ensemble.fd"
+    usual = run.run(M, 300, InProcess(), rule=rule)
+    on_file(path, M, 300, InProcess())
+    found = on_file(path, M, 300, Nobody(), rule=rule)
+    assert bytes_of(found) == bytes_of(usual)
+    assert found.look == usual.look
+
+
+def test_a_rule_that_is_not_met() -> None:
+    found = run.run(M, 40, InProcess(), rule=Rule(1e-6, 0.9))
+    assert found.reached is False
+    assert found.look == 2  # at 32, and at the end
+    assert found.estimates.realisations == 40
+    fixed = run.run(M, 40, InProcess(), confidence=0.9)
+    assert fixed.reached is None
+    assert fixed.look == 0
+    assert fixed.half_width < found.half_width
+
+
+def test_a_packing_that_can_not_be_built_is_named() -> None:
+    wild = case("profile", kind="normal", relative_std="=0.25")
+    with pytest.raises(RealisationError, match=r"realisation \d+: bead \("):
+        run.run(wild, 60, InProcess())
+    with pytest.raises(RealisationError, match=r"realisation \d+: bead \("):
+        run.run(wild, 60, Pool(1))
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_quantity_can_be_kept(name: str, tmp_path: Path) -> None:
+    m = case(name, covariance=True)
+    path = tmp_path / "ensemble.fd"
+    on_file(path, m, 5, InProcess())
+    assert bytes_of(on_file(path, m, 9, InProcess())) == measured(m, range(9)).to_bytes()
+
+
+def test_a_block_is_written_once() -> None:
+    class Counted(Store):
+        def __init__(self) -> None:
+            self.first: list[int] = []
+
+        def put(self, block: Block, merged: Any = ()) -> None:
+            self.first.append(block.first)
+
+    one = run._Run(M, 150, None, None, 0.9, lambda done, width: None)
+    counted = Counted()
+    one.store = counted
+    one.finish(InProcess())
+    assert counted.first == [0, 32, 48, 64, 96, 128]
+
+
+def test_the_profile_for_figures(tmp_path: Path) -> None:
+    import numpy as np
+
+    from numeric.ensemble.estimates import Estimates
+
+    read = scene(PROFILE)
+    found = profile(read, 150, store=tmp_path / "ensemble.fd")
+    e = Estimates(M, measured(M, range(150)))
+    squares = np.array([float(v) for v in e.mean_square]).reshape(4, 2)
+    assert found.mean_square == pytest.approx(squares.mean(axis=1), rel=1e-15)
+    assert found.std == pytest.approx(np.array(e.std).reshape(4, 2).mean(axis=1), rel=1e-2)
+    half = np.kron(np.eye(4), np.full((1, 2), 0.5))
+    assert found.mean_square_covariance == pytest.approx(half @ (e.covariance() / 150) @ half.T)
+    error = np.sqrt(np.diag(found.mean_square_covariance)) / found.mean_square / 2
+    assert found.first_order_std is not None
+    assert (abs(found.std / found.first_order_std - 1) < 5 * error).all()
+    assert found.ordered == pytest.approx(0.7559289460184544)
+    with pytest.raises(SceneError, match="profile"):
+        profile(scene(CASES["response"]), 3)
+    with pytest.raises(ValueError, match="at least 2"):
+        profile(read, 1)

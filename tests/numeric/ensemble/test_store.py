@@ -1,0 +1,253 @@
+"""The file: what is damaged, foreign or in use is refused with a message, and never written to."""
+
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from numeric.ensemble.run import run
+from numeric.ensemble.scene_key import ensemble_key
+from numeric.ensemble.store import StoreError, open_store
+from numeric.ensemble.sums import measured
+from numeric.ensemble.workers import InProcess
+from tests.numeric.ensemble.cases import case
+from tests.numeric.ensemble.test_run import on_file
+
+ROOT = Path(__file__).parents[3]
+M = case("profile")
+KEY = ensemble_key(M)
+SIZE = 40
+WHOLE = measured(M, range(SIZE)).to_bytes()
+
+
+@pytest.fixture(scope="module")
+def sound(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    path = tmp_path_factory.mktemp("sound") / "ensemble.fd"
+    on_file(path, M, SIZE, InProcess())
+    return path.read_bytes()
+
+
+def refused(path: Path, says: str) -> None:
+    before = path.read_bytes()
+    with pytest.raises(StoreError, match=says):
+        on_file(path, M, SIZE, InProcess())
+    assert path.read_bytes() == before
+    assert [p.name for p in path.parent.iterdir()] == [path.name]
+
+
+@given(st.data())
+def test_flipped_bytes_are_refused_or_do_no_harm(
+    sound: bytes, tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
+) -> None:
+    path = tmp_path_factory.mktemp("flipped") / "ensemble.fd"
+    wrong = bytearray(sound)
+    for _ in range(data.draw(st.integers(1, 3))):
+        wrong[data.draw(st.integers(0, len(wrong) - 1))] ^= data.draw(st.integers(1, 255))
+    path.write_bytes(wrong)
+    try:
+        found = on_file(path, M, SIZE, InProcess())
+    except StoreError:
+        assert path.read_bytes() == bytes(wrong)
+    else:  # in a part of the file that holds nothing
+        assert found.estimates.sums.to_bytes() == WHOLE
+
+
+def test_flipped_sums_are_refused(sound: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "ensemble.fd"
+    content = measured(M, range(32)).to_bytes()
+    at = sound.index(content[8:200])
+    for offset in (0, 7, 100, 190):
+        wrong = bytearray(sound)
+        wrong[at + offset] ^= 1
+        path.write_bytes(wrong)
+        refused(path, "damaged")
+
+
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
+def test_a_truncated_file_is_refused(share: float, sound: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "ensemble.fd"
+    path.write_bytes(sound[: int(len(sound) * share)])
+    refused(path, "damaged")
+
+
+def test_files_of_another_kind_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "thesis.tex"
+    path.write_text("\\documentclass{article}")
+    refused(path, "not the store of an ensemble")
+    path.write_bytes(b"SQLite format 3\x00" + bytes(20))
+    refused(path, "not the store of an ensemble")
+    path.unlink()
+    with sqlite3.connect(path) as database:
+        database.execute("CREATE TABLE sums (first INTEGER)")
+    database.close()
+    refused(path, "not the store of an ensemble")
+    with pytest.raises(StoreError, match="no ordinary file"):
+        open_store(tmp_path, KEY)
+    with pytest.raises(StoreError, match="can't be written to"):
+        open_store(tmp_path / "no folder" / "ensemble.fd", KEY)
+    with pytest.raises(StoreError, match="no such store"):
+        open_store(tmp_path / "none.fd", None)
+
+
+def changed(path: Path, *statements: str) -> None:
+    database = sqlite3.connect(path)
+    for statement in statements:
+        database.execute(statement)
+    database.commit()
+    database.close()
+
+
+@pytest.mark.parametrize(
+    ("statement", "says"),
+    [
+        ("PRAGMA user_version = 2", "layout 2 of another version"),
+        ("DELETE FROM about WHERE name = 'ends'", "does not say"),
+        ("UPDATE about SET content = '[7]' WHERE name = 'ends'", "checksum"),
+        ("UPDATE sums SET stop = 31 WHERE first = 0", "checksum"),
+        ("UPDATE sums SET first = 33 WHERE first = 32", "checksum"),
+        ("UPDATE sums SET content = 'text'", "checksum"),
+        ("CREATE TRIGGER t AFTER INSERT ON sums BEGIN DELETE FROM sums; END", "tables"),
+        ("CREATE VIEW v AS SELECT * FROM sums", "tables"),
+    ],
+)
+def test_a_file_that_was_tampered_with(
+    statement: str, says: str, sound: bytes, tmp_path: Path
+) -> None:
+    path = tmp_path / "ensemble.fd"
+    path.write_bytes(sound)
+    changed(path, statement)
+    refused(path, says)
+
+
+def test_a_file_of_another_ensemble(sound: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "ensemble.fd"
+    path.write_bytes(sound)
+    for other, says in (
+        (case("profile", seed=6), "there disorder.seed is 5, here 6"),
+        (
+            case("profile", relative_std="=1e-5"),
+            "there disorder.relative_std is 0.0001, here 1e-05",
+        ),
+        (case("profile of a bulk load"), "load.kind"),
+        (case("profile", covariance=True), "measured.covariance"),
+        (case("response"), "ask.quantity"),
+    ):
+        with pytest.raises(StoreError, match=says):
+            open_store(path, ensemble_key(other))
+    assert path.read_bytes() == sound
+
+
+def test_a_file_of_another_version(
+    sound: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "ensemble.fd"
+    path.write_bytes(sound)
+    monkeypatch.setattr("numeric.ensemble.scene_key.program_version", lambda: "9.9")
+    with pytest.raises(StoreError, match=r"version.force-diffusion is .*, here 9.9"):
+        open_store(path, ensemble_key(M))
+
+
+def test_the_same_scene_in_other_words_is_the_same_ensemble() -> None:
+    from numeric.ensemble.measure import measurement
+    from tests.numeric.ensemble.cases import PROFILE
+    from tests.numeric.scenes import scene
+
+    other = {**PROFILE, "packing": {"height": 4, "width": 6, "radius": "=1.0", "spacing": "=3.00"}}
+    other["ask"] = {"quantity": "profile", "realisations": 77}
+    assert ensemble_key(measurement(scene(other))) == KEY
+
+
+def test_a_second_process_is_refused_while_one_works(tmp_path: Path) -> None:
+    path = tmp_path / "ensemble.fd"
+    mine = open_store(path, KEY)
+    run(M, 5, InProcess(), store=mine)
+    program = (
+        "import sys; from pathlib import Path; from numeric.ensemble.store import open_store\n"
+        "open_store(Path(sys.argv[1]), None)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(path)],
+        cwd=ROOT, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert "StoreError" in done.stderr
+    assert "in use" in done.stderr
+    mine.close()
+    open_store(path, KEY).close()
+
+
+def test_an_empty_file_is_a_new_one(tmp_path: Path) -> None:
+    path = tmp_path / "ensemble.fd"
+    path.touch()
+    assert on_file(path, M, 5, InProcess()).solved == 5
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from numeric.ensemble import run, store
+from numeric.ensemble.workers import InProcess
+from numeric.ensemble.scene_key import ensemble_key
+from tests.numeric.ensemble.cases import case
+
+path, word, count = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])
+seen = 0
+
+def watch(statement):
+    global seen
+    seen += statement.startswith(word)
+    if seen == count:
+        os.kill(os.getpid(), signal.SIGKILL)
+
+class Watched(store.sqlite3.Connection):
+    def __init__(self, *a, **k):
+        super().__init__(*a, **k)
+        self.set_trace_callback(watch)
+
+connect = store.sqlite3.connect
+store.sqlite3.connect = lambda *a, **k: connect(*a, factory=Watched, **k)
+m = case("profile")
+run.BLOCK = 5 * m.plan.region.beads
+opened = store.open_store(path, ensemble_key(m))
+run.run(m, 40, InProcess(), store=opened)
+"""
+
+
+def test_killed_at_every_kind_of_moment(tmp_path: Path) -> None:
+    """SIGKILL just before a statement runs; the last run has nothing to stop it."""
+    path = tmp_path / "ensemble.fd"
+    moments = ["CREATE 2", "PRAGMA 5", "COMMIT 1", "INSERT 1", "DELETE 1", "INSERT 3", "COMMIT 4"]
+    held = []
+    for moment in moments:
+        done = subprocess.run(
+            [sys.executable, "-c", KILLED, str(path), *moment.split()],
+            cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT)}, check=False,
+        )  # fmt: skip
+        assert done.returncode == -signal.SIGKILL, moment
+        if path.stat().st_size:
+            held.append(held_by(path))
+    assert 0 < held[-1] < 40
+    assert held == sorted(held)
+    found = on_file(path, M, SIZE, InProcess())
+    assert found.estimates.sums.to_bytes() == WHOLE
+    assert found.solved == SIZE - held[-1]
+    assert [p.name for p in tmp_path.iterdir()] == [path.name]
+
+
+def held_by(path: Path) -> int:
+    """How many realisations a file holds, as SQLite recovers a copy of it."""
+    copy, journal = path.with_suffix(".copy"), Path(f"{path}-journal")
+    copy.write_bytes(path.read_bytes())
+    if journal.exists():
+        Path(f"{copy}-journal").write_bytes(journal.read_bytes())
+    opened = open_store(copy, KEY)
+    ranges = opened.ranges()
+    opened.close()
+    copy.unlink()
+    Path(f"{copy}-journal").unlink(missing_ok=True)
+    return sum(stop - first for first, stop in ranges)
