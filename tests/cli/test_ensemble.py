@@ -1,0 +1,231 @@
+"""The commands for ensembles, as a user calls them."""
+
+import json
+import os
+import random
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from derivations.__main__ import main
+from tests.cli.test_terminal import on_a_terminal, plain
+
+ROOT = Path(__file__).parents[2]
+SCENE = ROOT / "scenes" / "ensemble.toml"
+ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT)}
+SMALL = """
+packing = {height = 3, width = 5}
+disorder = {kind = "uniform", relative_std = 1e-4, seed = 1}
+ask = {quantity = "profile", realisations = 40}
+"""
+
+
+def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
+    status = main(["ensemble", *map(str, arguments)])
+    shown = capsys.readouterr()
+    return status, shown.out, shown.err
+
+
+def program(*arguments: object) -> list[str]:
+    return [sys.executable, "-m", "derivations", "ensemble", *map(str, arguments)]
+
+
+@pytest.fixture
+def small(tmp_path: Path) -> Path:
+    path = tmp_path / "small.toml"
+    path.write_text(SMALL)
+    return path
+
+
+def test_kept_in_a_file_and_written_out(
+    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    store, out = tmp_path / "ensemble.fd", tmp_path / "out"
+    arguments = [small, "--store", store, "--out", out, "--covariance", "--json"]
+    status, shown, err = call(capsys, *arguments)
+    assert (status, err) == (0, "")
+    data = json.loads(shown)
+    assert data["ensemble"]["realisations"] == 40
+    assert len(data["results"]["profile"]) == 6
+    assert len(data["covariance"]["matrix"]) == 6
+    assert (out / "result.json").read_text() == shown
+    lines = (out / "profile.csv").read_text().splitlines()
+    assert lines[0].startswith("j,branch,samples,mean,mean_change,mean_change_error,std,std_error,")
+    assert (out / "covariance.csv").read_text().splitlines()[0] == "0:+,0:-,1:+,1:-,2:+,2:-"
+    first = (out / "result.json").read_bytes()
+    assert call(capsys, *arguments)[0] == 0  # again, from the file alone
+    assert (out / "result.json").read_bytes() == first
+    assert main(["ensemble-status", str(store)]) == 0
+    assert "sound, 40 realisations" in capsys.readouterr().out
+    assert main(["ensemble-status", str(store), "--json"]) == 0
+    held = json.loads(capsys.readouterr().out)
+    assert held["ranges"] == [[0, 32], [32, 40]]
+    assert held["ensemble"]["disorder"]["seed"] == 1
+
+
+def test_more_are_added_and_a_rule_stops_early(
+    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    store = tmp_path / "ensemble.fd"
+    assert call(capsys, small, "--store", store)[0] == 0
+    status, shown, _ = call(
+        capsys, small, "--store", store, "--realisations", 5000, "--until", "0.15", "--json"
+    )
+    assert status == 0
+    data = json.loads(shown)
+    assert 40 < data["ensemble"]["realisations"] < 5000
+    assert data["confidence"]["reached"] is True
+    assert data["confidence"]["largest_relative_half_width"] <= 0.15
+    alone = json.loads(call(capsys, small, "--realisations", 5000, "--until", "0.15", "--json")[1])
+    assert alone == data
+
+
+def test_a_rule_that_is_not_met_is_status_three(
+    small: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    status, shown, err = call(capsys, small, "--until", "0.001", "--confidence", "0.99")
+    assert status == 3
+    assert "# 40 packings" in shown
+    assert "not reached" in err
+    assert re.search(r"about \d.* realisations may do", err)
+
+
+WRONG: list[tuple[list[Any], str]] = [
+    (["--realisations", 1], "--realisations = 1"),
+    (["--realisations", 10**10], "from 2 to"),
+    (["--realisations", "many"], "--realisations"),
+    (["--until", 0], "--until = 0"),
+    (["--until", "nan"], "--until = nan"),
+    (["--confidence", 1], "--confidence = 1"),
+    (["--workers", 0], "--workers = 0"),
+    (["--workers", 2, "--scheduler", "tcp://x:1"], "exclude each other"),
+    (["--cluster", "local", "--scheduler", "tcp://x:1"], "exclude each other"),
+    (["--cluster", "moon"], "'moon'"),
+    (["--reach", 2], "histogram"),
+    (["--store", "."], "no ordinary file"),
+    (["--store", SCENE], "not the store of an ensemble"),
+    (["--out", SCENE], "this is a file"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "says"), WRONG)
+def test_wrong_usage(
+    arguments: list[Any], says: str, small: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = SCENE.read_bytes()
+    status, shown, err = call(capsys, small, *arguments)
+    assert (status, shown) == (2, "")
+    assert says in err
+    assert "Traceback" not in err
+    assert SCENE.read_bytes() == before
+
+
+def test_scenes_without_an_ensemble(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name, says in (
+        ("measured", "from 2 to"),
+        ("settled", "from 2 to"),
+        ("none", "no such file"),
+    ):
+        status, _, err = call(capsys, ROOT / "scenes" / f"{name}.toml")
+        assert (status, says in err) == (2, True)
+    status, _, err = call(capsys, ROOT / "scenes" / "leaning.toml", "--realisations", 9)
+    assert status == 2
+    assert 'ask.quantity = "base_reactions"' in err
+    path = tmp_path / "wild.toml"
+    path.write_text(SMALL.replace('"uniform", relative_std = 1e-4', '"normal", relative_std = 0.4'))
+    status, _, err = call(capsys, path)
+    assert status == 2
+    assert "wild.toml: realisation" in err
+    assert main(["ensemble-status", str(tmp_path / "none")]) == 2
+
+
+@pytest.mark.parametrize("name", ["distribution", "response", "figure3"])
+def test_other_scenes_work(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    status, shown, err = call(
+        capsys, ROOT / "scenes" / f"{name}.toml", "--realisations", 3, "--workers", 1
+    )
+    assert (status, err) == (0, "")
+    assert "# 3 packings" in shown
+
+
+def test_without_dask_it_says_what_to_install(
+    small: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.delitem(sys.modules, "numeric.ensemble.cluster", raising=False)
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    status, _, err = call(capsys, small, "--cluster", "local")
+    assert status == 2
+    assert "pip install 'force-diffusion[cluster]'" in err
+
+
+def test_a_cluster_on_this_machine(small: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("distributed")
+    usual = call(capsys, small, "--json")[1]
+    done = subprocess.run(
+        program(small, "--cluster", "local", "--workers", 2, "--json"),
+        env=ENVIRONMENT, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert done.stdout == usual
+    assert done.stderr == ""
+
+
+def test_killed_again_and_again_at_random(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """SIGKILL to a run with two workers, whatever it is at; the file is the same in the end."""
+    whole, store = tmp_path / "whole.fd", tmp_path / "killed.fd"
+    arguments = [SCENE, "--realisations", 700, "--json", "--store"]
+    assert call(capsys, *arguments, whole, "--workers", 1)[0] == 0
+    moments = random.Random(7)
+    kills = 0
+    while kills < 3:
+        started = time.monotonic()
+        with subprocess.Popen(
+            program(*arguments, store, "--workers", 2), env=ENVIRONMENT, stdout=subprocess.DEVNULL
+        ) as run:
+            begun = store.stat().st_mtime_ns if store.exists() else 0
+            while run.poll() is None and time.monotonic() < started + 60:
+                time.sleep(moments.random() / 20)
+                if store.exists() and store.stat().st_mtime_ns != begun:
+                    break  # it has begun to write
+            time.sleep(moments.random() / 2)
+            run.send_signal(signal.SIGKILL)
+            run.wait()
+        kills += 1
+    status, shown, _ = call(capsys, *arguments, store, "--workers", 1)
+    assert status == 0
+    assert shown == call(capsys, *arguments, whole)[1]
+
+
+def test_an_interrupt_says_how_to_go_on(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    store = tmp_path / "ensemble.fd"
+    arguments = [SCENE, "--realisations", 100_000, "--workers", 2, "--store", store]
+    with subprocess.Popen(
+        program(*arguments), env=ENVIRONMENT, stderr=subprocess.PIPE, text=True,
+        start_new_session=True,
+    ) as run:  # fmt: skip
+        while run.poll() is None and not (store.exists() and store.stat().st_size > 30_000):
+            time.sleep(0.05)
+        os.killpg(run.pid, signal.SIGINT)  # as a terminal does: to the workers too
+        _, err = run.communicate(timeout=60)
+    assert run.returncode == 130
+    assert "Traceback" not in err
+    assert re.search(r"holds [1-9]\d* realisations; the same command goes on", err)
+    assert main(["ensemble-status", str(store)]) == 0
+    assert "sound" in capsys.readouterr().out
+
+
+def test_a_terminal_sees_progress_and_the_time_left() -> None:
+    status, shown = on_a_terminal(
+        "ensemble", str(SCENE), "--realisations", "60", "--until", "0.2", "--workers", "1"
+    )
+    assert status == 0
+    text = plain(shown)
+    assert re.search(r"realisations .*/60 .*left", text)
+    assert "until 0.2" in text
