@@ -73,14 +73,12 @@ class Cluster:
         if self.address is None:
             cluster = open_things.enter_context(
                 distributed.LocalCluster(
-                    n_workers=self.workers, threads_per_worker=1, dashboard_address=None
+                    n_workers=self.workers, threads_per_worker=1, dashboard_address=":0"
                 )
             )
             return open_things.enter_context(distributed.Client(cluster))
         try:
-            client = open_things.enter_context(
-                distributed.Client(self.address, timeout=PATIENCE, set_as_default=False)
-            )
+            client = open_things.enter_context(distributed.Client(self.address, timeout=PATIENCE))
         except (OSError, ValueError) as error:
             raise WorkersError(
                 f"no scheduler answers at {self.address} ({error}): give the address that "

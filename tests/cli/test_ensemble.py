@@ -180,7 +180,7 @@ def test_killed_again_and_again_at_random(
 ) -> None:
     """SIGKILL to a run with two workers, whatever it is at; the file is the same in the end."""
     whole, store = tmp_path / "whole.fd", tmp_path / "killed.fd"
-    arguments = [SCENE, "--realisations", 700, "--json", "--store"]
+    arguments = [SCENE, "--realisations", 400, "--json", "--store"]
     assert call(capsys, *arguments, whole, "--workers", 1)[0] == 0
     moments = random.Random(7)
     kills = 0

@@ -13,8 +13,8 @@ from numeric.ensemble.workers import RealisationError, WorkersError
 from tests.numeric.ensemble.cases import case
 
 distributed = pytest.importorskip("distributed")
-from numeric.ensemble import cluster as cluster_module
-from numeric.ensemble.cluster import Cluster
+cluster_module = pytest.importorskip("numeric.ensemble.cluster")
+Cluster = cluster_module.Cluster
 
 M = case("profile", covariance=True)
 WHOLE = measured(M, range(300)).to_bytes()
@@ -23,7 +23,7 @@ WHOLE = measured(M, range(300)).to_bytes()
 @pytest.fixture(scope="module")
 def local() -> Iterator[Any]:
     with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0"
     ) as made:
         yield made
 
@@ -73,7 +73,7 @@ def test_a_scheduler_that_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_scheduler_without_workers(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cluster_module, "PATIENCE", 1)
     with (
-        distributed.LocalCluster(n_workers=0, processes=True, dashboard_address=None) as empty,
+        distributed.LocalCluster(n_workers=0, processes=True, dashboard_address=":0") as empty,
         pytest.raises(WorkersError, match="no workers"),
     ):
         run.run(M, 40, Cluster(empty.scheduler_address))
