@@ -30,6 +30,8 @@ def result_data(result: Result) -> dict[str, Any]:
             "reached": result.reached,
         },
     }
+    if m.edges:  # of all that was counted
+        data["statistics"] = rows(result)[0]
     if m.covariance and estimates.realisations > 1:
         of = "mean square change of a packing" if m.quantity == "profile" else "change"
         data["covariance"] = {
@@ -46,7 +48,7 @@ def rows(result: Result) -> list[dict[str, Any]]:
     m = estimates.measurement
     ordered = m.ordered()
     theory = m.theory() if "component" not in m.labels else None
-    layers = m.labels["j"]
+    layers = m.labels.get("j")
     found = []
     for g in range(m.groups):
         row = {name: column[g] for name, column in m.labels.items()}
@@ -56,7 +58,7 @@ def rows(result: Result) -> list[dict[str, Any]]:
         row["mean_change_error"] = _text(estimates.mean_error[g])
         row["std"] = _text(estimates.std[g])
         row["std_error"] = _text(estimates.std_error[g])
-        if theory is not None:
+        if theory is not None and layers is not None:
             row["first_order_std"] = f"{float(theory[layers[g]]):.12g}"
         row["tensile"] = int(estimates.sums.tensile[g])
         found.append(row)

@@ -229,3 +229,18 @@ def test_a_terminal_sees_progress_and_the_time_left() -> None:
     text = plain(shown)
     assert re.search(r"realisations .*/60 .*left", text)
     assert "until 0.2" in text
+
+
+def test_a_histogram_says_what_it_counted(capsys: pytest.CaptureFixture[str]) -> None:
+    status, shown, _ = call(
+        capsys, ROOT / "scenes" / "distribution.toml", "--realisations", 50, "--json"
+    )
+    assert status == 0
+    data = json.loads(shown)
+    counts = [row["count"] for row in data["results"]["histogram"]]
+    assert len(counts) == 15 + 2
+    assert sum(counts) == data["statistics"]["samples"] == 50
+    first, last = data["results"]["histogram"][0], data["results"]["histogram"][-1]
+    assert (first["low"], last["high"]) == ("-inf", "inf")
+    edge = float(last["low"])
+    assert edge == pytest.approx(6 * float(data["statistics"]["first_order_std"]), rel=1e-9)
