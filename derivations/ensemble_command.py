@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from numeric.ensemble.store import Store
 
 MOST = 10**9
+# Bytes of a batch of small packings, on top of those of one.
+BATCH = 100_000_000
 # Seconds of work from which on starting more processes repays.
 WORTH_WORKERS = 5
 STATUSES = (
@@ -153,7 +155,7 @@ def _executor(
     if scheduler is not None and (cluster is not None or workers is not None):
         other = "--workers" if cluster is None else "--cluster"
         fail(f"--scheduler and {other} exclude each other: leave one out", WRONG_INPUT)
-    room = max(1, memory_limit() // m.plan.memory)
+    room = max(1, memory_limit() // (m.plan.memory + BATCH))
     if scheduler is None:
         if workers is not None and workers > room:
             fail(f"--workers = {workers}: the free memory is enough for {room}", WRONG_INPUT)
@@ -217,8 +219,11 @@ def _run(
     except MemoryError:
         fail(f"{name}: the memory is full; use fewer workers.{_kept(store)}", NOT_REACHED)
     except KeyboardInterrupt:
-        kept = _kept(store) or " Nothing was kept: --store FILE would have."
-        print(f"force-diffusion:{kept}", file=sys.stderr)
+        kept = _kept(store)
+        if path is None:
+            kept = " nothing was kept; with --store FILE it would have been."
+        if kept:
+            print(f"force-diffusion:{kept}", file=sys.stderr)
         raise
     finally:
         if store is not None:

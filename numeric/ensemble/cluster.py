@@ -1,5 +1,6 @@
 """The same blocks on a Dask cluster: one that runs somewhere, or one made on this machine."""
 
+import logging
 from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -73,7 +74,10 @@ class Cluster:
         if self.address is None:
             cluster = open_things.enter_context(
                 distributed.LocalCluster(
-                    n_workers=self.workers, threads_per_worker=1, dashboard_address=":0"
+                    n_workers=self.workers,
+                    threads_per_worker=1,
+                    dashboard_address=":0",
+                    silence_logs=logging.ERROR,
                 )
             )
             return open_things.enter_context(distributed.Client(cluster))

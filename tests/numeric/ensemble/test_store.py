@@ -181,6 +181,20 @@ def test_a_second_process_is_refused_while_one_works(tmp_path: Path) -> None:
     open_store(path, KEY).close()
 
 
+def test_a_full_disk_is_told_and_leaves_the_file_good(tmp_path: Path) -> None:
+    path = tmp_path / "ensemble.fd"
+    store = open_store(path, KEY)
+    pages = store._database.execute("PRAGMA page_count").fetchone()[0]
+    store._database.execute(f"PRAGMA max_page_count = {pages + 1}")
+    with pytest.raises(OSError, match="full") as failure:
+        run(M, 400, InProcess(), store=store)
+    assert failure.value.filename == str(path)
+    held = sum(stop - first for first, stop in store.ranges())
+    store.close()
+    assert held
+    assert on_file(path, M, held, InProcess()).solved == 0
+
+
 def test_an_empty_file_is_a_new_one(tmp_path: Path) -> None:
     path = tmp_path / "ensemble.fd"
     path.touch()
