@@ -6,7 +6,7 @@ solvers; ``CSweep`` builds the same arithmetic in C. All of it serves the benchm
 
 import ctypes
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -39,7 +39,7 @@ class Problem:
         """All beads."""
         return whole(self.width, self.height)
 
-    def radii(self, system: NumberSystem = FLOAT64, realisations: int = 1) -> tuple[Array, ...]:
+    def radii(self, system: NumberSystem = FLOAT64, realisations: int = 1) -> Sequence[Array]:
         """δr/r, layer by layer; the same numbers in every system."""
         source = DrawnRadii("uniform", self.relative_std, SEED, self.width)
         with system.active():

@@ -7,7 +7,7 @@ their own, so that heights of thousands of layers stay small.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from time import perf_counter
@@ -27,7 +27,7 @@ from numeric.runner import critical_height
 from numeric.systems import FLOAT64, Balls, NumberSystem
 
 SEED = 1
-Changes = tuple[tuple[Array, ...], tuple[Array, ...]]
+Changes = tuple[Sequence[Array], Sequence[Array]]
 """Changes of the plus and of the minus contacts, layer by layer."""
 T = TypeVar("T")
 
@@ -110,12 +110,12 @@ def measure(case: Case) -> Row:
     radii = _radii(case)
     load = LoadSpec("surface", case.height, case.width)
 
-    def changes(system: NumberSystem, rho: tuple[Array, ...]) -> tuple[Packing, Forces]:
+    def changes(system: NumberSystem, rho: Sequence[Array]) -> tuple[Packing, Forces]:
         solved = deposit(n_x, region, rho, system)
         strength = load.strength(n_x, system)
         return solved, sweep_down(solved, region.rows, load.on(region.rows, strength, system))
 
-    def plainly(system: NumberSystem, rho: tuple[Array, ...]) -> Changes:
+    def plainly(system: NumberSystem, rho: Sequence[Array]) -> Changes:
         solved = plain.deposit(n_x, rho, system)
         down = plain.Vector(np.zeros(case.width), -np.ones(case.width))
         forces = plain.forces(solved, (None,) * case.height + (down,))
@@ -123,7 +123,7 @@ def measure(case: Case) -> Row:
         return tuple(f - ordered for f in forces.plus), tuple(f - ordered for f in forces.minus)
 
     def timed(
-        system: NumberSystem, work: Callable[[NumberSystem, tuple[Array, ...]], T]
+        system: NumberSystem, work: Callable[[NumberSystem, Sequence[Array]], T]
     ) -> tuple[T | None, float, str]:
         with system.active():
             rho = rows_of(radii, region.rows, [0], system)

@@ -52,7 +52,7 @@ def bits(solved: Packing | Forces) -> Any:
     )
 
     def raw(value: Any) -> Any:
-        if isinstance(value, tuple):
+        if not isinstance(value, np.ndarray):
             return [raw(v) for v in value]
         return value.shape, value.dtype, value.tobytes()
 
