@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from math import sqrt
 from typing import Any, TypeVar, cast
 
@@ -208,30 +209,27 @@ def _order(own: Array, loads: Array, width: int, side: int) -> tuple[Array, Arra
 
     ``own`` says which row of ``loads`` a layer carries, −1 for none; ``side`` is 0 for plus, 1 for
     minus. Below a load, the forces go straight down the diagonals: these layers are all windows
-    on one row, which is there twice, since a layer has no ends.
+    on one row, which is there twice, since a layer has no ends. The first such row is that of a
+    layer above the highest, where there is nothing to bear.
     """
     layers = own.size
-    start = np.empty(layers, np.int64)
-    size = base = 0
+    start = np.zeros(layers + 1, np.int64)
+    base, size = 0, 2 * width
     for j in range(layers - 1, 0, -1):
-        if j == layers - 1 or own[j] >= 0:
+        if own[j] >= 0:
             start[j] = base = size
             size += width if j == 1 or own[j - 1] >= 0 else 2 * width
         else:  # from a bead to the one above that loads it are j % 2 − side columns
             start[j] = base + (start[j + 1] - base + j % 2 - side) % width
     F = np.empty(size)
+    F[: 2 * width] = 0.0
     for j in range(layers - 1, 0, -1):
-        if j < layers - 1 and own[j] < 0:
-            continue
-        here = start[j]
-        for q in range(width):
-            F[here + q] = 0.0
-            if j < layers - 1:
-                F[here + q] = F[start[j + 1] + (q + j % 2 - side) % width]
-            if own[j] >= 0:
-                F[here + q] += loads[own[j], q]
-        if j > 1 and own[j - 1] < 0:
-            F[here + width : here + 2 * width] = F[here : here + width]
+        if own[j] >= 0:
+            here, above = start[j], start[j + 1]
+            for q in range(width):
+                F[here + q] = F[above + (q + j % 2 - side) % width] + loads[own[j], q]
+            if j > 1 and own[j - 1] < 0:
+                F[here + width : here + 2 * width] = F[here : here + width]
     return F, start
 
 
@@ -242,35 +240,47 @@ def _sweep_down(
     """Sweep a packing from the highest layer down; say if all is in order.
 
     ``F`` and where its layers ``start`` are those of ``_order``, ``block`` is that of ``_deposit``;
-    filled is ``g``, (2, …), all but layer 0.
+    filled is ``g``, (2, …), all but layer 0, and with a layer of zeros above the highest.
     """
     (F_plus, F_minus), (start_plus, start_minus) = F, start
+    g_plus, g_minus = g[0], g[1]
     plus_a, plus_b, minus_a, minus_b = block[2], block[3], block[4], block[5]
-    nothing = np.zeros(width)
     # What the sums of a layer and the one above have lost, which take turns; see ``_block``.
     lost = np.zeros((2, 2, width + (72 - width) % 512))
     good = True
-    top = len(start_plus) - 1
+    top = len(start_plus) - 2
+    for q in range((top + 1) * width, (top + 2) * width):
+        g_plus[q] = g_minus[q] = 0.0
     for j in range(top, 0, -1):
-        over, new, old = (j + 1) * width, lost[j % 2], lost[(j + 1) % 2]
+        here, over = j * width, (j + 1) * width
+        turns = min(over, top * width)  # above the highest layer no force is there to be turned
+        new, old = j % 2, (j + 1) % 2
+        F_over_plus, F_over_minus = start_plus[j + 1], start_minus[j + 1]
+        F_plus_here, F_minus_here = start_plus[j], start_minus[j]
         for q, a, b, n in _runs(j, width):
-            own = slice(over - width + q, over - width + q + n)
-            at_a, at_b = slice(over + a, over + a + n), slice(over + b, over + b + n)
-            zeros = nothing[:n]
-            right = left = (zeros, zeros, zeros, zeros)
-            if j < top:
-                F_b, F_a = start_plus[j + 1] + b, start_minus[j + 1] + a
-                right = (F_plus[F_b : F_b + n], g[0, at_b], plus_a[at_b], plus_b[at_b])
-                left = (F_minus[F_a : F_a + n], g[1, at_a], minus_a[at_a], minus_b[at_a])
-            Fp, Fm = start_plus[j] + q, start_minus[j] + q
             good &= _balance(
-                (F_plus[Fp : Fp + n], F_minus[Fm : Fm + n]),
-                (*right, old[0, b : b + n]),
-                (*left, old[1, a : a + n]),
-                (plus_a[own], plus_b[own]),
-                (minus_a[own], minus_b[own]),
-                (g[0, own], g[1, own]),
-                (new[0, q : q + n], new[1, q : q + n]),
+                (
+                    F_plus[F_plus_here + q : F_plus_here + q + n],
+                    F_minus[F_minus_here + q : F_minus_here + q + n],
+                ),
+                (
+                    F_plus[F_over_plus + b : F_over_plus + b + n],
+                    g_plus[over + b : over + b + n],
+                    plus_a[turns + b : turns + b + n],
+                    plus_b[turns + b : turns + b + n],
+                    lost[old, 0, b : b + n],
+                ),
+                (
+                    F_minus[F_over_minus + a : F_over_minus + a + n],
+                    g_minus[over + a : over + a + n],
+                    minus_a[turns + a : turns + a + n],
+                    minus_b[turns + a : turns + a + n],
+                    lost[old, 1, a : a + n],
+                ),
+                (plus_a[here + q : here + q + n], plus_b[here + q : here + q + n]),
+                (minus_a[here + q : here + q + n], minus_b[here + q : here + q + n]),
+                (g_plus[here + q : here + q + n], g_minus[here + q : here + q + n]),
+                (lost[new, 0, q : q + n], lost[new, 1, q : q + n]),
             )
     return good
 
@@ -308,13 +318,16 @@ def _cores() -> int:
         return os.cpu_count() or 1
 
 
-def _is_whole(rows: tuple[Layer, ...], width: int | None) -> bool:
-    return all(r.count == width and r.first == j % 2 for j, r in enumerate(rows))
-
-
 def _above_base(block: Array) -> Rows[Array]:
     """Give the layers of a block, (…, layers, W), of which the lowest has nothing to say."""
     return Rows(block.shape[-2], lambda j: block[..., j, :] if j else np.empty(0))
+
+
+@lru_cache(maxsize=1)
+def _metric(n_x: Fraction) -> tuple[float, float]:
+    """Give φ and 1/(1 − φ²): all packings of an ensemble have the same."""
+    m = packing.metric(n_x, FLOAT64)
+    return float(m.phi), float(m.inverse_det)
 
 
 def deposit(
@@ -326,10 +339,9 @@ def deposit(
 ) -> Packing:
     """Do what ``packing.deposit`` does, and to the bit; compiled for whole packings in float64."""
     shape = rho[0].shape
-    if system is not FLOAT64 or len(shape) > 2 or not _is_whole(region.rows, region.width):
+    if system is not FLOAT64 or len(shape) > 2 or not region.is_whole:
         return packing.deposit(n_x, region, rho, system, work)
-    m = packing.metric(n_x, system)
-    phi, inverse = float(m.phi), float(m.inverse_det)
+    phi, inverse = _metric(n_x)
     # Each packing of a batch lies in one piece: cores that write next to each other are slow.
     if isinstance(rho, Stack):
         radii = rho.block.reshape(-1, len(rho), shape[-1])
@@ -386,8 +398,7 @@ def sweep_down(
         not isinstance(solved, CompiledPacking)
         or linear
         or stop_at_tension
-        or len(rows) != len(solved.rho)
-        or not (rows is solved.region.rows or _is_whole(rows, solved.region.width))
+        or not (rows is solved.region.rows or rows == solved.region.rows)
         or any(len(r) and r.shape[1:] != (solved.region.width,) for _, r in given)
     ):
         return forces.sweep_down(
@@ -398,7 +409,8 @@ def sweep_down(
     (F_plus, start_plus), (F_minus, start_minus) = (
         _order(own, loaded, width, side) for side, (own, loaded) in enumerate(given)
     )
-    g, found = _block(batch, 2, layers, width)
+    g, found = _block(batch, 2, layers + 1, width)
+    found = found[:, :, :layers]
 
     def one(k: int) -> bool:
         return _sweep_down((F_plus, F_minus), (start_plus, start_minus), block[k], g[k], width)
@@ -421,7 +433,7 @@ def sweep_down(
 
 def _windows(values: Array, start: Array, width: int) -> Rows[Array]:
     """Give the layers of what ``_order`` made."""
-    return Rows(len(start), lambda j: values[start[j] : start[j] + width] if j else np.empty(0))
+    return Rows(len(start) - 1, lambda j: values[start[j] : start[j] + width] if j else np.empty(0))
 
 
 def _stacked(loads: Sequence[Array | None]) -> tuple[Array, Array]:
@@ -429,8 +441,10 @@ def _stacked(loads: Sequence[Array | None]) -> tuple[Array, Array]:
 
     Shapes: (layers,), (loaded layers, W).
     """
-    loaded = [(j, row) for j, row in enumerate(loads) if row is not None]
-    index = np.full(len(loads), -1)
-    for at, (j, _) in enumerate(loaded):
-        index[j] = at
-    return index, np.stack([row for _, row in loaded]) if loaded else np.empty((0, 0))
+    index = [-1] * len(loads)
+    loaded = []
+    for j, row in enumerate(loads):
+        if row is not None:
+            index[j] = len(loaded)
+            loaded.append(row)
+    return np.array(index), np.array(loaded) if loaded else np.empty((0, 0))

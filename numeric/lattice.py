@@ -7,6 +7,7 @@ q of layer j is i = 2q + (j mod 2), 0 ≤ i < 2W. Lengths are in units of the me
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, TypeVar, overload
 
 import numpy as np
@@ -101,6 +102,11 @@ class Region:
     def beads(self) -> int:
         """How many beads the region holds."""
         return sum(layer.count for layer in self.rows)
+
+    @cached_property
+    def is_whole(self) -> bool:
+        """Whether it is all of a periodic packing, up to its highest layer."""
+        return all(r.count == self.width and r.first == lowest_column(r.j) for r in self.rows)
 
 
 def whole(width: int, height: int) -> Region:
