@@ -144,7 +144,10 @@ class CSweep:
         self.library = ctypes.CDLL(str(target))
         shape = (problem.height + 1, problem.width)
         self.rho = np.ascontiguousarray(np.stack(problem.radii()))
-        self.blocks = np.zeros((10, *shape))
+        # At distances as in numeric/fast.py, which suit the cache.
+        beads = shape[0] * shape[1]
+        memory = np.zeros((10, beads + (72 - beads) % 512))
+        self.blocks = memory[:, :beads].reshape(10, *shape)
         self.nothing = np.zeros(problem.width)
         self.lost = np.zeros((2, 2, problem.width))
         m = metric(problem.n_x, FLOAT64)

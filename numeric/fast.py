@@ -442,7 +442,7 @@ def _stacked(loads: Sequence[Array | None]) -> tuple[Array, Array]:
     Shapes: (layers,), (loaded layers, W).
     """
     index = [-1] * len(loads)
-    loaded = []
+    loaded: list[Array] = []
     for j, row in enumerate(loads):
         if row is not None:
             index[j] = len(loaded)

@@ -147,7 +147,12 @@ class Rows(Sequence[T]):
 
 
 class Stack(Rows[Array]):
-    """Rows of equal length in one ``block``, (…, rows, beads)."""
+    """Rows of equal length in one ``block``, (…, rows, beads).
+
+    >>> rows = Stack(np.arange(6).reshape(3, 2))
+    >>> len(rows), rows[-1].tolist(), [row.tolist() for row in rows[:2]]
+    (3, [4, 5], [[0, 1], [2, 3]])
+    """
 
     def __init__(self, block: Array) -> None:
         self.block = block
