@@ -13,7 +13,7 @@ FLOATS, ENCLOSURES, CLOSED_FORMS = "rows", "enclosures", "closed_forms"
 FILES = {
     FLOATS: "stability.csv",
     ENCLOSURES: "stability_balls.csv",
-    CLOSED_FORMS: "stability_closed_forms.csv",
+    CLOSED_FORMS: "closed_forms.csv",
 }
 
 

@@ -16,8 +16,8 @@ from numeric.stability.enclosures import strips
 from numeric.stability.floats import cases
 
 FILES = [
-    "manifest.json", "stability.csv", "stability.json", "stability.png", "stability.svg",
-    "stability_balls.csv", "stability_closed_forms.csv",
+    "closed_forms.csv", "manifest.json", "stability.csv", "stability.json", "stability.png",
+    "stability.svg", "stability_balls.csv",
 ]  # fmt: skip
 
 
