@@ -102,7 +102,7 @@ PROOFS: dict[str, Callable[[], Work]] = {"proofs of Eqs. 11 and 13": _proofs}
 """Counted at their first run, since SymPy remembers; in a process of their own."""
 
 
-def fast_ratio(rounds: int = 41) -> float:
+def fast_ratio(rounds: int = 101) -> float:
     """Seconds of the compiled sweep over those of fixed NumPy arithmetic on as many beads.
 
     The arithmetic is 16 products, sums and roots of arrays of all beads. Both take turns, and the
