@@ -87,6 +87,12 @@ def test_other_versions_are_not_compared(program: ModuleType) -> None:
     a, b = program.compare(stored, VERSIONS | {"numba": "0.64"}, found)
     assert (a.ratio, b.ratio) == (9.0, None)
     assert program.status([a]) == 1
+    # On another processor counts hold, and the ratio of times doesn't: no failure by itself.
+    found["a"] = program.Measured("instructions", 1.0)
+    both = program.compare(stored, VERSIONS | {"processor": "another"}, found)
+    assert [one.ratio for one in both] == [1.0, None]
+    assert program.status(both) == 0
+    assert program.status(both[1:]) == 3
 
 
 def test_a_regression_outweighs_what_can_not_be_compared(program: ModuleType) -> None:
