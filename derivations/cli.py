@@ -24,7 +24,10 @@ COMMANDS = {
         "scene_commands",
         "Measure what accuracy costs: every way to answer a scene, its error beside its time.",
     ),
-    "stability": ("scene_commands", "Measure the engine's errors in hard cases."),
+    "stability": (
+        "stability_command",
+        "Measure what stability costs: errors and lost bits of both forms, time beside them.",
+    ),
     "ensemble": (
         "ensemble_command",
         "Statistics over many packings, on many cores, kept in a file as they come.",

@@ -109,7 +109,7 @@ def _measured(
     scene: Path, realisations: int | None, covariance: bool, reach: float | None
 ) -> tuple["Measurement", int]:
     """Read the scene and say what is measured, or leave with a message."""
-    from numeric.ensemble.measure import measurement
+    from numeric.ensemble.asked import measurement
     from numeric.scene import SceneError, read_scene
     from numeric.tables import TableError
 

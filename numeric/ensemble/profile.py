@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from numeric.ensemble.measure import measurement
+from numeric.ensemble.asked import measurement
 from numeric.ensemble.run import Executor, run
 from numeric.ensemble.scene_key import ensemble_key
 from numeric.ensemble.store import open_store

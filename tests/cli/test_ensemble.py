@@ -210,10 +210,16 @@ def test_an_interrupt_says_how_to_go_on(tmp_path: Path, capsys: pytest.CaptureFi
         program(*arguments), env=ENVIRONMENT, stderr=subprocess.PIPE, text=True,
         start_new_session=True,
     ) as run:  # fmt: skip
-        while run.poll() is None and not (store.exists() and store.stat().st_size > 30_000):
+        patience = time.monotonic() + 60
+        while time.monotonic() < patience and not (
+            store.exists() and store.stat().st_size > 30_000
+        ):
             time.sleep(0.05)
         os.killpg(run.pid, signal.SIGINT)  # as a terminal does: to the workers too
-        _, err = run.communicate(timeout=60)
+        try:
+            _, err = run.communicate(timeout=60)
+        finally:
+            run.kill()
     assert run.returncode == 130
     assert "Traceback" not in err
     assert re.search(r"holds [1-9]\d* realisations; the same command goes on", err)

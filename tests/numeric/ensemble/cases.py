@@ -2,7 +2,8 @@
 
 from typing import Any
 
-from numeric.ensemble.measure import Measurement, measurement
+from numeric.ensemble.asked import measurement
+from numeric.ensemble.measure import Measurement
 from tests.numeric.scenes import scene
 
 PROFILE: dict[str, dict[str, Any]] = {

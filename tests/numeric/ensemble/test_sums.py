@@ -15,8 +15,9 @@ from hypothesis import strategies as st
 from numeric import engine
 from numeric.engine import solve
 from numeric.ensemble import sums
+from numeric.ensemble.asked import measurement
 from numeric.ensemble.estimates import Estimates
-from numeric.ensemble.measure import Measurement, measurement
+from numeric.ensemble.measure import Measurement
 from numeric.ensemble.sums import Sums, from_bytes, measured
 from numeric.lattice import Array
 from numeric.packing import Packing
