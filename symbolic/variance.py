@@ -40,9 +40,12 @@ def order(value: RationalFunction, *sizes: sympy.Expr) -> int:
     return _degree(value.numerator, sizes or (M, j)) - _degree(value.denominator, sizes or (M, j))
 
 
-def leading(value: RationalFunction) -> RationalFunction:
-    """The part of highest order: what is left of value / M^order as M → ∞ at fixed z."""
-    sizes = (M, j)
+def leading(value: RationalFunction, *sizes: sympy.Expr) -> RationalFunction:
+    """The part of highest order: what is left of value / M^order as M → ∞ at fixed z.
+
+    Other indices that grow together may be given in place of M and j.
+    """
+    sizes = sizes or (M, j)
     return _top(value.numerator, sizes) / _top(value.denominator, sizes)
 
 
