@@ -205,7 +205,7 @@ def leg_variance(j: Any, l: Any, phi: Any, sigma: Any, r: Any) -> Any:
     l = _whole("l", l, 1)
     j, phi = _whole("j", j, 0), _endless(phi)
     if j >= l:
-        raise ValueError(f"no contact of a leg starts in layer j = {{j}}: 0 <= j < {{l}} is allowed")
+        raise ValueError(f"no contact of a leg starts at j = {{j}}: 0 <= j < l = {{l}} is allowed")
     p = l - j
 {leg_force}
 

@@ -1,6 +1,6 @@
 """Eq. 16: variance of the response to a point load, inside of its cone and on it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 
 import sympy
@@ -29,6 +29,7 @@ from symbolic.kernel import (
     undecided,
 )
 from symbolic.lattice import mirror
+from symbolic.linear_forms import NO_SITE, LinearForm
 from symbolic.paths import IN_CONE
 from symbolic.printing.text import text
 from symbolic.reading import Reader
@@ -54,7 +55,7 @@ from symbolic.symbols import (
     r,
     sigma,
 )
-from symbolic.variance import fluctuation, leading, order
+from symbolic.variance import leading, order, without_constant
 
 RESPONSE = sympy.Symbol("response")
 ONE_CONTACT = sympy.Symbol("contact_response")
@@ -71,6 +72,7 @@ SIZES = (j, p, q)
 """What grows in the limit: l = j + p + q → ∞ at fixed j/l and (i − k)/l inside of the cone."""
 
 INSIDE = {j: 0, p: 1, q: 1}
+BELOW = {j: 0, p: 1}
 ON_LEFT_LEG = {symbol: value.xreplace({q: sympy.Integer(0)}) for symbol, value in IN_CONE.items()}
 
 UPPER_RIGHT = eq10.branched_plus(i, j, p)
@@ -94,16 +96,19 @@ LEG_TILTS = terms(Dot(n_minus, DeltaNPlus(i, j)), minus(Dot(n_plus, DeltaNMinus(
 
 
 @cache
+def _bead_form() -> LinearForm:
+    return Reader(Region(INSIDE)).scalar(eq11.in_radii(BEAD_RESPONSE))
+
+
+@cache
+def _leg_form() -> LinearForm:
+    return Reader(Region(BELOW)).scalar(eq11.in_radii(LEG_RESPONSE).xreplace(ON_LEFT_LEG))
+
+
+@cache
 def bead_cases() -> tuple[Case, ...]:
     """Σ weight² of p/f_load for every bead inside of the cone."""
-    form = fluctuation(eq11.in_radii(BEAD_RESPONSE), Region(INSIDE))
-    return tuple(squares_by_case(form, INSIDE))
-
-
-def _cases(expression: sympy.Expr) -> Iterator[Case]:
-    lower = {j: 0, p: 1}
-    form = fluctuation(eq11.in_radii(expression).xreplace(ON_LEFT_LEG), Region(lower))
-    return squares_by_case(form, lower)
+    return tuple(squares_by_case(without_constant(_bead_form()), INSIDE, generic=3))
 
 
 def interior() -> RationalFunction:
@@ -210,16 +215,18 @@ def in_layers(value: RationalFunction) -> RationalFunction:
     return value.substitute({p: layers})
 
 
-def _stated(
-    pieces: tuple[Piece, ...], cases: Iterator[Case] | tuple[Case, ...], unit: sympy.Expr
-) -> Ruling:
+def _stated(pieces: tuple[Piece, ...], cases: Iterable[Case], unit: sympy.Expr) -> Ruling:
     """Closed forms against exact sums of squared weights, case by case."""
-    cases = tuple(cases)
+    found_in = tuple(cases)
     coordinates = IN_CONE if pieces in (BEAD, CONTACT) else ON_LEFT_LEG
-    found = first_difference(pieces, cases, FIELD.from_sympy(unit / sigma**2), coordinates)
+    wrong = first_difference(pieces, found_in, FIELD.from_sympy(unit / sigma**2), coordinates)
     return from_test(
-        found is None, f"{len(cases)} cases, which cover all sites, agree", f"not so: {found}"
+        wrong is None, f"{len(found_in)} cases, which cover all sites, agree", f"not so: {wrong}"
     )
+
+
+def _by_case(form: LinearForm) -> Iterator[Case]:
+    return squares_by_case(without_constant(form), BELOW, generic=2)
 
 
 def _bead() -> Ruling:
@@ -242,7 +249,8 @@ def _independent_of_position() -> Ruling:
 
 
 def _one_contact() -> Ruling:
-    exact = _stated(CONTACT, _cases(UPPER_RIGHT / 2), UNIT / 4)
+    form = Reader(Region(BELOW)).scalar(eq11.in_radii(UPPER_RIGHT / 2))
+    exact = _stated(CONTACT, _by_case(form), UNIT / 4)
     turn = (l + j + k - i) / 2
     value = FIELD.from_sympy((CONTACT[-1].expression * UNIT / 4).xreplace(IN_CONE))
     return all_of(
@@ -274,27 +282,22 @@ def _common_weights() -> Ruling:
 
 def _leg() -> Ruling:
     tilts = (1 + LEG_TILTS / (1 - phi**2)) / 2
+    force = Reader(Region(BELOW)).scalar(eq11.in_radii(LEG_CONTACT).xreplace(ON_LEFT_LEG))
     third = 3 * LEG[-1].expression - BEAD[-1].expression
     return all_of(
         decide_linear(LEG_RESPONSE, tilts, Region({})),
-        _stated(LEG, _cases(LEG_RESPONSE), UNIT / 4),
-        _stated(LEG_FORCE, _cases(LEG_CONTACT), UNIT),
+        _stated(LEG, _by_case(_leg_form()), UNIT / 4),
+        _stated(LEG_FORCE, _by_case(force), UNIT),
         decide_identity(third, 6 * phi + 2 * phi**2),
     )
 
 
 def _mean() -> Ruling:
     """No constant part inside; ½ f_load on a leg, as in the ordered packing."""
-    inside = Reader(Region(INSIDE)).scalar(eq11.in_radii(BEAD_RESPONSE))
-    region = Region({j: 0, p: 1})
-    leg = Reader(region).scalar(eq11.in_radii(LEG_RESPONSE).xreplace(ON_LEFT_LEG))
-    moving = fluctuation(eq11.in_radii(BEAD_RESPONSE), Region(INSIDE))
-    leg_moving = fluctuation(eq11.in_radii(LEG_RESPONSE).xreplace(ON_LEFT_LEG), region)
-    constant = (leg - leg_moving).constant_part()
+    half = FIELD.constant(sympy.Rational(1, 2))
+    on_leg = _leg_form().sites.get(NO_SITE, FIELD.zero)
     return from_test(
-        (inside - moving).is_zero()
-        and constant is not None
-        and (constant - FIELD.constant(sympy.Rational(1, 2))).is_zero(),
+        NO_SITE not in _bead_form().sites and (on_leg - half).is_zero(),
         "linear in radii of zero mean inside of the cone; ½ and such a part on a leg",
     )
 

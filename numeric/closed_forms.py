@@ -250,7 +250,7 @@ def leg_variance(j: Any, l: Any, phi: Any, sigma: Any, r: Any) -> Any:
     l = _whole("l", l, 1)
     j, phi = _whole("j", j, 0), _endless(phi)
     if j >= l:
-        raise ValueError(f"no contact of a leg starts in layer j = {j}: 0 <= j < {l} is allowed")
+        raise ValueError(f"no contact of a leg starts at j = {j}: 0 <= j < l = {l} is allowed")
     p = l - j
     if j == 0 and p == 1:
         return (phi*(phi*(phi*(phi - 2) + 6) - 2) + 1) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2) * (sigma / r) ** 2

@@ -57,25 +57,30 @@ def _fixed(form: LinearForm, symbol: sympy.Symbol, at: int) -> LinearForm:
 
 
 def squares_by_case(
-    form: LinearForm, lower: dict[sympy.Symbol, int], at: dict[sympy.Symbol, int] | None = None
+    form: LinearForm,
+    lower: dict[sympy.Symbol, int],
+    generic: int,
+    at: dict[sympy.Symbol, int] | None = None,
 ) -> Iterator[Case]:
     """Σ weight² of a form for all indices from their lower bounds on.
 
+    Values below ``generic`` become cases of their own at once, others only where they have to.
     The form must have been read for these indices: its sums are in order for all of them.
     """
     at = at or {}
+    symbol = min(lower, key=lambda index: lower[index], default=None)
     try:
-        value = take_apart(form, Region(lower)).sum_of_squares()
+        if symbol is None or lower[symbol] >= generic:
+            yield Case(at, lower, take_apart(form, Region(lower)).sum_of_squares())
+            return
     except UndeterminedError:
-        symbol = min(lower, key=lambda index: lower[index])
-        bound = lower[symbol]
-        if bound >= DEEPEST:
+        if symbol is None or lower[symbol] >= DEEPEST:
             raise
-        others = {index: least for index, least in lower.items() if index != symbol}
-        yield from squares_by_case(_fixed(form, symbol, bound), others, {**at, symbol: bound})
-        yield from squares_by_case(form, {**lower, symbol: bound + 1}, at)
-        return
-    yield Case(at, lower, value)
+    bound = lower[symbol]
+    others = {index: least for index, least in lower.items() if index != symbol}
+    one = _fixed(form, symbol, bound)
+    yield from squares_by_case(one, others, generic, {**at, symbol: bound})
+    yield from squares_by_case(form, {**lower, symbol: bound + 1}, generic, at)
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,11 @@ from symbolic.weights import take_apart
 
 def fluctuation(expression: sympy.Expr, region: Region) -> LinearForm:
     """The part of a linear expression that depends on the radii."""
-    form = Reader(region).scalar(expression)
+    return without_constant(Reader(region).scalar(expression))
+
+
+def without_constant(form: LinearForm) -> LinearForm:
+    """A form without its constant term, which is its mean."""
     return LinearForm(
         {site: weight for site, weight in form.sites.items() if site.family != CONSTANT},
         dict(form.rays),
