@@ -332,8 +332,9 @@ DERIVATION = Derivation(
         "normal radii and else in the limit, but where a finite fraction is tensile first order "
         "is no longer small.",
         "To let the expected number of tensile contacts vanish, rather than their fraction, the "
-        "paper expects a much lower M*. With Gaussian forces M*/(8c ln M)^(1/3), c > 1, is enough "
-        "for a square packing, to leading order: a logarithm, not another power of σ/r.",
+        "paper expects a much lower M*. With Gaussian forces M* divided by the cube root of "
+        "8c ln M, c > 1, is enough for a square packing, to leading order: a logarithm, not "
+        "another power of σ/r.",
     ),
 )
 
