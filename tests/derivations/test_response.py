@@ -87,7 +87,7 @@ def test_the_branch_is_that_of_equation_10() -> None:
     at = {sy.k: sy.i + sy.p - sy.q, sy.l: sy.j + sy.p + sy.q}
     count = eq10.BRANCH_COUNT.xreplace(at)
     assert count.expand() == sy.q
-    assert eq16.UPPER_LEFT == eq10.PRINTED.rhs.xreplace({sy.n: sy.q})
+    assert eq10.PRINTED.rhs.xreplace({sy.n: sy.q}) == eq16.UPPER_LEFT
 
 
 @given(
