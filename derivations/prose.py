@@ -36,6 +36,8 @@ _VECTOR = re.compile(r"(?<![A-Za-z\\{])n(?=\^\{[-+]|\^?\\pm)")
 _FORCE = re.compile(r"F(?=\^\{\\rm load)")
 _RECIPROCAL = re.compile(r"(?<![A-Za-z\\{])b(?=\^\{[-+]|\^?\\pm)")
 _NAMES = re.compile(r"(?<![A-Za-z\\])(max|min)(?![A-Za-z])")
+_POWER = re.compile(r"\^\(([^()]*)\)")
+_STAR = re.compile(r"(?<=[A-Za-z])\*")
 _ROOT = re.compile(r"√(\d+|\([^()]*\))")
 _PUNCTUATION = re.compile(r"(?P<open>[(“\"]*)(?P<core>.*?)(?P<close>[)”\".,;:?!]*)", re.DOTALL)
 _SYMBOLIC = re.compile(
@@ -75,6 +77,7 @@ def _character(character: str) -> str:
 def _set_mathematics(word: str) -> str:
     for special in "%#&{}":
         word = word.replace(special, f"\\{special}")
+    word = _STAR.sub("^{*}", _POWER.sub(r"^{\1}", word))
     for raised, source in _WORDS.items():
         word = word.replace(raised, source)
     word = _ROOT.sub(r"\\sqrt{\1}", _RUN.sub(_run, _INDEXED.sub(_lowered, word)))
@@ -100,6 +103,8 @@ def _parts(word: str) -> tuple[str, str, str]:
         core, closing = f"{core})", closing[1:]
     while core.count(")") > core.count("(") and opening.endswith("("):
         core, opening = f"({core}", opening[:-1]
+    if core.find(")") < core.find("(") and opening.endswith("(") and closing.startswith(")"):
+        opening, core, closing = opening[:-1], f"({core})", closing[1:]  # (a)^(b)
     return opening, core, closing
 
 
