@@ -246,7 +246,9 @@ class _Reader:
         inner = self.row()
         self._expect("command", "right")
         closing = self._fence()
-        return f"<mrow>{_stretched(opening, 'prefix')}{inner}{_stretched(closing, 'postfix')}</mrow>"
+        return (
+            f"<mrow>{_stretched(opening, 'prefix')}{inner}{_stretched(closing, 'postfix')}</mrow>"
+        )
 
     def _table(self) -> str:
         name = self._words()
@@ -285,7 +287,9 @@ class _Reader:
         """``[2pt]`` after the end of a row."""
         if self._is("sign", "["):
             token = self._next()
-            found = re.compile(r"\[[\d.]+(pt|em|ex)\]").match(self._source, token.start if token else 0)
+            found = re.compile(r"\[[\d.]+(pt|em|ex)\]").match(
+                self._source, token.start if token else 0
+            )
             while found and (token := self._next()) is not None and token.start < found.end():
                 self._take()
 

@@ -1,0 +1,148 @@
+"""What the report measures: what accuracy costs for one small scene, and how stable it is."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from decimal import Decimal
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from derivations.page.parts import Data, Figure, Part, Table, csv_data
+
+if TYPE_CHECKING:
+    from numeric.stability import ClosedFormRow
+
+SCENE = Path(__file__).with_name("small.toml")
+Notice = Callable[[str], None]
+"""Told what is measured next."""
+
+
+def cost_part(notice: Notice) -> Part:
+    """Every way to answer the small scene, its error beside its time."""
+    from numeric.cost.data import csv_rows, study_data
+    from numeric.cost.plot import plots
+    from numeric.cost.study import study
+    from numeric.scene import read_scene
+
+    command = f"force-diffusion cost {SCENE.name} --out cost"
+    found = study(read_scene(SCENE), lambda way: notice(f"cost: {way}"))
+    data = study_data(found, command)
+    svg = plots(found, command, SCENE.stem)["cost.svg"]
+    reference = data["reference"]
+    ways = [row for row in data["rows"] if row["pareto"]]
+    least = min(ways, key=lambda row: Decimal(row["error"]))
+    return Part(
+        id="cost",
+        title="What accuracy costs",
+        words=(
+            "Every way to answer the question of one small scene: all contact forces of a packing "
+            "of 16 layers of 34 beads, σ/r = 10⁻⁶, under a surface load. Errors are measured, "
+            "relative to the largest change of a force, against a reference that is "
+            f"{reference['kind']} to {reference['radius']}; times are medians of the machine that "
+            "made this page. A star marks the Pareto front: no other way is both more accurate "
+            "and faster.",
+        ),
+        command=command,
+        figures=(
+            Figure(
+                svg.encode() if isinstance(svg, str) else svg,
+                alt=(
+                    "Error against time, both logarithmic, for each way to the answer. On the "
+                    f"Pareto front there are {len(ways)} ways; the most accurate of them is "
+                    f"“{least['way']}” with {least['arithmetic']}, error {least['error']} after "
+                    f"{least['seconds']:.2g} seconds."
+                ),
+                caption="Error beside time, for every way to the answer.",
+            ),
+        ),
+        tables=(
+            Table(
+                "Ways to the answer, from the largest error to the smallest",
+                ("", "way", "arithmetic", "error", "certified bound", "median s", "peak kB"),
+                tuple(
+                    (
+                        "★" if row["pareto"] else "",
+                        row["way"],
+                        row["arithmetic"],
+                        Decimal(row["error"]),
+                        _decimal(row["certified_bound"]),
+                        row["seconds"],
+                        round(row["peak_bytes"] / 1000),
+                    )
+                    for row in data["rows"]
+                ),
+                csv_data("cost.csv", csv_rows(data)),
+            ),
+        ),
+        files=(Data(SCENE.name, SCENE.read_text(encoding="utf-8"), "text/plain"),),
+    )
+
+
+def _decimal(shown: str | None) -> Decimal | None:
+    return None if shown is None else Decimal(shown)
+
+
+def stability_part(notice: Notice) -> Part:
+    """How accurate the engine is where it is hard to be."""
+    from numeric.stability import cases, closed_form_rows, measure
+
+    packings = []
+    for case in cases():
+        notice(f"stability: {case.group}, {case.height} layers")
+        packings.append(measure(case))
+    forms = list(closed_form_rows())
+    worst = max(row.error for row in packings if row.error is not None)
+    return Part(
+        id="stability",
+        title="How stable the engine is",
+        words=(
+            "Contact forces in float64, in the deviation form that the engine uses and in the "
+            "plain form that subtracts ordered forces in the end, against balls, which enclose "
+            "the exact forces. Errors are measured, relative to the largest change of a force. "
+            f"The largest error of the deviation form in this table is {worst:.1e}.",
+            "Beyond M* the packing itself is unstable: the bits that balls lose there measure it.",
+        ),
+        command="force-diffusion stability",
+        tables=(
+            Table(
+                "Packings, each a periodic strip of its own",
+                (
+                    "group", "M", "W", "σ/r", "s/r", "deviation form", "plain form", "bits lost",
+                    "of", "pulling", "overlaps", "note",
+                ),
+                tuple(
+                    (
+                        row.group, row.height, row.width, row.relative_std,
+                        Decimal(row.spacing), row.error, row.plain_error, row.ball_bits_lost,
+                        row.ball_bits, row.tensile, row.overlaps, row.note,
+                    )
+                    for row in packings
+                ),
+                csv_data("stability.csv", [asdict(row) for row in packings]),
+            ),
+            Table(
+                "Closed forms of Eqs. 13 and 14 in float64, against exact rationals: the layer "
+                "with the largest error",
+                ("form", "M", "j", "relative error"),
+                tuple(
+                    (row.form, row.height, row.j, row.relative_error)
+                    for row in _largest(forms)
+                ),
+                csv_data("closed_forms.csv", [asdict(row) for row in forms]),
+            ),
+        ),
+    )  # fmt: skip
+
+
+def _largest(rows: Sequence["ClosedFormRow"]) -> list["ClosedFormRow"]:
+    """Of every form and height, the row with the largest error."""
+    found: dict[tuple[str, int], ClosedFormRow] = {}
+    for row in rows:
+        key = row.form, row.height
+        if key not in found or row.relative_error > found[key].relative_error:
+            found[key] = row
+    return list(found.values())
+
+
+def parts(notice: Notice) -> list[Part]:
+    """All that is measured, in the order of the page."""
+    return [cost_part(notice), stability_part(notice)]
