@@ -27,25 +27,17 @@ def proof_graph(outcomes: Sequence[Outcome]) -> Markup:
     columns: dict[int, list[int]] = {}
     for number, depth in depths(premises).items():
         columns.setdefault(depth, []).append(number)
-    tallest = max(map(len, columns.values()))
-    longest = max(
-        (depth - _depth_of(columns, one) for depth, numbers in columns.items()
-         for number in numbers for one in premises[number]),
-        default=1,
-    )  # fmt: skip
-    margin = 16 + 11 * longest  # room for the arcs
-    middle = margin + (tallest - 1) * _ROW / 2 + _RADIUS
     places = {
-        number: (
-            _RADIUS + 6 + depth * _COLUMN,
-            middle + (row - (len(numbers) - 1) / 2) * _ROW,
-        )
+        number: (depth * _COLUMN, (row - (len(numbers) - 1) / 2) * _ROW)
         for depth, numbers in columns.items()
         for row, number in enumerate(numbers)
     }
-    edges, nodes = [], []
-    for number, rests_on in premises.items():
-        edges += [_edge(places[one], places[number], middle) for one in rests_on]
+    curves = [
+        _curve(places[one], places[number], upwards=number % 2 == 0)
+        for number, rests_on in premises.items()
+        for one in rests_on
+    ]
+    nodes = []
     for outcome in outcomes:
         derivation = outcome.derivation
         x, y = places[derivation.number]
@@ -55,32 +47,41 @@ def proof_graph(outcomes: Sequence[Outcome]) -> Markup:
                 'cy="{2:g}" r="{5}"/><text x="{1:g}" y="{2:g}" dy="0.35em">{0}</text></a>'
             ).format(derivation.number, x, y, derivation.title, outcome.verdict, _RADIUS)
         )
-    width = 2 * (_RADIUS + 6) + (len(columns) - 1) * _COLUMN
+    edges = [
+        Markup('<path class="edge" d="M{:.1f} {:.1f}Q{:.1f} {:.1f} {:.1f} {:.1f}"/>').format(*curve)
+        for curve in curves
+    ]
+    # a curve turns where it is half-way between its middle point and the chord
+    heights = [(y0 + 2 * y1 + y2) / 4 for _, y0, _, y1, _, y2 in curves]
+    heights += [y for _, y in places.values()]
+    edge = _RADIUS + 5
+    top, width = min(heights) - edge, (len(columns) - 1) * _COLUMN + 2 * edge
+    height = max(heights) + edge - top
     return Markup(
-        '<svg class="graph" viewBox="0 0 {w:g} {h:g}" width="{w:g}" height="{h:g}" role="group" '
-        'aria-label="Which equation rests on which"><defs><marker id="arrow" viewBox="0 0 8 8" '
-        'refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto-start-reverse">'
+        '<svg class="graph" viewBox="{x:g} {y:g} {w:g} {h:g}" width="{w:g}" height="{h:g}" '
+        'role="group" aria-label="Which equation rests on which"><defs><marker id="arrow" '
+        'viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto">'
         '<path class="head" d="M0 1 7 4 0 7z"/></marker></defs>{edges}{nodes}</svg>'
-    ).format(w=width, h=2 * middle, edges=Markup("").join(edges), nodes=Markup("").join(nodes))
+    ).format(
+        x=-edge, y=top, w=width, h=height, edges=Markup().join(edges), nodes=Markup().join(nodes)
+    )
 
 
-def _depth_of(columns: dict[int, list[int]], number: int) -> int:
-    return next(depth for depth, numbers in columns.items() if number in numbers)
+def _curve(
+    start: tuple[float, float], end: tuple[float, float], *, upwards: bool
+) -> tuple[float, ...]:
+    """From circle to circle: straight to a neighbour, else an arc above or below what is between.
 
-
-def _edge(start: tuple[float, float], end: tuple[float, float], middle: float) -> Markup:
-    """An arrow between two circles: straight to a neighbour, else an arc above or below all."""
+    The three points of a quadratic curve.
+    """
     (x0, y0), (x1, y1) = start, end
     span = round((x1 - x0) / _COLUMN)
-    bulge = 0.0 if span <= 1 else 22.0 * span * (1 if (y0 + y1) / 2 > middle else -1)
-    if span > 1 and y0 == y1 == middle and round(x1 / _COLUMN) % 2:
-        bulge = -bulge
-    cx, cy = (x0 + x1) / 2, (y0 + y1) / 2 + bulge
-    ax, ay = _towards(x0, y0, cx, cy, _RADIUS + 1)
-    bx, by = _towards(x1, y1, cx, cy, _RADIUS + 3)
-    return Markup('<path class="edge" d="M{:.1f} {:.1f}Q{:.1f} {:.1f} {:.1f} {:.1f}"/>').format(
-        ax, ay, cx, cy, bx, by
-    )
+    side = -1 if y0 + y1 < 0 or (y0 + y1 == 0 and upwards) else 1
+    bulge = side * 20.0 * span if span > 1 else 0.0
+    x, y = (x0 + x1) / 2, (y0 + y1) / 2 + bulge
+    first = _towards(x0, y0, x, y, _RADIUS + 1)
+    last = _towards(x1, y1, x, y, _RADIUS + 3)
+    return *first, x, y, *last
 
 
 def _towards(x: float, y: float, to_x: float, to_y: float, by: float) -> tuple[float, float]:

@@ -15,7 +15,7 @@ from markupsafe import Markup
 from derivations.document import READING, sentence, statement_latex
 from derivations.page.graph import proof_graph
 from derivations.page.parts import Part
-from derivations.page.words import display, number, prose, symbol
+from derivations.page.words import display, prose, symbol
 from derivations.plain import mutant_counts, relation_of
 from derivations.record import Derivation, Outcome
 from symbolic.kernel import Verdict
@@ -132,6 +132,6 @@ def page(outcomes: Sequence[Outcome], parts: Sequence[Part], command: str, made:
         command=command,
         made=made,
         size=_SIZE,
-        number=number,
+        prose=prose,
     )
     return text.replace(_SIZE, f"{len(text.encode()) / 1e6:.2f} MB", 1)

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derivations.page.parts import Data, Figure, Part, Table, csv_data
+from derivations.page.words import plain_number
 
 if TYPE_CHECKING:
     from numeric.stability import ClosedFormRow
@@ -37,8 +38,8 @@ def cost_part(notice: Notice) -> Part:
             "Every way to answer the question of one small scene: all contact forces of a packing "
             "of 16 layers of 34 beads, σ/r = 10⁻⁶, under a surface load. Errors are measured, "
             "relative to the largest change of a force, against a reference that is "
-            f"{reference['kind']} to {reference['radius']}; times are medians of the machine that "
-            "made this page. A star marks the Pareto front: no other way is both more accurate "
+            f"{reference['kind']} to {plain_number(Decimal(reference['radius']))}; times are "
+            "medians of the machine that made this page. A star marks the Pareto front: no other way is both more accurate "
             "and faster.",
         ),
         command=command,
@@ -57,7 +58,7 @@ def cost_part(notice: Notice) -> Part:
         tables=(
             Table(
                 "Ways to the answer, from the largest error to the smallest",
-                ("", "way", "arithmetic", "error", "certified bound", "median s", "peak kB"),
+                ("", "way", "arithmetic", "error", "certified bound", "median ms", "peak kB"),
                 tuple(
                     (
                         "★" if row["pareto"] else "",
@@ -65,7 +66,7 @@ def cost_part(notice: Notice) -> Part:
                         row["arithmetic"],
                         Decimal(row["error"]),
                         _decimal(row["certified_bound"]),
-                        row["seconds"],
+                        1000 * row["seconds"],
                         round(row["peak_bytes"] / 1000),
                     )
                     for row in data["rows"]
@@ -98,7 +99,7 @@ def stability_part(notice: Notice) -> Part:
             "Contact forces in float64, in the deviation form that the engine uses and in the "
             "plain form that subtracts ordered forces in the end, against balls, which enclose "
             "the exact forces. Errors are measured, relative to the largest change of a force. "
-            f"The largest error of the deviation form in this table is {worst:.1e}.",
+            f"The largest error of the deviation form in this table is {plain_number(worst)}.",
             "Beyond M* the packing itself is unstable: the bits that balls lose there measure it.",
         ),
         command="force-diffusion stability",

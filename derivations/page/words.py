@@ -14,31 +14,43 @@ from symbolic.printing.mathml import mathml
 
 # A browser breaks no line within a formula: longer ones in a sentence are set in pieces.
 INLINE_POINTS = 110.0
+_SIGNS = frozenset("=<>≤≥≈∼≠≡→+−·/∈")
 
 
-def _groups(formula: Sequence[str]) -> Iterator[list[str]]:
-    """The words of a formula in groups that are narrow enough for a line of a telephone."""
-    group: list[str] = []
+def _groups(formula: Sequence[str]) -> Iterator[str]:
+    """A formula in pieces of LaTeX, cut before signs, that fit a line of a telephone."""
+    terms: list[list[str]] = []
     for word in formula:
-        if group and width(formula_latex([*group, word])) > INLINE_POINTS:
-            yield group
-            group = []
-        group.append(word)
-    yield group
+        if not terms or word in _SIGNS:
+            terms.append([])
+        terms[-1].append(word)
+    group: list[str] = []
+    signed = ""  # an empty piece before a sign makes it stand between two things
+    for term in terms:
+        if group and width(formula_latex([*group, *term])) > INLINE_POINTS:
+            yield signed + formula_latex(group)
+            group, signed = [], "{}"
+        group += term
+    yield signed + formula_latex(group)
 
 
-def _formula(words: Sequence[str]) -> str:
-    if len(words) == 1 and words[0].isdecimal():
-        return words[0]
-    return " ".join(mathml(formula_latex(group)) for group in _groups(words))
+def _piece(before: str, formula: Sequence[str], after: str) -> Markup:
+    """What stands between two spaces of a sentence; brackets and full stops stay at a formula."""
+    if not formula:
+        return escape(before)
+    if len(formula) == 1 and formula[0].isdecimal():
+        return escape(f"{before}{formula[0]}{after}")
+    groups = [Markup(mathml(group)) for group in _groups(formula)]
+    if before:
+        groups[0] = Markup('<span class="whole">{}{}</span>').format(before, groups[0])
+    if after:
+        groups[-1] = Markup('<span class="whole">{}{}</span>').format(groups[-1], after)
+    return Markup(" ").join(groups)
 
 
 def prose(words: str) -> Markup:
     """A sentence; it never holds markup of its own."""
-    return Markup(" ").join(
-        escape(before) + Markup(_formula(formula) if formula else "") + escape(after)
-        for before, formula, after in pieces(words)
-    )
+    return Markup(" ").join(_piece(*piece) for piece in pieces(words))
 
 
 def symbol(expression: Basic) -> Markup:
@@ -59,9 +71,30 @@ def number(value: float | Decimal | None) -> Markup:
     """
     if value is None:
         return Markup("–")
-    shown = str(value) if isinstance(value, int) else f"{value:.3g}"
+    digits, power = _in_tens(value)
+    return Markup("{}·10<sup>{}</sup>").format(digits, power) if power else escape(digits)
+
+
+def plain_number(value: float | Decimal) -> str:
+    """The same within a sentence.
+
+    >>> plain_number(1.5e-16)
+    '1.5·10⁻¹⁶'
+    """
+    digits, power = _in_tens(value)
+    return f"{digits}·10{power.translate(_RAISED)}" if power else digits
+
+
+_RAISED = str.maketrans("0123456789−", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+
+
+def _in_tens(value: float | Decimal) -> tuple[str, str]:
+    """Three digits, and a power of ten where it helps."""
+    usual = value == 0 or 1e-3 <= abs(value) < 1e6
+    shown = str(value) if isinstance(value, int) else f"{value:.3g}" if usual else f"{value:.2e}"
     digits, e, power = shown.replace("-", "−").partition("e")
     if not e:
-        return escape(digits)
-    sign = "−" if power.startswith("−") else ""
-    return Markup("{}·10<sup>{}</sup>").format(digits, sign + power.lstrip("−+0"))
+        return digits, ""
+    if "." in digits:
+        digits = digits.rstrip("0").rstrip(".")
+    return digits, ("−" if power.startswith("−") else "") + power.lstrip("−+0")

@@ -186,11 +186,15 @@ class _Reader:
     def _sign(self, sign: str) -> str:
         if sign.isalpha():
             return f"<mi>{sign}</mi>"
-        if sign in "()[]|":
+        if sign == "|":
+            return '<mo stretchy="false" lspace="0" rspace="0">|</mo>'
+        if sign in "()[]":
             return f'<mo stretchy="false">{sign}</mo>'
         if sign in "^_":
             return "<mi></mi>"  # a script that hangs on nothing
-        if sign in "+-=<>,.:;/*!?":
+        if sign == "/":
+            return '<mo lspace="0.06em" rspace="0.06em">/</mo>'
+        if sign in "+-=<>,.:;*!?":
             return f"<mo>{'−' if sign == '-' else escape(sign)}</mo>"
         raise UnknownLatexError(f"{sign!r} in {self._source}")
 
