@@ -42,7 +42,7 @@ _SWITCHES = {"bf", "rm", "mathbf", "mathrm", "operatorname"}
 _TABLES = {"pmatrix": "", "aligned": "aligned", "array": "cases", "cases": "cases"}
 
 _TOKEN = re.compile(
-    r"\\(?P<command>[A-Za-z]+|.)|(?P<number>\d+(?:\.\d+)?)|(?P<sign>[^\s\\])", re.DOTALL
+    r"\\(?P<command>[A-Za-z]+|.)|(?P<number>\d+(?:\.\d+)?)|(?P<sign>\S)", re.DOTALL
 )
 
 
@@ -184,7 +184,7 @@ class _Reader:
         return self._command(token.text)
 
     def _sign(self, sign: str) -> str:
-        if sign.isalpha():
+        if sign.isascii() and sign.isalpha():
             return f"<mi>{sign}</mi>"
         if sign == "|":
             return '<mo stretchy="false" lspace="0" rspace="0">|</mo>'
@@ -229,8 +229,6 @@ class _Reader:
                 return f'<mover accent="true">{_one(self._argument())}<mo>^</mo></mover>'
             case "mbox" | "text":
                 return f"<mtext>{escape(self._words())}</mtext>"
-            case "displaystyle":
-                return ""
             case "left":
                 return self._fenced()
             case "begin":
