@@ -5,12 +5,17 @@ from collections.abc import Iterable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
-from derivations.catalogue import load, with_premises
+from derivations.catalogue import load, modules, with_premises
 from derivations.folder import output_folder
 from derivations.progress import Silence, display
 from derivations.record import Derivation, Outcome
 from derivations.runner import run
 from symbolic.kernel import Verdict
+
+
+def everything() -> list[Derivation]:
+    """All derivations, premises first."""
+    return with_premises(load(number) for number in modules())
 
 
 def outcomes_of(derivations: Iterable[Derivation], watch: Silence) -> list[Outcome]:

@@ -38,6 +38,8 @@ _FORCE = re.compile(r"F(?=\^\{\\rm load)")
 _RECIPROCAL = re.compile(r"(?<![A-Za-z\\{])b(?=\^\{[-+]|\^?\\pm)")
 _NAMES = re.compile(r"(?<![A-Za-z\\])(max|min)(?![A-Za-z])")
 _ROOT = re.compile(r"√(\d+|\([^()]*\))")
+_STAR = re.compile(r"(?<=[A-Za-z])\*(?![A-Za-z0-9(])")
+_FLOAT = re.compile(r"(?<![A-Za-z0-9.])(\d(?:\.\d+)?)e([+-]\d+)(?![A-Za-z0-9])")
 _PUNCTUATION = re.compile(r"(?P<open>[(“\"]*)(?P<core>.*?)(?P<close>[)”\".,;:?!]*)", re.DOTALL)
 _SYMBOLIC = re.compile(
     "[" + re.escape("".join([*_MATHS, *_RAISED, *_LOWERED, *_WORDS])) + "_^=+*/<>|0-9]"
@@ -73,9 +75,15 @@ def _character(character: str) -> str:
     return _MATHS.get(character, unknown)
 
 
+def _power_of_ten(found: re.Match[str]) -> str:
+    factor = "" if float(found[1]) == 1 else rf"{found[1]} \cdot "
+    return f"{factor}10^{{{int(found[2])}}}"
+
+
 def _set_mathematics(word: str) -> str:
     for special in "%#&{}":
         word = word.replace(special, f"\\{special}")
+    word = _STAR.sub("^{*}", _FLOAT.sub(_power_of_ten, word))
     for raised, source in _WORDS.items():
         word = word.replace(raised, source)
     word = _ROOT.sub(r"\\sqrt{\1}", _RUN.sub(_run, _INDEXED.sub(_lowered, word)))

@@ -42,15 +42,13 @@ def _made(command: str) -> "tuple[tuple[list[Outcome], int], Mapping[str, str | 
     """Derive, measure, draw, and put the page together."""
     from datetime import UTC, datetime
 
-    from derivations import deriving
-    from derivations.catalogue import modules, with_premises
+    from derivations.deriving import everything, outcomes_of
     from derivations.page.making import page
     from derivations.page.measured import parts
     from derivations.progress import display
 
-    derivations = with_premises(deriving.load(number) for number in modules())
-    watch = display(len(derivations), as_json=False)
-    outcomes = deriving.outcomes_of(derivations, watch)
+    derivations = everything()
+    outcomes = outcomes_of(derivations, display(len(derivations), as_json=False))
     measured = parts(_notice)
     text = page(outcomes, measured, command, f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC")
     _notice("")

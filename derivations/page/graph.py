@@ -1,6 +1,6 @@
 """The graph of the proofs as a drawing: every equation to the right of those that it rests on."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
@@ -9,7 +9,7 @@ from derivations.record import Outcome
 _COLUMN, _ROW, _RADIUS = 56, 64, 17
 
 
-def depths(premises: dict[int, Sequence[int]]) -> dict[int, int]:
+def depths(premises: Mapping[int, Sequence[int]]) -> dict[int, int]:
     """Length of the longest chain of premises below each equation, given premises first.
 
     >>> depths({1: [], 2: [1], 3: [], 4: [2, 3]})

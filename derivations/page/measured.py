@@ -39,8 +39,8 @@ def cost_part(notice: Notice) -> Part:
             "of 16 layers of 34 beads, σ/r = 10⁻⁶, under a surface load. Errors are measured, "
             "relative to the largest change of a force, against a reference that is "
             f"{reference['kind']} to {plain_number(Decimal(reference['radius']))}; times are "
-            "medians of the machine that made this page. A star marks the Pareto front: no other way is both more accurate "
-            "and faster.",
+            "medians of the machine that made this page. A star marks the Pareto front: no other "
+            "way is both more accurate and faster.",
         ),
         command=command,
         figures=(

@@ -66,35 +66,42 @@ def display(formulas: Sequence[Basic], relation: str = "=") -> Markup:
 def number(value: float | Decimal | None) -> Markup:
     """A number for a table: powers of ten are written as such, nothing is a dash.
 
-    >>> print(number(1.5e-16), number(12), number(Decimal("-2.5")), number(None))
-    1.5·10<sup>−16</sup> 12 −2.5 –
+    >>> print(number(1.5e-16), number(12), number(Decimal("-2.5")), number(1e-6), number(None))
+    1.50·10<sup>−16</sup> 12 −2.5 10<sup>−6</sup> –
     """
     if value is None:
         return Markup("–")
     digits, power = _in_tens(value)
-    return Markup("{}·10<sup>{}</sup>").format(digits, power) if power else escape(digits)
+    if not power:
+        return escape(digits)
+    return Markup("{}10<sup>{}</sup>").format(_factor(digits), power)
 
 
 def plain_number(value: float | Decimal) -> str:
     """The same within a sentence.
 
     >>> plain_number(1.5e-16)
-    '1.5·10⁻¹⁶'
+    '1.50·10⁻¹⁶'
     """
     digits, power = _in_tens(value)
-    return f"{digits}·10{power.translate(_RAISED)}" if power else digits
+    return f"{_factor(digits)}10{power.translate(_RAISED)}" if power else digits
 
 
 _RAISED = str.maketrans("0123456789−", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
+def _factor(digits: str) -> str:
+    return "" if digits in ("1", "1.00") else f"{digits}·"
+
+
 def _in_tens(value: float | Decimal) -> tuple[str, str]:
-    """Three digits, and a power of ten where it helps."""
-    usual = value == 0 or 1e-3 <= abs(value) < 1e6
-    shown = str(value) if isinstance(value, int) else f"{value:.3g}" if usual else f"{value:.2e}"
+    """Digits, and a power of ten where it helps: three digits of a float, a decimal as it is."""
+    if isinstance(value, int | Decimal):
+        shown = str(value).lower()
+    else:
+        usual = value == 0 or 1e-3 <= abs(value) < 1e6
+        shown = f"{value:.3g}" if usual else f"{value:.2e}"
     digits, e, power = shown.replace("-", "−").partition("e")
     if not e:
         return digits, ""
-    if "." in digits:
-        digits = digits.rstrip("0").rstrip(".")
     return digits, ("−" if power.startswith("−") else "") + power.lstrip("−+0")

@@ -41,9 +41,7 @@ _SIZES = {"bigl": 1.2, "bigr": 1.2, "Bigl": 1.8, "Bigr": 1.8, "biggl": 2.4, "big
 _SWITCHES = {"bf", "rm", "mathbf", "mathrm", "operatorname"}
 _TABLES = {"pmatrix": "", "aligned": "aligned", "array": "cases", "cases": "cases"}
 
-_TOKEN = re.compile(
-    r"\\(?P<command>[A-Za-z]+|.)|(?P<number>\d+(?:\.\d+)?)|(?P<sign>\S)", re.DOTALL
-)
+_TOKEN = re.compile(r"\\(?P<command>[A-Za-z]+|.)|(?P<number>\d+(?:\.\d+)?)|(?P<sign>\S)", re.DOTALL)
 
 
 class UnknownLatexError(ValueError):

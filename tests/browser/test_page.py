@@ -5,6 +5,7 @@ import io
 import re
 import socket
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -261,7 +262,7 @@ def test_names_and_headings_for_those_who_listen(tab: Any) -> None:
     assert tab.title()
     levels = tab.evaluate("[...document.querySelectorAll('h1,h2,h3')].map(h => +h.tagName[1])")
     assert levels.count(1) == 1
-    assert all(after <= before + 1 for before, after in zip(levels[1:], levels[2:], strict=False))
+    assert all(after <= before + 1 for before, after in pairwise(levels))
     unnamed = tab.evaluate(
         """[...document.querySelectorAll('a, img, input, table, [role=region], section')]
             .filter(e => !(e.textContent.trim() || e.alt || e.getAttribute('aria-label')

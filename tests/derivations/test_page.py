@@ -1,4 +1,4 @@
-"""The page of the report as text: what is in it, whatever the verdicts; the browser sees the rest."""
+"""The page of the report as text: what is in it, whatever the verdicts."""
 
 import re
 import subprocess
@@ -92,7 +92,7 @@ def test_a_part_is_escaped_and_carries_its_data() -> None:
     assert "A part &lt;b&gt;" in text
     assert "&#39;&lt;x&gt;&#39;" in text
     assert 'alt="alt &#34;1&#34;"' in text
-    assert '<td class="number">1.5·10<sup>−9</sup></td>' in text
+    assert '<td class="number">1.50·10<sup>−9</sup></td>' in text
     assert 'href="data:text/csv;base64,YSxiCg==" download="t.csv"' in text
 
 

@@ -65,8 +65,8 @@ def test_two_lines_and_two_cases() -> None:
 @pytest.mark.parametrize(
     "source",
     [
-        r"\unheardof{a}", "{a", "a}", r"\left( a", "a & b", "a^{2}^{3}", r"\begin{figure}a\end{figure}",
-        "ä", "a\\", r"\frac{1}", r"\bf 3", "#",
+        r"\unheardof{a}", "{a", "a}", r"\left( a", "a & b", "a^{2}^{3}",
+        r"\begin{figure}a\end{figure}",        "ä", "a\\", r"\frac{1}", r"\bf 3", "#",
     ],
 )  # fmt: skip
 def test_what_is_not_known_is_an_error(source: str) -> None:
