@@ -50,7 +50,12 @@ def _piece(before: str, formula: Sequence[str], after: str) -> Markup:
 
 def prose(words: str) -> Markup:
     """A sentence; it never holds markup of its own."""
-    return Markup(" ").join(_piece(*piece) for piece in pieces(words))
+    found = Markup("")
+    space = ""
+    for before, formula, after in pieces(words):
+        found += space + _piece(before, formula, after)
+        space = "\N{NO-BREAK SPACE}" if "(" in before and after == "," else " "  # (i, j)
+    return found
 
 
 def symbol(expression: Basic) -> Markup:
