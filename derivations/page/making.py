@@ -1,5 +1,6 @@
 """The page put together: what each equation shows, and the template that holds it all."""
 
+import os
 import platform
 from base64 import b64encode
 from collections.abc import Iterator, Sequence
@@ -89,7 +90,8 @@ def equation_view(outcome: Outcome, outcomes: Sequence[Outcome]) -> dict[str, An
 
 def versions() -> list[tuple[str, str]]:
     """What made the page: Python, the system, and the packages that are installed."""
-    found = [("Python", platform.python_version()), ("system", platform.platform(terse=True))]
+    system = f"{platform.system()}, {platform.machine()}, {os.cpu_count()} cores"
+    found = [("Python", platform.python_version()), ("system", system)]
     for name in _PACKAGES:
         try:
             found.append((name, version(name)))

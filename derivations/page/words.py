@@ -101,10 +101,12 @@ def _factor(digits: str) -> str:
 
 def _in_tens(value: float | Decimal) -> tuple[str, str]:
     """Digits, and a power of ten where it helps: three digits of a float, a decimal as it is."""
-    if isinstance(value, int | Decimal):
-        shown = str(value).lower()
+    usual = value == 0 or 1e-3 <= abs(value) < 1e6
+    if isinstance(value, int) or (usual and isinstance(value, Decimal)):
+        shown = str(value)
+    elif isinstance(value, Decimal):
+        shown = f"{value:e}"
     else:
-        usual = value == 0 or 1e-3 <= abs(value) < 1e6
         shown = f"{value:.3g}" if usual else f"{value:.2e}"
     digits, e, power = shown.replace("-", "−").partition("e")
     if not e:
