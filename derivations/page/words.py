@@ -101,11 +101,11 @@ def _factor(digits: str) -> str:
 
 def _in_tens(value: float | Decimal) -> tuple[str, str]:
     """Digits, and a power of ten where it helps: three digits of a float, a decimal as it is."""
-    usual = value == 0 or 1e-3 <= abs(value) < 1e6
-    if isinstance(value, int) or (usual and isinstance(value, Decimal)):
+    usual = value == 0 or 1e-3 <= abs(float(value)) < 1e6
+    if isinstance(value, int):
         shown = str(value)
     elif isinstance(value, Decimal):
-        shown = f"{value:e}"
+        shown = str(value) if usual else f"{value:e}"
     else:
         shown = f"{value:.3g}" if usual else f"{value:.2e}"
     digits, e, power = shown.replace("-", "−").partition("e")
