@@ -13,7 +13,7 @@ from symbolic.kernel import Verdict
 from symbolic.printing.latex import latex
 from symbolic.printing.lines import latex_body
 
-RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim"}
+RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim", "∝": r"\propto"}
 """Signs of ``Derivation.relation`` in LaTeX."""
 
 _HEAD = r"""\documentclass[10pt]{article}

@@ -1,13 +1,12 @@
 """The command ``report``: everything that the package finds, as one page."""
 
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from derivations.publishing import WRONG_INPUT, fail, out_option, published
+from derivations.publishing import NOT_REACHED, fail, noticing, out_option, published
 
 if TYPE_CHECKING:
     from derivations.record import Outcome
@@ -15,7 +14,7 @@ if TYPE_CHECKING:
 PAGE = "report.html"
 STATUSES = (
     "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
-    "3 the disk or a pipe failed, 130 interrupted."
+    "3 the disk or a pipe failed or a package is missing, 130 interrupted."
 )
 
 
@@ -29,7 +28,7 @@ def report(
         import jinja2  # noqa: F401
         import matplotlib  # noqa: F401
     except ImportError as missing:
-        fail(f"{missing.name} is missing; pip install 'force-diffusion[report]'", WRONG_INPUT)
+        fail(f"{missing.name} is missing; pip install 'force-diffusion[report]'", NOT_REACHED)
     from derivations.deriving import status_of, verdict_counts
 
     command = shlex.join(["force-diffusion", "report", "--out", str(out)])
@@ -49,16 +48,10 @@ def _made(command: str) -> "tuple[tuple[list[Outcome], int], Mapping[str, str | 
 
     derivations = everything()
     outcomes = outcomes_of(derivations, display(len(derivations), as_json=False))
-    measured = parts(_notice)
+    with noticing() as notice:
+        measured = parts(notice)
     text = page(outcomes, measured, command, f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC")
-    _notice("")
     return (outcomes, len(text.encode())), {PAGE: text}
-
-
-def _notice(what: str) -> None:
-    """Tell a terminal what is at work, on a line that the next one replaces."""
-    if sys.stderr.isatty():
-        print(f"\r\x1b[K{what}", end="", file=sys.stderr, flush=True)
 
 
 def register(app: typer.Typer) -> None:

@@ -1,16 +1,12 @@
 """What the report measures: what accuracy costs for one small scene, and how stable it is."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
 from decimal import Decimal
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 from derivations.page.parts import Data, Figure, Part, Table, csv_data
 from derivations.page.words import plain_number
-
-if TYPE_CHECKING:
-    from numeric.stability import ClosedFormRow
 
 SCENE = Path(__file__).with_name("small.toml")
 Notice = Callable[[str], None]
@@ -45,7 +41,7 @@ def cost_part(notice: Notice) -> Part:
         command=command,
         figures=(
             Figure(
-                svg.encode() if isinstance(svg, str) else svg,
+                _bytes(svg),
                 alt=(
                     "Error against time, both logarithmic, for each way to the answer. On the "
                     f"Pareto front there are {len(ways)} ways; the most accurate of them is "
@@ -83,65 +79,109 @@ def _decimal(shown: str | None) -> Decimal | None:
 
 
 def stability_part(notice: Notice) -> Part:
-    """How accurate the engine is where it is hard to be."""
-    from numeric.stability import cases, closed_form_rows, measure
+    """How accurate the engine is where it is hard to be, and what that costs."""
+    from numeric.stability.data import (
+        CLOSED_FORMS,
+        ENCLOSURES,
+        FILES,
+        FLOATS,
+        csv_rows,
+        measurements,
+        stability_data,
+    )
+    from numeric.stability.plot import plots
 
-    packings = []
-    for case in cases():
-        notice(f"stability: {case.group}, {case.height} layers")
-        packings.append(measure(case))
-    forms = list(closed_form_rows())
-    worst = max(row.error for row in packings if row.error is not None)
+    command = "force-diffusion stability --out stability"
+    found = []
+    for name, row in measurements():
+        found.append((name, row))
+        notice(f"stability, {name}: row {len(found)}")
+    data = stability_data(found, command)
+    files = csv_rows(data)
+    floats, balls = data[FLOATS], data[ENCLOSURES]
+    worst = max(row["error"] for row in floats if row["error"] is not None)
     return Part(
         id="stability",
-        title="How stable the engine is",
+        title="What stability costs",
         words=(
             "Contact forces in float64, in the deviation form that the engine uses and in the "
             "plain form that subtracts ordered forces in the end, against balls, which enclose "
             "the exact forces. Errors are measured, relative to the largest change of a force. "
-            f"The largest error of the deviation form in this table is {plain_number(worst)}.",
+            f"The largest error of the deviation form in these tables is {plain_number(worst)}.",
             "Beyond M* the packing itself is unstable: the bits that balls lose there measure it.",
         ),
-        command="force-diffusion stability",
+        command=command,
+        figures=(
+            Figure(
+                _bytes(plots(data)["stability.svg"]),
+                alt=(
+                    "Four panels. Errors of both forms in float64 against the disorder: the "
+                    f"deviation form stays below {plain_number(worst)}, the plain form loses "
+                    "digits as the disorder shrinks. Bits that balls lose against the height: "
+                    "in positions a constant number a layer, in line sums hardly any. Below, "
+                    "the times."
+                ),
+                caption="Errors and lost bits, and the times that they cost.",
+            ),
+        ),
         tables=(
             Table(
-                "Packings, each a periodic strip of its own",
+                "Both forms in float64; each packing is a periodic strip of its own",
                 (
                     "group", "M", "W", "σ/r", "s/r", "deviation form", "plain form", "bits lost",
                     "of", "pulling", "overlaps", "note",
                 ),
                 tuple(
                     (
-                        row.group, row.height, row.width, row.relative_std,
-                        Decimal(row.spacing), row.error, row.plain_error, row.ball_bits_lost,
-                        row.ball_bits, row.tensile, row.overlaps, row.note,
+                        row["group"], row["height"], row["width"], row["relative_std"],
+                        Decimal(row["spacing"]), row["error"], row["plain_error"],
+                        row["ball_bits_lost"], row["ball_bits"], row["tensile"],
+                        row["overlaps"], row["note"],
                     )
-                    for row in packings
+                    for row in floats
                 ),
-                csv_data("stability.csv", [asdict(row) for row in packings]),
+                csv_data(FILES[FLOATS], files[FILES[FLOATS]]),
+            ),
+            Table(
+                "Balls in positions and in line-sum coordinates, at the precision that leaves 50 "
+                "digits",
+                ("balls in", "M", "W", "σ/r", "M*", "bits lost", "of", "error", "ms", "note"),
+                tuple(
+                    (
+                        row["form"], row["height"], row["width"], row["relative_std"],
+                        row["critical_height"], row["bits_lost"], row["bits"], row["error"],
+                        None if row["seconds"] is None else 1000 * row["seconds"], row["note"],
+                    )
+                    for row in balls
+                ),
+                csv_data(FILES[ENCLOSURES], files[FILES[ENCLOSURES]]),
             ),
             Table(
                 "Closed forms of Eqs. 13 and 14 in float64, against exact rationals: the layer "
                 "with the largest error",
                 ("form", "M", "j", "relative error"),
                 tuple(
-                    (row.form, row.height, row.j, row.relative_error)
-                    for row in _largest(forms)
+                    (row["form"], row["height"], row["j"], row["relative_error"])
+                    for row in _largest(data[CLOSED_FORMS])
                 ),
-                csv_data("closed_forms.csv", [asdict(row) for row in forms]),
+                csv_data(FILES[CLOSED_FORMS], files[FILES[CLOSED_FORMS]]),
             ),
         ),
     )  # fmt: skip
 
 
-def _largest(rows: Sequence["ClosedFormRow"]) -> list["ClosedFormRow"]:
+def _largest(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     """Of every form and height, the row with the largest error."""
-    found: dict[tuple[str, int], ClosedFormRow] = {}
+    found: dict[tuple[str, int], dict[str, Any]] = {}
     for row in rows:
-        key = row.form, row.height
-        if key not in found or row.relative_error > found[key].relative_error:
+        key = row["form"], row["height"]
+        if key not in found or row["relative_error"] > found[key]["relative_error"]:
             found[key] = row
     return list(found.values())
+
+
+def _bytes(content: str | bytes) -> bytes:
+    return content.encode() if isinstance(content, str) else content
 
 
 def parts(notice: Notice) -> list[Part]:

@@ -55,19 +55,22 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
     if given:
         return Path(given).resolve()
     from derivations.page import measured
-    from numeric import stability
     from numeric.cost import study
+    from numeric.stability import data as tables
+    from numeric.stability import forms
     from symbolic import mutants
 
     folder = tmp_path_factory.mktemp("report")
     scene = folder / measured.SCENE.name
     scene.write_text(measured.SCENE.read_text().replace("16", "3").replace("34", "5"))
     out = folder / "out"
-    every_mutant, every_case = mutants.mutants, stability.cases
+    every_mutant, every_case, every_strip = mutants.mutants, tables.cases, tables.strips
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(mutants, "mutants", lambda equation: islice(every_mutant(equation), 3))
         patch.setattr(measured, "SCENE", scene)
-        patch.setattr(stability, "cases", lambda: islice(every_case(), 3))
+        patch.setattr(tables, "cases", lambda: islice(every_case(), 3))
+        patch.setattr(tables, "strips", lambda: (s for s in every_strip() if s.height == 4))
+        patch.setattr(forms, "ENOUGH_SECONDS", 0.0)
         patch.setattr(study, "LEAST_RUNS", 1)
         patch.setattr(study, "ENOUGH_SECONDS", 0.0)
         assert main(["report", "--out", str(out)]) == 0

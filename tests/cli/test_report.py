@@ -93,7 +93,7 @@ def test_what_it_needs_is_named(made_up, missing: str, tmp_path: Path, monkeypat
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, missing, None)
     out = tmp_path / "out"
-    assert main(["report", "--out", str(out)]) == 2
+    assert main(["report", "--out", str(out)]) == 3
     message = capsys.readouterr().err
     assert missing in message
     assert "pip install 'force-diffusion[report]'" in message
