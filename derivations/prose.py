@@ -38,9 +38,8 @@ _FORCE = re.compile(r"F(?=\^\{\\rm load)")
 _RECIPROCAL = re.compile(r"(?<![A-Za-z\\{])b(?=\^\{[-+]|\^?\\pm)")
 _NAMES = re.compile(r"(?<![A-Za-z\\])(max|min)(?![A-Za-z])")
 _ROOT = re.compile(r"√(\d+|\([^()]*\))")
-_STAR = re.compile(r"(?<=[A-Za-z])\*(?![A-Za-z0-9(])")
-_FLOAT = re.compile(r"(?<![A-Za-z0-9.])(\d(?:\.\d+)?)e([+-]\d+)(?![A-Za-z0-9])")
 _PUNCTUATION = re.compile(r"(?P<open>[(“\"]*)(?P<core>.*?)(?P<close>[)”\".,;:?!]*)", re.DOTALL)
+_FLOAT = re.compile(r"(?<![A-Za-z0-9.])(\d(?:\.\d+)?)e([+-]\d+)(?![A-Za-z0-9])")
 _SYMBOLIC = re.compile(
     "[" + re.escape("".join([*_MATHS, *_RAISED, *_LOWERED, *_WORDS])) + "_^=+*/<>|0-9]"
 )
@@ -83,11 +82,10 @@ def _power_of_ten(found: re.Match[str]) -> str:
 def _set_mathematics(word: str) -> str:
     for special in "%#&{}":
         word = word.replace(special, f"\\{special}")
-    word = _STAR.sub("^{*}", _FLOAT.sub(_power_of_ten, word))
     for raised, source in _WORDS.items():
         word = word.replace(raised, source)
     word = _ROOT.sub(r"\\sqrt{\1}", _RUN.sub(_run, _INDEXED.sub(_lowered, word)))
-    word = "".join(map(_character, word))
+    word = "".join(map(_character, _FLOAT.sub(_power_of_ten, word)))
     word = _FORCE.sub(r"{\\bf F}", word)
     word = _RECIPROCAL.sub(r"{\\bf b}", _VECTOR.sub(r"\\hat{\\bf n}", word))
     return _NAMES.sub(r"\\\1 ", word)

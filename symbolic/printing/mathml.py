@@ -97,7 +97,7 @@ class _Reader:
                 depth += (token.text == "{") - (token.text == "}")
         return self._source[self._tokens[first].start : self._tokens[self._place - 1].start]
 
-    def row(self, *, style: str = "") -> str:
+    def row(self) -> str:
         """Everything up to the end of a group, cell or pair of brackets."""
         parts: list[str] = []
         while (token := self._next()) is not None:
@@ -109,7 +109,7 @@ class _Reader:
                 self._take()
                 parts.append(self._switched(token.text))
                 continue
-            parts.append(self._scripted(style))
+            parts.append(self._scripted())
         return "".join(parts)
 
     def whole(self) -> str:
@@ -137,10 +137,13 @@ class _Reader:
             return "".join(f"<mi>{_bold(letter)}</mi>" for letter in words)
         return _upright(words)
 
-    def _scripted(self, style: str) -> str:
+    def _scripted(self) -> str:
         """One piece with the scripts that hang on it."""
-        under_over = self._is("command", "sum", "int")
-        base = self._piece(style)
+        under_over = self._is("command", "sum")
+        base = self._piece()
+        if self._is("command", "limits"):
+            self._take()
+            under_over = True
         scripts: dict[str, str] = {}
         while self._is("sign", "^", "_", "'"):
             mark = self._take().text
@@ -162,7 +165,7 @@ class _Reader:
 
     def _argument(self) -> str:
         """A group in braces, or a single piece."""
-        return self._group() if self._is("sign", "{") else self._piece("")
+        return self._group() if self._is("sign", "{") else self._piece()
 
     def _group(self) -> str:
         self._expect("sign", "{")
@@ -170,7 +173,7 @@ class _Reader:
         self._expect("sign", "}")
         return found
 
-    def _piece(self, style: str) -> str:
+    def _piece(self) -> str:
         token = self._next()
         if token is not None and (token.kind, token.text) == ("sign", "{"):
             return _one(self._group())
@@ -225,6 +228,8 @@ class _Reader:
                 return f"<msqrt>{self._argument()}</msqrt>"
             case "hat":
                 return f'<mover accent="true">{_one(self._argument())}<mo>^</mo></mover>'
+            case "overline":
+                return f"<mover>{_one(self._argument())}<mo>¯</mo></mover>"
             case "mbox" | "text":
                 return f"<mtext>{escape(self._words())}</mtext>"
             case "left":
