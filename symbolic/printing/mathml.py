@@ -2,7 +2,7 @@
 
 MathML Core, which browsers draw, knows neither bold as a property nor the alignment of columns:
 bold letters are characters of their own here, and tables carry a class that a style sheet aligns
-(``ALIGNMENT``). A command that is not known is an error, so that nothing is lost in silence.
+(``ALIGNMENT``). Bars over formulas, which many fonts can't stretch, are borders. A command that is not known is an error, so that nothing is lost in silence.
 """
 
 import re
@@ -12,9 +12,10 @@ from typing import NamedTuple
 ALIGNMENT = """\
 mtable.aligned > mtr > mtd { padding: 0.15em 0; text-align: left; text-align: -webkit-left; }
 mtable.aligned > mtr > mtd:first-child { text-align: right; text-align: -webkit-right; }
+mrow.bar { border-top: 0.06em solid; padding-top: 0.08em; }
 mtable.cases > mtr > mtd { text-align: left; text-align: -webkit-left; }
 """
-"""Style sheet for the tables."""
+"""Style sheet for tables and bars."""
 
 _LETTERS = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "varepsilon": "ε", "epsilon": "ϵ",
@@ -229,7 +230,7 @@ class _Reader:
             case "hat":
                 return f'<mover accent="true">{_one(self._argument())}<mo>^</mo></mover>'
             case "overline":
-                return f"<mover>{_one(self._argument())}<mo>¯</mo></mover>"
+                return f'<mrow class="bar">{self._argument()}</mrow>'
             case "mbox" | "text":
                 return f"<mtext>{escape(self._words())}</mtext>"
             case "left":
