@@ -2,7 +2,8 @@
 
 MathML Core, which browsers draw, knows neither bold as a property nor the alignment of columns:
 bold letters are characters of their own here, and tables carry a class that a style sheet aligns
-(``ALIGNMENT``). Bars over formulas, which many fonts can't stretch, are borders. A command that is not known is an error, so that nothing is lost in silence.
+(``ALIGNMENT``). Bars over formulas, which many fonts can't stretch, are borders. A command that is
+not known is an error, so that nothing is lost in silence.
 """
 
 import re
