@@ -116,9 +116,9 @@ def stability_part(notice: Notice) -> Part:
                 _bytes(plots(data)["stability.svg"]),
                 alt=(
                     "Four panels. Errors of both forms in float64 against the disorder: the "
-                    f"deviation form stays below {plain_number(worst)}, the plain form loses "
+                    f"deviation form nowhere exceeds {plain_number(worst)}, the plain form loses "
                     "digits as the disorder shrinks. Bits that balls lose against the height: "
-                    "in positions a constant number a layer, in line sums hardly any. Below, "
+                    "in positions many at every layer, in line sums few up to M*. Below, "
                     "the times."
                 ),
                 caption="Errors and lost bits, and the times that they cost.",
