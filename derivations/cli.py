@@ -28,6 +28,10 @@ COMMANDS = {
         "stability_command",
         "Measure what stability costs: errors and lost bits of both forms, time beside them.",
     ),
+    "report": (
+        "report_command",
+        "Write all results as one HTML page: derivations, checks, costs, stability.",
+    ),
 }
 STATUSES = (
     "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
