@@ -36,6 +36,10 @@ COMMANDS = {
         "ensemble_command",
         "Say what the store of an ensemble holds, and check it.",
     ),
+    "report": (
+        "report_command",
+        "Write all results as one HTML page: derivations, checks, costs, stability.",
+    ),
 }
 STATUSES = (
     "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
