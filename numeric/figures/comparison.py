@@ -1,0 +1,315 @@
+"""Figure 3: σ_f/⟨f⟩ under a surface load, theory against exact simulation, over heights M.
+
+Simulated are exact, nonlinear packings of W = 2M beads a layer, wide enough that no force sees an
+image of itself. The theory is Eq. 13 as printed, and its exact form at finite M. Far below
+M* = (σ/r)^(-2/3) the exact form has to lie within the band. Nearer to M* forces are no longer linear
+in δr: the ratio of nonlinear to first-order σ_f is estimated on realisations of its own, each solved
+both ways, so that most of the sampling error cancels.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from numeric import closed_forms
+from numeric.figures.bands import Band, Estimate, averaged, log_relative_std, simultaneous
+from numeric.figures.packings import (
+    PAPER_STD,
+    PHI,
+    Notice,
+    Row,
+    batched,
+    forces_of,
+    planned,
+    solved,
+)
+from numeric.lattice import Array
+from numeric.models.q_model import weight_variance
+from numeric.runner import critical_height
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+LEVEL = 0.99
+# Fewer realisations than this make no covariance worth the name.
+LEAST = 16
+
+
+@dataclass(frozen=True)
+class Height:
+    """One height of packings; arrays have shape (M,), over layers j = 0 … M − 1.
+
+    ``correction`` estimates ln(σ nonlinear / σ first-order), from other realisations than ``band``.
+    """
+
+    height: int
+    realisations: int
+    band: Band
+    exact: Array
+    printed: Array
+    correction: Estimate
+
+    @property
+    def z(self) -> Array:
+        """j/M."""
+        return np.arange(self.height) / self.height
+
+    @property
+    def corrected(self) -> Array:
+        """The exact finite-M curve times the estimated nonlinear correction."""
+        return np.asarray(self.exact * np.exp(self.correction.log))
+
+    def deviation(self) -> float:
+        """Largest deviation of the exact finite-M curve, in half-widths of the band."""
+        return self.band.deviation(self.exact)
+
+    def corrected_deviation(self, seed: int = 0) -> float:
+        """The same for the corrected curve; its own error widens the band."""
+        both = simultaneous(self.band.estimate - self.correction, self.band.level, seed)
+        return both.deviation(self.exact)
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What figure 3 shows; ``q_model`` says whether the q-model stands beside it."""
+
+    heights: tuple[Height, ...]
+    q_model: bool
+
+    def tables(self) -> dict[str, list[Row]]:
+        """CSV files: σ/⟨f⟩ plain; multiply by M^(-3/2) to get what is drawn."""
+        rows = []
+        for one in self.heights:
+            low, high = one.band.limits
+            columns = {
+                "z": one.z,
+                "simulated": np.exp(one.band.estimate.log),
+                "band_low": low,
+                "band_high": high,
+                "exact_first_order": one.exact,
+                "printed": one.printed,
+                "nonlinear_correction": np.exp(one.correction.log),
+                "correction_standard_error": one.correction.error * np.exp(one.correction.log),
+                "corrected": one.corrected,
+            }
+            for j in range(one.height):
+                row: Row = {"height": one.height, "realisations": one.realisations, "j": j}
+                rows.append(row | {name: float(values[j]) for name, values in columns.items()})
+        tables = {"figure3": rows}
+        if self.q_model:
+            tables["figure3_q_model"] = [
+                {"height": one.height, "depth": depth, "weight_variance": variance}
+                for one in self.heights
+                for depth, variance in enumerate(weight_variance(one.height))
+            ]
+        return tables
+
+    def facts(self) -> dict[str, Any]:
+        """Verdicts for each height."""
+        found = []
+        for one in self.heights:
+            alone, corrected = one.deviation(), one.corrected_deviation()
+            found.append(
+                {
+                    "height": one.height,
+                    "realisations": one.realisations,
+                    "exact_finite_M_inside": alone <= 1,
+                    "largest_deviation_in_half_widths": alone,
+                    "corrected_inside": corrected <= 1,
+                    "corrected_deviation_in_half_widths": corrected,
+                    "largest_correction": float(np.abs(np.expm1(one.correction.log)).max()),
+                    "band_in_standard_errors": one.band.critical,
+                }
+            )
+        return {
+            "simultaneous_level": LEVEL,
+            "relative_std": PAPER_STD,
+            "critical_height": critical_height_of_the_paper(),
+            "heights": found,
+        }
+
+    def lines(self) -> list[str]:
+        """Say for each height whether theory holds."""
+        said = []
+        for one, fact in zip(self.heights, self.facts()["heights"], strict=True):
+            alone = fact["largest_deviation_in_half_widths"]
+            words = f"M = {one.height}: exact finite-M curve {_inside(alone)}"
+            if alone > 1 or fact["largest_correction"] > NOTEWORTHY:
+                words += (
+                    f"; with the nonlinear correction (up to {fact['largest_correction']:.1%}) "
+                    f"{_inside(fact['corrected_deviation_in_half_widths'])}"
+                )
+            said.append(words)
+        return said
+
+
+# Nonlinear corrections from here on are drawn and told of.
+NOTEWORTHY = 0.01
+
+
+def _inside(deviation: float) -> str:
+    where = "inside" if deviation <= 1 else "outside"
+    return f"{where} the simultaneous {LEVEL:.0%} band ({deviation:.2f} of its half-width)"
+
+
+def critical_height_of_the_paper() -> float:
+    """M* at the disorder of figure 3."""
+    from fractions import Fraction
+
+    return critical_height(Fraction(PAPER_STD))
+
+
+def compare(
+    heights: Sequence[int],
+    realisations: int,
+    seed: int,
+    notice: Notice,
+    *,
+    q_model: bool = False,
+) -> Comparison:
+    """Simulate and compare. Raises ``SceneError`` and what the sweeps raise near M*."""
+    return Comparison(
+        tuple(_height(M, realisations, seed, notice) for M in heights), q_model
+    )
+
+
+def _height(M: int, n: int, seed: int, notice: Notice) -> Height:
+    start = M << 32  # heights share no radii
+    moments = averages(M, range(start, start + n), seed, "exact", notice)
+    band = simultaneous(averaged(*log_relative_std(*moments)), LEVEL, seed)
+    apart = range(start + n, start + n + max(n // 8, LEAST // 2))
+    log, influence = log_relative_std(*averages(M, apart, seed, "exact", notice))
+    first, first_influence = log_relative_std(*averages(M, apart, seed, "first-order", notice))
+    exact, printed = curves(M)
+    correction = averaged(log - first, influence - first_influence)
+    return Height(M, n, band, exact, printed, correction)
+
+
+def curves(M: int) -> tuple[Array, Array]:
+    """Give σ_f/⟨f⟩ of layers 0 … M − 1 by Eq. 13: exact to first order at finite M, and printed."""
+    phi = float(PHI)
+    exact = [closed_forms.surface_variance(M, j, phi, PAPER_STD, 1.0) for j in range(M)]
+    printed = [closed_forms.surface_diffusion(M, j / M, phi, PAPER_STD, 1.0) for j in range(M)]
+    return np.sqrt(exact), np.sqrt(printed)
+
+
+def averages(
+    M: int, realisations: range, seed: int, geometry: str, notice: Notice
+) -> tuple[Array, Array]:
+    """Average g = f/F − 1 and g² over the contacts of each layer; shapes (realisations, M)."""
+    ensemble = planned(
+        '"profile"', height=M, width=2 * M, seed=seed, geometry=geometry,
+        realisations=len(realisations),
+    )  # fmt: skip
+    what = f"figure 3, M = {M}" + ("" if geometry == "exact" else ", first order")
+    means, squares = [], []
+    for answer, number in solved(ensemble, realisations, notice, what):
+        forces = forces_of(answer)
+        mean, square = np.empty((number, M)), np.empty((number, M))
+        for j in range(M):
+            F = forces.ordered_plus[j + 1][0]
+            plus = batched(forces.change_plus[j + 1], number) / F
+            minus = batched(forces.change_minus[j + 1], number) / F
+            mean[:, j] = (plus.mean(axis=1) + minus.mean(axis=1)) / 2
+            square[:, j] = ((plus**2).mean(axis=1) + (minus**2).mean(axis=1)) / 2
+        means.append(mean)
+        squares.append(square)
+    return np.concatenate(means), np.concatenate(squares)
+
+
+def draw(data: Comparison) -> "Figure":
+    """Draw simulation, exact finite-M curves and the printed curve, scaled by M^(3/2)."""
+    from numeric.figures import style
+
+    columns = 2 if data.q_model else 1
+    figure = style.figure(style.PAGE if data.q_model else style.COLUMN, 3.5)
+    grid = figure.add_gridspec(2, columns, height_ratios=(2.6, 1))
+    top, ratio = figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[1, 0])
+    _theory_and_simulation(top, data)
+    _ratio(ratio, data)
+    if data.q_model:
+        beside = figure.add_subplot(grid[:, 1])
+        _shapes(beside, data)
+        style.letter((top, beside))
+    return figure
+
+
+def _theory_and_simulation(axes: "Axes", data: Comparison) -> None:
+    from numeric.figures import style
+
+    z = np.linspace(0, 1, 201)
+    one_layer = [closed_forms.surface_diffusion(1, v, float(PHI), PAPER_STD, 1.0) for v in z]
+    scale = 1e4
+    axes.plot(z, scale * np.sqrt(one_layer), "--", color="black", label="Eq. (13), printed")
+    handles = [style.line("black", "--", "Eq. (13), printed")]
+    handles.append(style.line("0.35", "-", "exact at finite $M$"))
+    for number, one in enumerate(data.heights):
+        colour, marker = style.series(number)
+        by = scale * one.height**-1.5
+        axes.plot(one.z, by * one.exact, color=colour, lw=0.9)
+        if np.abs(np.expm1(one.correction.log)).max() > NOTEWORTHY:
+            axes.plot(one.z, by * one.corrected, ":", color=colour, lw=0.9)
+        some = _some(one, number)
+        (points,) = axes.plot(
+            one.z[some], by * np.exp(one.band.estimate.log)[some], marker, color=colour,
+            markerfacecolor="white", ms=3.4, mew=0.7, label=f"simulated, $M={one.height}$",
+        )  # fmt: skip
+        handles.append(points)
+    axes.set_xlim(0, 1)
+    axes.set_ylim(0, None)
+    axes.tick_params(labelbottom=False)
+    axes.set_ylabel(r"$10^{4}\,M^{-3/2}\,\sigma_f/\langle f\rangle$")
+    axes.legend(handles=handles, loc="lower left")
+
+
+def _some(one: Height, number: int) -> slice:
+    """Choose the layers that get a marker, other ones for each height."""
+    step = -(-one.height // 16)
+    return slice(number * step // 3, None, step)
+
+
+def _ratio(axes: "Axes", data: Comparison) -> None:
+    """Draw simulation over exact finite-M theory: all of a band has to hold the zero line."""
+    from numeric.figures import style
+
+    axes.axhline(0, color="0.35", lw=0.8)
+    widest = 0.0
+    for number, one in enumerate(data.heights):
+        colour, marker = style.series(number)
+        low, high = (100 * (edge / one.exact - 1) for edge in one.band.limits)
+        off = 100 * (np.exp(one.band.estimate.log) / one.exact - 1)
+        widest = max(widest, float(np.abs(low).max()), float(np.abs(high).max()))
+        axes.fill_between(one.z, low, high, color=colour, alpha=0.18, lw=0)
+        for edge in (low, high):
+            axes.plot(one.z, edge, color=colour, lw=0.5)
+        some = _some(one, number)
+        axes.plot(one.z[some], off[some], marker, color=colour, mfc="white", ms=2.6, mew=0.6)
+    axes.set_xlim(0, 1)
+    axes.set_ylim(-1.15 * widest, 1.15 * widest)
+    axes.set_xlabel("relative height $z=j/M$")
+    axes.set_ylabel("simulated/exact\n$-\\,1$ (%)")
+
+
+def _shapes(axes: "Axes", data: Comparison) -> None:
+    from numeric.figures import style
+
+    z = np.linspace(0, 1, 201)
+    axes.plot(z, np.sqrt((1 - z) ** 2 * (2 * z + 1)), color="black", label="Eq. (13), printed")
+    axes.plot(z, np.sqrt(1 - z), color="0.45", ls=(0, (1, 1.2)), label=r"Brownian, $\sqrt{1-z}$")
+    for number, one in enumerate(data.heights):
+        colour, marker = style.series(number)
+        std = np.sqrt(weight_variance(one.height))
+        depth = np.arange(one.height + 1)
+        axes.plot(
+            1 - depth / one.height, std / std[-1], color=colour, lw=0.8, marker=marker,
+            ms=2.8, mew=0.6, markerfacecolor="white", markevery=max(1, one.height // 16),
+            label=f"$q$-model, $M={one.height}$",
+        )  # fmt: skip
+    axes.set_xlim(0, 1)
+    axes.set_ylim(0, 1.15)
+    axes.set_xlabel("relative height $z=j/M$")
+    axes.set_ylabel(r"$\sigma(z)\,/\,\sigma(0)$")
+    axes.legend(loc="lower left")
