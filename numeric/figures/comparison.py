@@ -2,9 +2,9 @@
 
 Simulated are exact, nonlinear packings of W = 2M beads a layer, wide enough that no force sees an
 image of itself. The theory is Eq. 13 as printed, and its exact form at finite M. Far below
-M* = (σ/r)^(-2/3) the exact form has to lie within the band. Nearer to M* forces are no longer linear
-in δr: the ratio of nonlinear to first-order σ_f is estimated on realisations of its own, each solved
-both ways, so that most of the sampling error cancels.
+M* = (σ/r)^(-2/3) the exact form has to lie within the band. Nearer to M* forces are no longer
+linear in δr: the ratio of nonlinear to first-order σ_f is estimated on realisations of its own,
+each solved both ways, so that most of the sampling error cancels.
 """
 
 from collections.abc import Sequence
@@ -171,9 +171,7 @@ def compare(
     q_model: bool = False,
 ) -> Comparison:
     """Simulate and compare. Raises ``SceneError`` and what the sweeps raise near M*."""
-    return Comparison(
-        tuple(_height(M, realisations, seed, notice) for M in heights), q_model
-    )
+    return Comparison(tuple(_height(M, realisations, seed, notice) for M in heights), q_model)
 
 
 def _height(M: int, n: int, seed: int, notice: Notice) -> Height:
@@ -250,6 +248,8 @@ def _theory_and_simulation(axes: "Axes", data: Comparison) -> None:
         colour, marker = style.series(number)
         by = scale * one.height**-1.5
         axes.plot(one.z, by * one.exact, color=colour, lw=0.9)
+        low, high = one.band.limits
+        axes.fill_between(one.z, by * low, by * high, color=colour, alpha=0.25, lw=0)
         if np.abs(np.expm1(one.correction.log)).max() > NOTEWORTHY:
             axes.plot(one.z, by * one.corrected, ":", color=colour, lw=0.9)
         some = _some(one, number)
@@ -290,7 +290,7 @@ def _ratio(axes: "Axes", data: Comparison) -> None:
     axes.set_xlim(0, 1)
     axes.set_ylim(-1.15 * widest, 1.15 * widest)
     axes.set_xlabel("relative height $z=j/M$")
-    axes.set_ylabel("simulated/exact\n$-\\,1$ (%)")
+    axes.set_ylabel(r"sim./exact $-\,1$ (%)")
 
 
 def _shapes(axes: "Axes", data: Comparison) -> None:

@@ -4,8 +4,8 @@ One contact is taken from each realisation, so that samples are independent; the
 The null hypothesis is fully specified, with no parameter fitted: mean ⟨f⟩ = f_load/2n_y, and the
 exact finite-M σ_f (Eq. 13). Kolmogorov and Smirnov's test has an exact p-value; Anderson and
 Darling's, which looks at the tails, is simulated. To first order f is a weighted sum of independent
-radii, so that its excess kurtosis is that of the radii times Σw⁴/(Σw²)²: it vanishes as M grows, and at
-M = 2 with two-point radii there is no Gaussian.
+radii, so that its excess kurtosis is that of the radii times Σw⁴/(Σw²)²: it vanishes as M grows,
+and at M = 2 with two-point radii there is no Gaussian.
 """
 
 from dataclasses import dataclass
@@ -105,17 +105,22 @@ class Distribution:
 def samples(realisations: int, seed: int, notice: Notice) -> Distribution:
     """Draw one contact from each realisation, and test. Needs SciPy."""
     return Distribution(
-        tuple(_sample(kind, M, realisations, seed, notice) for kind, M in CASES)
+        tuple(
+            _sample(case, range(number << 32, (number << 32) + realisations), seed, notice)
+            for number, case in enumerate(CASES)  # samples share no radii
+        )
     )
 
 
-def _sample(kind: str, M: int, n: int, seed: int, notice: Notice) -> Sample:
+def _sample(case: tuple[str, int], realisations: range, seed: int, notice: Notice) -> Sample:
+    kind, M = case
     what = f"P(f), {kind} radii, M = {M}"
     plan = planned(
-        '"contact", at = [0, 0, "+"]', height=M, width=None, seed=seed, kind=kind, realisations=n
-    )
+        '"contact", at = [0, 0, "+"]', height=M, width=None, seed=seed, kind=kind,
+        realisations=len(realisations),
+    )  # fmt: skip
     found = []
-    for answer, number in solved(plan, range(n), notice, what):
+    for answer, number in solved(plan, realisations, notice, what):
         forces = forces_of(answer)
         change = forces.change_plus[1].reshape(number, -1)[:, 0]
         found.append(change / forces.ordered_plus[1][0])
@@ -181,4 +186,10 @@ def _histogram(axes: "Axes", one: Sample, look: tuple[str, str]) -> None:
 
 
 def _p(value: float) -> str:
-    return f"$p={value:.2f}$" if value >= 0.01 else f"$p={value:.3f}$" if value >= 0.001 else "$p<0.001$"
+    return (
+        f"$p={value:.2f}$"
+        if value >= 0.01
+        else f"$p={value:.3f}$"
+        if value >= 0.001
+        else "$p<0.001$"
+    )

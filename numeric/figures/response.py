@@ -19,6 +19,7 @@ from numeric.models.double_y import Profile, profiles
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
     from numeric.engine import Solved
     from numeric.planner import Plan
 
@@ -197,15 +198,18 @@ def draw(data: Response) -> "Figure":
     """Draw maps of mean and fluctuation, line cuts, and the double Y where it is asked for."""
     from numeric.figures import style
 
+    where = "bottom" if data.double_y else "right"
     if data.double_y:
         figure = style.figure(style.PAGE, 4.7)
-        panels = figure.subplots(2, 2, height_ratios=(1, 1.05)).ravel()
+        panels = figure.subplots(2, 2, height_ratios=(1, 1.05)).ravel().tolist()
         _double_y(panels[3], data.double_y)
     else:
-        figure = style.figure(style.PAGE, 2.1)
-        panels = figure.subplots(1, 3, width_ratios=(1, 1, 1.15))
-    _map(panels[0], data, data.mean, r"$\langle p\rangle\,/\,f^{\rm load}$", edges=True)
-    _map(panels[1], data, data.variance, VARIANCE, edges=False)
+        figure = style.figure(style.PAGE, 3.3)
+        grid = figure.add_gridspec(2, 2, width_ratios=(1, 1.1))
+        cells = (grid[0, 0], grid[1, 0], grid[:, 1])
+        panels = [figure.add_subplot(cell) for cell in cells]
+    _map(panels[0], data, data.mean, r"$\langle p\rangle\,/\,f^{\rm load}$", where, edges=True)
+    _map(panels[1], data, data.variance, VARIANCE, where, edges=False)
     _cuts(panels[2], data)
     style.letter(panels)
     return figure
@@ -214,7 +218,9 @@ def draw(data: Response) -> "Figure":
 VARIANCE = r"$\sigma^2_{\rm ensemble}(p)\,/\,(f^{\rm load}\sigma_{\delta r}/r)^2$"
 
 
-def _map(axes: "Axes", data: Response, values: tuple[Array, ...], name: str, *, edges: bool) -> None:
+def _map(
+    axes: "Axes", data: Response, values: tuple[Array, ...], name: str, where: str, *, edges: bool
+) -> None:
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Circle
 
@@ -247,9 +253,9 @@ def _map(axes: "Axes", data: Response, values: tuple[Array, ...], name: str, *, 
     axes.set_aspect("equal", anchor="N")
     axes.axis("off")
     bar = axes.figure.colorbar(
-        beads, ax=axes, location="bottom", shrink=0.8, aspect=22, pad=0.03, label=name
+        beads, ax=axes, location=where, shrink=0.8, aspect=18, pad=0.03, label=name
     )
-    bar.ax.set_xlim(0, highest)
+    (bar.ax.set_xlim if where == "bottom" else bar.ax.set_ylim)(0, highest)
 
 
 def _cuts(axes: "Axes", data: Response) -> None:
@@ -276,7 +282,7 @@ def _cuts(axes: "Axes", data: Response) -> None:
         color=style.series(2)[0], lw=0.9, ls=":",
     )  # fmt: skip
     axes.text(
-        0.6, 13.5, f"one contact,\n$j={lower}$", color=style.series(2)[0], fontsize=7.5, va="center"
+        0.7, 13, f"one contact,\n$j={lower}$", color=style.series(2)[0], fontsize=7.5, va="center"
     )
     axes.set_xlim(-1.05, 1.4)
     axes.set_ylim(0, None)

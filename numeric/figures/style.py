@@ -1,13 +1,14 @@
 """How all figures look, and how they become files that are the same bytes whenever they are made.
 
-Widths are those of a journal: one column or two. Colours (Okabe and Ito's palette) can be told apart
-by the colour-blind, and each comes with its own marker or line style, for print in grey. Fonts are
-those that matplotlib brings along. Needs matplotlib (the extra ``plots``).
+Widths are those of a journal: one column or two. Colours (Okabe and Ito's palette) can be told
+apart by the colour-blind, and each comes with its own marker or line style, for print in grey.
+Fonts are those that matplotlib brings along. Needs matplotlib (the extra ``plots``).
 """
 
 import io
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from typing import Any, Literal
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
@@ -17,9 +18,10 @@ from matplotlib.lines import Line2D
 
 COLUMN, PAGE = 3.4, 7.0  # inches
 BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = (
-    "#0072B2", "#D55E00", "#009E73", "#AA4488", "#E69F00", "#56B4E9",
+    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",
 )  # fmt: skip
 _COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
+Dashes = Literal["-", "--", ":"]
 _MARKERS = ("o", "s", "^", "D", "v", "P")
 _RC = {
     "font.family": "STIXGeneral",
@@ -56,7 +58,7 @@ def series(number: int) -> tuple[str, str]:
     return _COLOURS[number % len(_COLOURS)], _MARKERS[number % len(_MARKERS)]
 
 
-def line(colour: str, dashes: str, name: str) -> Line2D:
+def line(colour: str, dashes: Dashes, name: str) -> Line2D:
     """Give a line for a legend."""
     return Line2D([], [], color=colour, linestyle=dashes, label=name)
 
@@ -64,8 +66,10 @@ def line(colour: str, dashes: str, name: str) -> Line2D:
 @contextmanager
 def _house_style() -> Iterator[None]:
     """Leave out what a user's own matplotlibrc says."""
-    defaults = {k: v for k, v in mpl.rcParamsDefault.items() if not k.startswith("backend")}
-    with mpl.rc_context({**defaults, **_RC}):
+    settings: dict[Any, Any] = {
+        key: value for key, value in mpl.rcParamsDefault.items() if not key.startswith("backend")
+    }
+    with mpl.rc_context({**settings, **_RC}):
         yield
 
 

@@ -1,15 +1,16 @@
 """The double Y: rays of force that run straight until a defect splits them in two.
 
-J.-P. Bouchaud, P. Claudin, D. Levine and M. Otto, Eur. Phys. J. E 4, 451 (2001). (We take this to be
-the paper's reference ``doubleY1``; its source has no bibliography.) Rays don't meet: their merging,
-the other half of the name, is left out, which makes the response linear in the load.
+J.-P. Bouchaud, P. Claudin, D. Levine and M. Otto, Eur. Phys. J. E 4, 451 (2001). (We take this to
+be among the paper's references ``doubleY1`` to ``doubleY3``; its source has no bibliography.) Rays
+don't meet: their merging, the other half of the name, is left out, which makes the response linear
+in the load.
 
 A ray of strength f along n runs an exponentially distributed length of mean λ, then splits into two
-of directions n turned by ±θ. Force balance, f n = f' (n' + n''), gives each f' = f/(2 cos θ). The load
-starts as two rays along n^±, half of it in each. Rays end at the base, and at the surface, which
-can't hold them: the force that leaves there is told, not hidden. The mean response is
-that of a single walker: at each split it takes either ray and the strength of both, f/cos θ, which
-keeps ⟨f n_y⟩ exactly.
+of directions n turned by ±θ. Force balance, f n = f' (n' + n''), gives each f' = f/(2 cos θ). The
+load starts as two rays along n^±, half of it in each. Rays end at the base and at the surface; what
+arrives at the surface would lift it, and the base bears that much more than the load. The mean
+response is that of a single walker: at each split it takes either ray and the strength of both,
+f/cos θ, which keeps ⟨f n_y⟩ exactly.
 """
 
 from dataclasses import dataclass
@@ -30,8 +31,8 @@ BINS = np.linspace(-4, 4, 101)
 class Profile:
     """The mean response at depth H: density over x/H, for a splitting length λ.
 
-    ``base`` and ``surface`` are the vertical forces that arrive, in units of the load, each with its
-    standard error; base − surface is 1.
+    ``base`` and ``surface`` are the vertical forces that arrive, in units of the load, ``balance``
+    their difference, which is 1; each with its standard error.
     """
 
     splits: float  # H/λ
@@ -51,7 +52,10 @@ class Profile:
         return [
             {"depth_over_splitting_length": self.splits, "x_low": low, "x_high": high, "density": p}
             for low, high, p in zip(
-                self.edges[:-1].tolist(), self.edges[1:].tolist(), self.density.tolist(), strict=True
+                self.edges[:-1].tolist(),
+                self.edges[1:].tolist(),
+                self.density.tolist(),
+                strict=True,
             )
         ]
 
@@ -70,7 +74,7 @@ def walk(splits: float, angle: float, rays: int, seed: int) -> tuple[Array, Arra
     """Follow rays to the base (depth 1) or the surface (depth 0), with λ = 1/``splits``.
 
     Gives, per ray, where it ended (x), whether at the base, and its vertical force f |n_y| there, in
-    units of the load's share; shapes (rays,).
+    units of the load; shapes (rays,). The means over rays are what base and surface get.
     """
     generator = np.random.default_rng(seed)
     tilt = asin(float(N_X))  # of n^± from straight down
