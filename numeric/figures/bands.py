@@ -29,7 +29,7 @@ class Estimate:
     @property
     def error(self) -> Array:
         """Standard errors of the logarithms, shape (L,)."""
-        return np.sqrt(np.diag(self.covariance))
+        return np.asarray(np.sqrt(np.diag(self.covariance)))
 
     def __sub__(self, other: "Estimate") -> "Estimate":
         """Difference of independent estimates."""

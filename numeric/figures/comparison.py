@@ -255,7 +255,8 @@ def _theory_and_simulation(axes: "Axes", data: Comparison) -> None:
         some = _some(one, number)
         (points,) = axes.plot(
             one.z[some], by * np.exp(one.band.estimate.log)[some], marker, color=colour,
-            markerfacecolor="white", ms=3.4, mew=0.7, label=f"simulated, $M={one.height}$",
+            markerfacecolor="white", ms=3.4, mew=0.7, clip_on=False,
+            label=f"simulated, $M={one.height}$",
         )  # fmt: skip
         handles.append(points)
     axes.set_xlim(0, 1)
@@ -286,7 +287,16 @@ def _ratio(axes: "Axes", data: Comparison) -> None:
         for edge in (low, high):
             axes.plot(one.z, edge, color=colour, lw=0.5)
         some = _some(one, number)
-        axes.plot(one.z[some], off[some], marker, color=colour, mfc="white", ms=2.6, mew=0.6)
+        axes.plot(
+            one.z[some],
+            off[some],
+            marker,
+            color=colour,
+            mfc="white",
+            ms=2.6,
+            mew=0.6,
+            clip_on=False,
+        )
     axes.set_xlim(0, 1)
     axes.set_ylim(-1.15 * widest, 1.15 * widest)
     axes.set_xlabel("relative height $z=j/M$")

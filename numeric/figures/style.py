@@ -23,7 +23,7 @@ BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = (
 _COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
 Dashes = Literal["-", "--", ":"]
 _MARKERS = ("o", "s", "^", "D", "v", "P")
-_RC = {
+_RC: dict[Any, Any] = {
     "font.family": "STIXGeneral",
     "mathtext.fontset": "stix",
     "font.size": 8,
@@ -66,10 +66,10 @@ def line(colour: str, dashes: Dashes, name: str) -> Line2D:
 @contextmanager
 def _house_style() -> Iterator[None]:
     """Leave out what a user's own matplotlibrc says."""
-    settings: dict[Any, Any] = {
-        key: value for key, value in mpl.rcParamsDefault.items() if not key.startswith("backend")
-    }
-    with mpl.rc_context({**settings, **_RC}):
+    defaults = dict[Any, Any](mpl.rcParamsDefault)
+    for key in [key for key in defaults if key.startswith("backend")]:
+        del defaults[key]
+    with mpl.rc_context(defaults | _RC):
         yield
 
 

@@ -73,8 +73,8 @@ class Profile:
 def walk(splits: float, angle: float, rays: int, seed: int) -> tuple[Array, Array, Array]:
     """Follow rays to the base (depth 1) or the surface (depth 0), with λ = 1/``splits``.
 
-    Gives, per ray, where it ended (x), whether at the base, and its vertical force f |n_y| there, in
-    units of the load; shapes (rays,). The means over rays are what base and surface get.
+    Gives, per ray, where it ended (x), whether at the base, and its vertical force f |n_y| there,
+    in units of the load; shapes (rays,). The means over rays are what base and surface get.
     """
     generator = np.random.default_rng(seed)
     tilt = asin(float(N_X))  # of n^± from straight down
