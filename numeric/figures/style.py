@@ -92,12 +92,14 @@ def images(draw: Callable[[], Figure], name: str, title: str, command: str) -> d
     with _house_style():
         drawn = draw()
         about = {"Title": title, "Description": command}
-        for kind, metadata in (
-            ("png", about),
-            ("svg", {**about, "Date": None}),
-            ("pdf", {"Title": title, "Subject": command, "CreationDate": None}),
-        ):
+        metadata: dict[str, dict[str, Any]] = {
+            "png": about,
+            "svg": {**about, "Date": None},
+            "pdf": {"Title": title, "Subject": command, "CreationDate": None},
+        }
+        for kind, says in metadata.items():
             file = io.BytesIO()
-            drawn.savefig(file, format=kind, metadata=metadata)
+            smaller = {"optimize": True} if kind == "png" else None
+            drawn.savefig(file, format=kind, metadata=says, pil_kwargs=smaller)
             files[f"{name}.{kind}"] = file.getvalue()
     return files

@@ -23,7 +23,7 @@ from numeric.figures.packings import N_X
 from numeric.lattice import Array
 
 SPLITTING_ANGLE = np.radians(20)
-RAYS = 400_000
+RAYS = 200_000
 BINS = np.linspace(-4, 4, 101)
 
 
