@@ -99,7 +99,6 @@ def images(draw: Callable[[], Figure], name: str, title: str, command: str) -> d
         }
         for kind, says in metadata.items():
             file = io.BytesIO()
-            smaller = {"optimize": True} if kind == "png" else None
-            drawn.savefig(file, format=kind, metadata=says, pil_kwargs=smaller)
+            drawn.savefig(file, format=kind, metadata=says)
             files[f"{name}.{kind}"] = file.getvalue()
     return files
