@@ -9,6 +9,7 @@ each solved both ways, so that most of the sampling error cancels.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,6 +28,7 @@ from numeric.figures.packings import (
 )
 from numeric.lattice import Array
 from numeric.models.q_model import weight_variance
+from numeric.planner import Plan
 from numeric.runner import critical_height
 
 if TYPE_CHECKING:
@@ -127,7 +129,7 @@ class Comparison:
         return {
             "simultaneous_level": LEVEL,
             "relative_std": PAPER_STD,
-            "critical_height": critical_height_of_the_paper(),
+            "critical_height": critical_height(Fraction(PAPER_STD)),
             "heights": found,
         }
 
@@ -155,13 +157,6 @@ def _inside(deviation: float) -> str:
     return f"{where} the simultaneous {LEVEL:.0%} band ({deviation:.2f} of its half-width)"
 
 
-def critical_height_of_the_paper() -> float:
-    """M* at the disorder of figure 3."""
-    from fractions import Fraction
-
-    return critical_height(Fraction(PAPER_STD))
-
-
 def compare(
     heights: Sequence[int],
     realisations: int,
@@ -171,6 +166,8 @@ def compare(
     q_model: bool = False,
 ) -> Comparison:
     """Simulate and compare. Raises ``SceneError`` and what the sweeps raise near M*."""
+    for M in heights:  # one that is too large is refused before any is solved
+        _ensemble(M, realisations, seed, "exact")
     return Comparison(tuple(_height(M, realisations, seed, notice) for M in heights), q_model)
 
 
@@ -194,14 +191,18 @@ def curves(M: int) -> tuple[Array, Array]:
     return np.sqrt(exact), np.sqrt(printed)
 
 
+def _ensemble(M: int, realisations: int, seed: int, geometry: str) -> Plan:
+    """Plan packings of W = 2M: then no exact force sees an image."""
+    return planned(
+        '"profile"', height=M, width=2 * M, seed=seed, geometry=geometry, realisations=realisations
+    )
+
+
 def averages(
     M: int, realisations: range, seed: int, geometry: str, notice: Notice
 ) -> tuple[Array, Array]:
     """Average g = f/F − 1 and g² over the contacts of each layer; shapes (realisations, M)."""
-    ensemble = planned(
-        '"profile"', height=M, width=2 * M, seed=seed, geometry=geometry,
-        realisations=len(realisations),
-    )  # fmt: skip
+    ensemble = _ensemble(M, len(realisations), seed, geometry)
     what = f"figure 3, M = {M}" + ("" if geometry == "exact" else ", first order")
     means, squares = [], []
     for answer, number in solved(ensemble, realisations, notice, what):

@@ -117,5 +117,12 @@ def _names(axes: "Axes") -> None:
     x, y = at(7, 1)
     axes.annotate("", (x + 1, y), (x, y), arrowprops={**both, "arrowstyle": "->"}, zorder=6)
     axes.text(x + 0.5, y + 0.12, "$r$", ha="center", va="bottom", zorder=6)
+    upper, lower = at(1, 3), at(0, 2)
+    touch = ((upper[0] + lower[0]) / 2, (upper[1] + lower[1]) / 2)
+    axes.annotate(
+        "contact", touch, (-1.1, 4.75), ha="left", va="center", fontsize=7.5, zorder=9,
+        arrowprops={"arrowstyle": "-|>", "lw": 0.7, "color": "black", "mutation_scale": 5,
+                    "shrinkA": 1, "shrinkB": 0},
+    )  # fmt: skip
     axes.axhline(0, color="black", lw=0.6, ls=(0, (1, 1.5)), zorder=0)
     axes.text(at(8, 0)[0] + 1.2, -1.45, "base, $j=0$", ha="right", va="center", fontsize=7.5)

@@ -20,6 +20,9 @@ from numeric.work import Work
 Notice = Callable[[str], None]
 """Told, now and then, what is being done."""
 
+Row = dict[str, Any]
+"""One line of a CSV file."""
+
 # (σ_δr/r)² = 1e-6/12, uniform radii, and s = 3 r, as in the caption of figure 3.
 PAPER_STD = sqrt(1e-6 / 12)
 SPACING = Fraction(3)
@@ -96,10 +99,6 @@ def forces_of(answer: Solved) -> Forces:
     """Give the forces of an ensemble that asked for them."""
     assert answer.forces is not None
     return answer.forces
-
-
-Row = dict[str, Any]
-"""One line of a CSV file."""
 
 
 def impulses(ensemble: Plan) -> Solved:

@@ -7,6 +7,7 @@ at finite l come from solving for δr on one bead at a time; the simulation is e
 """
 
 from dataclasses import dataclass
+from math import asin
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -155,7 +156,7 @@ def respond(realisations: int, seed: int, notice: Notice, *, double_y: bool = Fa
         tuple(F + p.mean(axis=0) for F, p in zip(ordered, changes, strict=True)),
         tuple(p.var(axis=0) / STD**2 for p in changes),
         simultaneous(averaged(np.log(variance) / 2, influence), LEVEL, seed),
-        profiles(seed) if double_y else (),
+        profiles(asin(N_X), seed) if double_y else (),
     )
 
 

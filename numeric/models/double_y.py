@@ -14,12 +14,10 @@ f/cos θ, which keeps ⟨f n_y⟩ exactly.
 """
 
 from dataclasses import dataclass
-from math import asin
 from typing import Any
 
 import numpy as np
 
-from numeric.figures.packings import N_X
 from numeric.lattice import Array
 
 SPLITTING_ANGLE = np.radians(20)
@@ -70,14 +68,17 @@ class Profile:
         }
 
 
-def walk(splits: float, angle: float, rays: int, seed: int) -> tuple[Array, Array, Array]:
+def walk(
+    splits: float, tilt: float, angle: float, rays: int, seed: int
+) -> tuple[Array, Array, Array]:
     """Follow rays to the base (depth 1) or the surface (depth 0), with λ = 1/``splits``.
+
+    ``tilt`` is the angle of n^± from straight down, ``angle`` that of a split, both in radians.
 
     Gives, per ray, where it ended (x), whether at the base, and its vertical force f |n_y| there,
     in units of the load; shapes (rays,). The means over rays are what base and surface get.
     """
     generator = np.random.default_rng(seed)
-    tilt = asin(float(N_X))  # of n^± from straight down
     direction = np.where(np.arange(rays) % 2, tilt, -tilt)
     strength = np.full(rays, 1 / np.cos(tilt))
     x, depth = np.zeros(rays), np.zeros(rays)
@@ -101,9 +102,9 @@ def walk(splits: float, angle: float, rays: int, seed: int) -> tuple[Array, Arra
     return end, at_base, force
 
 
-def profile(splits: float, seed: int, rays: int = RAYS) -> Profile:
+def profile(splits: float, tilt: float, seed: int, rays: int = RAYS) -> Profile:
     """Estimate the mean response at the base, depth H = ``splits`` λ."""
-    end, at_base, force = walk(splits, SPLITTING_ANGLE, rays, seed)
+    end, at_base, force = walk(splits, tilt, SPLITTING_ANGLE, rays, seed)
 
     def mean(values: Array) -> tuple[float, float]:
         return float(values.mean()), float(values.std() / np.sqrt(rays))
@@ -116,6 +117,6 @@ def profile(splits: float, seed: int, rays: int = RAYS) -> Profile:
     )
 
 
-def profiles(seed: int) -> tuple[Profile, ...]:
+def profiles(tilt: float, seed: int) -> tuple[Profile, ...]:
     """Responses from shallow (two peaks, along the cone) to deep (one, broad)."""
-    return tuple(profile(splits, seed) for splits in (0.5, 2, 8))
+    return tuple(profile(splits, tilt, seed) for splits in (0.5, 2, 8))

@@ -1,10 +1,14 @@
 """The simpler models: what they conserve, and their known limits."""
 
+from math import asin
+
 import numpy as np
 import pytest
 
 from numeric.figures.packings import N_X
 from numeric.models import double_y, q_model
+
+TILT = asin(N_X)
 
 
 def test_the_recursion_of_the_q_model_is_what_simulation_finds() -> None:
@@ -43,7 +47,7 @@ def test_a_point_load_of_the_q_model_spreads_by_one_step_a_layer() -> None:
 
 
 def test_rays_without_defects_are_the_cone() -> None:
-    end, at_base, force = double_y.walk(0, double_y.SPLITTING_ANGLE, 1000, 1)
+    end, at_base, force = double_y.walk(0, TILT, double_y.SPLITTING_ANGLE, 1000, 1)
     slope = float(N_X) / np.sqrt(1 - float(N_X) ** 2)
     assert np.abs(end) == pytest.approx(np.full(1000, slope), rel=1e-12)
     assert end.mean() == pytest.approx(0, abs=1e-12)
@@ -53,21 +57,21 @@ def test_rays_without_defects_are_the_cone() -> None:
 
 @pytest.mark.parametrize("splits", [0.5, 4.0])
 def test_rays_conserve_the_vertical_force(splits: float) -> None:
-    found = double_y.profile(splits, seed=3, rays=100_000)
+    found = double_y.profile(splits, TILT, seed=3, rays=100_000)
     assert found.balance[0] == pytest.approx(1, abs=5 * found.balance[1])
     assert found.balance[1] < 0.02
 
 
 def test_a_defect_of_no_angle_changes_nothing() -> None:
-    end, at_base, _ = double_y.walk(5, 0.0, 1000, 1)
-    straight, _, _ = double_y.walk(0, 0.0, 1000, 1)
+    end, at_base, _ = double_y.walk(5, TILT, 0.0, 1000, 1)
+    straight, _, _ = double_y.walk(0, TILT, 0.0, 1000, 1)
     assert at_base.all()
     assert end == pytest.approx(straight, rel=1e-9)
 
 
 def test_the_response_turns_from_two_peaks_to_a_broad_one() -> None:
     def shares(splits: float) -> tuple[float, float]:
-        found = double_y.profile(splits, seed=4, rays=100_000)
+        found = double_y.profile(splits, TILT, seed=4, rays=100_000)
         middle = np.abs(found.edges[:-1] + found.edges[1:]) / 2
         whole = found.density.sum()
         cone = np.abs(middle - 1.134) < 0.1
