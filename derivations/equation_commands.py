@@ -22,12 +22,14 @@ class Form(StrEnum):
 
 
 class Place(StrEnum):
-    """Which layers an exact form is for."""
+    """What an exact form is for: layers (Eqs. 13 and 14), or a load (Eq. 15)."""
 
     INTERIOR = "interior"
     BASE = "base"
     NEXT = "base+1"
     SURFACE = "surface"
+    SURFACE_LOAD = "surface-load"
+    BULK_LOAD = "bulk-load"
 
 
 def _number(word: str) -> int:
@@ -79,13 +81,16 @@ def show(
     number: Annotated[str, typer.Argument(metavar="N", help="Number of the equation.")],
     form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
     exact: Annotated[
-        bool, typer.Option("--exact", help="The exact form at finite M (Eqs. 13 and 14).")
+        bool, typer.Option("--exact", help="The exact form at finite M (Eqs. 13 to 15).")
     ] = False,
     at_j: Annotated[
         Place | None,
         typer.Option(
-            help="Where the exact form holds: interior (2 ≤ j ≤ M − 2, the default), "
-            "base (j = 0), base+1 (j = 1) or surface (j = M − 1)."
+            "--at-j",
+            "--case",
+            help="Which exact form. Eqs. 13 and 14: interior (2 ≤ j ≤ M − 2, the default), "
+            "base (j = 0), base+1 (j = 1) or surface (j = M − 1). Eq. 15: surface-load (the "
+            "default) or bulk-load.",
         ),
     ] = None,
 ) -> None:
@@ -109,7 +114,13 @@ def show(
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
-    print(shown.exact_view(equation, at_j or Place.INTERIOR, form))
+    places = shown.exact_places(equation)
+    if at_j is not None and at_j not in places:
+        raise typer.BadParameter(
+            f"Eq. {equation} has no exact form for '{at_j}'. Use {either(places)}.",
+            param_hint="--at-j / --case",
+        )
+    print(shown.exact_view(equation, at_j or places[0], form))
 
 
 def list_equations() -> None:
