@@ -36,7 +36,8 @@ def _heights(text: str) -> tuple[int, ...]:
     ):
         raise typer.BadParameter(
             f"'{text}' names no heights. Give up to {MOST_HEIGHTS} different whole numbers from 1 "
-            f"to {HIGHEST}, with commas between them, such as 32,128."
+            f"to {HIGHEST}, with commas between them, such as 32,128.",
+            param_hint="--heights",
         )
     return heights
 
@@ -44,7 +45,9 @@ def _heights(text: str) -> tuple[int, ...]:
 def figures(
     which: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[1|2|3|4|pf|chains...]", help="Figures; all of them by default."),
+        typer.Argument(
+            metavar="WHICH", help="Figures: 1, 2, 3, 4, pf, chains; all of them by default."
+        ),
     ] = None,
     out: Annotated[Path, out_option("PNG, SVG, PDF and CSV")] = Path("figures"),
     heights: Annotated[

@@ -55,6 +55,18 @@ class _Figure(NamedTuple):
     draw: "Callable[[Any], Figure]"
 
 
+def _draw_comparison(data: Any) -> "Figure":
+    from numeric.figures import comparison_drawing
+
+    return comparison_drawing.draw(data)
+
+
+def _draw_response(data: Any) -> "Figure":
+    from numeric.figures import response_drawing
+
+    return response_drawing.draw(data)
+
+
 FIGURES = {
     "1": _Figure(
         "figure1",
@@ -74,7 +86,7 @@ FIGURES = {
         lambda o: comparison.compare(
             o.heights, o.realisations or 400, o.seed, o.notice, q_model="q-model" in o.models
         ),
-        comparison.draw,
+        _draw_comparison,
     ),
     "4": _Figure(
         "figure4",
@@ -82,7 +94,7 @@ FIGURES = {
         lambda o: response.respond(
             o.realisations or 4000, o.seed, o.notice, double_y="double-y" in o.models
         ),
-        response.draw,
+        _draw_response,
     ),
     "pf": _Figure(
         "pf",
