@@ -51,7 +51,9 @@ def drawn(module: str, *arguments: Any) -> Mapping[str, str | bytes]:
 
     try:
         plots = import_module(module).plots
-    except ImportError:
+    except ModuleNotFoundError as error:
+        if (error.name or "").split(".")[0] != "matplotlib":
+            raise
         missing = "no plot: matplotlib is missing; pip install 'force-diffusion[plots]'"
         print(f"force-diffusion: {missing}", file=sys.stderr)
         return {}

@@ -6,6 +6,7 @@ and in balls about three bits a layer. It is written for periodic packings, in C
 coordinates, r = 1, for any number system.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -44,7 +45,7 @@ def axes(n_x: Fraction, system: NumberSystem) -> tuple[Any, Any]:
     return system.scalar(n_x), system.root(1 - n_x**2)
 
 
-def deposit(n_x: Fraction, rho: tuple[Array, ...], system: NumberSystem) -> PlainPacking:
+def deposit(n_x: Fraction, rho: Sequence[Array], system: NumberSystem) -> PlainPacking:
     """Deposit a periodic packing by intersecting circles around the supports.
 
     ``rho[j]``: δr/r of the W beads of layer j. Raises ``UnbuildableError`` naming the bead,

@@ -4,6 +4,8 @@ Needs matplotlib (the extra ``plots``), which nothing else of this package impor
 """
 
 import math
+from collections.abc import Sequence
+from decimal import Decimal
 from typing import Any
 
 from matplotlib.axes import Axes
@@ -33,7 +35,7 @@ def draw(study: Study, title: str) -> Figure:
     figure = new_figure(9, 7.5)
     figure.subplots_adjust(0.09, 0.08, 0.98, 0.91)
     axes = figure.subplots()
-    rows = [row for row in study.rows if row.error]
+    rows = [row for row in study.rows if row.error and not _in_vain(row, study.rows)]
     floor = [math.log10(study.sampling_floor)] if study.sampling_floor else []
     powers_of_ten(axes, "x", [_x(row) for row in rows], 0.35)  # room for labels
     powers_of_ten(axes, "y", [_y(row) for row in rows] + floor, 0.08)
@@ -59,16 +61,28 @@ def draw(study: Study, title: str) -> Figure:
     for line in _lines(rows):
         _name(axes, line, STYLES.get(line[0].way, ("D", "0.1"))[1], taken)
     axes.set_xlabel("seconds, median (thin: fastest to slowest run)")
-    axes.set_ylabel("error / largest |change|")
+    axes.set_ylabel("measured error / largest |change|")
     reference = study.reference
     axes.set_title(
         f"{title}: {study.quantity}\n"
-        f"filled: on the Pareto front; reference {reference.kind}, radius {reference.radius:.1e}",
+        "filled: on the Pareto front of measured error and time; "
+        f"reference {reference.kind}, radius {reference.radius:.1e}",
         fontsize=10,
         loc="left",
     )
     axes.spines[["top", "right"]].set_visible(False)
     return figure
+
+
+def _in_vain(row: Row, rows: Sequence[Row]) -> bool:
+    """Say whether more digits of one way bring nothing but a longer time: the table has them."""
+    return any(
+        r.way == row.way
+        and r.realisations == row.realisations
+        and r.seconds < row.seconds
+        and r.error <= row.error <= r.error * Decimal("1.01")
+        for r in rows
+    )
 
 
 def _around(axes: Axes, row: Row) -> Bbox:

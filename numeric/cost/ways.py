@@ -1,7 +1,6 @@
 """Ways to answer a scene: any plan in any number system, also in the plain form, as one table."""
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 from numeric import plain
 from numeric.answers import GATHERERS, Table
@@ -98,7 +97,7 @@ def solve_plainly(
     return Solved(system, None, forces, None)
 
 
-def _line_sums(plan: Plan, packing: plain.PlainPacking, rho: tuple[Any, ...]) -> Packing:
+def _line_sums(plan: Plan, packing: plain.PlainPacking, rho: Sequence[Array]) -> Packing:
     """Put the displacements into the coordinates c^± = n^±·δx that answers are gathered from."""
     nx, ny = packing.n
     moved = plain.displacements(packing)

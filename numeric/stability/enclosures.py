@@ -6,7 +6,7 @@ addition, and only the small nonlinear part can grow, which it does where the th
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -119,7 +119,7 @@ def enclose(strip: Strip) -> Enclosed:
     return row(note=f"not enclosed: up to {MOST_BITS} bits are tried")
 
 
-def _solved(form: str, rho: tuple[Array, ...], system: NumberSystem) -> Changes:
+def _solved(form: str, rho: Sequence[Array], system: NumberSystem) -> Changes:
     if form == POSITIONS:
         return plain_form(N_X, rho, system)
     return changes(deviation_form(N_X, rho, system)[1])

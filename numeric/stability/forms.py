@@ -7,7 +7,7 @@ so that heights of thousands of layers stay small.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from statistics import median
 from time import process_time
@@ -23,7 +23,7 @@ from numeric.packing import Packing, deposit
 from numeric.systems import NumberSystem, zeros
 
 SEED = 1
-Changes = tuple[tuple[Array, ...], tuple[Array, ...]]
+Changes = tuple[Sequence[Array], Sequence[Array]]
 """Changes of the plus and of the minus contacts, layer by layer, in units of the load on a bead."""
 T = TypeVar("T")
 # Seconds are the processor's, of the one thread there is: other programs don't count.
@@ -31,7 +31,7 @@ ENOUGH_SECONDS, MOST_ROUNDS = 0.05, 9
 
 
 def deviation_form(
-    n_x: Fraction, rho: tuple[Array, ...], system: NumberSystem
+    n_x: Fraction, rho: Sequence[Array], system: NumberSystem
 ) -> tuple[Packing, Forces]:
     """Solve a whole packing for its deviations; the caller activates ``system``."""
     height, width = len(rho) - 1, len(rho[0])
@@ -46,7 +46,7 @@ def changes(forces: Forces) -> Changes:
     return forces.change_plus, forces.change_minus
 
 
-def plain_form(n_x: Fraction, rho: tuple[Array, ...], system: NumberSystem) -> Changes:
+def plain_form(n_x: Fraction, rho: Sequence[Array], system: NumberSystem) -> Changes:
     """Solve for positions and forces, and subtract the ordered forces."""
     height, width = len(rho) - 1, len(rho[0])
     solved = plain.deposit(n_x, rho, system)
