@@ -17,7 +17,6 @@ from numeric.figures.bands import Band, averaged, simultaneous
 from numeric.figures.packings import N_X, PHI, Notice, Row, forces_of, impulses, planned, solved
 from numeric.lattice import Array
 from numeric.models.double_y import Profile, profiles
-from numeric.planner import Plan
 
 APEX = 24  # the loaded bead is (0, APEX)
 STD = 1e-4  # far below M*
@@ -133,11 +132,11 @@ def respond(realisations: int, seed: int, notice: Notice, *, double_y: bool = Fa
         '"response"', height=APEX, width=None, seed=seed, std=STD,
         load=f'"point", at = [0, {APEX}]', realisations=realisations,
     )  # fmt: skip
-    weights, single = vertical(ensemble, impulses(ensemble), ensemble.region.beads, linear=True)
+    weights, single = vertical(impulses(ensemble), ensemble.region.beads, linear=True)
     ordered = tuple(_ordered(j) for j in range(APEX))
     samples: list[tuple[Array, ...]] = []
     for answer, number in solved(ensemble, range(realisations), notice, "figure 4"):
-        samples.append(vertical(ensemble, answer, number, linear=False)[0])
+        samples.append(vertical(answer, number, linear=False)[0])
     changes = tuple(np.concatenate(parts) for parts in zip(*samples, strict=True))
     inside = _on_cuts(changes) / STD
     variance = inside.var(axis=0)
@@ -162,7 +161,7 @@ def _ordered(j: int) -> Array:
 
 
 def vertical(
-    ensemble: Plan, answer: Solved, number: int, *, linear: bool
+    answer: Solved, number: int, *, linear: bool
 ) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
     """Give the change of p by layer 0 … l − 1, and its part from the upper right contact alone.
 

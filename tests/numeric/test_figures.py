@@ -120,10 +120,10 @@ def test_figure_4_conserves_the_load_and_holds_theory() -> None:
         realisations=3,
     )  # fmt: skip
     for answer, number in packings.solved(plan, range(3)):
-        both, _ = response.vertical(plan, answer, number, linear=False)
+        both, _ = response.vertical(answer, number, linear=False)
         for change in both:  # every layer bears the whole load, exactly
             assert change.sum(axis=1) == pytest.approx(np.zeros(3), abs=1e-16)
-    for change in response.vertical(plan, impulses(plan), plan.region.beads, linear=True)[0]:
+    for change in response.vertical(impulses(plan), plan.region.beads, linear=True)[0]:
         assert np.abs(change.sum(axis=1)).max() < 1e-13
 
 
