@@ -29,6 +29,10 @@ COMMANDS = {
         "Measure what stability costs: errors and lost bits of both forms, time beside them.",
     ),
     "figures": ("figures_command", "Draw the paper's figures anew, from exact packings."),
+    "report": (
+        "report_command",
+        "Write all results as one HTML page: derivations, checks, costs, stability.",
+    ),
 }
 STATUSES = (
     "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "

@@ -13,7 +13,8 @@ from symbolic.kernel import Verdict
 from symbolic.printing.latex import latex
 from symbolic.printing.lines import latex_body
 
-_RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim", "∝": r"\propto"}
+RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim", "∝": r"\propto"}
+"""Signs of ``Derivation.relation`` in LaTeX."""
 
 _HEAD = r"""\documentclass[10pt]{article}
 \usepackage[a4paper,margin=27mm]{geometry}
@@ -33,7 +34,7 @@ _HEAD = r"""\documentclass[10pt]{article}
 \maketitle
 """
 
-_READING = (
+READING = (
     "The equations keep the numbers that they have in the paper. Proved means that an exact "
     "decision procedure found the printed equation to follow from its assumptions; refuted, that "
     "it found a counterexample; undecided, that it could do neither. A witness is a comparison of "
@@ -42,11 +43,12 @@ _READING = (
     "change, which the same procedure has to refute; one that is an equivalent rewriting is "
     "listed with the proof that it is."
 )
+"""What the words of a report mean."""
 
 
 def statement_latex(derivation: Derivation) -> str:
     """The printed equation as one numbered display, ready to paste."""
-    body = latex_body(derivation.printed, _RELATIONS[derivation.relation])
+    body = latex_body(derivation.printed, RELATIONS[derivation.relation])
     return f"\\begin{{equation}}\n{body}\n\\end{{equation}}\n"
 
 
@@ -67,7 +69,7 @@ def _part(title: str, body: str) -> str:
     return f"\\heading{{{title}}}\n{body}" if body else ""
 
 
-def _sentence(words: str) -> str:
+def sentence(words: str) -> str:
     """Words with a capital letter, where they start with a word, and a full stop."""
     first = words.split(" ", 1)[0]
     capital = first[:1].upper() + words[1:] if first.isalpha() and len(first) > 1 else words
@@ -75,8 +77,8 @@ def _sentence(words: str) -> str:
 
 
 def _noted(verdict: str, name: str, note: str) -> str:
-    said = f"\\emph{{{verdict}}}: {prose_latex(_sentence(name))}"
-    return f"{said} {prose_latex(_sentence(note))}" if note else said
+    said = f"\\emph{{{verdict}}}: {prose_latex(sentence(name))}"
+    return f"{said} {prose_latex(sentence(note))}" if note else said
 
 
 def _steps(derivation: Derivation) -> str:
@@ -88,7 +90,7 @@ def _steps(derivation: Derivation) -> str:
             continue
         item = prose_latex(step.reason)
         if step.formula is not None:
-            relation = _RELATIONS[relation_of(derivation, step)]
+            relation = RELATIONS[relation_of(derivation, step)]
             item += f"\n\\[\n{latex_body([step.formula], relation, room=380.0)}\n\\]"
         items.append(item)
     return _list("enumerate", items)
@@ -226,7 +228,7 @@ def output_files(outcomes: Sequence[Outcome]) -> dict[str, str]:
         for outcome in outcomes
     }
     body = "\n".join(section_latex(outcome) for outcome in outcomes)
-    reading = f"{prose_latex(_READING)}\n"
+    reading = f"{prose_latex(READING)}\n"
     files[DOCUMENT] = f"{_HEAD}{reading}{_overview(outcomes)}\n{body}\n\\end{{document}}\n"
     files[MANIFEST] = manifest(outcomes)
     return files

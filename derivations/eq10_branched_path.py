@@ -141,7 +141,7 @@ def _leaving(
     )
 
 
-def _balance_everywhere() -> Ruling:
+def balance_everywhere() -> Ruling:
     """Eqs. 9 and 10, and zero elsewhere, pass through every bead by Eq. 8, to first order.
 
     A bead that (p, q) steps lead to receives the two contacts that are named by it; what leaves
@@ -183,7 +183,7 @@ DERIVATION = Derivation(
         Claim("its branching bead is (i − n, j + n)", _branching_bead),
         Claim(
             "Eqs. 9 and 10, and zero elsewhere, balance every bead to first order",
-            _balance_everywhere,
+            balance_everywhere,
         ),
     ),
     witnesses=(

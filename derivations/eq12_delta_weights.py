@@ -214,6 +214,17 @@ def _independent() -> Ruling:
     return from_test(difference.is_zero(), "Var Σ wΔ = 6σ² Σ w², all weights squared site by site")
 
 
+def _one_more_term() -> Ruling:
+    """The double sum with Eq. 11's end, and the term n = M − j that it has not, as weights of Δ."""
+    shorter = DOUBLE_SUM.xreplace({M - j: M - j - 1})
+    added = sympy.Sum(ON_DIAGONAL, (m, 1, M))
+    weights = largest_weight(fluctuation(added, DEEP), DEEP)
+    return all_of(
+        decide_linear(DOUBLE_SUM, terms(shorter, added), Region({j: 1, M: j + 1})),
+        from_test(weights == 0, "the term n = M − j has weights of order 1"),
+    )
+
+
 def _branch_term() -> Ruling:
     return decide_linear(
         eq11.in_radii(BRANCH_TERM), BRANCH_IN_RADII / r, Region({j: 0, n: 1, M: j + n})
@@ -249,6 +260,9 @@ DERIVATION = Derivation(
             "each term of the sum over n is Δ summed below the branch, and end terms", _branch_term
         ),
         Claim("orders of the dropped terms", _dropped),
+        Claim(
+            "the term n = M − j, which Eq. 11 does not have, is of dropped order", _one_more_term
+        ),
         Claim("Δ of different layers share no radius", _independent),
     ),
     witnesses=(

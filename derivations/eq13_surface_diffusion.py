@@ -20,9 +20,16 @@ from derivations.record import Claim, Derivation, ExactView, Step, Witness
 from derivations.runner import run_alone
 from symbolic.as_printed import equation, power, terms, times
 from symbolic.certified_sums import certified_sum
-from symbolic.kernel import Ruling, all_of, decide_identity, undecided
+from symbolic.kernel import Ruling, all_of, decide_identity, from_test, undecided
 from symbolic.symbols import M, j, m, phi, r, sigma, z
-from symbolic.variance import ExactForm, exact_variances
+from symbolic.variance import (
+    CASES,
+    ExactForm,
+    exact_variances,
+    fluctuation,
+    largest_weight,
+    order,
+)
 
 RELATIVE_VARIANCE = sympy.Symbol(r"\sigma_f^2(z)/\langle f\rangle^2")
 
@@ -90,6 +97,18 @@ def _weights() -> Ruling:
     )
 
 
+def _no_radius_dominates() -> Ruling:
+    """The largest squared weight over the variance: what the central limit theorem needs."""
+    exact = eq11.in_radii(eq11.PRINTED.rhs)
+    shares = []
+    for case, (at, region, *_) in CASES.items():
+        weight = largest_weight(fluctuation(exact.xreplace(at), region), region)
+        shares.append(2 * weight - order(exact_forms()[case].value))
+    return from_test(
+        max(shares) == -1, "a radius has a share of order 1/M in the variance, in every layer"
+    )
+
+
 def _corollaries() -> Ruling:
     profile = (1 - z) ** 2 * (2 * z + 1)
     slope = sympy.diff(profile, z)
@@ -129,6 +148,7 @@ DERIVATION = Derivation(
             "exact forms at the base and below the surface",
             lambda: edges_follow(exact_forms(), PRINTED.rhs),
         ),
+        Claim("no radius has more than O(1/M) of the variance, in any layer", _no_radius_dominates),
         Claim(
             "broadening stops at the base: the slope in z is −6z(1 − z), zero at z = 0",
             _corollaries,

@@ -22,7 +22,7 @@ class Form(StrEnum):
 
 
 class Place(StrEnum):
-    """What an exact form is for: layers (Eqs. 13 and 14), or a load (Eq. 15)."""
+    """What an exact form is for: layers (13, 14), a load (15), a place in the cone (16)."""
 
     INTERIOR = "interior"
     BASE = "base"
@@ -30,6 +30,10 @@ class Place(StrEnum):
     SURFACE = "surface"
     SURFACE_LOAD = "surface-load"
     BULK_LOAD = "bulk-load"
+    BEAD = "bead"
+    CONTACT = "contact"
+    LEG = "leg"
+    LEG_FORCE = "leg-force"
 
 
 def _number(word: str) -> int:
@@ -81,7 +85,7 @@ def show(
     number: Annotated[str, typer.Argument(metavar="N", help="Number of the equation.")],
     form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
     exact: Annotated[
-        bool, typer.Option("--exact", help="The exact form at finite M (Eqs. 13 to 15).")
+        bool, typer.Option("--exact", help="The exact form at finite size (Eqs. 13 to 16).")
     ] = False,
     at_j: Annotated[
         Place | None,
@@ -90,7 +94,8 @@ def show(
             "--case",
             help="Which exact form. Eqs. 13 and 14: interior (2 ≤ j ≤ M − 2, the default), "
             "base (j = 0), base+1 (j = 1) or surface (j = M − 1). Eq. 15: surface-load (the "
-            "default) or bulk-load.",
+            "default) or bulk-load. Eq. 16: bead (both upper contacts, the default), contact (one "
+            "of them), leg (the contact on a leg of the cone) or leg-force (its magnitude).",
         ),
     ] = None,
 ) -> None:
@@ -106,7 +111,7 @@ def show(
     having = shown.exact_numbers()
     if equation not in having:
         raise typer.BadParameter(
-            f"Eq. {equation} has no exact form at finite M of its own; "
+            f"Eq. {equation} has no exact form at finite size of its own; "
             f"{either([str(one) for one in having])} has.",
             param_hint="--exact",
         )

@@ -2,6 +2,7 @@
 
 import re
 import unicodedata
+from collections.abc import Iterator, Sequence
 
 _MATHS = {
     "−": "-", "±": r"\pm ", "∓": r"\mp ", "·": r"\cdot ", "×": r"\times ", "…": r"\ldots ",
@@ -36,8 +37,11 @@ _VECTOR = re.compile(r"(?<![A-Za-z\\{])n(?=\^\{[-+]|\^?\\pm)")
 _FORCE = re.compile(r"F(?=\^\{\\rm load)")
 _RECIPROCAL = re.compile(r"(?<![A-Za-z\\{])b(?=\^\{[-+]|\^?\\pm)")
 _NAMES = re.compile(r"(?<![A-Za-z\\])(max|min)(?![A-Za-z])")
+_POWER = re.compile(r"\^\(([^()]*)\)")
+_STAR = re.compile(r"(?<=[A-Za-z])\*")
 _ROOT = re.compile(r"√(\d+|\([^()]*\))")
 _PUNCTUATION = re.compile(r"(?P<open>[(“\"]*)(?P<core>.*?)(?P<close>[)”\".,;:?!]*)", re.DOTALL)
+_FLOAT = re.compile(r"(?<![A-Za-z0-9.])(\d(?:\.\d+)?)e([+-]\d+)(?![A-Za-z0-9])")
 _SYMBOLIC = re.compile(
     "[" + re.escape("".join([*_MATHS, *_RAISED, *_LOWERED, *_WORDS])) + "_^=+*/<>|0-9]"
 )
@@ -72,13 +76,19 @@ def _character(character: str) -> str:
     return _MATHS.get(character, unknown)
 
 
+def _power_of_ten(found: re.Match[str]) -> str:
+    factor = "" if float(found[1]) == 1 else rf"{found[1]} \cdot "
+    return f"{factor}10^{{{int(found[2])}}}"
+
+
 def _set_mathematics(word: str) -> str:
     for special in "%#&{}":
         word = word.replace(special, f"\\{special}")
+    word = _STAR.sub("^{*}", _POWER.sub(r"^{\1}", word))
     for raised, source in _WORDS.items():
         word = word.replace(raised, source)
     word = _ROOT.sub(r"\\sqrt{\1}", _RUN.sub(_run, _INDEXED.sub(_lowered, word)))
-    word = "".join(map(_character, word))
+    word = "".join(map(_character, _FLOAT.sub(_power_of_ten, word)))
     word = _FORCE.sub(r"{\\bf F}", word)
     word = _RECIPROCAL.sub(r"{\\bf b}", _VECTOR.sub(r"\\hat{\\bf n}", word))
     return _NAMES.sub(r"\\\1 ", word)
@@ -100,7 +110,47 @@ def _parts(word: str) -> tuple[str, str, str]:
         core, closing = f"{core})", closing[1:]
     while core.count(")") > core.count("(") and opening.endswith("("):
         core, opening = f"({core}", opening[:-1]
+    if core.find(")") < core.find("(") and opening.endswith("(") and closing.startswith(")"):
+        opening, core, closing = opening[:-1], f"({core})", closing[1:]  # (a)^(b)
     return opening, core, closing
+
+
+def pieces(words: str) -> Iterator[tuple[str, list[str], str]]:
+    """The pieces between a sentence's spaces: what stands before a formula, its words, what after.
+
+    Neighbouring pieces of mathematics are one formula. Plain words have an empty one, and stand
+    before it.
+    """
+    formula: list[str] = []  # mathematics that is still open to the right
+    before = ""
+    for word in words.split(" "):
+        opening, core, closing = _parts(word)
+        pair = core == "a" and opening.endswith("(") and closing.startswith(",")
+        if not core or not (core.isdecimal() or pair or _is_mathematics(core)):
+            if formula:
+                yield before, formula, ""
+            formula, before = [], ""
+            yield word, [], ""
+            continue
+        if opening:
+            if formula:
+                yield before, formula, ""
+            formula, before = [], opening
+        formula.append(core)
+        if closing:
+            yield before, formula, closing
+            formula, before = [], ""
+    if formula:
+        yield before, formula, ""
+
+
+def formula_latex(formula: Sequence[str]) -> str:
+    r"""The words of a formula as LaTeX for mathematics mode.
+
+    >>> print(formula_latex(["j", "≥", "1"]))
+    j \geq  1
+    """
+    return " ".join(map(_set_mathematics, formula))
 
 
 def prose_latex(words: str) -> str:
@@ -109,31 +159,9 @@ def prose_latex(words: str) -> str:
     >>> print(prose_latex("Eq. 2 for j ≥ 1: δr_(i−1,j) is a length & n⁺ a unit vector."))
     Eq. 2 for $j \geq  1$: $\delta r_{i-1,j}$ is a length \& $\hat{\bf n}^{+}$ a unit vector.
     """
-    done: list[str] = []
-    formula: list[str] = []  # mathematics that is still open to the right
-    before = ""
-
-    def close(after: str = "") -> None:
-        nonlocal before
-        if formula:
-            plain = len(formula) == 1 and formula[0].isdecimal()
-            text = formula[0] if plain else f"${' '.join(map(_set_mathematics, formula))}$"
-            done.append(f"{_set_text(before)}{text}{_set_text(after)}")
-            formula.clear()
-        before = ""
-
-    for word in words.split(" "):
-        opening, core, closing = _parts(word)
-        pair = core == "a" and opening.endswith("(") and closing.startswith(",")
-        if not core or not (core.isdecimal() or pair or _is_mathematics(core)):
-            close()
-            done.append(_set_text(word))
-            continue
-        if opening:
-            close()
-            before = opening
-        formula.append(core)
-        if closing:
-            close(closing)
-    close()
+    done = []
+    for before, formula, after in pieces(words):
+        plain = len(formula) == 1 and formula[0].isdecimal()
+        text = formula[0] if plain else f"${formula_latex(formula)}$" if formula else ""
+        done.append(f"{_set_text(before)}{text}{_set_text(after)}")
     return " ".join(done)

@@ -131,3 +131,76 @@ def averages(
                 yield f"M = {height}, {load} load", mean, total / height
 
     return compare(pairs())
+
+
+Offset = tuple[int, int]
+"""Columns i − k to the right of a loaded bead, and a layer."""
+
+
+def weights_below_a_load(
+    level: int, n: tuple[Fraction, Fraction]
+) -> tuple[dict[tuple[Offset, str], dict[Offset, Fraction]], ...]:
+    """Exact first-order weights of what a load on a bead of layer ``level`` does, f_load = 1.
+
+    Two mappings from ((i − k, j), branch) to weights of beads (i' − k, j'): the vertical component
+    of the contact's force, and its magnitude. Many equal loads share one packing, so far apart
+    that none feels the bead that is enlarged below another; below each, it is another bead.
+    """
+    from numeric import taylor
+
+    reach = level + 2
+    apart = 2 * reach + 2
+    vertical: dict[tuple[Offset, str], dict[Offset, Fraction]] = {}
+    magnitude: dict[tuple[Offset, str], dict[Offset, Fraction]] = {}
+    for source in range(level + 1):
+        offsets = [o for o in range(-reach, reach + 1) if (o + level - source) % 2 == 0]
+        tops = [level % 2 + apart * place for place in range(len(offsets))]
+        width = apart * len(offsets) // 2
+        solved = taylor.solve(
+            width,
+            level,
+            n=n,
+            rho={
+                ((top + o) % (2 * width), source): Fraction(1)
+                for top, o in zip(tops, offsets, strict=True)
+            },
+            loads={(top, level): (Fraction(0), Fraction(-1)) for top in tops},
+        )
+        for top, offset in zip(tops, offsets, strict=True):
+            for layer in range(level):
+                for across in range(-(level - layer), level - layer + 1, 2):
+                    for branch in "+-":
+                        force, slope = solved.force(top + across, layer, branch)
+                        tilt = solved.direction(top + across, layer, branch)[1][1]
+                        contact, bead = ((across, layer), branch), (offset, source)
+                        magnitude.setdefault(contact, {})[bead] = slope
+                        vertical.setdefault(contact, {})[bead] = slope * n[1] + force * tilt
+    return vertical, magnitude
+
+
+def responses(packing: SmallPacking, level: int) -> Ruling:
+    """Closed forms of the response against squared weights of an exact packing, every contact."""
+    from numeric import closed_forms
+
+    phi, one = packing.n[1] ** 2 - packing.n[0] ** 2, Fraction(1)
+
+    def square(weights: Mapping[Offset, Fraction]) -> Fraction:
+        return sum((w**2 for w in weights.values()), Fraction(0))
+
+    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
+        vertical, magnitude = weights_below_a_load(level, packing.n)
+        for ((across, layer), branch), weights in vertical.items():
+            site = (across + level % 2, layer, level % 2, level)
+            where = f"l = {level}, i − k = {across}, j = {layer}"
+            stated = closed_forms.contact_response(*site, branch, phi, one, one)
+            yield f"{where}, f{branch}", stated, square(weights)
+            if branch == "+":
+                other = vertical[(across, layer), "-"]
+                both = {bead: weight + other[bead] for bead, weight in weights.items()}
+                yield where, closed_forms.bead_response(*site, phi, one, one), square(both)
+            if across == (layer - level if branch == "+" else level - layer):
+                ordered = 1 / (2 * packing.n[1])
+                relative = square(magnitude[(across, layer), branch]) / ordered**2
+                yield where, closed_forms.leg_variance(layer, level, phi, one, one), relative
+
+    return compare(pairs())

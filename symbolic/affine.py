@@ -6,6 +6,7 @@ is nonnegative on the whole region exactly when its constant and all its coeffic
 that inequalities between bounds are decided.
 """
 
+import operator
 from collections.abc import Mapping
 
 import sympy
@@ -19,6 +20,7 @@ Affine = tuple[int, ...]
 _POSITION = {symbol: number for number, symbol in enumerate(INDICES)}
 _SIZE = len(INDICES) + 1
 ZERO: Affine = (0,) * _SIZE
+_SIMPLE = {1: operator.add, -1: operator.sub}
 
 
 def constant(value: int) -> Affine:
@@ -28,6 +30,8 @@ def constant(value: int) -> Affine:
 
 def add(left: Affine, right: Affine, scale: int = 1) -> Affine:
     """Return left + scale·right."""
+    if scale in _SIMPLE:
+        return tuple(map(_SIMPLE[scale], left, right))
     return tuple(a + scale * b for a, b in zip(left, right, strict=True))
 
 
@@ -50,6 +54,11 @@ def without(value: Affine, symbol: sympy.Symbol) -> Affine:
     """The expression with the term in ``symbol`` left out."""
     place = _POSITION[symbol]
     return (*value[:place], 0, *value[place + 1 :])
+
+
+def fixed(value: Affine, symbol: sympy.Symbol, at: int) -> Affine:
+    """The expression with a whole number in place of an index symbol."""
+    return shifted(without(value, symbol), at * coefficient(value, symbol))
 
 
 def from_sympy(expression: sympy.Expr) -> Affine:
@@ -108,6 +117,7 @@ class Region:
             for symbol, bound in lower_bounds.items()
         }
         self._bounds = [(s, from_sympy(b)) for s, b in self.lower_bounds.items()]
+        self._free = [place for s, place in _POSITION.items() if s not in self.lower_bounds]
 
     def excess(self, value: Affine) -> Affine:
         """Rewrite in the excesses of the symbols over their bounds."""
@@ -120,11 +130,11 @@ class Region:
     def nonnegative(self, value: Affine) -> bool:
         """Decide value ≥ 0 everywhere in the region (unbounded symbols must be absent)."""
         in_excess = self.excess(value)
-        bounded = {symbol for symbol, _ in self._bounds}
-        return all(
-            c == 0 or (c > 0 and symbol in bounded)
-            for symbol, c in zip(INDICES, in_excess, strict=False)
-        ) and (in_excess[-1] >= 0)
+        return min(in_excess) >= 0 and self._bounded(in_excess)
+
+    def _bounded(self, value: Affine) -> bool:
+        """Whether it holds only symbols that have a bound."""
+        return not any(value[place] for place in self._free)
 
     def below(self, left: Affine, right: Affine) -> bool:
         """Decide left < right everywhere in the region."""
@@ -132,7 +142,12 @@ class Region:
 
     def differ(self, left: Affine, right: Affine) -> bool:
         """Decide that left ≠ right everywhere, by one being always the larger."""
-        return self.below(left, right) or self.below(right, left)
+        apart = add(left, right, -1)
+        if not any(apart[:-1]):
+            return apart[-1] != 0
+        in_excess = self.excess(apart)
+        above, below = min(in_excess) >= 0, max(in_excess) <= 0
+        return (above or below) and in_excess[-1] != 0 and self._bounded(in_excess)
 
     def sample(self, *excesses: int) -> dict[sympy.Symbol, int]:
         """One point: the excess of each symbol over its bound, in order."""

@@ -27,6 +27,8 @@ class LayerAverage:
     @property
     def expression(self) -> sympy.Expr:
         """The average as a SymPy expression in M, phi, sigma, r."""
+        if self.harmonic.is_zero():
+            return self.rational.to_sympy()
         each = self.harmonic.to_sympy() / k
         return self.rational.to_sympy() + sympy.Sum(each, (k, 2, M - 2))
 

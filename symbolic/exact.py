@@ -186,10 +186,12 @@ class RationalFunction:
 
     def substitute(self, images: Mapping[sympy.Expr, "RationalFunction"]) -> "RationalFunction":
         """Replace generators by polynomials (elements with denominator one)."""
+        if any(image.denominator != 1 for image in images.values()):
+            raise NotExactError("only a polynomial can be put in place of a symbol")
+        if not any(self.holds(symbol) for symbol in images):
+            return self
         full = list(self.domain.context.gens())
         for symbol, image in images.items():
-            if image.denominator != 1:
-                raise NotExactError("only a polynomial can be put in place of a symbol")
             full[self.domain.position[symbol]] = image.numerator
         return self._same(self.numerator.compose(*full), self.denominator.compose(*full))
 

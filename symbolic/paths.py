@@ -36,3 +36,6 @@ BRANCH_COUNT = ((l - j) - (k - i)) / 2
 
 BY_BRANCH = {k: i + 1 + p - n, l: j + 1 + p + n}
 """The entry's indices in terms of (i, j), of p and of n = q."""
+
+IN_CONE = {k: i + p - q, l: j + p + q}
+"""The loaded bead (k, l) seen from (i, j), p steps along n⁺ and q along n⁻ below it."""

@@ -20,7 +20,11 @@ from symbolic.weights import take_apart
 
 def fluctuation(expression: sympy.Expr, region: Region) -> LinearForm:
     """The part of a linear expression that depends on the radii."""
-    form = Reader(region).scalar(expression)
+    return without_constant(Reader(region).scalar(expression))
+
+
+def without_constant(form: LinearForm) -> LinearForm:
+    """A form without its constant term, which is its mean."""
     return LinearForm(
         {site: weight for site, weight in form.sites.items() if site.family != CONSTANT},
         dict(form.rays),
@@ -40,9 +44,12 @@ def order(value: RationalFunction, *sizes: sympy.Expr) -> int:
     return _degree(value.numerator, sizes or (M, j)) - _degree(value.denominator, sizes or (M, j))
 
 
-def leading(value: RationalFunction) -> RationalFunction:
-    """The part of highest order: what is left of value / M^order as M → ∞ at fixed z."""
-    sizes = (M, j)
+def leading(value: RationalFunction, *sizes: sympy.Expr) -> RationalFunction:
+    """The part of highest order: what is left of value / M^order as M → ∞ at fixed z.
+
+    Other indices that grow together may be given in place of M and j.
+    """
+    sizes = sizes or (M, j)
     return _top(value.numerator, sizes) / _top(value.denominator, sizes)
 
 

@@ -15,6 +15,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         action="store_true",
         help="write the golden files and shown.json anew instead of comparing with them",
     )
+    parser.addoption(
+        "--report",
+        metavar="FILE",
+        help="let the browser look at this page, made by 'force-diffusion report'",
+    )
 
 
 @pytest.fixture

@@ -30,6 +30,10 @@ _LOCAL = {  # symbols of a single derivation
     "M_star": "M^{*}",
     "mean_square": r"\overline{\sigma_f^2/\langle f\rangle^2}",
     "tensile": r"P(f<0)",
+    "response": r"\frac{\sigma_{\rm ensemble}^{2}(p)}{(f^{\rm load})^{2}}",
+    "contact_response": r"\frac{\sigma^{2}(n_{y} f_{ij}^{+})}{(f^{\rm load})^{2}}",
+    "leg_response": r"\frac{\sigma_{\rm leg}^{2}(p)}{(f^{\rm load})^{2}}",
+    "leg_force": r"\frac{\sigma_{\rm leg}^{2}(f)}{\langle f\rangle^{2}}",
 }
 _SIGNS = {"==": "=", "<=": r"\leq", "!=": r"\neq"}
 _TALL = re.compile(r"\\frac|\\sum|\\begin|\\left")

@@ -32,6 +32,10 @@ _LOCAL = {  # symbols of a single derivation
     "M_star": "M*",
     "mean_square": "mean of σ_f²/⟨f⟩²",
     "tensile": "P(f < 0)",
+    "response": "σ²(p)/f_load²",
+    "contact_response": "σ²(n_y f⁺_ij)/f_load²",
+    "leg_response": "σ²(p on a leg)/f_load²",
+    "leg_force": "σ²(f on a leg)/⟨f⟩²",
 }
 _RAISED = str.maketrans("0123456789+-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻")
 

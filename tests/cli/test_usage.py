@@ -32,13 +32,15 @@ WRONG = [
     (["show", "13", "--at-j", "base"], "--exact"),
     (["show", "13", "--exact", "--at-j", "top"], "'top' is not one of 'interior', 'base'"),
     (["show", "13", "--exact", "--at-j", "3"], "'3' is not one of"),
-    (["show", "12", "--exact"], "13, 14 or 15 has"),
+    (["show", "12", "--exact"], "13, 14, 15 or 16 has"),
     (["show", "15", "--exact", "--case", "base"], "Use surface-load or bulk-load"),
+    (["show", "16", "--exact", "--case", "cone"], "'cone' is not one of"),
+    (["show", "13", "--exact", "--case", "leg"], "Use interior, base, base+1 or surface"),
     (["show", "13", "--exact", "--as", "steps"], "steps"),
     (["list", "13"], "13"),
     (
         ["prove", "13"],
-        "no command 'prove'. Use derive, show, list, run, explain, cost, ",
+        "no command 'prove'. Use derive, show, list, run, explain, cost, stability, figures or report",
     ),
 ]
 

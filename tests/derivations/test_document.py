@@ -101,5 +101,10 @@ def test_prose_is_escaped_and_set_as_mathematics() -> None:
         r"$\hat{\bf n}^{+}\cdot \delta \hat{\bf n}^{+}_{ij} = 0$."
     )
     assert prose_latex("2√3 r") == r"$2\sqrt{3} r$"
+    assert prose_latex("at M* ∝ (σ/r)^(−2/3),") == r"at $M^{*} \propto  (\sigma /r)^{-2/3}$,"
     assert prose_latex("f_load") == r"$f^{\rm load}$"
     assert prose_latex("unknown ☃").endswith(r"\mbox{[snowman]}$")
+
+
+def test_powers_of_ten_are_set_as_such() -> None:
+    assert prose_latex("1e-14, 2.5e+03") == r"$10^{-14}$, $2.5 \cdot 10^{3}$"

@@ -1,0 +1,405 @@
+"""Eq. 16: variance of the response to a point load, inside of its cone and on it."""
+
+from collections.abc import Iterable, Iterator
+from functools import cache
+
+import sympy
+
+from derivations import eq07_load_split as eq07
+from derivations import eq09_straight_path as eq09
+from derivations import eq10_branched_path as eq10
+from derivations import eq11_total_force as eq11
+from derivations import witnesses
+from derivations.cone_forms import BEAD, CONTACT, LEG, LEG_FORCE
+from derivations.record import Claim, Derivation, ExactView, Step, Witness
+from derivations.runner import run_alone
+from symbolic.affine import Region
+from symbolic.as_printed import equation, minus, power, terms, times
+from symbolic.cases import Case, Piece, first_difference, squares_by_case
+from symbolic.exact import FIELD, NotExactError, RationalFunction
+from symbolic.kernel import (
+    Ruling,
+    Verdict,
+    all_of,
+    decide_identity,
+    decide_linear,
+    from_test,
+    proved,
+    refuted,
+    undecided,
+)
+from symbolic.lattice import mirror
+from symbolic.linear_forms import NO_SITE, LinearForm
+from symbolic.paths import IN_CONE
+from symbolic.printing.text import text
+from symbolic.reading import Reader
+from symbolic.symbols import (
+    DeltaNMinus,
+    DeltaNPlus,
+    Dot,
+    ForceMinus,
+    ForcePlus,
+    e_y,
+    f_load,
+    i,
+    j,
+    k,
+    l,
+    n,
+    n_minus,
+    n_plus,
+    n_y,
+    p,
+    phi,
+    q,
+    r,
+    sigma,
+)
+from symbolic.variance import leading, order, without_constant
+
+RESPONSE = sympy.Symbol("response")
+ONE_CONTACT = sympy.Symbol("contact_response")
+ON_LEG = sympy.Symbol("leg_response")
+LEG_MAGNITUDE = sympy.Symbol("leg_force")
+
+PRINTED = equation(
+    RESPONSE,
+    times(3 / (2 * (1 - phi**2) ** 2), terms(l, j), power(times(sigma, 1 / r), 2)),
+)
+
+UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
+SIZES = (j, p, q)
+"""What grows in the limit: l = j + p + q → ∞ at fixed j/l and (i − k)/l inside of the cone."""
+
+INSIDE = {j: 0, p: 1, q: 1}
+BELOW = {j: 0, p: 1}
+ON_LEFT_LEG = {symbol: value.xreplace({q: sympy.Integer(0)}) for symbol, value in IN_CONE.items()}
+
+UPPER_RIGHT = eq10.branched_plus(i, j, p)
+UPPER_LEFT = eq10.PRINTED.rhs.xreplace({n: q})
+"""The forces f⁺_ij and f⁻_ij on a bead inside of the cone, over f_load/2n_y, to first order.
+
+Each has one path with one branch from the loaded bead: q steps along n⁻ and p along n⁺, or the
+other way round. The branch is of first order; what enters it counts at order 0, f_load/2n_y.
+"""
+
+BEAD_RESPONSE = (UPPER_RIGHT + UPPER_LEFT) / 2
+"""p/f_load: the vertical component of both, n_y (f⁺ + f⁻) to first order."""
+
+LEG_CONTACT = eq09.first_order_product(eq07.split_plus(k, l), eq09.PRINTED.rhs)
+"""f⁺_ij over f_load/2n_y on the left leg: the split of the load, carried down a straight path."""
+
+LEG_RESPONSE = (LEG_CONTACT + Dot(e_y, DeltaNPlus(i, j)) / n_y) / 2
+"""Its vertical component over f_load, the contact's own direction being tilted."""
+
+LEG_TILTS = terms(Dot(n_minus, DeltaNPlus(i, j)), minus(Dot(n_plus, DeltaNMinus(k + 1, l - 1))))
+
+
+@cache
+def _bead_form() -> LinearForm:
+    return Reader(Region(INSIDE)).scalar(eq11.in_radii(BEAD_RESPONSE))
+
+
+@cache
+def _leg_form() -> LinearForm:
+    return Reader(Region(BELOW)).scalar(eq11.in_radii(LEG_RESPONSE).xreplace(ON_LEFT_LEG))
+
+
+@cache
+def bead_cases() -> tuple[Case, ...]:
+    """Σ weight² of p/f_load for every bead inside of the cone."""
+    return tuple(squares_by_case(without_constant(_bead_form()), INSIDE, generic=3))
+
+
+def interior() -> RationalFunction:
+    """Exact variance of p/f_load in the cone's interior, in j, p and q."""
+    (deep,) = (case.value for case in bead_cases() if not case.at)
+    return deep * FIELD.from_sympy(sigma**2)
+
+
+def shown_forms() -> dict[str, ExactView]:
+    """What ``show --exact`` prints."""
+
+    def view(quantity: sympy.Expr, pieces: tuple[Piece, ...], unit: sympy.Expr) -> ExactView:
+        *edges, main = (
+            (piece.where, piece.expression.xreplace(_numbers(piece.at)) * unit) for piece in pieces
+        )
+        return ExactView(quantity, *main, tuple(edges))
+
+    return {
+        "bead": view(RESPONSE, BEAD, UNIT / 4),
+        "contact": view(ONE_CONTACT, CONTACT, UNIT / 4),
+        "leg": view(ON_LEG, LEG, UNIT / 4),
+        "leg-force": view(LEG_MAGNITUDE, LEG_FORCE, UNIT),
+    }
+
+
+def _numbers(at: dict[sympy.Symbol, int]) -> dict[sympy.Symbol, sympy.Integer]:
+    return {symbol: sympy.Integer(value) for symbol, value in at.items()}
+
+
+def steps() -> Iterator[Step]:
+    """One path to each contact; squared weights; the sum of both upper contacts of a bead."""
+    source = f_load / (2 * n_y)
+    yield Step(
+        "Let (i, j) lie p steps along n⁺ and q steps along n⁻ below the loaded bead (k, l): inside "
+        "of the cone for p, q ≥ 1. The loaded bead is",
+        sympy.Tuple(equation(k, IN_CONE[k]), equation(l, IN_CONE[l])),
+    )
+    yield Step(
+        "One path with one branch leads to f⁺_ij, along n⁻ and then n⁺, and one to f⁻_ij, along n⁺ "
+        "and then n⁻ (Eq. 10). The branch is of first order, and f_load/2n_y enters it (Eq. 7).",
+        sympy.Tuple(
+            equation(ForcePlus(i, j) / source, UPPER_RIGHT),
+            equation(ForceMinus(i, j) / source, UPPER_LEFT),
+        ),
+    )
+    yield Step(
+        "They turn in the layers j + p and j + q; the two add up to l + j wherever the bead is.",
+        equation(terms(j + p, j + q), l + j),
+    )
+    exact = shown_forms()
+    yield Step(
+        "In the radii (Eqs. 4 and 5) f⁺_ij is a sum of second differences up to the layer below "
+        "its turn, as in Eq. 12, and four radii. Exact variance of its vertical component:",
+        equation(ONE_CONTACT, exact["contact"].expression),
+    )
+    yield Step(
+        "It depends on the horizontal position. What does not is the vertical force p that the "
+        "bead gets from both contacts together: their second differences lie on two diagonals, and "
+        "where these cross, the common weights add up to zero. Exact, for j ≥ 3:",
+        equation(RESPONSE, exact["bead"].expression),
+    )
+    yield Step("To leading order:", PRINTED)
+    yield Step(
+        "On the left leg of the cone f⁺_ij is the split of the load (Eq. 7), carried down by "
+        "Eq. 9. With the contact's own tilt its vertical component over f_load is",
+        terms(
+            sympy.Rational(1, 2),
+            times(1 / (2 * (1 - phi**2)), LEG_TILTS),
+        ),
+    )
+    yield Step(
+        "The two tilts are independent but for a few radii. Exact, for 2 ≤ j ≤ l − 2:",
+        equation(ON_LEG, exact["leg"].expression),
+    )
+    yield Step(
+        "The magnitude of that force, over its mean squared:",
+        equation(LEG_MAGNITUDE, exact["leg-force"].expression),
+    )
+
+
+def decide(_: int, candidate: sympy.Eq) -> Ruling:
+    """The exact variance of p less the candidate is of order l⁰ at most."""
+    if candidate.lhs != RESPONSE:
+        return undecided("the left-hand side is not σ²(p)/f_load²")
+    return compare(interior(), candidate.rhs)
+
+
+def compare(exact: RationalFunction, candidate: sympy.Expr) -> Ruling:
+    """Rule on a candidate in l, j, k − i: exact − candidate must be of lower order than exact."""
+    try:
+        difference = exact - FIELD.from_sympy(candidate.xreplace(IN_CONE))
+    except NotExactError as reason:
+        return undecided(str(reason))
+    size = order(difference, *SIZES)
+    shown = text(in_layers(leading(difference, *SIZES)).to_sympy())
+    if size < order(exact, *SIZES):
+        return proved(f"exact − printed is of order l^{size}: {shown}")
+    return refuted(f"exact − candidate is of the leading order l^{size} itself: {shown}")
+
+
+def in_layers(value: RationalFunction) -> RationalFunction:
+    """A function of j, p and q in terms of l, j and q."""
+    layers = FIELD.generator(l) - FIELD.generator(j) - FIELD.generator(q)
+    return value.substitute({p: layers})
+
+
+def _stated(pieces: tuple[Piece, ...], cases: Iterable[Case], unit: sympy.Expr) -> Ruling:
+    """Closed forms against exact sums of squared weights, case by case."""
+    found_in = tuple(cases)
+    coordinates = IN_CONE if pieces in (BEAD, CONTACT) else ON_LEFT_LEG
+    wrong = first_difference(pieces, found_in, FIELD.from_sympy(unit / sigma**2), coordinates)
+    return from_test(
+        wrong is None, f"{len(found_in)} cases, which cover all sites, agree", f"not so: {wrong}"
+    )
+
+
+def _by_case(form: LinearForm) -> Iterator[Case]:
+    return squares_by_case(without_constant(form), BELOW, generic=2)
+
+
+def _bead() -> Ruling:
+    return _stated(BEAD, bead_cases(), UNIT / 4)
+
+
+def _independent_of_position() -> Ruling:
+    """For j ≥ 3 no case but p = q = 1 depends on more than l + j."""
+    deep = [case for case in bead_cases() if case.lower.get(j) == 3]
+    rest = [case for case in deep if (case.at.get(p), case.at.get(q)) != (1, 1)]
+    same = all(
+        (case.value - case.put_in(interior() / FIELD.from_sympy(sigma**2))).is_zero()
+        for case in rest
+    )
+    return from_test(
+        same and len(rest) == len(deep) - 1 and not in_layers(interior()).holds(q),
+        f"for all p, q ≥ 1 but p = q = 1 it is {text(BEAD[-1].expression)} in units of "
+        "(σ/r)²/4(1−φ²)²",
+    )
+
+
+def _one_contact() -> Ruling:
+    form = Reader(Region(BELOW)).scalar(eq11.in_radii(UPPER_RIGHT / 2))
+    exact = _stated(CONTACT, _by_case(form), UNIT / 4)
+    turn = (l + j + k - i) / 2
+    value = FIELD.from_sympy((CONTACT[-1].expression * UNIT / 4).xreplace(IN_CONE))
+    return all_of(
+        exact,
+        decide_identity(turn.xreplace(IN_CONE), j + p),
+        compare(value, 3 * turn * UNIT / 2),
+        from_test(
+            compare(value, PRINTED.rhs).verdict is Verdict.REFUTED,
+            "the printed form is refuted for one contact: its variance is 3s/2, s = ½(l+j+k−i) the "
+            "layer where it turns, which is half of the printed one for i = k",
+        ),
+    )
+
+
+def _common_weights() -> Ruling:
+    """What the two contacts' variances leave of the bead's: twice their covariance."""
+    both = CONTACT[-1].expression + CONTACT[-1].expression.xreplace({k: -k, i: -i})
+    rulings = [decide_identity(BEAD[-1].expression, both)]
+    below_load, two, one = BEAD[-2], BEAD[-3], BEAD[-5]
+    for piece, doubled in (
+        (below_load, (1 + phi) ** 2 / 2),
+        (two, -sympy.Rational(3, 2)),
+        (one, sympy.Integer(4)),
+    ):
+        layer = _numbers(piece.at)
+        rulings.append(decide_identity(piece.expression - both.xreplace(layer), doubled))
+    return all_of(*rulings)
+
+
+def _leg() -> Ruling:
+    tilts = (1 + LEG_TILTS / (1 - phi**2)) / 2
+    force = Reader(Region(BELOW)).scalar(eq11.in_radii(LEG_CONTACT).xreplace(ON_LEFT_LEG))
+    third = 3 * LEG[-1].expression - BEAD[-1].expression
+    return all_of(
+        decide_linear(LEG_RESPONSE, tilts, Region({})),
+        _stated(LEG, _by_case(_leg_form()), UNIT / 4),
+        _stated(LEG_FORCE, _by_case(force), UNIT),
+        decide_identity(third, 6 * phi + 2 * phi**2),
+    )
+
+
+def _mean() -> Ruling:
+    """No constant part inside; ½ f_load on a leg, as in the ordered packing."""
+    half = FIELD.constant(sympy.Rational(1, 2))
+    on_leg = _leg_form().sites.get(NO_SITE, FIELD.zero)
+    return from_test(
+        NO_SITE not in _bead_form().sites and (on_leg - half).is_zero(),
+        "linear in radii of zero mean inside of the cone; ½ and such a part on a leg",
+    )
+
+
+def _passed_on() -> Ruling:
+    """The lower contacts of a bead carry the forces of its upper ones, first order in each."""
+    below = {i: i - 1, j: j - 1, p: p + 1}
+    return all_of(
+        decide_linear(UPPER_RIGHT.xreplace(below), UPPER_RIGHT, Region({j: 1, p: 1, q: 1})),
+        decide_linear(mirror(UPPER_RIGHT), UPPER_LEFT.xreplace({q: p}), Region({j: 0, p: 1})),
+    )
+
+
+def _apex_and_base() -> Ruling:
+    """Directly below the load against the base, at every l ≥ 5."""
+    apex = BEAD[-2].expression.xreplace({j: l - 2})
+    base = BEAD[3].expression
+    excess = (1 + 2 * phi - phi**2) / (2 * (6 * l - 9 + phi**2))
+    limit = PRINTED.rhs.xreplace({j: l}) / PRINTED.rhs.xreplace({j: sympy.Integer(0)})
+    return all_of(
+        decide_identity(apex / base, 2 + excess), decide_identity(limit, sympy.Integer(2))
+    )
+
+
+DERIVATION = Derivation(
+    number=16,
+    name="response",
+    title="Variance of the response to a point load",
+    symbols=(
+        (
+            RESPONSE,
+            "variance of p over packings; p is the vertical force on bead (i, j), see below",
+        ),
+        (ONE_CONTACT, "the same for the vertical component of f⁺_ij alone"),
+        (ON_LEG, "the same for the one contact on a leg of the cone"),
+        (LEG_MAGNITUDE, "variance of its magnitude over the squared mean"),
+        (f_load, "the load on bead (k, l), downwards"),
+        (l, "layer of the loaded bead, j that of the one looked at"),
+        (p, "steps along n⁺ from (k, l) down to (i, j); q along n⁻ (p is no force there)"),
+        (sigma, "standard deviation σ_δr of the radii"),
+        (r, "mean radius"),
+        (phi, "n⁺·n⁻"),
+    ),
+    assumptions=(
+        "the radii are independent, of zero mean and variance σ²",
+        "first order in δr",
+        "p is the vertical force that bead (i, j) gets from both upper contacts together",
+        "(i, j) is inside of the cone: p, q ≥ 1",
+        "printed form: l → ∞ at fixed j/l and (i − k)/l; exact forms: every site",
+    ),
+    premises=(
+        eq07.DERIVATION,
+        eq09.DERIVATION,
+        eq10.DERIVATION,
+        eq11.DERIVATION,
+    ),
+    printed=(PRINTED,),
+    relation="∼",
+    steps=steps,
+    decide=decide,
+    claims=(
+        Claim("the exact variance of p at every bead inside of the cone", _bead),
+        Claim(
+            "for j ≥ 3 it does not depend on the horizontal position, exactly, but for the bead "
+            "straight below the load",
+            _independent_of_position,
+        ),
+        Claim("one contact alone depends on the horizontal position", _one_contact),
+        Claim(
+            "the covariance of a bead's two contacts is zero for j ≥ 3, but for the bead straight "
+            "below the load, and of order l⁰ everywhere",
+            _common_weights,
+        ),
+        Claim("a bead passes on what it gets: forces do not change along a diagonal", _passed_on),
+        Claim("the mean is that of the ordered packing", _mean),
+        Claim("no force of first order outside of the cone", eq10.balance_everywhere),
+        Claim("on a leg the vertical force has a third of the variance, to leading order", _leg),
+        Claim(
+            "the variance straight below the load is twice that at the base, as l → ∞",
+            _apex_and_base,
+        ),
+    ),
+    witnesses=(
+        Witness(
+            "exact variances equal sums of squared weights of an exact packing, every contact",
+            lambda packing: witnesses.responses(packing, packing.height),
+        ),
+    ),
+    remarks=(
+        "The paper's p is the vertical component of the force at a contact f^±_ij. For one contact "
+        "the printed form does not hold: its variance is (3/2) s (σ/r)²/(1−φ²)² with the layer "
+        "s = ½(l + j ± (k − i)) in which its path turns, so it grows from (3/2) j beside one leg "
+        "to (3/2) l beside the other. The printed form holds for both upper contacts of a bead "
+        "together, and, since these pass through it, for both lower ones.",
+        "For that p the horizontal position drops out exactly, not only to leading order, from the "
+        "third layer above the base on, except straight below the load.",
+        "The fluctuations on the cone, which the paper leaves out, are of the same order: "
+        "(l + j)/2 in place of 3(l + j)/2 for the vertical force, on a mean of ½ f_load.",
+        "'Twice as large near the apex as near the base' is the variance; the standard deviation "
+        "is √2 times as large.",
+    ),
+)
+
+if __name__ == "__main__":
+    raise SystemExit(run_alone(DERIVATION))

@@ -1,0 +1,77 @@
+"""A page of the report, in the system's Chromium."""
+
+import os
+import shutil
+from collections.abc import Iterator
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from derivations.__main__ import main
+
+REQUIRED = "FORCE_DIFFUSION_TEST_BROWSER"
+"""Set to "required", a browser that is missing fails the tests rather than skipping them."""
+
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+QUIET = (
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
+
+
+def missing(what: str) -> None:
+    if os.environ.get(REQUIRED) == "required":
+        pytest.fail(what)
+    pytest.skip(what)
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Any]:
+    program = next(filter(None, map(shutil.which, NAMES)), None)
+    if program is None:
+        missing("there is no Chromium here: apt-get install chromium")
+    try:
+        from playwright.sync_api import sync_playwright
+    except ImportError:
+        missing("Playwright is missing: pip install 'force-diffusion[test]'")
+    # Chromium's sandbox refuses to work for root
+    as_root = ("--no-sandbox",) if os.geteuid() == 0 else ()
+    with sync_playwright() as driver:
+        chromium = driver.chromium.launch(executable_path=program, args=[*QUIET, *as_root])
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture(scope="session")
+def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config) -> Path:
+    """The page that is given, or one of all equations, of few mutants and measurements."""
+    given = pytestconfig.getoption("--report")
+    if given:
+        return Path(given).resolve()
+    from derivations.page import measured
+    from numeric.cost import study
+    from numeric.stability import data as tables
+    from numeric.stability import forms
+    from symbolic import mutants
+
+    folder = tmp_path_factory.mktemp("report")
+    scene = folder / measured.SCENE.name
+    scene.write_text(measured.SCENE.read_text().replace("16", "3").replace("34", "5"))
+    out = folder / "out"
+    every_mutant, every_case, every_strip = mutants.mutants, tables.cases, tables.strips
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(mutants, "mutants", lambda equation: islice(every_mutant(equation), 3))
+        patch.setattr(measured, "SCENE", scene)
+        patch.setattr(tables, "cases", lambda: islice(every_case(), 3))
+        patch.setattr(tables, "strips", lambda: (s for s in every_strip() if s.height == 4))
+        patch.setattr(forms, "ENOUGH_SECONDS", 0.0)
+        patch.setattr(study, "LEAST_RUNS", 1)
+        patch.setattr(study, "ENOUGH_SECONDS", 0.0)
+        assert main(["report", "--out", str(out)]) == 0
+    return out / "report.html"

@@ -1,0 +1,32 @@
+"""ERRATA.md: every claim that it names exists, and is proved."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from derivations.catalogue import load
+from symbolic.kernel import Verdict
+
+ROOT = Path(__file__).parents[2]
+ERRATA = (ROOT / "ERRATA.md").read_text(encoding="utf-8")
+NAMED = [
+    (int(number), re.sub(r"\s+", " ", name).replace("\\*", "*"))
+    for number, name in re.findall(r'^- derive (\d+): "([^"]+)"$', ERRATA, re.MULTILINE)
+]
+
+
+def test_every_item_names_a_claim() -> None:
+    assert len(NAMED) == len(re.findall(r"^- ", ERRATA, re.MULTILINE)) >= 10
+
+
+@pytest.mark.parametrize(("number", "name"), NAMED)
+def test_the_claim_is_proved(number: int, name: str) -> None:
+    (claim,) = (claim for claim in load(number).claims if claim.name == name)
+    ruling = claim.decide()
+    assert ruling.verdict is Verdict.PROVED, ruling.note
+
+
+def test_the_files_that_it_points_to_exist() -> None:
+    for path in re.findall(r"`([\w/]+\.py)`", ERRATA):
+        assert (ROOT / path).is_file(), path

@@ -1,0 +1,180 @@
+"""The response to a point load: closed forms against exact packings, and how cases are split."""
+
+from fractions import Fraction
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from derivations import eq10_branched_path as eq10
+from derivations import eq11_total_force as eq11
+from derivations import eq16_response as eq16
+from derivations.cone_forms import BEAD
+from derivations.small_packings import DIRECTIONS, draw
+from derivations.witnesses import responses, weights_below_a_load
+from numeric import closed_forms
+from symbolic import explicit
+from symbolic import symbols as sy
+from symbolic.cases import Piece, first_difference
+from symbolic.kernel import Verdict
+
+ONE = Fraction(1)
+cosines = st.fractions(Fraction(-49, 100), Fraction(49, 100), max_denominator=1000)
+
+
+@pytest.mark.parametrize("level", [*range(1, 7), 9])
+def test_every_contact_and_bead_of_the_cone(level: int) -> None:
+    """l = 9 is the first with a bead that is three steps away from both legs and the base."""
+    found = responses(draw(level), level)
+    assert found.verdict is Verdict.AGREES, found.note
+
+
+@pytest.mark.parametrize("n", DIRECTIONS[:2])
+def test_a_layer_carries_the_load_whatever_the_radii(n: tuple[Fraction, Fraction]) -> None:
+    """The witness's own weights: vertical forces of one layer add up to f_load at order ε¹ too."""
+    vertical, _ = weights_below_a_load(4, n)
+    for layer in range(4):
+        total: dict[tuple[int, int], Fraction] = {}
+        for ((_, at), _), weights in vertical.items():
+            for bead, weight in weights.items():
+                total[bead] = total.get(bead, Fraction(0)) + weight * (at == layer)
+        assert not any(total.values())
+
+
+@given(j=st.integers(0, 6), p=st.integers(1, 6), q=st.integers(1, 6), phi=st.sampled_from(range(4)))
+def test_bead_forms_are_sums_of_squared_weights(j: int, p: int, q: int, phi: int) -> None:
+    """On explicit sites, which know nothing of cases."""
+    values = explicit.geometry(*DIRECTIONS[phi], ONE)
+    at = {**values, sy.i: j, sy.j: j, sy.p: p, sy.q: q}
+    weights = explicit.weights(eq11.in_radii(eq16.BEAD_RESPONSE), at)
+    total = sum((w**2 for key, w in weights.items() if key[0]), Fraction(0))
+    site = (0, j, p - q, j + p + q)
+    if j % 2:
+        site = (1, j, 1 + p - q, j + p + q)
+    assert closed_forms.bead_response(*site, Fraction(values[sy.phi]), ONE, ONE) == total
+
+
+def test_a_wrong_closed_form_is_found() -> None:
+    cases = eq16.bead_cases()
+    unit = eq16.FIELD.from_sympy(eq16.UNIT / (4 * sy.sigma**2))
+    assert first_difference(BEAD, cases, unit, eq16.IN_CONE) is None
+    for place, piece in enumerate(BEAD):
+        wrong = [*BEAD]
+        wrong[place] = Piece(piece.where, piece.at, piece.expression + 1)
+        assert "exceeds" in str(first_difference(wrong, cases, unit, eq16.IN_CONE)), piece.where
+    assert "no closed form" in str(first_difference(BEAD[:-1], cases, unit, eq16.IN_CONE))
+    vague = [Piece("j = 5", {sy.j: 5}, BEAD[-1].expression)]
+    assert "in part" in str(first_difference(vague, cases[-1:], unit, eq16.IN_CONE))
+
+
+def test_cases_cover_every_site_once() -> None:
+    for j, p, q in np.ndindex(6, 6, 6):
+        at = {sy.j: j, sy.p: p + 1, sy.q: q + 1}
+        having = [
+            case
+            for case in eq16.bead_cases()
+            if all(at[symbol] == value for symbol, value in case.at.items())
+            and all(at[symbol] >= value for symbol, value in case.lower.items())
+        ]
+        assert len(having) == 1
+
+
+def test_the_branch_is_that_of_equation_10() -> None:
+    """f⁻ inside of the cone is Eq. 10 with its own n."""
+    at = {sy.k: sy.i + sy.p - sy.q, sy.l: sy.j + sy.p + sy.q}
+    count = eq10.BRANCH_COUNT.xreplace(at)
+    assert count.expand() == sy.q
+    assert eq10.PRINTED.rhs.xreplace({sy.n: sy.q}) == eq16.UPPER_LEFT
+
+
+@given(
+    phi=cosines,
+    level=st.one_of(st.integers(1, 12), st.integers(1, 10**9)),
+    data=st.data(),
+)
+def test_float64_is_accurate(phi: Fraction, level: int, data: st.DataObject) -> None:
+    layer = data.draw(st.one_of(st.integers(0, min(level, 5)), st.integers(0, level)))
+    reach = level - layer + 2
+    steps = data.draw(st.one_of(st.integers(0, min(reach, 4)), st.integers(0, reach)))
+    k = level % 2
+    i = k - reach + 2 * steps
+    rounded = Fraction(float(phi))
+    forms: list[tuple[Any, tuple[Any, ...]]] = [
+        (closed_forms.bead_response, (i, layer, k, level)),
+        (closed_forms.contact_response, (i, layer, k, level, "+")),
+        (closed_forms.contact_response, (i, layer, k, level, "-")),
+        (closed_forms.response, (level, layer)),
+    ]
+    if layer < level:
+        forms.append((closed_forms.leg_variance, (layer, level)))
+    for form, site in forms:
+        exact = form(*site, rounded, ONE, ONE)
+        found = Fraction(form(*site, float(phi), 1.0, 1.0))
+        # some 20 roundings; the least favourable, (1+φ)² near φ = −½, is enlarged tenfold
+        assert abs(found - exact) <= 200 * Fraction(2) ** -53 * exact
+
+
+@given(phi=cosines, level=st.integers(1, 30), across=st.integers(-30, 30), data=st.data())
+def test_mirror_image_and_translation(
+    phi: Fraction, level: int, across: int, data: st.DataObject
+) -> None:
+    layer = data.draw(st.integers(0, level))
+    i = data.draw(st.integers(-40, 40).filter(lambda i: (i + layer) % 2 == 0))
+    k = 2 * across + level % 2
+    at, mirrored, moved = (i, layer, k, level), (-i, layer, -k, level), (i + 6, layer, k + 6, level)
+    bead = closed_forms.bead_response(*at, phi, ONE, ONE)
+    assert closed_forms.bead_response(*mirrored, phi, ONE, ONE) == bead
+    assert closed_forms.bead_response(*moved, phi, ONE, ONE) == bead
+    right = closed_forms.contact_response(*at, "+", phi, ONE, ONE)
+    assert closed_forms.contact_response(*mirrored, "-", phi, ONE, ONE) == right
+    if abs(i - k) > level - layer:
+        assert bead == right == 0
+
+
+def test_only_the_height_matters_but_next_to_the_load_and_the_base() -> None:
+    level, phi = 40, Fraction(7, 25)
+    for layer in range(3, level - 2):
+        inside = range(-(level - layer) + 2, level - layer - 1, 2)
+        found = {closed_forms.bead_response(i, layer, 0, level, phi, ONE, ONE) for i in inside}
+        assert len(found) == 1
+        contacts = {
+            closed_forms.contact_response(i, layer, 0, level, "+", phi, ONE, ONE) for i in inside
+        }
+        assert len(contacts) == len(inside)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ((1, 0, 0, 4), r"\(1, 0\) is no site"),
+        ((0, 0, 1, 4), r"\(1, 4\) is no site"),
+        ((0.5, 0, 0, 4), "i = 0.5: one whole number is allowed"),
+        ((0, -2, 0, 4), "j = -2: one whole number from 0 on"),
+        ((0, 0, float("nan"), 4), "k = nan"),
+        ((0, 0, 0, None), "l = None"),
+        ((np.array([0, 2]), 0, 0, 4), "i = "),
+    ],
+)
+def test_what_is_not_allowed(arguments: tuple[Any, ...], says: str) -> None:
+    with pytest.raises(ValueError, match=says):
+        closed_forms.bead_response(*arguments, 0.1, 1.0, 1.0)
+    with pytest.raises(ValueError, match=says):
+        closed_forms.contact_response(*arguments, "+", 0.1, 1.0, 1.0)
+
+
+def test_what_is_not_allowed_of_legs_and_branches() -> None:
+    with pytest.raises(ValueError, match="branch = 1: '\\+' or '-' is allowed"):
+        closed_forms.contact_response(0, 0, 0, 4, 1, 0.1, 1.0, 1.0)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="0 <= j < l = 4 is allowed"):
+        closed_forms.leg_variance(4, 4, 0.1, 1.0, 1.0)
+
+
+@pytest.mark.parametrize("kind", [float, np.float64, Fraction, mpmath.mpf])
+def test_the_result_is_of_the_type_of_phi(kind: Any) -> None:
+    quarter, one = kind(1) / kind(4), kind(1)
+    for site in ((0, 2, 0, 8), (-6, 2, 0, 8), (10, 2, 0, 8), (0, 8, 0, 8)):
+        found = closed_forms.bead_response(*site, quarter, one, one)
+        assert type(found) is type(quarter)
