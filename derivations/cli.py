@@ -36,6 +36,7 @@ COMMANDS = {
         "ensemble_command",
         "Say what the store of an ensemble holds, and check it.",
     ),
+    "figures": ("figures_command", "Draw the paper's figures anew, from exact packings."),
     "report": (
         "report_command",
         "Write all results as one HTML page: derivations, checks, costs, stability.",

@@ -41,7 +41,7 @@ WRONG = [
     (
         ["prove", "13"],
         "no command 'prove'. Use derive, show, list, run, explain, cost, stability, ensemble, "
-        "ensemble-status or report",
+        "ensemble-status, figures or report",
     ),
 ]
 

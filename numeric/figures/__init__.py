@@ -1,0 +1,1 @@
+"""The paper's figures: data from the engine and the closed forms, and how they are drawn."""

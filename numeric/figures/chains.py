@@ -1,0 +1,134 @@
+"""Force chains: every contact of one packing, as thick as its force is large.
+
+The disorder is strong enough for the height to come near M* = (σ/r)^(-2/3), where contacts begin to
+pull: those are drawn in a colour of their own. The packing is solved exactly, under a surface load.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from numeric.figures.packings import Notice, Row, centres, forces_of, planned, solved
+from numeric.physical import Physicality
+from numeric.runner import critical_height
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+HEIGHT, WIDTH, STD = 24, 64, 5e-3
+SHOWN = 34  # beads of a layer that are drawn
+
+
+@dataclass(frozen=True)
+class Chains:
+    """Contacts: lower bead (i, j), branch, both ends in units of r, f over the mean force."""
+
+    contacts: tuple[Row, ...]
+    smallest_gap: float | None
+
+    def tables(self) -> dict[str, list[Row]]:
+        """CSV files."""
+        return {"chains": list(self.contacts)}
+
+    def facts(self) -> dict[str, Any]:
+        """How many contacts pull."""
+        forces = [row["force"] for row in self.contacts]
+        return {
+            "height": HEIGHT,
+            "width": WIDTH,
+            "relative_std": STD,
+            "critical_height": critical_height(Fraction(STD)),
+            "contacts": len(forces),
+            "tensile": sum(f < 0 for f in forces),
+            "largest_force": max(forces),
+            "smallest_force": min(forces),
+            "smallest_gap": self.smallest_gap,
+        }
+
+    def lines(self) -> list[str]:
+        """Say how many contacts pull."""
+        facts = self.facts()
+        return [
+            f"{facts['tensile']} of {facts['contacts']} contacts pull at M = {HEIGHT}, "
+            f"M* = {facts['critical_height']:.3g}"
+        ]
+
+
+def contacts(seed: int, notice: Notice) -> Chains:
+    """Solve one packing."""
+    notice("chains")
+    plan = planned('"contact_forces"', height=HEIGHT, width=WIDTH, seed=seed, std=STD)
+    answer = next(solved(plan, range(1)))[0]
+    forces, packing = forces_of(answer), answer.packing
+    assert packing is not None
+    physical = Physicality()
+    physical.look_at_gaps(packing)
+    period = float(3 * WIDTH)
+    found: list[Row] = []
+    for j in range(1, HEIGHT + 1):
+        upper, lower = centres(packing, j)[2:], centres(packing, j - 1)[2:]
+        sites, below = packing.region.rows[j].sites(), packing.region.rows[j - 1].sites()
+        for branch, step, F, g in (
+            ("+", -1, forces.ordered_plus[j], forces.change_plus[j]),
+            ("-", +1, forces.ordered_minus[j], forces.change_minus[j]),
+        ):
+            for q, i in enumerate(sites):
+                k = below.index((i + step) % (2 * WIDTH))
+                x = float(lower[0][k])
+                x += period * round((float(upper[0][q]) - x) / period)
+                found.append(
+                    {
+                        "i": (i + step) % (2 * WIDTH),
+                        "j": j - 1,
+                        "branch": branch,
+                        "x_low": x,
+                        "y_low": float(lower[1][k]),
+                        "x_high": float(upper[0][q]),
+                        "y_high": float(upper[1][q]),
+                        "force": float((F[q] + g[q]) / F[q]),
+                    }
+                )
+    return Chains(tuple(found), physical.smallest_gap)
+
+
+def draw(data: Chains) -> "Figure":
+    """Draw contacts as lines, pressing ones dark, pulling ones vermillion; widths in proportion."""
+    from matplotlib.collections import LineCollection
+
+    from numeric.figures import style
+
+    figure = style.figure(style.PAGE, 2.75)
+    axes = figure.subplots()
+    widest = max(abs(row["force"]) for row in data.contacts)
+    for pulls, colour, order in ((False, "0.12", 1), (True, style.VERMILLION, 2)):
+        rows = [row for row in data.contacts if (row["force"] < 0) == pulls]
+        lines = LineCollection(
+            [[(r["x_low"], r["y_low"]), (r["x_high"], r["y_high"])] for r in rows],
+            linewidths=[max(3.0 * abs(r["force"]) / widest, 0.05) for r in rows],
+            colors=colour, capstyle="round", zorder=order,
+        )  # fmt: skip
+        axes.add_collection(lines)
+    right = 3.0 * SHOWN
+    top = max(row["y_high"] for row in data.contacts)
+    axes.plot([0, right], [-0.9, -0.9], color="black", lw=1)
+    for x in np.linspace(0.03, 0.97, 16) * right:
+        axes.annotate(
+            "", (x, top + 0.9), (x, top + 5),
+            arrowprops={"arrowstyle": "-|>", "color": "0.3", "lw": 0.7, "mutation_scale": 5},
+        )  # fmt: skip
+    axes.set_xlim(0, right)
+    axes.set_ylim(-1.5, top + 5)
+    axes.set_aspect("equal")
+    axes.axis("off")
+    unit = 3.0 / widest
+    handles = [
+        style.line("0.12", "-", r"$f=\langle f\rangle$"),
+        style.line("0.12", "-", r"$f=3\langle f\rangle$"),
+        style.line(style.VERMILLION, "-", r"pulling, $f=-\langle f\rangle$"),
+    ]
+    for handle, size in zip(handles, (1, 3, 1), strict=True):
+        handle.set_linewidth(size * unit)
+    figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    return figure

@@ -1,0 +1,189 @@
+"""Figure 4: the response to a vertical load on one bead, its mean (a) and its fluctuation (b).
+
+p is the vertical force that a bead gets from *both* its upper contacts. To first order the two lie
+on different diagonals, whose heights add up to l + j: their variances add up to Eq. 16, whatever
+the horizontal position. One contact alone depends on the position. The exact first-order variances
+at finite l come from solving for δr on one bead at a time; the simulation is exact and nonlinear.
+"""
+
+from dataclasses import dataclass
+from math import asin
+from typing import Any
+
+import numpy as np
+
+from numeric.engine import Solved
+from numeric.figures.bands import Band, averaged, simultaneous
+from numeric.figures.packings import N_X, PHI, Notice, Row, forces_of, impulses, planned, solved
+from numeric.lattice import Array
+from numeric.models.double_y import Profile, profiles
+
+APEX = 24  # the loaded bead is (0, APEX)
+STD = 1e-4  # far below M*
+LEVEL = 0.99
+CUTS = (18, 12, 6, 0)
+
+
+@dataclass(frozen=True)
+class Response:
+    """The response on layers j = 0 … l − 1, in units of the load; lists hold one array a layer.
+
+    Layer j has the l − j + 1 beads i = −(l − j), …, l − j within the cone, its two edges included.
+    ``variance`` and ``one_contact`` (upper contacts "+", the bead's upper right) are exact to first
+    order, in (σ/r)²; ``simulated_*`` are those of the ensemble, and ``bands`` lie around its ln σ.
+    """
+
+    apex: int
+    realisations: int
+    variance: tuple[Array, ...]
+    one_contact: tuple[Array, ...]
+    mean: tuple[Array, ...]
+    simulated_mean: tuple[Array, ...]
+    simulated_variance: tuple[Array, ...]
+    band: Band
+    double_y: tuple[Profile, ...]
+
+    def printed(self, j: int) -> float:
+        """Eq. 16, in (σ/r)²."""
+        return 1.5 / float(1 - PHI**2) ** 2 * (self.apex + j)
+
+    def sites(self, j: int) -> Array:
+        """All i of layer j within the cone."""
+        return np.arange(-(self.apex - j), self.apex - j + 1, 2)
+
+    def limits(self) -> dict[int, tuple[Array, Array]]:
+        """Give the band of the variance inside the cone, by height of the cuts."""
+        low, high = (edge**2 for edge in self.band.limits)
+        found, at = {}, 0
+        for j in CUTS:
+            n = self.apex - j - 1
+            found[j] = (low[at : at + n], high[at : at + n])
+            at += n
+        return found
+
+    def deviation(self) -> float:
+        """Give the largest deviation of the exact first-order σ on the cuts, in half-widths."""
+        return self.band.deviation(np.sqrt(_on_cuts(self.variance)))
+
+    def tables(self) -> dict[str, list[Row]]:
+        """CSV files: the map, the cuts with their bands, and the double Y where asked for."""
+        beads: list[Row] = []
+        cuts: list[Row] = []
+        limits = self.limits()
+        for j in range(self.apex):
+            sites = self.sites(j).tolist()
+            for q, i in enumerate(sites):
+                edge = q in {0, len(sites) - 1}
+                row: Row = {
+                    "i": i,
+                    "j": j,
+                    "on_cone": int(edge),
+                    "mean_ordered": float(self.mean[j][q]),
+                    "mean_simulated": float(self.simulated_mean[j][q]),
+                    "variance_exact_first_order": float(self.variance[j][q]),
+                    "variance_printed": "" if edge else self.printed(j),
+                    "variance_simulated": float(self.simulated_variance[j][q]),
+                    "variance_upper_plus_contact": float(self.one_contact[j][q]),
+                }
+                beads.append(row)
+                if j in limits and not edge:
+                    low, high = (float(side[q - 1]) for side in limits[j])
+                    cuts.append({**row, "band_low": low, "band_high": high})
+        tables = {"figure4": beads, "figure4_cuts": cuts}
+        if self.double_y:
+            tables["figure4_double_y"] = [row for one in self.double_y for row in one.rows()]
+        return tables
+
+    def facts(self) -> dict[str, Any]:
+        """Verdicts, and what the paper says of apex and base."""
+        below, base = self.variance[self.apex - 2], self.variance[1]
+        found: dict[str, Any] = {
+            "apex": self.apex,
+            "realisations": self.realisations,
+            "relative_std": STD,
+            "simultaneous_level": LEVEL,
+            "exact_first_order_inside": self.deviation() <= 1,
+            "largest_deviation_in_half_widths": self.deviation(),
+            "variance_below_apex_over_base_exact": float(below[1] / base[len(base) // 2]),
+            "variance_below_apex_over_base_printed": self.printed(self.apex - 2) / self.printed(1),
+        }
+        if self.double_y:
+            found["double_y"] = [one.facts() for one in self.double_y]
+        return found
+
+    def lines(self) -> list[str]:
+        """Say whether theory holds."""
+        deviation = self.deviation()
+        where = "inside" if deviation <= 1 else "outside"
+        return [
+            f"apex l = {self.apex}: exact first-order fluctuation {where} the simultaneous "
+            f"{LEVEL:.0%} band ({deviation:.2f} of its half-width)"
+        ]
+
+
+def _on_cuts(layers: tuple[Array, ...]) -> Array:
+    """Put the beads inside the cone on the cuts one after the other."""
+    return np.concatenate([layers[j][..., 1:-1] for j in CUTS], axis=-1)
+
+
+def respond(realisations: int, seed: int, notice: Notice, *, double_y: bool = False) -> Response:
+    """Solve for the weights, and simulate."""
+    ensemble = planned(
+        '"response"', height=APEX, width=None, seed=seed, std=STD,
+        load=f'"point", at = [0, {APEX}]', realisations=realisations,
+    )  # fmt: skip
+    weights, single = vertical(impulses(ensemble), ensemble.region.beads, linear=True)
+    ordered = tuple(_ordered(j) for j in range(APEX))
+    samples: list[tuple[Array, ...]] = []
+    for answer, number in solved(ensemble, range(realisations), notice, "figure 4"):
+        samples.append(vertical(answer, number, linear=False)[0])
+    changes = tuple(np.concatenate(parts) for parts in zip(*samples, strict=True))
+    inside = _on_cuts(changes) / STD
+    variance = inside.var(axis=0)
+    influence = (inside - inside.mean(axis=0)) ** 2 / (2 * variance) - 0.5
+    return Response(
+        APEX,
+        realisations,
+        tuple((w**2).sum(axis=0) for w in weights),
+        tuple((w**2).sum(axis=0) for w in single),
+        ordered,
+        tuple(F + p.mean(axis=0) for F, p in zip(ordered, changes, strict=True)),
+        tuple(p.var(axis=0) / STD**2 for p in changes),
+        simultaneous(averaged(np.log(variance) / 2, influence), LEVEL, seed),
+        profiles(asin(N_X), seed) if double_y else (),
+    )
+
+
+def _ordered(j: int) -> Array:
+    mean = np.zeros(APEX - j + 1)
+    mean[[0, -1]] = 0.5
+    return mean
+
+
+def vertical(
+    answer: Solved, number: int, *, linear: bool
+) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
+    """Give the change of p by layer 0 … l − 1, and its part from the upper right contact alone.
+
+    Shapes (number, l − j + 1): realisations, or impulses, by the beads of the cone.
+    """
+    forces, packing = forces_of(answer), answer.packing
+    assert packing is not None
+    ny = np.sqrt(1 - float(N_X) ** 2)
+    both, right = [], []
+    for j in range(1, len(forces.rows)):
+        parts = []
+        for F, g, dn in (
+            (forces.ordered_plus[j], forces.change_plus[j], packing.plus[j]),
+            (forces.ordered_minus[j], forces.change_minus[j], packing.minus[j]),
+        ):
+            change = g.reshape(number, -1)
+            tilt = (dn[0] + dn[1]).reshape(number, -1)
+            f = F if linear else F + change
+            parts.append((change + f * tilt) * ny)
+        nothing = np.zeros((number, 1))
+        plus = np.concatenate((parts[0], nothing), axis=1)
+        minus = np.concatenate((nothing, parts[1]), axis=1)
+        both.append(plus + minus)
+        right.append(plus)
+    return tuple(both), tuple(right)

@@ -1,0 +1,104 @@
+"""How all figures look, and how they become files that are the same bytes whenever they are made.
+
+Widths are those of a journal: one column or two. Colours (Okabe and Ito's palette) can be told
+apart by the colour-blind, and each comes with its own marker or line style, for print in grey.
+Fonts are those that matplotlib brings along. Needs matplotlib (the extra ``plots``).
+"""
+
+import io
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any, Literal
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+COLUMN, PAGE = 3.4, 7.0  # inches
+BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = (
+    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",
+)  # fmt: skip
+_COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
+Dashes = Literal["-", "--", ":"]
+_MARKERS = ("o", "s", "^", "D", "v", "P")
+_RC: dict[Any, Any] = {
+    "font.family": "STIXGeneral",
+    "mathtext.fontset": "stix",
+    "font.size": 8,
+    "axes.labelsize": 8.5,
+    "axes.titlesize": 8.5,
+    "legend.fontsize": 7.5,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "axes.linewidth": 0.6,
+    "lines.linewidth": 1.0,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.major.size": 3,
+    "ytick.major.size": 3,
+    "legend.frameon": False,
+    "legend.handlelength": 1.8,
+    "legend.labelspacing": 0.3,
+    "legend.borderaxespad": 0.6,
+    "axes.unicode_minus": True,
+    "savefig.dpi": 300,
+    "svg.hashsalt": "force-diffusion",
+    "pdf.fonttype": 42,
+}
+
+
+def series(number: int) -> tuple[str, str]:
+    """Give colour and marker of the n-th series."""
+    return _COLOURS[number % len(_COLOURS)], _MARKERS[number % len(_MARKERS)]
+
+
+def line(colour: str, dashes: Dashes, name: str) -> Line2D:
+    """Give a line for a legend."""
+    return Line2D([], [], color=colour, linestyle=dashes, label=name)
+
+
+@contextmanager
+def _house_style() -> Iterator[None]:
+    """Leave out what a user's own matplotlibrc says."""
+    defaults = dict[Any, Any](mpl.rcParamsDefault)
+    for key in [key for key in defaults if key.startswith("backend")]:
+        del defaults[key]
+    with mpl.rc_context(defaults | _RC):
+        yield
+
+
+def figure(width: float, height: float) -> Figure:
+    """Start a figure; sizes in inches."""
+    made = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(made)
+    return made
+
+
+def letter(panels: Sequence[Axes]) -> None:
+    """Name panels (a), (b), … above their upper left corners."""
+    for axes, name in zip(panels, "abcdef", strict=False):
+        axes.set_title(f"({name})", loc="left", pad=4)
+
+
+def images(draw: Callable[[], Figure], name: str, title: str, command: str) -> dict[str, bytes]:
+    """Draw PNG, SVG and PDF; each holds the command, none a date."""
+    files = {}
+    with _house_style():
+        drawn = draw()
+        about = {"Title": title, "Description": command}
+        metadata: dict[str, dict[str, Any]] = {
+            "png": about,
+            "svg": {**about, "Date": None},
+            "pdf": {"Title": title, "Subject": command, "CreationDate": None},
+        }
+        for kind, says in metadata.items():
+            file = io.BytesIO()
+            drawn.savefig(file, format=kind, metadata=says)
+            files[f"{name}.{kind}"] = file.getvalue()
+    return files

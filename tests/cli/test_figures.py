@@ -1,0 +1,200 @@
+"""The command ``figures`` as a user calls it."""
+
+import csv
+import io
+import json
+import shlex
+import sys
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+from PIL import Image
+
+from derivations import figures_command
+from derivations.__main__ import main
+from derivations.folder import owned_files
+from numeric.figures import catalogue, comparison
+
+
+def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
+    status = main(["figures", *(str(a) for a in arguments)])
+    shown = capsys.readouterr()
+    return status, shown.out, shown.err
+
+
+def check_images(folder: Path, name: str, command: str) -> None:
+    with Image.open(folder / f"{name}.png") as image:
+        image.load()
+        assert min(image.size) > 500  # 300 to the inch
+        assert image.info["Description"] == command
+        assert len(image.convert("L").getcolors() or []) > 10  # something is drawn
+    root = ElementTree.parse(folder / f"{name}.svg").getroot()
+    assert root.tag.endswith("svg")
+    svg = (folder / f"{name}.svg").read_text(encoding="utf-8")
+    assert command in svg
+    assert "dc:date" not in svg
+    pdf = (folder / f"{name}.pdf").read_bytes()
+    assert pdf.startswith(b"%PDF-")
+    assert pdf.rstrip().endswith(b"%%EOF")
+    assert command.encode() in pdf
+    assert b"CreationDate" not in pdf
+
+
+def test_figures_are_files_that_say_what_made_them_and_come_again_byte_for_byte(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = ["1", "2", "3", "--heights", "2,4", "--realisations", "16", "--out", "out"]
+    contents = []
+    for folder in ("a", "b"):
+        out = tmp_path / folder / "out"
+        out.parent.mkdir()
+        monkeypatch.chdir(out.parent)
+        status, printed, err = call(capsys, *words)
+        assert (status, err) == (0, "")
+        contents.append({path.name: path.read_bytes() for path in out.iterdir()})
+        words = shlex.split(json.loads((out / "figures.json").read_text())["command"])[2:]
+    assert contents[0] == contents[1]  # the second time by the command that the first one noted
+    assert "inside the simultaneous 99% band" in printed or "outside" in printed
+    data = json.loads((out / "figures.json").read_text())
+    assert shlex.split(data["command"])[:5] == ["force-diffusion", "figures", "1", "2", "3"]
+    assert owned_files(out) == set(contents[0])
+    for name, one in data["figures"].items():
+        check_images(out, f"figure{name}", data["command"])
+        for file in one["files"]:
+            assert file in contents[0]
+            if file.endswith(".csv"):
+                lines = (out / file).read_text().splitlines()
+                assert lines[:2] == [f"# {one['title']}", f"# {data['command']}"]
+                assert len(list(csv.DictReader(lines[2:]))) > 1
+    assert [one["height"] for one in data["figures"]["3"]["heights"]] == [2, 4]
+
+
+def test_the_other_figures_and_the_simpler_models(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    status, printed, err = call(
+        capsys, 3, 4, "pf", "chains", "--heights", "3", "--realisations", 32,
+        "--with", "q-model", "--with", "double-y", "--out", out, "--json",
+    )  # fmt: skip
+    assert (status, err) == (0, "")
+    data = json.loads(printed)
+    assert data == json.loads((out / "figures.json").read_text())
+    for name in ("figure3", "figure4", "pf", "chains"):
+        check_images(out, name, data["command"])
+    assert data["figures"]["4"]["double_y"]
+    assert {"figure3_q_model.csv", "figure4_double_y.csv", "pf_tests.csv"} <= owned_files(out)
+    text = (out / "pf_tests.csv").read_text()
+    rows = list(csv.DictReader(io.StringIO(text.split("\n", 2)[2])))
+    assert [float(row["p_kolmogorov_smirnov"]) for row in rows] == [
+        one["p_kolmogorov_smirnov"] for one in data["figures"]["pf"]["samples"]
+    ]
+    # a later run takes away what it does not write
+    assert call(capsys, 1, "--out", out)[0] == 0
+    assert sorted(path.name for path in out.iterdir()) == [
+        "figure1.csv", "figure1.pdf", "figure1.png", "figure1.svg", "figures.json", "manifest.json"
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["5"], "no figure '5'"),
+        (["figure3"], "no figure"),
+        (["3", "--heights", "0"], "1 to 10000"),
+        (["3", "--heights", "8,8"], "different"),
+        (["3", "--heights", "8;9"], "such as 32,128"),
+        (["3", "--heights", "1,2,3,4,5,6,7"], "up to 6"),
+        (["3", "--heights", ""], "whole numbers"),
+        (["3", "--heights", "³"], "whole numbers"),
+        (["3", "--realisations", "15"], "16"),
+        (["3", "--seed", "-1"], "--seed"),
+        (["1", "--heights", "8"], "add 3"),
+        (["2", "--realisations", "100"], "3, 4 and pf"),
+        (["3", "--with", "triple-z"], "q-model or double-y"),
+        (["3", "--with", "double-y"], "add 4"),
+        (["3", "--out", ""], "names no folder"),
+        (["3", "--heights", "10000"], "memory"),
+    ],
+)
+def test_wrong_words(
+    words: list[str],
+    says: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("numeric.budget.memory_limit", lambda: 10**9)
+    status, printed, err = call(capsys, *words)
+    assert (status, printed) == (2, "")
+    assert says in err.replace("\n", " ")
+    assert "Traceback" not in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_heights_that_cannot_be_built(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Far above M* beads no longer find a rest: here at a disorder that no option can ask for."""
+    planned = comparison.planned
+
+    def rougher(*words: Any, **choices: Any) -> Any:
+        return planned(*words, **{**choices, "std": 0.3})
+
+    monkeypatch.setattr(comparison, "planned", rougher)
+    out = tmp_path / "out"
+    status, printed, err = call(capsys, 3, "--heights", "40", "--realisations", 16, "--out", out)
+    assert (status, printed) == (2, "")
+    assert "figure 3: bead" in err
+    assert "lower heights" in err
+    assert not out.exists()
+
+
+def test_a_folder_of_others_is_left_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "figure1.png").write_text("mine")
+    status, _, err = call(capsys, 1, "--out", tmp_path)
+    assert status == 2
+    assert "other files" in err
+    assert (tmp_path / "figure1.png").read_text() == "mine"
+
+
+@pytest.mark.parametrize(
+    ("library", "name"), [("matplotlib", "1"), ("matplotlib", "pf"), ("scipy", "pf")]
+)
+def test_without_the_libraries(
+    library: str,
+    name: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for module in [m for m in sys.modules if m.split(".")[0] == library]:
+        monkeypatch.delitem(sys.modules, module)
+    monkeypatch.setitem(sys.modules, library, None)
+    status, printed, err = call(capsys, name, "--out", tmp_path / "out")
+    assert (status, printed) == (3, "")
+    assert f"need {library}" in err
+    assert "force-diffusion[plots]" in err
+    assert not (tmp_path / "out").exists()
+
+
+def test_interrupted(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupt(*_: Any) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(catalogue, "make", interrupt)
+    status, _, err = call(capsys, 1, "--out", tmp_path / "out")
+    assert status == 130
+    assert "Traceback" not in err
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_command_knows_every_figure() -> None:
+    assert tuple(catalogue.FIGURES) == figures_command.NAMES

@@ -1,0 +1,61 @@
+"""Simultaneous bands: they hold what they should as often as they say."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import stats
+
+from numeric.figures import bands
+from numeric.figures.bands import Estimate, averaged, critical_value, log_relative_std
+from numeric.figures.comparison import averages, curves
+
+
+def test_a_true_curve_falls_outside_as_often_as_it_should(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Repeated ensembles of a small packing, whose exact σ_f is known to first order."""
+    monkeypatch.setattr(bands, "DRAWS", 4000)  # the quantile scatters: by 1.5 %, and both ways
+    M, n, repetitions = 3, 50, 300
+    mean, square = averages(M, range(n * repetitions), 5, "first-order", lambda _: None)
+    truth = np.log(curves(M)[0])
+    outside = {0.9: 0, 0.99: 0}
+    for k in range(repetitions):
+        part = slice(k * n, (k + 1) * n)
+        found = averaged(*log_relative_std(mean[part], square[part]))
+        largest = (np.abs(truth - found.log) / found.error).max()
+        for level in outside:
+            outside[level] += int(largest > critical_value(found, level, k))
+    for level, count in outside.items():
+        # a band of the right level gets past this in 999 of 1000 choices of the seed
+        assert stats.binomtest(count, repetitions, 1 - level).pvalue > 1e-3, outside
+
+
+def test_one_layer_needs_the_quantile_of_t() -> None:
+    one = Estimate(np.zeros(1), np.eye(1), 12)
+    expected = stats.t.ppf(0.995, 12)
+    # the scatter of a simulated 99 % quantile, from its density: 3 standard errors
+    error = np.sqrt(0.99 * 0.01 / bands.DRAWS) / (2 * stats.t.pdf(expected, 12))
+    assert critical_value(one, 0.99, 1) == pytest.approx(expected, abs=3 * error)
+
+
+def test_layers_that_always_agree_count_as_one_and_others_do_not() -> None:
+    alike = Estimate(np.zeros(6), np.ones((6, 6)), 10_000)
+    apart = Estimate(np.zeros(6), np.eye(6), 10_000)
+    assert critical_value(alike, 0.99, 1) == pytest.approx(stats.norm.ppf(0.995), abs=0.05)
+    each = (1 - 0.99 ** (1 / 6)) / 2
+    assert critical_value(apart, 0.99, 1) == pytest.approx(stats.norm.ppf(1 - each), abs=0.06)
+
+
+@given(st.integers(0, 2**32), st.floats(0.05, 0.5), st.floats(-0.1, 0.1))
+def test_influences_are_what_leaving_a_realisation_out_changes(
+    seed: int, width: float, shift: float
+) -> None:
+    generator = np.random.default_rng(seed)
+    samples = shift + width * generator.standard_normal((200, 12, 2))
+    mean, square = samples.mean(axis=1), (samples**2).mean(axis=1)
+    log, influence = log_relative_std(mean, square)
+    for k in (0, 7):
+        rest = np.arange(200) != k
+        change = log - log_relative_std(mean[rest], square[rest])[0]
+        # leaving one of n out moves the estimate by influence/(n − 1), to first order in 1/n
+        slack = 20 * (1 + np.abs(influence).max() ** 2) / 199**2
+        assert np.abs(change - influence[k] / 199).max() < slack

@@ -1,0 +1,226 @@
+"""What the figures show, against what is known in other ways."""
+
+import csv
+import json
+import math
+from collections import defaultdict
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from numeric import closed_forms, first_order
+from numeric.figures import (
+    chains,
+    comparison,
+    diffusion,
+    distribution,
+    notation,
+    packings,
+    response,
+)
+from numeric.figures.catalogue import csv_file
+from numeric.figures.packings import N_X, PAPER_STD, PHI, forces_of, impulses, planned
+from numeric.load_spec import LoadSpec
+from numeric.systems import FLOAT64
+
+NY = math.sqrt(1 - N_X**2)
+
+
+def silent(_: str) -> None:
+    pass
+
+
+def test_figure_1_shows_beads_that_touch() -> None:
+    beads = {(b["i"], b["j"]): b for b in notation.beads(4, silent).beads}
+    touching = 0
+    for (i, j), bead in beads.items():
+        for step in (-1, 1):
+            other = beads.get((i + step, j + 1))
+            if other is None:
+                continue
+            apart = np.hypot(bead["x"] - other["x"], bead["y"] - other["y"])
+            assert apart == pytest.approx(bead["radius"] + other["radius"], rel=1e-14)
+            ordered = np.hypot(
+                bead["x_ordered"] - other["x_ordered"], bead["y_ordered"] - other["y_ordered"]
+            )
+            assert ordered == pytest.approx(2, rel=1e-14)
+            touching += 1
+    assert touching == 24
+
+
+def test_widths_of_figure_2_are_those_of_the_packing() -> None:
+    """σ_x and σ_y from the weights of all radii, by the engine."""
+    M = 6
+    packing = impulses(planned('"contact", at = [0, 0, "+"]', height=M, width=None, seed=0)).packing
+    assert packing is not None
+    x, y = diffusion.displacement_std(M)
+    for j in range(M + 1):
+        cp, cm = packing.c_plus[j], packing.c_minus[j]
+        found_x = np.sqrt((((cp - cm) / (2 * float(N_X))) ** 2).sum(axis=0))
+        found_y = np.sqrt((((cp + cm) / (2 * NY)) ** 2).sum(axis=0))
+        assert found_x == pytest.approx(np.full(found_x.shape, x[j]), rel=1e-12)
+        assert found_y == pytest.approx(np.full(found_y.shape, y[j]), rel=1e-12)
+
+
+def test_weights_give_the_closed_form() -> None:
+    plan = planned('"contact", at = [3, 5, "+"]', height=9, width=None, seed=0)
+    forces = forces_of(impulses(plan))
+    weights = forces.change_plus[6][:, 0] / forces.ordered_plus[6][0]
+    exact = closed_forms.surface_variance(9, 5, float(PHI), 1.0, 1.0)
+    assert (weights**2).sum() == pytest.approx(exact, rel=1e-13)
+
+
+def test_figure_3_is_the_same_however_it_is_batched(monkeypatch: pytest.MonkeyPatch) -> None:
+    together = comparison.averages(4, range(10), 3, "exact", silent)
+    monkeypatch.setattr(packings, "BATCH", 1)
+    alone = comparison.averages(4, range(10), 3, "exact", silent)
+    monkeypatch.setattr(packings, "BATCH", 4 * 45)
+    some = comparison.averages(4, range(10), 3, "exact", silent)
+    for one, other, third in zip(together, alone, some, strict=True):
+        # only sums along rows of different memory layout may round differently
+        assert one == pytest.approx(other, rel=1e-12, abs=1e-18)
+        assert one == pytest.approx(third, rel=1e-12, abs=1e-18)
+
+
+def test_figure_3_finds_theory_within_the_band_and_a_wrong_theory_outside() -> None:
+    found = comparison.compare([3, 6], 300, 1, silent)
+    for one in found.heights:
+        assert one.deviation() <= 1
+        assert one.corrected_deviation() <= 1
+        assert one.band.deviation(one.exact * 1.2) > 1
+        assert one.band.deviation(one.printed) > 1  # at these heights it is far off
+        # most of the sampling error cancels between the two solutions of one realisation
+        assert one.correction.error.max() < one.band.estimate.error.min() / 10
+    facts = found.facts()
+    assert json.loads(json.dumps(facts)) == facts
+    assert [fact["exact_finite_M_inside"] for fact in facts["heights"]] == [True, True]
+
+
+def test_csv_comes_back() -> None:
+    found = comparison.compare([2, 3], 16, 1, silent, q_model=True)
+    tables = found.tables()
+    assert set(tables) == {"figure3", "figure3_q_model"}
+    for rows in tables.values():
+        text = csv_file(rows, "a title", "force-diffusion figures 3")
+        comments = [line for line in text.splitlines() if line.startswith("#")]
+        assert comments == ["# a title", "# force-diffusion figures 3"]
+        back = list(csv.DictReader(line for line in text.splitlines() if line[0] != "#"))
+        assert [{k: float(v) for k, v in row.items()} for row in back] == rows
+    rows = [row for row in tables["figure3"] if row["height"] == 3]
+    low, high = found.heights[1].band.limits
+    assert [row["band_low"] for row in rows] == low.tolist()
+    assert [row["band_high"] for row in rows] == high.tolist()
+    assert [row["z"] for row in rows] == [0, 1 / 3, 2 / 3]
+
+
+def test_figure_4_conserves_the_load_and_holds_theory() -> None:
+    plan = planned(
+        '"response"', height=9, width=None, seed=1, std=1e-3, load='"point", at = [1, 9]',
+        realisations=3,
+    )  # fmt: skip
+    for answer, number in packings.solved(plan, range(3)):
+        both, _ = response.vertical(answer, number, linear=False)
+        for change in both:  # every layer bears the whole load, exactly
+            assert change.sum(axis=1) == pytest.approx(np.zeros(3), abs=1e-16)
+    for change in response.vertical(impulses(plan), plan.region.beads, linear=True)[0]:
+        assert np.abs(change.sum(axis=1)).max() < 1e-13
+
+
+@pytest.fixture(scope="module")
+def figure4() -> response.Response:
+    return response.respond(400, 1, silent)
+
+
+def test_figure_4_does_not_depend_on_the_horizontal_position(figure4: response.Response) -> None:
+    for j in range(1, figure4.apex - 1):
+        inside = figure4.variance[j][1:-1]
+        assert inside == pytest.approx(np.full(inside.shape, inside[0]), rel=1e-12)
+        # Eq. 16 is the leading order in l + j: here it is off by no more than 2/(l + j)
+        assert inside[0] == pytest.approx(figure4.printed(j), rel=2 / (figure4.apex + j))
+        if len(inside) > 1:
+            single = figure4.one_contact[j][1:-1]
+            assert (np.diff(single) < -0.5).all()
+    assert figure4.deviation() <= 1
+    facts = figure4.facts()
+    assert facts["variance_below_apex_over_base_exact"] == pytest.approx(1.84, abs=0.03)
+
+
+@pytest.mark.parametrize(("i", "j"), [(0, 8), (5, 3), (-7, 1)])
+def test_figure_4_agrees_with_line_sums(i: int, j: int, figure4: response.Response) -> None:
+    """The weights of the upper right contact of a bead, one radius at a time, by line sums."""
+    load = LoadSpec("point", figure4.apex, None, at=(0, figure4.apex))
+    contact = (i, j, "+")
+    strength = load.strength(N_X, FLOAT64)
+    above, below = first_order.crossing_layers(contact, load)
+    square = 0.0
+    sites = {
+        (line.at(m), m)
+        for line in first_order.lines_read(contact, load)
+        for m in range(line.top + 1)
+    }
+    for site in sites:
+        change, _ = first_order.contact_change(
+            contact,
+            own=None,
+            above={m: load.ordered_force((i + m - j, m, "-"), strength, FLOAT64) for m in above},
+            below={
+                m: load.ordered_force((i + m - j + 1, m - 1, "-"), strength, FLOAT64) for m in below
+            },
+            radius_at=lambda a, b, site=site: float((a, b) == site),
+            n_x=N_X,
+            system=FLOAT64,
+        )
+        square += float(change) ** 2
+    q = (i + figure4.apex - j) // 2
+    assert figure4.one_contact[j][q] == pytest.approx(NY**2 * square, rel=1e-12)
+
+
+def test_chains_balance_as_drawn() -> None:
+    """At every bead the drawn lines, each as strong as its force, leave nothing over."""
+    found = chains.contacts(2, silent)
+    scale = 1 / (2 * NY)
+    left: dict[tuple[int, int], np.ndarray] = defaultdict(lambda: np.zeros(2))
+    for row in found.contacts:
+        along = np.array([row["x_high"] - row["x_low"], row["y_high"] - row["y_low"]])
+        along *= scale * row["force"] / np.hypot(*along)
+        step = 1 if row["branch"] == "+" else -1
+        left[row["i"], row["j"]] -= along
+        left[(row["i"] + step) % (2 * chains.WIDTH), row["j"] + 1] += along
+    assert len(left) == chains.WIDTH * (chains.HEIGHT + 1)
+    for (_, j), rest in left.items():
+        load = np.array([0.0, 1.0 if j == chains.HEIGHT else 0.0])
+        if j:
+            assert rest == pytest.approx(load, abs=1e-12)
+    facts = found.facts()
+    assert 0 < facts["tensile"] < facts["contacts"] / 4
+    assert facts["smallest_gap"] > 0
+    assert chains.HEIGHT < facts["critical_height"] < 2 * chains.HEIGHT
+
+
+def test_distributions() -> None:
+    found = distribution.samples(200, 1, silent)
+    by = {(one.kind, one.height): one for one in found.samples}
+    assert set(by) == set(distribution.CASES)
+    for one in found.samples:
+        assert one.deviates.std() == pytest.approx(1, abs=5 / np.sqrt(2 * 200))
+        assert len(one.deviates) == 200
+    # fourth moments: 5 standard errors of a normal sample, √(24/n)
+    for one in found.samples:
+        assert one.kurtosis == pytest.approx(one.kurtosis_expected, abs=5 * np.sqrt(24 / 200))
+    assert by["two-point", 2].kurtosis_expected < -0.5 < by["two-point", 32].kurtosis_expected
+    assert by["normal", 2].kurtosis_expected == 0
+
+
+def test_goodness_of_fit_rejects_what_it_should() -> None:
+    normal = np.random.default_rng(8).standard_normal(400)
+    assert min(distribution.tests(normal, 1)) > 0.01
+    assert max(distribution.tests(normal + 0.4, 1)) < 0.01
+    assert max(distribution.tests(normal * 1.4, 1)) < 0.01
+
+
+def test_the_disorder_is_that_of_the_paper() -> None:
+    plan = planned('"profile"', height=2, width=4, seed=0)
+    assert float(plan.radii.relative_std()) == PAPER_STD
+    assert pytest.approx(1e-6 / 12, rel=1e-15) == PAPER_STD**2
+    assert Fraction(3, 4) == N_X

@@ -1,0 +1,86 @@
+"""The simpler models: what they conserve, and their known limits."""
+
+from math import asin
+
+import numpy as np
+import pytest
+
+from numeric.figures.packings import N_X
+from numeric.models import double_y, q_model
+
+TILT = asin(N_X)
+
+
+def test_the_recursion_of_the_q_model_is_what_simulation_finds() -> None:
+    depth, width, n = 12, 32, 1500
+    loads = q_model.simulate(width, depth, n, seed=2)
+    assert loads.sum(axis=2) == pytest.approx(np.full((n, depth + 1), width), rel=1e-13)
+    squares = ((loads - 1) ** 2).mean(axis=2)
+    error = squares.std(axis=0)[1:] / np.sqrt(n)
+    off = np.abs(squares.mean(axis=0) - q_model.weight_variance(depth))
+    assert off[0] == 0
+    assert (off[1:] < 5 * error).all()
+
+
+def test_q_model_weights_saturate_at_one_half() -> None:
+    """P(w) = 4 w exp(−2w) at infinite depth, of variance 1/2; approached as depth^(−1/2)."""
+    variance = q_model.weight_variance(4000)
+    assert variance[1] == pytest.approx(1 / 6)
+    missing = 0.5 - variance
+    assert (np.diff(missing) < 0).all()
+    assert missing[1000] / missing[4000] == pytest.approx(2, rel=0.01)
+
+
+def test_a_point_load_of_the_q_model_spreads_by_one_step_a_layer() -> None:
+    depth, width, n = 9, 24, 20_000
+    generator = np.random.default_rng(1)
+    loads = np.zeros((n, width))
+    loads[:, 0] = 1.0
+    for _ in range(depth):
+        share = generator.random((n, width))
+        loads = share * loads + np.roll((1 - share) * loads, 1, axis=1)
+    place = 2 * np.arange(width) - depth  # in half spacings
+    found = (loads * place**2).sum(axis=1)
+    assert found.mean() == pytest.approx(
+        q_model.spread(depth)[-1], abs=5 * found.std() / np.sqrt(n)
+    )
+
+
+def test_rays_without_defects_are_the_cone() -> None:
+    end, at_base, force = double_y.walk(0, TILT, double_y.SPLITTING_ANGLE, 1000, 1)
+    slope = float(N_X) / np.sqrt(1 - float(N_X) ** 2)
+    assert np.abs(end) == pytest.approx(np.full(1000, slope), rel=1e-12)
+    assert end.mean() == pytest.approx(0, abs=1e-12)
+    assert at_base.all()
+    assert force == pytest.approx(np.ones(1000), rel=1e-12)
+
+
+@pytest.mark.parametrize("splits", [0.5, 4.0])
+def test_rays_conserve_the_vertical_force(splits: float) -> None:
+    found = double_y.profile(splits, TILT, seed=3, rays=100_000)
+    assert found.balance[0] == pytest.approx(1, abs=5 * found.balance[1])
+    assert found.balance[1] < 0.02
+
+
+def test_a_defect_of_no_angle_changes_nothing() -> None:
+    end, at_base, _ = double_y.walk(5, TILT, 0.0, 1000, 1)
+    straight, _, _ = double_y.walk(0, TILT, 0.0, 1000, 1)
+    assert at_base.all()
+    assert end == pytest.approx(straight, rel=1e-9)
+
+
+def test_the_response_turns_from_two_peaks_to_a_broad_one() -> None:
+    def shares(splits: float) -> tuple[float, float]:
+        found = double_y.profile(splits, TILT, seed=4, rays=100_000)
+        middle = np.abs(found.edges[:-1] + found.edges[1:]) / 2
+        whole = found.density.sum()
+        cone = np.abs(middle - 1.134) < 0.1
+        return float(found.density[cone].sum() / whole), float(
+            found.density[middle < 0.5].sum() / whole
+        )
+
+    shallow, deep = shares(0.25), shares(8.0)
+    assert shallow[0] > 0.6
+    assert shallow[1] < 0.02
+    assert deep[0] < 0.15
+    assert deep[1] > 0.2
