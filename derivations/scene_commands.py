@@ -15,7 +15,7 @@ from derivations.publishing import NOT_REACHED, WRONG_INPUT, csv_text, fail, out
 
 if TYPE_CHECKING:
     from numeric.cost.study import Study
-    from numeric.planner import Plan
+    from numeric.plans import Plan
 
 # Seconds from which on progress is shown.
 MOMENT = 1.0

@@ -4,10 +4,11 @@ import math
 from fractions import Fraction
 from typing import Any
 
+from numeric.critical import critical_height
 from numeric.decimals import bound_string
 from numeric.physical import Physicality
-from numeric.planner import Plan
-from numeric.runner import Outcome, critical_height
+from numeric.plans import Plan
+from numeric.runner import Outcome
 
 
 def plan_data(plan: Plan) -> dict[str, Any]:

@@ -17,13 +17,13 @@ import flint
 import numpy as np
 
 from numeric import closed_forms, plain
+from numeric.critical import critical_height
 from numeric.forces import Forces, NotStandingError, sweep_down
 from numeric.lattice import Array, whole
 from numeric.load_spec import LoadSpec
 from numeric.packing import Packing, UnbuildableError, UndecidedError, deposit
 from numeric.physical import Physicality
 from numeric.radii import DrawnRadii, MeasuredRadii, Radii, rows_of
-from numeric.runner import critical_height
 from numeric.systems import FLOAT64, Balls, NumberSystem
 
 SEED = 1

@@ -30,7 +30,7 @@ from numeric.cost.study import (
 from numeric.cost.truth import decimal, exactly
 from numeric.cost.ways import answer
 from numeric.lattice import Array
-from numeric.planner import Plan, Skipped
+from numeric.plans import Plan, Skipped
 from numeric.scene import Scene
 from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem, array
 

@@ -10,7 +10,7 @@ from numeric.engine import Solved, solve
 from numeric.forces import Forces
 from numeric.lattice import Array, Layer, full_layer, pick, whole
 from numeric.packing import Packing
-from numeric.planner import Plan
+from numeric.plans import Plan
 from numeric.radii import rows_of
 from numeric.systems import NumberSystem, zeros
 from numeric.work import Work
