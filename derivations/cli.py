@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from derivations import scene_commands
+from derivations import calibrate_command, scene_commands
 from derivations.catalogue import modules
 from derivations.publishing import out_option
 
@@ -158,6 +158,7 @@ def list_equations() -> None:
 
 
 scene_commands.register(app)
+calibrate_command.register(app)
 
 
 def run(arguments: list[str] | None = None) -> int:

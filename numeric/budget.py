@@ -13,6 +13,8 @@ from numeric.systems import FLOAT64, NumberSystem
 FLOAT_BEAD, BALL_BEAD, ANSWER_ROW, FILE_LINE, PLAN_LAYER = 450, 2200, 1700, 600, 900
 INTERPRETER = 100_000_000
 DEFAULT_BINS = 20
+# No arithmetic of more bits is tried.
+MOST_BITS = 8192
 LONGEST = 24 * 3600.0
 # Realisations that are solved twice to estimate the error: four of packings that are small.
 FEW, SMALL = 4, 20_000

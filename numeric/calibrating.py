@@ -169,6 +169,7 @@ def calibrate(notice: Callable[[str], None] = lambda _: None, *, compiled: bool 
                     if step in runs[0]:
                         samples[step].append((amounts, min(run[step] for run in runs)))
         fitted[family] = {step: _fit(found) for step, found in samples.items()}
+    fitted.setdefault("longdouble", fitted["float64"])  # where it is no longer, it is as fast
     load, quick = defaults().load_seconds, defaults().families["compiled"]
     if compiled and importlib.util.find_spec("numba") is not None:
         notice("compiled")

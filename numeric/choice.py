@@ -121,6 +121,8 @@ def _why_not(
         return "its error would be estimated, and certified was asked for"
     if outline.scene.effects.stop_at_tension:
         return "where the sweep stops hangs on the signs of forces, which only balls decide"
+    if way.system.bits > budget.MOST_BITS:
+        return f"{budget.MOST_BITS} bits are the most"
     highest = critical_height(outline.radii.relative_std())
     if outline.route == "exact" and outline.height > highest * SOUND:
         return f"the height is above M*/2 = {highest / 2:.3g}, where rounding errors grow with it"

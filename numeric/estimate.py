@@ -132,7 +132,7 @@ def _largest(values: Any) -> Fraction:
 
 
 def edge_in_doubt(table: Table, edges: Sequence[Fraction], accuracy: Accuracy) -> bool:
-    """Say whether a change lies within its error of the edge of a bin, so that counts may be off."""
+    """Say whether a change lies within its error of the edge of a bin: counts may be off."""
     values = table.numbers["change"]
     largest = _largest(values)
     # bins are counted in float64, whatever the arithmetic

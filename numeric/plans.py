@@ -66,7 +66,7 @@ class Candidate:
     arithmetic: str
     certified: bool
     repeated: int
-    error: Fraction | None
+    error: Fraction
     seconds: float | None
     out: str
     plan: "Plan | None"
@@ -85,8 +85,10 @@ class Choice:
 
     @property
     def tried(self) -> tuple[Candidate, ...]:
-        """The candidates that may answer, the chosen one first."""
-        return tuple(c for c in self.candidates if not c.out)
+        """What is tried, the chosen one first; nothing comes after balls, which end it."""
+        possible = [c for c in self.candidates if not c.out]
+        last = next((k for k, c in enumerate(possible) if c.certified), len(possible))
+        return tuple(possible[: last + 1])
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Any
 
 from numeric.accuracy import Accuracy, of_balls, of_floats, strings
 from numeric.answers import GATHERERS, Table
-from numeric.budget import DEFAULT_BINS, chunk_size, initial_bits
+from numeric.budget import DEFAULT_BINS, MOST_BITS, chunk_size, initial_bits
 from numeric.critical import critical_height
 from numeric.decimals import decimal_string, short
 from numeric.engine import Solved, solve
@@ -22,7 +22,8 @@ from numeric.plans import CERTIFY, ESTIMATE, PHYSICAL, Choice, Plan, Way
 from numeric.systems import FLOAT64, Balls, NumberSystem
 from numeric.work import Progress, Work
 
-MOST_BITS = 8192
+__all__ = ["MOST_BITS", "Missed", "Outcome", "ToleranceError", "critical_height", "run"]
+
 
 
 class ToleranceError(ArithmeticError):
@@ -35,7 +36,7 @@ class Missed:
 
     algorithm: str
     arithmetic: str
-    reason: str
+    why: str
 
 
 @dataclass(frozen=True)
@@ -94,31 +95,24 @@ def _chosen(
     plan: Plan, choice: Choice, work: Work, missed: list[Missed]
 ) -> tuple[Plan, _Attempt, Accuracy]:
     """Try the ways in their order, until an estimate is within the tolerance or balls certify."""
-    balls: ToleranceError | None = None
     for candidate in choice.tried:
         assert candidate.plan is not None
         tried = replace(candidate.plan, choice=choice)
+        if candidate.certified:
+            return _certified(tried, work)
         try:
-            if candidate.certified:
-                return _certified(tried, work)
             attempt = _attempt(tried, tried.system, range(tried.realisations), work)
             accuracy = _estimate(tried, attempt, work)
             why = _shortfall(attempt, accuracy, choice.tolerance)
-        except ToleranceError as error:
-            balls, why = error, str(error)
         except (UnbuildableError, NotStandingError, ArithmeticError) as error:
-            if candidate.certified:
-                raise
             why = str(error)  # rounding may have made it so: the next way tells
         if not why:
             return tried, attempt, accuracy
         missed.append(Missed(candidate.algorithm, candidate.arithmetic, why))
-    if balls is not None:
-        raise balls
-    last = next(c for c in choice.candidates if c.certified)
+    balls = next(c for c in choice.candidates if c.certified)
     raise ToleranceError(
-        f"the tolerance can't be reached: {missed[-1].arithmetic}: {missed[-1].reason}; and "
-        f"{last.arithmetic}: {last.out}"
+        f"the tolerance can't be reached: {missed[-1].arithmetic}: {missed[-1].why}; and "
+        f"{balls.arithmetic}: {balls.out}"
     )
 
 
