@@ -260,7 +260,9 @@ def _choice_lines(choice: dict[str, Any]) -> list[str]:
         else:
             lines.append(f"{words}, {way['tolerance']}: {_way(way)}, about {way['seconds']:.2g} s")
     for missed in choice.get("missed", []):
-        lines.append(f"Tried before: {missed['algorithm']}, {missed['arithmetic']}: {missed['why']}")
+        lines.append(
+            f"Tried before: {missed['algorithm']}, {missed['arithmetic']}: {missed['why']}"
+        )
     if "measured_seconds" in choice:
         lines.append(
             f"Predicted {chosen['seconds']:.2g} s, took {choice['measured_seconds']:.2g} s"

@@ -19,13 +19,13 @@ from time import perf_counter
 
 import numpy as np
 
+from numeric import histogram
 from numeric.accuracy import Accuracy, of_balls, strings
 from numeric.answers import GATHERERS
-from numeric.budget import chunk_size
+from numeric.budget import DEFAULT_BINS, chunk_size
 from numeric.cost_model import TERMS, Fitted, Model, defaults, gathering, last_work, pass_work
 from numeric.engine import solve
 from numeric.estimate import of_repeat
-from numeric.histogram import histogram
 from numeric.lattice import Array
 from numeric.physical import Physicality
 from numeric.planner import plan
@@ -136,16 +136,17 @@ def timed(made: Plan, system: NumberSystem) -> Seconds:
                 accuracy = of_balls(table, system, Fraction(1))
         if made.scene.ask.quantity == "histogram":
             with clock("bins"):
-                histogram(table.numbers["change"], made.scene.ask.bins or 0, system)
+                values, bins = table.numbers["change"], made.scene.ask.bins or DEFAULT_BINS
+                histogram.printed(histogram.histogram(values, bins, system))
         else:
             with clock("print"):
                 strings(table, accuracy, system)
         with clock("compare"):
             of_repeat(table, table, table, replace(made, way=Way(system, system, n)))
-    wanted = pass_work(made, system, n, again=False)
+    work = pass_work(made, system, n, again=False)
     for name, steps in CLOCKS.items():
         for step in steps:
-            if step in wanted:
+            if step in work:
                 spent[step] += clocks.seconds.get(name, 0.0)
     return spent
 

@@ -41,6 +41,9 @@ Outlines = Mapping[str, Outline]
 FEW = 4
 # Nearer to M* than this, disorder itself grows with the height, and rounding errors with it.
 SOUND = 0.5
+# Of two ways whose predicted costs differ by less than predictions are good for, the one that
+# certifies is taken.
+WORTH = 1.25
 
 
 def choose(outlines: Outlines, tolerance: Fraction, source: str, *, certified: bool) -> Plan:
@@ -58,6 +61,9 @@ def choose(outlines: Outlines, tolerance: Fraction, source: str, *, certified: b
         reason = "certified was asked for, and only balls certify"
     elif len(possible) == 1:
         reason = "the only way that should meet the tolerance"
+    elif possible[0].certified and possible[0].seconds != min(c.seconds or 0 for c in possible):
+        reason = "certified, and as cheap as any way within what predictions are good for: it meets"
+        reason += " the tolerance"
     more, less = tolerance / 10, tolerance * 10
     choice = Choice(
         tolerance, reason, source, tuple(candidates),
@@ -91,13 +97,20 @@ def weighed(outlines: Outlines, tolerance: Fraction, certified: bool) -> list[Ca
                     None if out else made,
                 )
             )  # fmt: skip
-    return sorted(found, key=lambda c: (bool(c.out), math.inf if c.seconds is None else c.seconds))
+
+    def rank(candidate: Candidate) -> tuple[bool, float]:
+        seconds = math.inf if candidate.seconds is None else candidate.seconds
+        return bool(candidate.out), seconds / (WORTH if candidate.certified else 1)
+
+    return sorted(found, key=rank)
 
 
 def _ways(tolerance: Fraction, height: int, realisations: int) -> Iterator[Way]:
     """Give the arithmetics, with the digits that the tolerance needs, and what they repeat."""
     room = 2 * 2 * usual_units(BigFloat(20), height)  # both sides of the comparison, and printing
-    digits = len(str(int(room / tolerance))) + 1
+    ratio = room / tolerance
+    powers = ratio.numerator.bit_length() - ratio.denominator.bit_length() + 1
+    digits = math.ceil(powers * math.log10(2)) + 1
     bits = budget.initial_bits(tolerance, height)
     balls = Balls(budget.initial_bits(Fraction(1, 10**25), height))
     systems: list[tuple[NumberSystem, NumberSystem]] = [

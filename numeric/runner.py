@@ -7,15 +7,15 @@ from fractions import Fraction
 from time import perf_counter
 from typing import Any
 
+from numeric import histogram
 from numeric.accuracy import Accuracy, of_balls, of_floats, strings
 from numeric.answers import GATHERERS, Table
 from numeric.budget import DEFAULT_BINS, MOST_BITS, chunk_size, initial_bits
 from numeric.critical import critical_height
-from numeric.decimals import decimal_string, short
+from numeric.decimals import short
 from numeric.engine import Solved, solve
 from numeric.estimate import edge_in_doubt, of_repeat
 from numeric.forces import NotStandingError
-from numeric.histogram import histogram
 from numeric.packing import UnbuildableError, UndecidedError
 from numeric.physical import Physicality
 from numeric.plans import CERTIFY, ESTIMATE, PHYSICAL, Choice, Plan, Way
@@ -23,7 +23,6 @@ from numeric.systems import FLOAT64, Balls, NumberSystem
 from numeric.work import Progress, Work
 
 __all__ = ["MOST_BITS", "Missed", "Outcome", "ToleranceError", "critical_height", "run"]
-
 
 
 class ToleranceError(ArithmeticError):
@@ -150,7 +149,7 @@ def _attempt(plan: Plan, system: NumberSystem, realisations: Sequence[int], work
         bins = None
         if plan.scene.ask.quantity == "histogram" and not work.repeating:
             values = table.numbers["change"]
-            bins = histogram(values, plan.scene.ask.bins or DEFAULT_BINS, system)
+            bins = histogram.histogram(values, plan.scene.ask.bins or DEFAULT_BINS, system)
     return _Attempt(table, bins, physical, stopped)
 
 
@@ -240,11 +239,7 @@ def _within(accuracy: Accuracy, tolerance: Fraction) -> bool:
 def _rows(attempt: _Attempt, accuracy: Accuracy, system: NumberSystem) -> list[dict[str, Any]]:
     """Print the answer, row by row."""
     if attempt.bins is not None:
-        rows: list[dict[str, Any]] = []
-        for low, high, count in attempt.bins:  # a bin begins where the last one ends
-            start = rows[-1]["high"] if rows else decimal_string(low, None)
-            rows.append({"low": start, "high": decimal_string(high, None), "count": count})
-        return rows
+        return histogram.printed(attempt.bins)
     with system.active():
         printed = strings(attempt.table, accuracy, system)
     columns = {**attempt.table.index, **printed}

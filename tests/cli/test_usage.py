@@ -34,7 +34,7 @@ WRONG = [
     (["list", "13"], "13"),
     (
         ["prove", "13"],
-        "no command 'prove'. Use derive, show, list, run, explain, cost or stability",
+        "no command 'prove'. Use derive, show, list, run, explain, cost, stability or calibrate",
     ),
 ]
 
