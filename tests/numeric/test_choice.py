@@ -205,15 +205,3 @@ def test_an_estimate_that_misses_gives_way(monkeypatch: pytest.MonkeyPatch) -> N
     assert "error is still" in outcome.missed[0].why
     assert outcome.accuracy.certified
     assert outcome_data(outcome)["choice"]["missed"][0]["arithmetic"] == "float64"
-
-
-def test_a_change_that_cancels_to_first_order_is_no_longer_told_by_floats() -> None:
-    """In a strip of one bead a layer, mirror symmetry leaves changes of second order."""
-    sections = basic(3, 1, tolerance="=1e-10")
-    sections["packing"]["allow_images"] = True
-    sections["disorder"]["relative_std"] = "=1e-7"
-    plan, true = planned(sections), reference(sections)
-    assert plan.choice is not None
-    for way in plan.choice.candidates:
-        if not way.out:
-            assert_kept(run(only(plan, way)), true, plan.choice.tolerance)
