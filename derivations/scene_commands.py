@@ -241,8 +241,8 @@ def _choice_lines(choice: dict[str, Any]) -> list[str]:
     """Say what was chosen, from what, and what a digit costs."""
     chosen = choice["chosen"]
     lines = [
-        f"How: {_way(chosen)}: {choice['reason']} of {choice['tolerance']} "
-        f"({choice['coefficients']})",
+        f"How, for a tolerance of {choice['tolerance']}: {_way(chosen)}",
+        f"  {choice['reason']} (cost model: {choice['coefficients']})",
         f"  {'':2}{'way':<31}{'arithmetic':<22}{'repeated':>8} {'error':>9} {'seconds':>9}",
     ]
     for way in choice["candidates"]:

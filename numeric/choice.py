@@ -54,16 +54,17 @@ def choose(outlines: Outlines, tolerance: Fraction, source: str, *, certified: b
     candidates = weighed(outlines, tolerance, certified)
     possible = [c for c in candidates if not c.out]
     if not possible:
-        balls = next(c for c in candidates if c.certified)
-        raise SceneError("ask.tolerance", tolerance, f"{balls.arithmetic}: {balls.out}")
-    reason = f"the cheapest of {len(possible)} ways that should meet the tolerance"
+        first = next(iter(outlines.values()))
+        first.plan(Way(Balls(budget.initial_bits(tolerance, first.height))))  # which says why not
+    reason = f"the cheapest of {len(possible)} ways that should meet it"
     if certified:
         reason = "certified was asked for, and only balls certify"
     elif len(possible) == 1:
-        reason = "the only way that should meet the tolerance"
+        reason = "the only way that should meet it"
     elif possible[0].certified and possible[0].seconds != min(c.seconds or 0 for c in possible):
-        reason = "certified, and as cheap as any way within what predictions are good for: it meets"
-        reason += " the tolerance"
+        reason = (
+            "certified, and no way is predicted to take less by more than a quarter of its time"
+        )
     more, less = tolerance / 10, tolerance * 10
     choice = Choice(
         tolerance, reason, source, tuple(candidates),
