@@ -1,6 +1,7 @@
 """The short calibration: the engine itself on a few small plans, and coefficients fitted to that.
 
-Each step of each plan is timed in every family of number systems, the quickest of a few runs. For
+Each step of each plan is timed in every family of number systems, the quickest of a few runs, in
+seconds of the processor, which other programs on the machine change less than those of the clock. For
 each family and step the non-negative coefficients are fitted that make the relative misfits of the
 measured times least.
 """
@@ -15,7 +16,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from fractions import Fraction
-from time import perf_counter
+from time import process_time
 
 import numpy as np
 
@@ -108,9 +109,9 @@ def timed(made: Plan, system: NumberSystem) -> Seconds:
 
     @contextmanager
     def clock(step: str) -> Iterator[None]:
-        start = perf_counter()
+        start = process_time()
         yield
-        spent[step] += perf_counter() - start
+        spent[step] += process_time() - start
 
     n = made.realisations
     size = 1 if made.route == "line sums" else chunk_size(made.region, system, made.scene)
@@ -191,8 +192,8 @@ def _compiled() -> tuple[float, dict[str, Fitted]]:
         for step, seconds in zip(COMPILED_STEPS, best, strict=True):
             samples[step].append((work[step], seconds))
     program = (
-        "from time import perf_counter; import numeric.runner; start = perf_counter(); "
-        "import numeric.calibrating as c; c.sweep_compiled(); print(perf_counter() - start)"
+        "from time import process_time; import numeric.runner; start = process_time(); "
+        "import numeric.calibrating as c; c.sweep_compiled(); print(process_time() - start)"
     )
     done = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=False
@@ -210,11 +211,11 @@ def sweep_compiled(made: Plan | None = None) -> tuple[float, float]:
     with FLOAT64.active():
         rho = tuple(made.radii.row(layer, [0], FLOAT64) for layer in rows)
         loads = made.load.on(rows, made.load.strength(n_x, FLOAT64), FLOAT64)
-        start = perf_counter()
+        start = process_time()
         solved = fast.deposit(n_x, made.region, rho, FLOAT64)
-        between = perf_counter()
+        between = process_time()
         fast.sweep_down(solved, rows, loads)
-        return between - start, perf_counter() - between
+        return between - start, process_time() - between
 
 
 def _fit(samples: Sequence[tuple[Mapping[str, float], float]]) -> Fitted:
