@@ -3,7 +3,8 @@
     python benchmarks/choice.py [--most SECONDS] [--json FILE]
 
 Calibrates, without storing anything. Every way that may answer a scene is run, not only the chosen
-one, if it is predicted to take no more than ``--most`` seconds. The chosen way is called best if no
+one, if it is predicted to take no more than ``--most`` seconds; these are seconds of the processor,
+which other programs on the machine change least. The chosen way is called best if no
 other that met the tolerance took less than it, by more than runs differ (a tenth).
 """
 

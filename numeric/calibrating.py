@@ -1,9 +1,9 @@
 """The short calibration: the engine itself on a few small plans, and coefficients fitted to that.
 
 Each step of each plan is timed in every family of number systems, the quickest of a few runs, in
-seconds of the processor, which other programs on the machine change less than those of the clock. For
-each family and step the non-negative coefficients are fitted that make the relative misfits of the
-measured times least.
+seconds of the processor, which other programs on the machine change less than those of the clock.
+For each family and step the non-negative coefficients are fitted that make the relative misfits of
+the measured times least.
 """
 
 import importlib.util
