@@ -16,6 +16,7 @@ from sympy import (
     Sum,
     Symbol,
     diff,
+    integrate,
     limit,
     simplify,
     solve,
@@ -182,8 +183,15 @@ def eq14() -> bool:
     return simplify(leading - Rational(3, 10) * (1 - z) ** 2 * (4 * z + 1)) == 0
 
 
+def eq15() -> bool:
+    """The leading orders of Eqs. 13 and 14, averaged over z, go as M³."""
+    surface = integrate(2 * M**3 * (1 - z) ** 2 * (2 * z + 1), (z, 0, 1))
+    bulk = integrate(Rational(3, 10) * M**3 * (1 - z) ** 2 * (4 * z + 1), (z, 0, 1))
+    return simplify(sqrt(surface) / M ** Rational(3, 2)) == 1 and simplify(5 * bulk / M**3) == 1
+
+
 ROUTES: dict[int, Callable[[], bool]] = {
-    number: globals()[f"eq{number:02}"] for number in range(1, 15)
+    number: globals()[f"eq{number:02}"] for number in range(1, 16)
 }
 
 if __name__ == "__main__":

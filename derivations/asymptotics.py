@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import sympy
 
-from derivations.record import Step
+from derivations.record import ExactView, Step
 from symbolic.as_printed import equation
 from symbolic.exact import FIELD, NotExactError, RationalFunction
 from symbolic.kernel import Ruling, from_test, proved, refuted, undecided
@@ -68,3 +68,16 @@ def exact_steps(variance: sympy.Expr, forms: dict[str, ExactForm]) -> Iterator[S
     small = {(size, at): value for form in forms.values() for size, at, value in form.exceptions}
     for (size, at), value in small.items():
         yield Step(f"The packing M = {size}, j = {at} is none of these:", equation(variance, value))
+
+
+def exact_views(variance: sympy.Expr, forms: dict[str, ExactForm]) -> dict[str, ExactView]:
+    """The exact form of every layer as ``show --exact`` prints it."""
+    return {
+        place: ExactView(
+            variance,
+            form.validity,
+            form.expression,
+            tuple((f"M = {size}, j = {at}", value) for size, at, value in form.exceptions),
+        )
+        for place, form in forms.items()
+    }

@@ -1,164 +1,90 @@
-"""The command line: a thin layer over ``deriving`` and ``shown``."""
+"""The command line: which commands there are; each one's module is imported when it is asked for.
 
-from enum import StrEnum
-from pathlib import Path
-from typing import Annotated, Any
+A new command takes a module of ``derivations`` whose ``register(app)`` adds it to a Typer
+application, and a line in ``COMMANDS``.
+"""
+
+from importlib import import_module
+from typing import Any
 
 import typer
 from typer.core import TyperGroup
 
-from derivations import calibrate_command, scene_commands
-from derivations.catalogue import modules
-from derivations.publishing import out_option
-
+# Name: (module, what --help says: the first paragraph of the command's docstring).
+COMMANDS = {
+    "derive": (
+        "equation_commands",
+        "Prove equations, and the ones that they rest on, and check them.",
+    ),
+    "show": ("equation_commands", "Print one equation, without deriving it."),
+    "list": ("equation_commands", "List the equations."),
+    "run": ("scene_commands", "Answer a scene's question."),
+    "explain": ("scene_commands", "Say what 'run' would do, and why."),
+    "cost": (
+        "scene_commands",
+        "Measure what accuracy costs: every way to answer a scene, its error beside its time.",
+    ),
+    "stability": ("scene_commands", "Measure the engine's errors in hard cases."),
+    "calibrate": (
+        "calibrate_command",
+        "Measure what this machine's arithmetic costs; a tolerance chooses the cheapest by it.",
+    ),
+}
 STATUSES = (
     "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
     "3 the disk or a pipe failed, 130 interrupted."
 )
 
 
-class Form(StrEnum):
-    """How ``show`` prints an equation."""
-
-    TEXT = "text"
-    LATEX = "latex"
-    SYMPY = "sympy"
-    PYTHON = "python"
-    STEPS = "steps"
+def either(words: list[str]) -> str:
+    """Name alternatives: "a, b or c"."""
+    return ", ".join(words[:-1]) + f" or {words[-1]}" if len(words) > 1 else words[0]
 
 
-class Place(StrEnum):
-    """Which layers an exact form is for."""
-
-    INTERIOR = "interior"
-    BASE = "base"
-    NEXT = "base+1"
-    SURFACE = "surface"
+def _application(**options: Any) -> typer.Typer:
+    return typer.Typer(
+        add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False, **options
+    )
 
 
 class _Commands(TyperGroup):
-    """Names the commands there are."""
+    """The commands of the table; ``--help`` builds none of them, and any other use the one."""
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Names, in the order of the table."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """Import and build one command."""
+        if cmd_name not in COMMANDS:
+            return None
+        app = _application()
+        import_module(f"derivations.{COMMANDS[cmd_name][0]}").register(app)
+        app.registered_commands = [
+            command
+            for command in app.registered_commands
+            if cmd_name == (command.name or getattr(command.callback, "__name__", None))
+        ]
+        return typer.main.get_command(app)
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write the list of commands."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, line) for name, (_, line) in COMMANDS.items()])
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """Find the command, or say which ones exist."""
-        if args and not args[0].startswith("-") and args[0] not in self.commands:
-            ctx.fail(f"There is no command '{args[0]}'. Use {_either(list(self.commands))}.")
+        if args and not args[0].startswith("-") and args[0] not in COMMANDS:
+            ctx.fail(f"There is no command '{args[0]}'. Use {either(list(COMMANDS))}.")
         return super().resolve_command(ctx, args)
 
 
-app = typer.Typer(
-    cls=_Commands,
-    add_completion=False,
-    no_args_is_help=True,
-    rich_markup_mode=None,
-    pretty_exceptions_enable=False,
-)
+app = _application(cls=_Commands, no_args_is_help=True)
 
 
 @app.callback(epilog=STATUSES)
 def _about() -> None:
     """Derive, prove and export the equations of force diffusion in packings of discs."""
-
-
-def _either(words: list[str]) -> str:
-    return ", ".join(words[:-1]) + f" or {words[-1]}" if len(words) > 1 else words[0]
-
-
-def _number(word: str) -> int:
-    """An equation's number from outside text, which is read and never evaluated."""
-    known = modules()
-    if word.isascii() and word.isdigit() and len(word) < 5 and int(word) in known:
-        return int(word)
-    raise typer.BadParameter(
-        f"'{word}' is not an equation of this package. Give a number from {min(known)} to "
-        f"{max(known)}; 'force-diffusion list' names them.",
-        param_hint="N",
-    )
-
-
-@app.command(epilog=STATUSES)
-def derive(
-    numbers: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="[N...]", help="Equations to derive; all of them by default."),
-    ] = None,
-    out: Annotated[Path | None, out_option("LaTeX and a manifest")] = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the results as JSON and nothing else.")
-    ] = False,
-) -> None:
-    """Prove equations, and the ones that they rest on, and check them."""
-    from derivations.folder import NotOurFolderError
-
-    wanted = [_number(word) for word in numbers] if numbers else list(modules())
-    if out is not None and out.exists() and not out.is_dir():
-        raise typer.BadParameter(
-            f"'{out}' is a file. Give a new folder, an empty one, or one that an earlier "
-            "'derive --out' wrote.",
-            param_hint="--out",
-        )
-    try:
-        from derivations import deriving
-
-        status = deriving.derive(wanted, out, as_json)
-    except NotOurFolderError as foreign:
-        raise typer.BadParameter(
-            f"'{out}' holds files that this program did not write ({foreign}). Give a new "
-            "folder, an empty one, or one that an earlier 'derive --out' wrote.",
-            param_hint="--out",
-        ) from None
-    raise typer.Exit(status)
-
-
-@app.command()
-def show(
-    number: Annotated[str, typer.Argument(metavar="N", help="Number of the equation.")],
-    form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
-    exact: Annotated[
-        bool, typer.Option("--exact", help="The exact form at finite M (Eqs. 13 and 14).")
-    ] = False,
-    at_j: Annotated[
-        Place | None,
-        typer.Option(
-            help="Where the exact form holds: interior (2 ≤ j ≤ M − 2, the default), "
-            "base (j = 0), base+1 (j = 1) or surface (j = M − 1)."
-        ),
-    ] = None,
-) -> None:
-    """Print one equation, without deriving it."""
-    from derivations import shown
-
-    equation = _number(number)
-    if not exact:
-        if at_j is not None:
-            raise typer.BadParameter("goes with --exact only; add it.", param_hint="--at-j")
-        print(shown.view(equation, form))
-        return
-    having = shown.exact_numbers()
-    if equation not in having:
-        raise typer.BadParameter(
-            f"Eq. {equation} has no exact form at finite M of its own; "
-            f"{_either([str(one) for one in having])} has.",
-            param_hint="--exact",
-        )
-    if form is Form.STEPS:
-        raise typer.BadParameter(
-            "steps are not split by --exact; leave one of the two out.", param_hint="--as"
-        )
-    print(shown.exact_view(equation, at_j or Place.INTERIOR, form))
-
-
-@app.command("list")
-def list_equations() -> None:
-    """List the equations."""
-    from derivations import shown
-
-    for number, (name, title) in shown.titles().items():
-        print(f"{number:3}  {name:<20}  {title}")
-
-
-scene_commands.register(app)
-calibrate_command.register(app)
 
 
 def run(arguments: list[str] | None = None) -> int:

@@ -13,7 +13,7 @@ from symbolic.kernel import Verdict
 from symbolic.printing.latex import latex
 from symbolic.printing.lines import latex_body
 
-_RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim"}
+_RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim", "∝": r"\propto"}
 
 _HEAD = r"""\documentclass[10pt]{article}
 \usepackage[a4paper,margin=27mm]{geometry}

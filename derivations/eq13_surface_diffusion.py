@@ -12,10 +12,11 @@ from derivations.asymptotics import (
     compare_leading_order,
     edges_follow,
     exact_steps,
+    exact_views,
     next_order_is,
     weights_follow,
 )
-from derivations.record import Claim, Derivation, Step, Witness
+from derivations.record import Claim, Derivation, ExactView, Step, Witness
 from derivations.runner import run_alone
 from symbolic.as_printed import equation, power, terms, times
 from symbolic.certified_sums import certified_sum
@@ -40,6 +41,11 @@ PRINTED = equation(
 def exact_forms() -> dict[str, ExactForm]:
     """Exact σ_f²/⟨f⟩² under a surface load at every layer, from Eq. 11 site by site."""
     return exact_variances(eq11.in_radii(eq11.PRINTED.rhs))
+
+
+def shown_forms() -> dict[str, ExactView]:
+    """What ``show --exact`` prints."""
+    return exact_views(RELATIVE_VARIANCE, exact_forms())
 
 
 def sum_of_weights() -> sympy.Expr:

@@ -16,10 +16,11 @@ from derivations.asymptotics import (
     compare_leading_order,
     edges_follow,
     exact_steps,
+    exact_views,
     next_order_is,
     weights_follow,
 )
-from derivations.record import Claim, Derivation, Step, Witness
+from derivations.record import Claim, Derivation, ExactView, Step, Witness
 from derivations.runner import run_alone
 from symbolic import affine
 from symbolic.affine import Region
@@ -82,6 +83,11 @@ def bulk_force() -> sympy.Expr:
 def exact_forms() -> dict[str, ExactForm]:
     """Exact σ_f²/⟨f⟩_z² under a bulk load at every layer, from Eq. 11 site by site."""
     return exact_variances(eq11.in_radii(bulk_force()))
+
+
+def shown_forms() -> dict[str, ExactView]:
+    """What ``show --exact`` prints."""
+    return exact_views(RELATIVE_VARIANCE, exact_forms())
 
 
 def bulk_weights() -> tuple[sympy.Expr, sympy.Expr]:

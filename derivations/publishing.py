@@ -1,7 +1,5 @@
 """What all commands that write results share: exit statuses, messages, files written whole."""
 
-import csv
-import io
 import json
 import sys
 from collections.abc import Callable, Mapping
@@ -61,6 +59,9 @@ def published(
 
 def csv_text(rows: list[dict[str, Any]]) -> str:
     """Write rows as CSV, under the keys of the first."""
+    import csv
+    import io
+
     text = io.StringIO()
     if rows:
         writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")

@@ -54,7 +54,24 @@ class Derivation:
     claims: tuple[Claim, ...] = ()
     witnesses: tuple[Witness, ...] = ()
     remarks: tuple[str, ...] = ()
-    relation: str = "="  # how the printed equation relates its sides: "=", "≈" or "∼"
+    relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
+
+
+@dataclass(frozen=True)
+class ExactView:
+    """An exact form as ``show --exact`` prints it.
+
+    Attributes:
+        quantity: what it is the value of.
+        validity: where it holds, in words.
+        expression: the closed form.
+        missed: cases of the same place that the form is not for, each with its own value.
+    """
+
+    quantity: sympy.Expr
+    validity: str
+    expression: sympy.Expr
+    missed: tuple[tuple[str, sympy.Expr], ...] = ()
 
 
 @dataclass(frozen=True)

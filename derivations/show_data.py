@@ -10,7 +10,7 @@ from sympy import Eq, Expr
 from derivations.catalogue import load, modules
 from derivations.document import statement_latex
 from derivations.plain import heading, statement_text, steps_text
-from derivations.record import Derivation
+from derivations.record import Derivation, ExactView
 from derivations.shown import DATA
 from symbolic.printing.code import python_source, sympy_source
 from symbolic.printing.lines import TEXT_WIDTH, latex_body, text_lines
@@ -45,15 +45,15 @@ def _views(derivation: Derivation) -> dict[str, str]:
     }
 
 
-def _exact_views(derivation: Derivation, place: str, form: Any) -> dict[str, str]:
-    equation = Eq(derivation.printed[0].lhs, form.expression, evaluate=False)
-    missed = [f"M = {M}, j = {j}: {text(value)}" for M, j, value in form.exceptions]
-    name = f"{derivation.name}_{place.replace('+', '_plus_')}"
-    note = f"exact first-order variance for {form.validity}"
+def _exact_views(derivation: Derivation, place: str, form: ExactView) -> dict[str, str]:
+    equation = Eq(form.quantity, form.expression, evaluate=False)
+    missed = [f"{where}: {text(value)}" for where, value in form.missed]
+    name = f"{derivation.name}_{place.replace('+', '_plus_').replace('-', '_')}"
+    note = f"{text(form.quantity)}, exact to first order: {form.validity}"
     if missed:
         note += f"; not for {'; '.join(missed)}"
     lines = [
-        f"Eq. {derivation.number}, exact at finite M: {form.validity}",
+        f"Eq. {derivation.number}, exact at finite size: {form.validity}",
         "",
         *("  " + line for line in text_lines(equation, room=TEXT_WIDTH - 2)),
     ]
@@ -78,10 +78,10 @@ def shown_data(derivations: Iterable[Derivation]) -> str:
             "views": _views(derivation),
         }
         module = import_module(f"derivations.{modules()[derivation.number]}")
-        if hasattr(module, "exact_forms"):
+        if hasattr(module, "shown_forms"):
             entry["exact"] = {
                 place: _exact_views(derivation, place, form)
-                for place, form in module.exact_forms().items()
+                for place, form in module.shown_forms().items()
             }
         equations.append(entry)
     return json.dumps({"equations": equations}, indent=1, ensure_ascii=False) + "\n"

@@ -30,7 +30,7 @@ def exact_numbers() -> list[int]:
 
 
 def exact_places(number: int) -> list[str]:
-    """The layers with an exact form of their own."""
+    """The cases with an exact form of their own, the usual one first."""
     return list(_equations()[number].get("exact", {}))
 
 

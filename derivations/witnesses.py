@@ -4,7 +4,7 @@ What the nonlinear packing says at order ε¹ is compared, as fractions, with wh
 state in closed form.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 
 import sympy
@@ -112,5 +112,22 @@ def variances(
             closed = value_at(forms, height, layer, case)
             total = sum((w**2 for w in weights[height][layer].values()), Fraction(0))
             yield f"M = {height}, j = {layer}", explicit.number(closed, values), total
+
+    return compare(pairs())
+
+
+def averages(
+    stated: Mapping[str, Callable[[int], sympy.Expr]], packing: SmallPacking, *, up_to: int = 4
+) -> Ruling:
+    """Means over the layers, by load and M, against squared weights of exact packings."""
+    values = {**explicit.geometry(*packing.n, Fraction(1)), sy.sigma: 1}
+
+    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
+        for load, closed in stated.items():
+            for height in range(1, up_to + 1):
+                layers = weights_of_forces(height, packing.n, load)
+                total = sum((w**2 for layer in layers for w in layer.values()), Fraction(0))
+                mean = explicit.number(closed(height), values)
+                yield f"M = {height}, {load} load", mean, total / height
 
     return compare(pairs())

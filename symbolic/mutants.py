@@ -1,8 +1,9 @@
 """Printed equations with one mechanical change each: what the checker must be able to refuse.
 
 Operators: flip the sign of a term, drop a term, change a whole-number or rational coefficient or
-an exponent, shift an index or a sum's bound (or the bound between two cases) by one, and swap
-n⁺ with n⁻, b⁺ with b⁻, δn⁺ with δn⁻, f⁺ with f⁻. Both sides are changed.
+an exponent (a fractional one also by one and in sign), shift an index or a sum's bound (or the
+bound between two cases) by one, and swap n⁺ with n⁻, b⁺ with b⁻, δn⁺ with δn⁻, f⁺ with f⁻. Both
+sides are changed.
 """
 
 from collections.abc import Iterator
@@ -63,6 +64,10 @@ def _here(node: sympy.Basic) -> Iterator[Change]:
         yield f"{node} changed to {node + 1}", node + 1
     elif isinstance(node, sympy.Rational) and not isinstance(node, sympy.Integer):
         yield f"{node} changed to {2 * node}", 2 * node
+    elif isinstance(node, sympy.Pow) and node.exp.is_Rational and not node.exp.is_Integer:
+        for exponent in (node.exp + 1, node.exp - 1, -node.exp):
+            changed = sympy.Pow(node.base, exponent, evaluate=False)
+            yield f"exponent {node.exp} changed to {exponent}", changed
     elif node in MIRRORED_SYMBOLS:
         other = MIRRORED_SYMBOLS[node]
         yield f"{_brief(node)} replaced by {_brief(other)}", other

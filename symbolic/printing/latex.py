@@ -27,6 +27,9 @@ _LOCAL = {  # symbols of a single derivation
     "nu_plus": r"\nu^{+}",
     "nu_minus": r"\nu^{-}",
     "nu_in": r"\nu_{\rm in}",
+    "M_star": "M^{*}",
+    "mean_square": r"\overline{\sigma_f^2/\langle f\rangle^2}",
+    "tensile": r"P(f<0)",
 }
 _SIGNS = {"==": "=", "<=": r"\leq", "!=": r"\neq"}
 _TALL = re.compile(r"\\frac|\\sum|\\begin|\\left")
@@ -68,6 +71,8 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
         """A power, its base in brackets where a superscript is in the way."""
         if "^" in base and re.fullmatch(r"[^()]*", base):
             base = f"({base})"
+        if exponent.is_Rational and not exponent.is_Integer:
+            return rf"{base}^{{{exponent.p}/{exponent.q}}}"
         return rf"{base}^{{{self._print(exponent)}}}"
 
     def _print_SiteFunction(self, expr: sy.SiteFunction, exp: str | None = None) -> str:

@@ -219,7 +219,7 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
     def _print_Pow(self, expr: Pow, **_: Any) -> str:
         if isinstance(expr.base, MatrixBase):
             return self.set_power(self._print(expr.base), expr.exp)
-        if expr.exp.is_Rational and expr.exp.is_negative:
+        if expr.exp.is_negative and (expr.exp.is_Integer or expr.exp == Rational(-1, 2)):
             return self._print_Mul(Mul(Integer(1), expr, evaluate=False))
         base = self._print(expr.base)
         if expr.exp == Rational(1, 2):

@@ -29,6 +29,9 @@ _LOCAL = {  # symbols of a single derivation
     "nu_plus": "ν⁺",
     "nu_minus": "ν⁻",
     "nu_in": "ν_in",
+    "M_star": "M*",
+    "mean_square": "mean of σ_f²/⟨f⟩²",
+    "tensile": "P(f < 0)",
 }
 _RAISED = str.maketrans("0123456789+-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻")
 
@@ -119,6 +122,11 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
             text += f"Σ({self._print(index)}={self.index(lower)}…{self.index(upper)}) "
         inner = self._print(expr.function)
         return text + (self.set_brackets(inner) if expr.function.is_Add else inner)
+
+    def _print_Integral(self, expr: Any) -> str:
+        ((variable, lower, upper),) = expr.limits
+        name = self._print(variable)
+        return f"∫({name}={lower}…{upper}) {self._print(expr.function)} d{name}"
 
     def _print_Derivative(self, expr: Any) -> str:
         (variable, times), *_ = expr.variable_count

@@ -13,13 +13,13 @@ import sympy
 from derivations.__main__ import main
 from derivations.catalogue import load, modules
 from derivations.show_data import shown_data
-from derivations.shown import DATA, exact_places
+from derivations.shown import DATA, exact_numbers, exact_places
 from symbolic import symbols as sy
 from symbolic.printing.structure import rebuilt
 
 ROOT = Path(__file__).parents[2]
 NUMBERS = list(modules())
-EXACT = [(number, place) for number in (13, 14) for place in exact_places(number)]
+EXACT = [(number, place) for number in exact_numbers() for place in exact_places(number)]
 
 
 def shown(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
@@ -95,30 +95,32 @@ def test_python_source_is_python(capsys: pytest.CaptureFixture[str], number: int
 
 @pytest.mark.parametrize(("number", "place"), EXACT)
 def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int, place: str) -> None:
-    forms = import_module(f"derivations.{modules()[number]}").exact_forms()
+    form = import_module(f"derivations.{modules()[number]}").shown_forms()[place]
     arguments = [str(number), "--exact", "--at-j", place]
     source = shown(capsys, *arguments, "--as", "sympy")
     assert source.count("\n") == 1
-    assert set(re.findall(r"[A-Za-z_]+", source)) <= {"M", "j", "phi", "sigma", "r"}
-    assert sympy.expand(eval(source, names()) - forms[place].expression) == 0
+    known = {"M", "i", "j", "k", "l", "phi", "sigma", "r", "S", "Sum"}
+    assert set(re.findall(r"[A-Za-z_]+", source)) <= known
+    assert sympy.expand(eval(source, names()) - form.expression) == 0
 
     scope: dict[str, object] = {}
     exec(shown(capsys, *arguments, "--as", "python"), scope)
-    (function,) = (value for name, value in scope.items() if name.startswith(("surf", "bulk")))
-    values = {"M": Fraction(9), "j": Fraction(4), "phi": Fraction(7, 25)}
-    values |= {"sigma": Fraction(1, 3), "r": Fraction(2)}
+    (function,) = (value for name, value in scope.items() if name != "__builtins__")
+    values: dict[str, int | Fraction] = {"M": 9, "i": 1, "j": 4, "k": 3, "l": 12}
+    values |= {"phi": Fraction(7, 25), "sigma": Fraction(1, 3), "r": Fraction(2)}
     code = function.__code__  # type: ignore[attr-defined]
-    found = function(**{name: values[name] for name in code.co_varnames})  # type: ignore[operator]
-    exact = forms[place].expression.xreplace(
-        {getattr(sy, name): sympy.Rational(value) for name, value in values.items()}
-    )
+    taken = code.co_varnames[: code.co_argcount]
+    found = function(**{name: values[name] for name in taken})  # type: ignore[operator]
+    exact = form.expression.xreplace(
+        {getattr(sy, name): sympy.Rational(values[name]) for name in taken}
+    ).doit()
     assert isinstance(found, Fraction)
     assert sympy.Rational(found) == exact
 
     text = shown(capsys, *arguments)
-    assert forms[place].validity in text
-    for height, layer, _ in forms[place].exceptions:
-        assert f"M = {height}, j = {layer}: " in text
+    assert form.validity in text
+    for where, _ in form.missed:
+        assert f"{where}: " in text
 
 
 def test_interior_is_the_default(capsys: pytest.CaptureFixture[str]) -> None:

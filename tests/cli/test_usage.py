@@ -1,10 +1,13 @@
 """Wrong usage and input: a clear message, exit status 2, nothing written, no traceback."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from derivations.__main__ import main
+from derivations.cli import COMMANDS
 
 WRONG = [
     (["derive", "0"], "'0' is not an equation"),
@@ -23,13 +26,14 @@ WRONG = [
     (["derive", "1", "--out", ""], "'' names no folder"),
     (["run", "scene.toml", "--out", ""], "'' names no folder"),
     (["show"], "N"),
-    (["show", "15"], "'15' is not an equation"),
+    (["show", "17"], "'17' is not an equation"),
     (["show", "13", "14"], "14"),
     (["show", "13", "--as", "pdf"], "'pdf' is not one of 'text', 'latex', 'sympy'"),
     (["show", "13", "--at-j", "base"], "--exact"),
     (["show", "13", "--exact", "--at-j", "top"], "'top' is not one of 'interior', 'base'"),
     (["show", "13", "--exact", "--at-j", "3"], "'3' is not one of"),
-    (["show", "12", "--exact"], "13 or 14"),
+    (["show", "12", "--exact"], "13, 14 or 15 has"),
+    (["show", "15", "--exact", "--case", "base"], "Use surface-load or bulk-load"),
     (["show", "13", "--exact", "--as", "steps"], "steps"),
     (["list", "13"], "13"),
     (
@@ -80,3 +84,23 @@ def test_help_and_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
         assert word in shown
     assert main(["derive", "--help"]) == 0
     assert "--json" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_list_of_commands_says_what_they_say(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([name, "--help"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert said.startswith(f"Usage: force-diffusion {name} ")
+    assert f" {COMMANDS[name][1]} " in said
+
+
+def test_a_command_loads_no_other_command_s_module() -> None:
+    program = (
+        "import sys; from derivations.__main__ import main; main(['list']); "
+        "sys.exit('derivations.scene_commands' in sys.modules)"
+    )
+    root = Path(__file__).parents[2]
+    done = subprocess.run([sys.executable, "-c", program], cwd=root, check=False)
+    assert done.returncode == 0
