@@ -24,6 +24,7 @@ from numeric import histogram
 from numeric.accuracy import Accuracy, of_balls, strings
 from numeric.answers import GATHERERS
 from numeric.budget import DEFAULT_BINS, chunk_size
+from numeric.cost.ways import solve_plainly
 from numeric.cost_model import TERMS, Fitted, Model, defaults, gathering, last_work, pass_work
 from numeric.engine import solve
 from numeric.estimate import of_repeat
@@ -41,9 +42,9 @@ COMPILED_STEPS = ("deposit", "balance forces")
 # Steps that the engine times by itself, under other names.
 CLOCKS = {
     "radii": ("radii", "listed radii", "radii of lines"),
-    "deposit": ("deposit",),
+    "deposit": ("deposit", "plain deposit"),
     "line sums": ("line sums", "line sums of one"),
-    "balance forces": ("balance forces", "balance to first order"),
+    "balance forces": ("balance forces", "plain balance forces", "balance to first order"),
 }
 Seconds = dict[str, float]
 Samples = dict[str, list[tuple[Mapping[str, float], float]]]
@@ -92,11 +93,15 @@ def families() -> dict[str, list[tuple[NumberSystem, list[Plan]]]]:
     hardware = [*_plans(8), _plan(40, 200), _plan(40, 200, 'quantity = "profile"')]
     # What many digits cost needs no more than a small packing.
     small = list(_plans(3))
-    few = [small[0], small[1], small[4], small[8], small[9]]
+    few = [small[k] for k in (0, 1, 4, 9, 10)]
+    plainly = [replace(made, way=Way(Balls(53), plain=True)) for made in (small[0], small[2])]
     found: dict[str, list[tuple[NumberSystem, list[Plan]]]] = {
         "float64": [(FLOAT64, hardware)],
         "mpmath": [(BigFloat(d), small if d == 30 else few) for d in (30, 200, 800)],
-        "balls": [(Balls(bits), small if bits == 100 else few) for bits in (100, 400, 1500, 5000)],
+        "balls": [
+            (Balls(bits), [*(small if bits == 100 else few), *plainly])
+            for bits in (100, 400, 1500, 5000)
+        ],
     }
     if LONGDOUBLE.bits > FLOAT64.bits:
         found["longdouble"] = [(LONGDOUBLE, hardware)]
@@ -117,11 +122,12 @@ def timed(made: Plan, system: NumberSystem) -> Seconds:
     size = 1 if made.route == "line sums" else chunk_size(made.region, system, made.scene)
     clocks, physical = Clocks(), Physicality()
     gather = gathering(made)
+    solver = solve_plainly if made.way.plain else solve
     with system.active():
         gatherer = GATHERERS[made.scene.ask.quantity](made, system)
         for at in range(0, n, size):
             chunk = range(n)[at : at + size]
-            solved = solve(made, chunk, system, clocks)
+            solved = solver(made, chunk, system, clocks)
             if made.route == "exact" and solved.packing is not None:
                 with clock("check"):
                     physical.look_at_gaps(solved.packing)

@@ -13,9 +13,11 @@ from fractions import Fraction
 from typing import Protocol
 
 from numeric import budget
+from numeric.cost.ways import why_not_plain
 from numeric.critical import critical_height
 from numeric.decimals import short
 from numeric.estimate import expected, usual_units
+from numeric.lattice import whole
 from numeric.plans import Candidate, Choice, Plan, Way
 from numeric.radii import Radii
 from numeric.scene import Scene, SceneError
@@ -44,6 +46,7 @@ SOUND = 0.5
 # Of two ways whose predicted costs differ by less than predictions are good for, the one that
 # certifies is taken.
 WORTH = 1.25
+PLAIN = "exact sweep in plain form"
 
 
 def choose(outlines: Outlines, tolerance: Fraction, source: str, *, certified: bool) -> Plan:
@@ -83,18 +86,22 @@ def weighed(outlines: Outlines, tolerance: Fraction, certified: bool) -> list[Ca
     """Weigh all ways: those that may answer first, the cheapest at the top; then the others."""
     found: list[Candidate] = []
     for algorithm, outline in outlines.items():
-        for way in _ways(tolerance, outline.height, outline.realisations):
-            error = expected(way, outline.height, outline.realisations)
+        for way in _ways(tolerance, outline):
+            lost = _lost(outline) if way.plain else 0
+            error = expected(way, outline.height, outline.realisations, lost)
+            name = PLAIN if way.plain else algorithm
             out = "" if way.certified else _why_not(way, outline, error, tolerance, certified)
             made = None
             try:
                 made = outline.plan(way)
+                if way.plain:
+                    out = _why_not_plain(made)
             except SceneError as refused:
                 out = out or str(refused)
             seconds = None if made is None else made.estimated_seconds
             found.append(
                 Candidate(
-                    algorithm, way.system.name, way.certified, way.repeated, error, seconds, out,
+                    name, way.system.name, way.certified, way.repeated, error, seconds, out,
                     None if out else made,
                 )
             )  # fmt: skip
@@ -106,8 +113,9 @@ def weighed(outlines: Outlines, tolerance: Fraction, certified: bool) -> list[Ca
     return sorted(found, key=rank)
 
 
-def _ways(tolerance: Fraction, height: int, realisations: int) -> Iterator[Way]:
+def _ways(tolerance: Fraction, outline: Outline) -> Iterator[Way]:
     """Give the arithmetics, with the digits that the tolerance needs, and what they repeat."""
+    height, realisations = outline.height, outline.realisations
     room = 2 * 2 * usual_units(BigFloat(20), height)  # both sides of the comparison, and printing
     ratio = room / tolerance
     powers = ratio.numerator.bit_length() - ratio.denominator.bit_length() + 1
@@ -125,6 +133,36 @@ def _ways(tolerance: Fraction, height: int, realisations: int) -> Iterator[Way]:
         if realisations > FEW:
             yield Way(system, longer, FEW)
     yield Way(Balls(bits))
+    if outline.route == "exact":
+        yield Way(Balls(bits + _lost(outline)), plain=True)
+
+
+def _lost(outline: Outline) -> int:
+    """Give the bits that the plain form loses: three a layer (measured), and those of σ/r."""
+    order = 1 / outline.radii.relative_std()
+    return 3 * outline.height + max(
+        order.numerator.bit_length() - order.denominator.bit_length(), 0
+    )
+
+
+def _why_not_plain(made: Plan) -> str:
+    """Say why the plain form won't do; an empty string where it may."""
+    why = why_not_plain(made)
+    if why is not None:
+        return why
+    if made.region.beads != whole(made.region.width or 0, made.scene.packing.height).beads:
+        return "it solves the whole packing, and the answer needs less"
+    if made.system.bits > budget.MOST_BITS:
+        return f"{budget.MOST_BITS} bits are the most"
+    return _above(made.scene.packing.height, made.radii)
+
+
+def _above(height: int, radii: Radii) -> str:
+    """Say so where a packing is higher than errors can be expected for."""
+    highest = critical_height(radii.relative_std())
+    if height > highest * SOUND:
+        return f"the height is above M*/2 = {highest / 2:.3g}, where rounding errors grow with it"
+    return ""
 
 
 def _why_not(
@@ -137,9 +175,8 @@ def _why_not(
         return "where the sweep stops hangs on the signs of forces, which only balls decide"
     if way.system.bits > budget.MOST_BITS:
         return f"{budget.MOST_BITS} bits are the most"
-    highest = critical_height(outline.radii.relative_std())
-    if outline.route == "exact" and outline.height > highest * SOUND:
-        return f"the height is above M*/2 = {highest / 2:.3g}, where rounding errors grow with it"
+    if outline.route == "exact" and (above := _above(outline.height, outline.radii)):
+        return above
     if error > tolerance:
         return f"expected to err by {short(error)}"
     return ""

@@ -115,10 +115,11 @@ def pass_work(plan: "Plan", system: NumberSystem, realisations: int, *, again: b
     radii = "listed radii" if isinstance(plan.radii, MeasuredRadii) else "radii"
     work[radii] = _amounts(system, layers * n, beads * n, 1)
     exact = plan.route == "exact"
-    work["deposit" if exact else "line sums"] = _amounts(system, layers * chunks, beads * n)
+    form = "plain " if plan.way.plain else ""
+    work[f"{form}deposit" if exact else "line sums"] = _amounts(system, layers * chunks, beads * n)
     if plan.needs_forces:
         held = sum(layer.count for layer in plan.force_rows[1:])
-        step = "balance forces" if exact else "balance to first order"
+        step = f"{form}balance forces" if exact else "balance to first order"
         work[step] = _amounts(system, len(plan.force_rows) * chunks, held * n)
     if exact and not again:
         work["check"] = _amounts(system, layers * chunks, beads * n)

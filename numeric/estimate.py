@@ -36,14 +36,15 @@ def usual_units(system: NumberSystem, height: int) -> Fraction:
     return Fraction(8) + (Fraction(height, 4) if system.dtype is not object else 2 * height)
 
 
-def expected(way: Way, height: int, realisations: int) -> Fraction:
+def expected(way: Way, height: int, realisations: int, lost: int = 0) -> Fraction:
     """Give the error that an answer is expected to be printed with, relative to its largest change.
 
-    For balls, what they should certify: they lose some bits for the depth of the packing.
+    For balls, what they should certify: they lose some bits for the depth of the packing, and those
+    that the plain form has ``lost``.
     """
     bits = way.system.bits
     if way.certified:
-        return Fraction(max(height, 4) ** 2 * 2**12, 2**bits)
+        return Fraction(max(height, 4) ** 2 * 2**12, 2 ** (bits - lost))
     seen = way.repeated >= realisations
     units = usual_units(way.system, height) * (SAFETY if seen else UNSEEN)
     return (PRINTED * units + _merging(way, realisations)) * Fraction(1, 2**bits)

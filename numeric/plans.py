@@ -43,11 +43,13 @@ class Way:
     """An arithmetic, and how the error of its answer becomes known.
 
     ``longer`` repeats the first ``repeated`` realisations; None stands for balls, which certify.
+    ``plain`` solves for positions and forces, and subtracts the ordered ones.
     """
 
     system: NumberSystem
     longer: NumberSystem | None = None
     repeated: int = 0
+    plain: bool = False
 
     @property
     def certified(self) -> bool:
@@ -71,6 +73,11 @@ class Candidate:
     out: str
     plan: "Plan | None"
 
+    @property
+    def ends(self) -> bool:
+        """Whether nothing else can answer where this can't: balls, and not in the plain form."""
+        return self.certified and self.plan is not None and not self.plan.way.plain
+
 
 @dataclass(frozen=True)
 class Choice:
@@ -85,9 +92,9 @@ class Choice:
 
     @property
     def tried(self) -> tuple[Candidate, ...]:
-        """What is tried, the chosen one first; nothing comes after balls, which end it."""
+        """What is tried, the chosen one first; nothing comes after a way that ends it."""
         possible = [c for c in self.candidates if not c.out]
-        last = next((k for k, c in enumerate(possible) if c.certified), len(possible))
+        last = next((k for k, c in enumerate(possible) if c.ends), len(possible))
         return tuple(possible[: last + 1])
 
 

@@ -11,6 +11,7 @@ from numeric import histogram
 from numeric.accuracy import Accuracy, of_balls, of_floats, strings
 from numeric.answers import GATHERERS, Table
 from numeric.budget import DEFAULT_BINS, MOST_BITS, chunk_size, initial_bits
+from numeric.cost.ways import solve_plainly
 from numeric.critical import critical_height
 from numeric.decimals import short
 from numeric.engine import Solved, solve
@@ -18,7 +19,7 @@ from numeric.estimate import edge_in_doubt, of_repeat
 from numeric.forces import NotStandingError
 from numeric.packing import UnbuildableError, UndecidedError
 from numeric.physical import Physicality
-from numeric.plans import CERTIFY, ESTIMATE, PHYSICAL, Choice, Plan, Way
+from numeric.plans import CERTIFY, ESTIMATE, PHYSICAL, Choice, Plan
 from numeric.systems import FLOAT64, Balls, NumberSystem
 from numeric.work import Progress, Work
 
@@ -97,9 +98,11 @@ def _chosen(
     for candidate in choice.tried:
         assert candidate.plan is not None
         tried = replace(candidate.plan, choice=choice)
-        if candidate.certified:
+        if candidate.ends:
             return _certified(tried, work)
         try:
+            if candidate.certified:  # in the plain form, whose balls may grow too wide to decide
+                return _certified(tried, work)
             attempt = _attempt(tried, tried.system, range(tried.realisations), work)
             accuracy = _estimate(tried, attempt, work)
             why = _shortfall(attempt, accuracy, choice.tolerance)
@@ -136,10 +139,11 @@ def _attempt(plan: Plan, system: NumberSystem, realisations: Sequence[int], work
     physical = Physicality() if plan.route == "exact" and not work.repeating else None
     gatherer = GATHERERS[plan.scene.ask.quantity](plan, system)
     stopped = None
+    solver = solve_plainly if plan.way.plain else solve
     size = 1 if plan.route == "line sums" else chunk_size(plan.region, system, plan.scene)
     with system.active():
         for chunk in _chunks(realisations, size):
-            solved = solve(plan, chunk, system, work)
+            solved = solver(plan, chunk, system, work)
             if physical is not None and solved.packing is not None:
                 _check(physical, solved, len(chunk), work)
             if solved.forces is not None and stopped is None:
@@ -201,7 +205,7 @@ def _certified(plan: Plan, work: Work) -> tuple[Plan, _Attempt, Accuracy]:
             with work.timed(CERTIFY), system.active():
                 accuracy = of_balls(attempt.table, system, floor)
             if plan.tolerance is None or _within(accuracy, plan.tolerance):
-                return replace(plan, way=Way(system)), attempt, accuracy
+                return replace(plan, way=replace(plan.way, system=system)), attempt, accuracy
             why = f"at {system.bits} bits {_still(accuracy)}"
         except (UndecidedError, NotStandingError) as error:
             why = f"at {system.bits} bits: {error}"

@@ -32,8 +32,8 @@ def only(plan: Plan, way: Candidate) -> Plan:
     """Give the plan with a single way, and balls for where it misses."""
     assert plan.choice is not None
     assert way.plan is not None
-    balls = [c for c in plan.choice.candidates if c.certified and c.arithmetic != way.arithmetic]
-    return replace(way.plan, choice=replace(plan.choice, candidates=(way, *balls)))
+    last = [c for c in plan.choice.candidates if c.ends and c is not way]
+    return replace(way.plan, choice=replace(plan.choice, candidates=(way, *last)))
 
 
 def reference(sections: dict[str, dict[str, Any]]) -> Outcome:
