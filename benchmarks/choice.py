@@ -37,9 +37,8 @@ def scenes() -> Iterator[tuple[str, str]]:
         packing = f"packing = {{height = {height}, width = {width}}}\n{disorder}\n"
         for quantity in ("contact_forces", "positions", "profile", "base_reactions"):
             yield f"{quantity} {height} x {width}", f'{packing}ask = {{quantity = "{quantity}"'
-    slab = "packing = {{height = {}}}\n" + disorder + "\n"
     for height in (8, 32, 100):
-        one = slab.format(height)
+        one = f"packing = {{height = {height}}}\n{disorder}\n"
         contact = 'ask = {quantity = "contact", at = [0, 2, "+"]'
         yield f"contact, slab {height}", one + contact
         many = f"{contact}, realisations = 50"
