@@ -83,7 +83,7 @@ def _plans(small: int) -> Iterator[Plan]:
     yield _plan(small, 2 * small + 2, 'quantity = "profile", realisations = 6')
     yield _plan(small, 2 * small + 2, contact + ", realisations = 12", first)
     yield _plan(16 * small, 17 * small, contact, first)
-    yield _plan(60 * small, 61 * small, contact, first)
+    yield _plan(30 * small, 31 * small, contact, first)
     yield _plan(small, 2 * small + 2, 'quantity = "histogram", bins = 50')
     yield _plan(small, 2 * small + 2, 'quantity = "histogram", bins = 500')
     yield _listed(_plan(small, 2 * small + 2))

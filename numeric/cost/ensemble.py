@@ -126,7 +126,9 @@ class _Truth:
     """
 
     def __init__(self, scene: Scene, notice: Notice) -> None:
-        asked = scene.model_copy(update={"ask": scene.ask.model_copy(update={"tolerance": None})})
+        asked = scene.model_copy(
+            update={"ask": scene.ask.model_copy(update={"tolerance": None, "certified": False})}
+        )
         self.plans = {
             name: planner.plan(with_geometry(asked, name)) for name in ("first-order", "exact")
         }
