@@ -6,7 +6,7 @@ solvers; ``CSweep`` builds the same arithmetic in C. All of it serves the benchm
 
 import ctypes
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -39,7 +39,7 @@ class Problem:
         """All beads."""
         return whole(self.width, self.height)
 
-    def radii(self, system: NumberSystem = FLOAT64, realisations: int = 1) -> tuple[Array, ...]:
+    def radii(self, system: NumberSystem = FLOAT64, realisations: int = 1) -> Sequence[Array]:
         """δr/r, layer by layer; the same numbers in every system."""
         source = DrawnRadii("uniform", self.relative_std, SEED, self.width)
         with system.active():
@@ -144,7 +144,10 @@ class CSweep:
         self.library = ctypes.CDLL(str(target))
         shape = (problem.height + 1, problem.width)
         self.rho = np.ascontiguousarray(np.stack(problem.radii()))
-        self.blocks = np.zeros((10, *shape))
+        # At distances as in numeric/fast.py, which suit the cache.
+        beads = shape[0] * shape[1]
+        memory = np.zeros((10, beads + (72 - beads) % 512))
+        self.blocks = memory[:, :beads].reshape(10, *shape)
         self.nothing = np.zeros(problem.width)
         self.lost = np.zeros((2, 2, problem.width))
         m = metric(problem.n_x, FLOAT64)

@@ -24,7 +24,10 @@ COMMANDS = {
         "scene_commands",
         "Measure what accuracy costs: every way to answer a scene, its error beside its time.",
     ),
-    "stability": ("scene_commands", "Measure the engine's errors in hard cases."),
+    "stability": (
+        "stability_command",
+        "Measure what stability costs: errors and lost bits of both forms, time beside them.",
+    ),
     "calibrate": (
         "calibrate_command",
         "Measure what this machine's arithmetic costs; a tolerance chooses the cheapest by it.",

@@ -14,7 +14,7 @@ PROGRAM = "force-diffusion"
 
 _OURS = re.compile(
     r"eq\d\d\.tex|equations\.tex|manifest\.json|result\.json"
-    r"|cost\.(json|png|svg)|[a-z_]{1,20}\.csv"
+    r"|(cost|stability)\.(json|png|svg)|[a-z_]{1,20}\.csv"
 )
 _LATEX_LEAVES = re.compile(r"equations\.(aux|log|out|pdf|synctex\.gz|fls|fdb_latexmk)")
 _ASIDE = ".force-diffusion-"

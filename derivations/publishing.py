@@ -2,7 +2,8 @@
 
 import json
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
@@ -27,6 +28,37 @@ def fail(message: str, status: int) -> NoReturn:
     """Leave with a message on standard error."""
     print(f"force-diffusion: {message}", file=sys.stderr)
     raise typer.Exit(status)
+
+
+@contextmanager
+def noticing() -> Iterator[Callable[[str], None]]:
+    """Give a function that tells a terminal what is being measured, on one line of its own."""
+    terminal = sys.stderr.isatty()
+
+    def notice(words: str) -> None:
+        if terminal:
+            print(f"\r\x1b[K{words}", end="", file=sys.stderr, flush=True)
+
+    try:
+        yield notice
+    finally:
+        notice("")
+
+
+def drawn(module: str, *arguments: Any) -> Mapping[str, str | bytes]:
+    """Call ``plots`` of a module that needs matplotlib, or say what is missing and draw nothing."""
+    from importlib import import_module
+
+    try:
+        plots = import_module(module).plots
+    except ModuleNotFoundError as error:
+        if (error.name or "").split(".")[0] != "matplotlib":
+            raise
+        missing = "no plot: matplotlib is missing; pip install 'force-diffusion[plots]'"
+        print(f"force-diffusion: {missing}", file=sys.stderr)
+        return {}
+    found: Mapping[str, str | bytes] = plots(*arguments)
+    return found
 
 
 T = TypeVar("T")

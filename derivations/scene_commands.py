@@ -4,14 +4,22 @@ import json
 import sys
 from collections.abc import Callable
 from contextlib import AbstractContextManager, ExitStack, nullcontext
-from dataclasses import asdict
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from derivations.publishing import NOT_REACHED, WRONG_INPUT, csv_text, fail, out_option, published
+from derivations.publishing import (
+    NOT_REACHED,
+    WRONG_INPUT,
+    csv_text,
+    drawn,
+    fail,
+    noticing,
+    out_option,
+    published,
+)
 
 if TYPE_CHECKING:
     from numeric.cost.study import Study
@@ -128,13 +136,7 @@ def cost(
             "cost.csv": csv_text(csv_rows(data)),
         }
         if out is not None:
-            try:
-                from numeric.cost.plot import plots
-            except ImportError:
-                missing = "no plot: matplotlib is missing; pip install 'force-diffusion[plots]'"
-                print(f"force-diffusion: {missing}", file=sys.stderr)
-            else:
-                files |= plots(found, command, scene.stem)
+            files |= drawn("numeric.cost.plot", found, command, scene.stem)
         return data, files
 
     data = published(out, answer)
@@ -151,23 +153,15 @@ def _studied(scene: Path) -> "Study":
     from numeric.scene import SceneError, read_scene
     from numeric.tables import TableError
 
-    terminal = sys.stderr.isatty()
-
-    def notice(way: str) -> None:
-        if terminal:
-            print(f"\r\x1b[K{way}", end="", file=sys.stderr, flush=True)
-
     try:
-        return study(read_scene(scene), notice)
+        with noticing() as notice:
+            return study(read_scene(scene), notice)
     except (SceneError, TableError, UnbuildableError, NotStandingError, RadiusError) as error:
         fail(f"{scene.name}: {error}", WRONG_INPUT)
     except (ToleranceError, UndecidedError) as error:
         fail(f"{scene.name}: {error}", NOT_REACHED)
     except MemoryError:
         fail(f"{scene.name}: the memory is full; ask for less", NOT_REACHED)
-    finally:
-        if terminal:
-            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
 
 def _solved(planned: "Plan", scene: Path) -> dict[str, Any]:
@@ -303,54 +297,8 @@ def _show(data: dict[str, Any], as_json: bool) -> None:
     print("\n".join(f"# {line}" for line in _plan_lines(data)))
 
 
-def stability(as_json: _Json = False) -> None:
-    """Measure the engine's errors in hard cases."""
-    from numeric.stability import cases, closed_form_rows, measure
-
-    rows = []
-    if not as_json:
-        print(_STABILITY_HEAD)
-    for case in cases():
-        row = asdict(measure(case))
-        rows.append(row)
-        if not as_json:
-            print(_stability_line(row), flush=True)
-    forms = [asdict(row) for row in closed_form_rows()]
-    if as_json:
-        print(json.dumps({"rows": rows, "closed_forms": forms}, indent=2))
-        return
-    print("Closed forms of Eqs. 13 and 14 in float64, against exact rationals: largest errors.")
-    for height in sorted({row["height"] for row in forms}):
-        for name in sorted({row["form"] for row in forms}):
-            here = [r for r in forms if (r["height"], r["form"]) == (height, name)]
-            worst = max(here, key=lambda row: float(row["relative_error"]))
-            print(f"{name:<18} M = {height:<11} {worst['relative_error']:.1e} at j = {worst['j']}")
-
-
-_STABILITY_HEAD = (
-    "Errors of change, relative to the largest, against an enclosure of all contact forces.\n"
-    "group       M    W   sigma/r  s/r             deviation form      plain form        "
-    "  balls: lost bits, time  pulling  overlaps"
-)
-
-
-def _stability_line(row: dict[str, Any]) -> str:
-    def error(value: float | None) -> str:
-        return "   --  " if value is None else f"{value:7.1e}"
-
-    lost = "  --" if row["ball_bits_lost"] is None else f"{row['ball_bits_lost']:6.1f}"
-    return (
-        f"{row['group']:<10}{row['height']:5}{row['width']:4}  {row['relative_std']:8.1e}  "
-        f"{row['spacing']:<15} {error(row['error'])} {row['seconds']:8.1e}s  "
-        f"{error(row['plain_error'])} {row['plain_seconds']:8.1e}s "
-        f"{lost} of {row['ball_bits']:<4} {row['ball_seconds']:8.1e}s  {row['tensile']!s:>6} "
-        f"{row['overlaps']!s:>6}  {row['note']}"
-    )
-
-
 def register(app: typer.Typer) -> None:
     """Add the commands to the command line."""
     app.command(epilog=STATUSES)(run)
     app.command(epilog=STATUSES)(explain)
     app.command(epilog=STATUSES)(cost)
-    app.command()(stability)

@@ -5,7 +5,7 @@ rationals (or decimal strings, read exactly) and a number system such as ``BigFl
 r = 1, forces in the unit of the given loads.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -27,8 +27,8 @@ class Solution:
     dx: tuple[Array, ...]
     dy: tuple[Array, ...]
     dn: Mapping[str, tuple[tuple[Array, Array], ...]]
-    forces: Mapping[str, tuple[Array, ...]]
-    changes: Mapping[str, tuple[Array, ...]]
+    forces: Mapping[str, Sequence[Array]]
+    changes: Mapping[str, Sequence[Array]]
 
     def displacement(self, i: int, j: int) -> tuple[Any, Any]:
         """Cartesian (δx, δy) of a bead, units of r (Eqs. 2, 3)."""

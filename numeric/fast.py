@@ -8,13 +8,13 @@ a number that is not finite) is left to the NumPy sweep, whose errors name the b
 Only ``engine`` imports this file, and only for work that repays loading the compiler.
 """
 
-import itertools
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from fractions import Fraction
-from math import prod, sqrt
+from functools import lru_cache
+from math import sqrt
 from typing import Any, TypeVar, cast
 
 import llvmlite.binding
@@ -23,7 +23,7 @@ import numpy as np
 
 from numeric import forces, packing
 from numeric.forces import Forces, Loads
-from numeric.lattice import Array, Layer, Region
+from numeric.lattice import Array, Layer, Region, Rows, Stack
 from numeric.packing import Packing
 from numeric.systems import FLOAT64, NumberSystem
 from numeric.work import Work
@@ -111,42 +111,42 @@ def _place(
 
 
 @_compiled
-def _deposit(
-    rho: Array,
-    c: tuple[Array, Array],
-    plus: tuple[Array, Array],
-    minus: tuple[Array, Array],
-    phi: float,
-    inverse: float,
-) -> bool:
+def _runs(j: int, width: int) -> tuple[tuple[int, int, int, int], tuple[int, int, int, int]]:
+    """Split layer j where its beads' neighbours are at both ends of their layer.
+
+    Bead q has the neighbours q − 1 + j % 2, to the left, and q + j % 2 in the layer below and in
+    the layer above. Gives (first bead, its left and its right neighbour, beads) of two runs.
+    """
+    if j % 2:
+        return (0, 0, 1, width - 1), (width - 1, width - 1, 0, 1)
+    return (1, 0, 1, width - 1), (0, width - 1, 0, 1)
+
+
+@_compiled
+def _deposit(rho: Array, block: Array, phi: float, inverse: float) -> bool:
     """Deposit a packing; say whether every bead rests.
 
-    All blocks are (layers, W); layer 0 of ``plus`` and ``minus`` is not touched.
+    ``rho`` is (layers, W); filled is ``block``, (6, …): c⁺, c⁻, the δn of plus, of minus, of all
+    beads in order; the δn of layer 0 are not touched.
     """
     layers, width = rho.shape
-    for q in range(width):
-        c[0][0, q] = c[1][0, q] = 0.0
+    c_plus, c_minus = block[0], block[1]
+    plus_a, plus_b, minus_a, minus_b = block[2], block[3], block[4], block[5]
     good = True
     for q in range(width):
+        c_plus[q] = c_minus[q] = 0.0
         good &= (1 + rho[0, q] > 0) & (rho[0, q] < np.inf)
     for j in range(1, layers):
-        cp, cm, under = c[0][j - 1], c[1][j - 1], rho[j - 1]
-        # A is one column to the left of B. First all beads whose supports are neighbours in the
-        # arrays, then the one that rests on the last and the first bead of its layer.
-        for run in range(2):
-            if run == 0:
-                first, last = 1 - j % 2, width - j % 2
-                left, right = slice(0, width - 1), slice(1, width)
-            else:
-                first = (width - 1) * (j % 2)
-                last = first + 1
-                left, right = slice(width - 1, width), slice(0, 1)
+        under = (j - 1) * width
+        for q, a, b, n in _runs(j, width):
+            own = slice(under + width + q, under + width + q + n)
+            at_a, at_b = slice(under + a, under + a + n), slice(under + b, under + b + n)
             good &= _place(
-                (cp[left], cm[left], cp[right], cm[right]),
-                (rho[j, first:last], under[left], under[right]),
-                (c[0][j, first:last], c[1][j, first:last]),
-                (plus[0][j, first:last], plus[1][j, first:last]),
-                (minus[0][j, first:last], minus[1][j, first:last]),
+                (c_plus[at_a], c_minus[at_a], c_plus[at_b], c_minus[at_b]),
+                (rho[j, q : q + n], rho[j - 1, a : a + n], rho[j - 1, b : b + n]),
+                (c_plus[own], c_minus[own]),
+                (plus_a[own], plus_b[own]),
+                (minus_a[own], minus_b[own]),
                 phi,
                 inverse,
             )
@@ -204,101 +204,103 @@ def _balance(
 
 
 @_compiled
-def _order(F: tuple[Array, Array], rows: tuple[Array, Array], loads: tuple[Array, Array]) -> None:
-    """Fill the ordered forces ``F``, (layers, W), from the highest layer down to layer 1.
+def _order(own: Array, loads: Array, width: int, side: int) -> tuple[Array, Array]:
+    """Give the ordered forces of one branch: numbers, and where each layer's W of them begin.
 
-    ``rows`` gives for each layer the row of ``loads`` that it carries, −1 for none.
+    ``own`` says which row of ``loads`` a layer carries, −1 for none; ``side`` is 0 for plus, 1 for
+    minus. Below a load, the forces go straight down the diagonals: these layers are all windows
+    on one row, which is there twice, since a layer has no ends. The first such row is that of a
+    layer above the highest, where there is nothing to bear.
     """
-    layers, width = F[0].shape
-    for side in range(2):
-        f, own, load = F[side], rows[side], loads[side]
-        f[layers - 1] = 0.0
-        for j in range(layers - 1, 0, -1):
-            if j < layers - 1:
-                by = j % 2 - side  # columns from a bead to the one above that loads it
-                for q in range(width):
-                    f[j, q] = f[j + 1, q + by if 0 <= q + by < width else (q + by) % width]
-            if own[j] >= 0:
-                for q in range(width):
-                    f[j, q] += load[own[j], q]
+    layers = own.size
+    start = np.zeros(layers + 1, np.int64)
+    base, size = 0, 2 * width
+    for j in range(layers - 1, 0, -1):
+        if own[j] >= 0:
+            start[j] = base = size
+            size += width if j == 1 or own[j - 1] >= 0 else 2 * width
+        else:  # from a bead to the one above that loads it are j % 2 − side columns
+            start[j] = base + (start[j + 1] - base + j % 2 - side) % width
+    F = np.empty(size)
+    F[: 2 * width] = 0.0
+    for j in range(layers - 1, 0, -1):
+        if own[j] >= 0:
+            here, above = start[j], start[j + 1]
+            for q in range(width):
+                F[here + q] = F[above + (q + j % 2 - side) % width] + loads[own[j], q]
+            if j > 1 and own[j - 1] < 0:
+                F[here + width : here + 2 * width] = F[here : here + width]
+    return F, start
 
 
 @_compiled
 def _sweep_down(
-    F: tuple[Array, Array],
-    plus: tuple[Array, Array],
-    minus: tuple[Array, Array],
-    g: tuple[Array, Array],
+    F: tuple[Array, Array], start: tuple[Array, Array], block: Array, g: Array, width: int
 ) -> bool:
     """Sweep a packing from the highest layer down; say if all is in order.
 
-    All blocks are (layers, W); layer 0 of ``g`` is not touched.
+    ``F`` and where its layers ``start`` are those of ``_order``, ``block`` is that of ``_deposit``;
+    filled is ``g``, (2, …), all but layer 0, and with a layer of zeros above the highest.
     """
-    layers, width = F[0].shape
-    nothing = np.zeros(width)
-    lost = np.zeros((2, 2, width))  # of a layer and the one above, taking turns
+    (F_plus, F_minus), (start_plus, start_minus) = F, start
+    g_plus, g_minus = g[0], g[1]
+    plus_a, plus_b, minus_a, minus_b = block[2], block[3], block[4], block[5]
+    # What the sums of a layer and the one above have lost, which take turns; see ``_block``.
+    lost = np.zeros((2, 2, width + (72 - width) % 512))
     good = True
-    for j in range(layers - 1, 0, -1):
-        up = min(j + 1, layers - 1)
-        above = (F[0][up], g[0][up])
-        right_a, right_b = plus[0][up], plus[1][up]
-        beside = (F[1][up], g[1][up])
-        left_a, left_b = minus[0][up], minus[1][up]
-        if j == layers - 1:
-            above = beside = (nothing, nothing)
-            right_a = right_b = left_a = left_b = nothing
-        for run in range(2):
-            if run == 0:
-                first, last = 1 - j % 2, width - j % 2
-                left, right = slice(0, width - 1), slice(1, width)
-            else:
-                first = (width - 1) * (j % 2)
-                last = first + 1
-                left, right = slice(width - 1, width), slice(0, 1)
+    top = len(start_plus) - 2
+    for q in range((top + 1) * width, (top + 2) * width):
+        g_plus[q] = g_minus[q] = 0.0
+    for j in range(top, 0, -1):
+        here, over = j * width, (j + 1) * width
+        turns = min(over, top * width)  # above the highest layer no force is there to be turned
+        new, old = j % 2, (j + 1) % 2
+        F_over_plus, F_over_minus = start_plus[j + 1], start_minus[j + 1]
+        F_plus_here, F_minus_here = start_plus[j], start_minus[j]
+        for q, a, b, n in _runs(j, width):
             good &= _balance(
-                (F[0][j, first:last], F[1][j, first:last]),
                 (
-                    above[0][right],
-                    above[1][right],
-                    right_a[right],
-                    right_b[right],
-                    lost[(j + 1) % 2, 0, right],
+                    F_plus[F_plus_here + q : F_plus_here + q + n],
+                    F_minus[F_minus_here + q : F_minus_here + q + n],
                 ),
                 (
-                    beside[0][left],
-                    beside[1][left],
-                    left_a[left],
-                    left_b[left],
-                    lost[(j + 1) % 2, 1, left],
+                    F_plus[F_over_plus + b : F_over_plus + b + n],
+                    g_plus[over + b : over + b + n],
+                    plus_a[turns + b : turns + b + n],
+                    plus_b[turns + b : turns + b + n],
+                    lost[old, 0, b : b + n],
                 ),
-                (plus[0][j, first:last], plus[1][j, first:last]),
-                (minus[0][j, first:last], minus[1][j, first:last]),
-                (g[0][j, first:last], g[1][j, first:last]),
-                (lost[j % 2, 0, first:last], lost[j % 2, 1, first:last]),
+                (
+                    F_minus[F_over_minus + a : F_over_minus + a + n],
+                    g_minus[over + a : over + a + n],
+                    minus_a[turns + a : turns + a + n],
+                    minus_b[turns + a : turns + a + n],
+                    lost[old, 1, a : a + n],
+                ),
+                (plus_a[here + q : here + q + n], plus_b[here + q : here + q + n]),
+                (minus_a[here + q : here + q + n], minus_b[here + q : here + q + n]),
+                (g_plus[here + q : here + q + n], g_minus[here + q : here + q + n]),
+                (lost[new, 0, q : q + n], lost[new, 1, q : q + n]),
             )
     return good
 
 
-Pair = tuple[Array, Array]
-
-
 @dataclass(frozen=True)
 class CompiledPacking(Packing):
-    """A packing whose δn also lie in ``blocks``, (batch, layers, W): those of plus, of minus."""
+    """A packing that lies in ``block``, (batch, 6, …): c⁺, c⁻, the δn of plus, of minus."""
 
-    blocks: tuple[Pair, Pair]
+    block: Array
 
 
-def _pairs(*shapes: tuple[int, ...]) -> list[Pair]:
-    """Give pairs of blocks, all in one piece of memory: the system hands out big pieces faster."""
-    sizes = [prod(shape) for shape in shapes]
-    memory = np.empty(2 * sum(sizes))
-    pairs, at = [], 0
-    for shape, size in zip(shapes, sizes, strict=True):
-        first, second = memory[at : at + 2 * size].reshape(2, *shape)
-        pairs.append((first, second))
-        at += 2 * size
-    return pairs
+def _block(batch: int, quantities: int, layers: int, width: int) -> tuple[Array, Array]:
+    """Give memory, (batch, quantities, …), and how it reads: (batch, quantities, layers, W).
+
+    It is one piece, since the system hands out big pieces faster. Quantities at distances that are
+    multiples of 4096 bytes would compete for the same places of the cache.
+    """
+    beads = layers * width
+    memory = np.empty((batch, quantities, beads + (72 - beads) % 512))
+    return memory, memory[:, :, :beads].reshape(batch, quantities, layers, width)
 
 
 def _all(function: Callable[[int], bool], batch: int) -> bool:
@@ -309,10 +311,6 @@ def _all(function: Callable[[int], bool], batch: int) -> bool:
         return all(pool.map(function, range(batch)))
 
 
-def _one(pair: Pair, number: int) -> Pair:
-    return pair[0][number], pair[1][number]
-
-
 def _cores() -> int:
     try:
         return len(os.sched_getaffinity(0))
@@ -320,53 +318,68 @@ def _cores() -> int:
         return os.cpu_count() or 1
 
 
-def _is_whole(rows: tuple[Layer, ...], width: int | None) -> bool:
-    return all(r.count == width and r.first == j % 2 for j, r in enumerate(rows))
+def _above_base(block: Array) -> Rows[Array]:
+    """Give the layers of a block, (…, layers, W), of which the lowest has nothing to say."""
+    return Rows(block.shape[-2], lambda j: block[..., j, :] if j else np.empty(0))
 
 
-def _layers(block: Array, shape: tuple[int, ...], first: int = 1) -> tuple[Array, ...]:
-    """Give the layers of a block in the shape that a caller knows; below ``first``, nothing."""
-    by_layer = block[0] if len(shape) == 1 else block.swapaxes(0, 1)
-    return (*(np.empty(0),) * first, *by_layer[first:])
+@lru_cache(maxsize=1)
+def _metric(n_x: Fraction) -> tuple[float, float]:
+    """Give φ and 1/(1 − φ²): all packings of an ensemble have the same."""
+    m = packing.metric(n_x, FLOAT64)
+    return float(m.phi), float(m.inverse_det)
 
 
 def deposit(
     n_x: Fraction,
     region: Region,
-    rho: tuple[Array, ...],
+    rho: Sequence[Array],
     system: NumberSystem,
     work: Work | None = None,
 ) -> Packing:
     """Do what ``packing.deposit`` does, and to the bit; compiled for whole packings in float64."""
     shape = rho[0].shape
-    if system is not FLOAT64 or len(shape) > 2 or not _is_whole(region.rows, region.width):
+    if system is not FLOAT64 or len(shape) > 2 or not region.is_whole:
         return packing.deposit(n_x, region, rho, system, work)
-    m = packing.metric(n_x, system)
-    phi, inverse = float(m.phi), float(m.inverse_det)
+    phi, inverse = _metric(n_x)
     # Each packing of a batch lies in one piece: cores that write next to each other are slow.
-    batch = rho[0].size // shape[-1]
-    size = (batch, len(rho), shape[-1])
-    radii = np.concatenate(rho).reshape(size) if len(shape) == 1 else np.stack(rho, axis=1)
-    c, plus, minus = _pairs(size, size, size)
+    if isinstance(rho, Stack):
+        radii = rho.block.reshape(-1, len(rho), shape[-1])
+    elif len(shape) == 1:
+        radii = np.concatenate(rho).reshape(1, len(rho), shape[-1])
+    else:
+        radii = np.stack(rho, axis=1)
+    batch, layers, width = radii.shape
+    block, found = _block(batch, 6, layers, width)
 
     def one(k: int) -> bool:
-        return _deposit(radii[k], _one(c, k), _one(plus, k), _one(minus, k), phi, inverse)
+        return _deposit(radii[k], block[k], phi, inverse)
 
     if not _all(one, batch):
         return packing.deposit(n_x, region, rho, system, work)  # which names the bead
     if work is not None:
         for layer in region.rows:
             work.did("deposited", layer, batch)
+    found = found[0] if len(shape) == 1 else found.swapaxes(0, 1)
     return CompiledPacking(
         n_x,
         system,
         region,
         rho,
-        _layers(c[0], shape, 0),
-        _layers(c[1], shape, 0),
-        tuple(zip(_layers(plus[0], shape), _layers(plus[1], shape), strict=True)),
-        tuple(zip(_layers(minus[0], shape), _layers(minus[1], shape), strict=True)),
-        (plus, minus),
+        Stack(found[0]),
+        Stack(found[1]),
+        _pairs(found[2], found[3]),
+        _pairs(found[4], found[5]),
+        block,
+    )
+
+
+def _pairs(a: Array, b: Array) -> Rows[tuple[Array, Array]]:
+    """Give the layers of δn, whose components lie in two blocks, (…, layers, W)."""
+    nothing = np.empty(0)
+    return Rows(
+        a.shape[-2],
+        lambda j: (a[..., j, :], b[..., j, :]) if j else (nothing, nothing),
     )
 
 
@@ -385,45 +398,53 @@ def sweep_down(
         not isinstance(solved, CompiledPacking)
         or linear
         or stop_at_tension
-        or len(rows) != len(solved.rho)
-        or not (rows is solved.region.rows or _is_whole(rows, solved.region.width))
+        or not (rows is solved.region.rows or rows == solved.region.rows)
         or any(len(r) and r.shape[1:] != (solved.region.width,) for _, r in given)
     ):
         return forces.sweep_down(
             solved, rows, loads, linear=linear, stop_at_tension=stop_at_tension, work=work
         )
-    plus, minus = solved.blocks
-    size = plus[0].shape
-    F, g = _pairs((1, *size[1:]), size)
-    (plus_rows, plus_loads), (minus_rows, minus_loads) = given
-    ordered = _one(F, 0)
-    _order(ordered, (plus_rows, minus_rows), (plus_loads, minus_loads))
+    block = solved.block
+    batch, layers, width = len(block), len(rows), solved.rho[0].shape[-1]
+    (F_plus, start_plus), (F_minus, start_minus) = (
+        _order(own, loaded, width, side) for side, (own, loaded) in enumerate(given)
+    )
+    g, found = _block(batch, 2, layers + 1, width)
+    found = found[:, :, :layers]
 
     def one(k: int) -> bool:
-        return _sweep_down(ordered, _one(plus, k), _one(minus, k), _one(g, k))
+        return _sweep_down((F_plus, F_minus), (start_plus, start_minus), block[k], g[k], width)
 
-    if not _all(one, size[0]):
+    if not _all(one, batch):
         return forces.sweep_down(solved, rows, loads, work=work)  # which names the bead
     if work is not None:
         for layer in reversed(rows[1:]):
-            work.did("balanced", layer, size[0])
-    shape = solved.rho[0].shape
+            work.did("balanced", layer, batch)
+    found = found[0] if solved.rho[0].ndim == 1 else found.swapaxes(0, 1)
     return Forces(
         solved.system,
         rows,
-        _layers(F[0], shape[-1:]),
-        _layers(F[1], shape[-1:]),
-        _layers(g[0], shape),
-        _layers(g[1], shape),
+        _windows(F_plus, start_plus, width),
+        _windows(F_minus, start_minus, width),
+        _above_base(found[0]),
+        _above_base(found[1]),
     )
 
 
-def _stacked(loads: tuple[Array | None, ...]) -> tuple[Array, Array]:
+def _windows(values: Array, start: Array, width: int) -> Rows[Array]:
+    """Give the layers of what ``_order`` made."""
+    return Rows(len(start) - 1, lambda j: values[start[j] : start[j] + width] if j else np.empty(0))
+
+
+def _stacked(loads: Sequence[Array | None]) -> tuple[Array, Array]:
     """Give the row that each layer has in the stack of loads (−1: it has no load), and the stack.
 
     Shapes: (layers,), (loaded layers, W).
     """
-    present = [row for row in loads if row is not None]
-    count = itertools.count()
-    index = np.array([-1 if row is None else next(count) for row in loads])
-    return index, np.stack(present) if present else np.empty((0, 0))
+    index = [-1] * len(loads)
+    loaded: list[Array] = []
+    for j, row in enumerate(loads):
+        if row is not None:
+            index[j] = len(loaded)
+            loaded.append(row)
+    return np.array(index), np.array(loaded) if loaded else np.empty((0, 0))

@@ -10,7 +10,7 @@ two line sums c⁺, so that radii on three neighbouring diagonals decide the sum
 gives f⁻.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -195,7 +195,7 @@ def contact_beads(j: int, height: int) -> int:
 def displace(
     n_x: Fraction,
     region: Region,
-    rho: tuple[Array, ...],
+    rho: Sequence[Array],
     system: NumberSystem,
     work: Work | None = None,
 ) -> Packing:

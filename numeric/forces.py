@@ -11,6 +11,7 @@ where the load and all that is ordered have dropped out by themselves. Component
 n⁺ and n⁻, so that the linear part of a layer is a shift and an addition.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -53,10 +54,10 @@ class Forces:
 
     system: NumberSystem
     rows: tuple[Layer, ...]
-    ordered_plus: tuple[Array, ...]
-    ordered_minus: tuple[Array, ...]
-    change_plus: tuple[Array, ...]
-    change_minus: tuple[Array, ...]
+    ordered_plus: Sequence[Array]
+    ordered_minus: Sequence[Array]
+    change_plus: Sequence[Array]
+    change_minus: Sequence[Array]
     stopped: tuple[int, int, str] | None = None
 
 

@@ -5,14 +5,16 @@ x − e₋ = (i + 1, j − 1). A layer of a periodic packing has ``width`` = W b
 q of layer j is i = 2q + (j mod 2), 0 ≤ i < 2W. Lengths are in units of the mean radius r.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
+from typing import Any, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
 
 Array = npt.NDArray[Any]
+T = TypeVar("T")
 
 
 def lowest_column(j: int) -> int:
@@ -101,6 +103,11 @@ class Region:
         """How many beads the region holds."""
         return sum(layer.count for layer in self.rows)
 
+    @cached_property
+    def is_whole(self) -> bool:
+        """Whether it is all of a periodic packing, up to its highest layer."""
+        return all(r.count == self.width and r.first == lowest_column(r.j) for r in self.rows)
+
 
 def whole(width: int, height: int) -> Region:
     """Give all (M + 1) W beads of a periodic packing."""
@@ -113,6 +120,43 @@ def standing_on_base(rows: Sequence[Layer], width: int | None) -> Region:
     for layer in reversed(rows[:-1]):
         closed.append(hull(layer, supports(closed[-1], width), width))
     return Region(width, tuple(reversed(closed)))
+
+
+class Rows(Sequence[T]):
+    """What there is of each row, looked up when it is asked for: views take time to make."""
+
+    def __init__(self, count: int, row: Callable[[int], T]) -> None:
+        """``row`` gives what there is of row 0 … count − 1."""
+        self._all, self._row = range(count), row
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def __iter__(self) -> Iterator[T]:
+        return map(self._row, self._all)
+
+    @overload
+    def __getitem__(self, which: int) -> T: ...
+    @overload
+    def __getitem__(self, which: slice) -> Sequence[T]: ...
+
+    def __getitem__(self, which: int | slice) -> T | Sequence[T]:
+        if isinstance(which, slice):
+            return tuple(map(self._row, self._all[which]))
+        return self._row(self._all[which])
+
+
+class Stack(Rows[Array]):
+    """Rows of equal length in one ``block``, (…, rows, beads).
+
+    >>> rows = Stack(np.arange(6).reshape(3, 2))
+    >>> len(rows), rows[-1].tolist(), [row.tolist() for row in rows[:2]]
+    (3, [4, 5], [[0, 1], [2, 3]])
+    """
+
+    def __init__(self, block: Array) -> None:
+        self.block = block
+        super().__init__(block.shape[-2], lambda j: np.asarray(block[..., j, :]))
 
 
 def pick(values: Array, source: Layer, wanted: Layer, width: int | None, zero: Any = None) -> Array:

@@ -11,6 +11,7 @@ The unknown is A = |p|²/4, small of second order: it obeys a quadratic whose sm
 form without cancellation, so no ordered position is ever added or subtracted.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -116,11 +117,11 @@ class Packing:
     n_x: Fraction
     system: NumberSystem
     region: Region
-    rho: tuple[Array, ...]
-    c_plus: tuple[Array, ...]
-    c_minus: tuple[Array, ...]
-    plus: tuple[tuple[Array, Array], ...]
-    minus: tuple[tuple[Array, Array], ...]
+    rho: Sequence[Array]
+    c_plus: Sequence[Array]
+    c_minus: Sequence[Array]
+    plus: Sequence[tuple[Array, Array]]
+    minus: Sequence[tuple[Array, Array]]
 
 
 class UnbuildableError(ValueError):
@@ -139,7 +140,7 @@ class UndecidedError(ArithmeticError):
 def deposit(
     n_x: Fraction,
     region: Region,
-    rho: tuple[Array, ...],
+    rho: Sequence[Array],
     system: NumberSystem,
     work: Work | None = None,
 ) -> Packing:

@@ -6,6 +6,7 @@ and in balls about three bits a layer. It is written for periodic packings, in C
 coordinates, r = 1, for any number system.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -13,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from numeric.lattice import Array, Layer, Region, full_layer, pick, whole
-from numeric.packing import UnbuildableError
+from numeric.packing import UnbuildableError, UndecidedError
 from numeric.systems import NumberSystem, array, zeros
 
 
@@ -44,11 +45,11 @@ def axes(n_x: Fraction, system: NumberSystem) -> tuple[Any, Any]:
     return system.scalar(n_x), system.root(1 - n_x**2)
 
 
-def deposit(n_x: Fraction, rho: tuple[Array, ...], system: NumberSystem) -> PlainPacking:
+def deposit(n_x: Fraction, rho: Sequence[Array], system: NumberSystem) -> PlainPacking:
     """Deposit a periodic packing by intersecting circles around the supports.
 
-    ``rho[j]``: δr/r of the W beads of layer j. Raises ``UnbuildableError`` naming the bead.
-    The caller activates ``system``.
+    ``rho[j]``: δr/r of the W beads of layer j. Raises ``UnbuildableError`` naming the bead,
+    and ``UndecidedError`` where balls are too wide to tell. The caller activates ``system``.
     """
     width, height = len(rho[0]), len(rho) - 1
     nx, ny = axes(n_x, system)
@@ -69,12 +70,14 @@ def deposit(n_x: Fraction, rho: tuple[Array, ...], system: NumberSystem) -> Plai
         square = dx * dx + dy * dy
         along = ((size_a * size_a - size_b * size_b) / square + 1) / 2
         high = size_a * size_a / square - along * along
-        good, _ = system.signs(high)
-        if not good.all():
-            q = int(np.argwhere(~good)[0][0])
+        good, bad = system.signs(high)
+        if bad.any():
+            q = int(np.argwhere(bad)[0][0])
             raise UnbuildableError(
                 (layer.first + 2 * q, j), "its supports are too far apart to hold it"
             )
+        if not good.all():
+            raise UndecidedError(f"layer {j}: balls are too wide to tell whether beads rest")
         up = system.sqrt(high)
         x = A.x + along * dx - up * dy
         y = A.y + along * dy + up * dx

@@ -15,7 +15,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from numeric.decimals import short
-from numeric.lattice import Array, Layer
+from numeric.lattice import Array, Layer, Stack
 from numeric.normal import normal_deviates
 from numeric.systems import NumberSystem, array, from_floats, zeros
 from numeric.work import Work
@@ -207,11 +207,19 @@ def rows_of(
     realisations: Sequence[int],
     system: NumberSystem,
     work: Work | None = None,
-) -> tuple[Any, ...]:
-    """Give δr/r of several rows, one array a row."""
+) -> Sequence[Any]:
+    """Give δr/r of several rows, one array a row; rows of equal length lie in one block."""
     rows = []
-    for layer in layers:
-        rows.append(radii.row(layer, realisations, system))
+    block = None
+    if system.dtype is not object and len({layer.count for layer in layers}) == 1:
+        batch = (len(realisations),) if len(realisations) > 1 else ()
+        block = np.empty((*batch, len(layers), layers[0].count), dtype=system.dtype)
+    for n, layer in enumerate(layers):
+        row = radii.row(layer, realisations, system)
+        if block is None:
+            rows.append(row)
+        else:
+            block[..., n, :] = row
         if work is not None:
             work.did("radii", layer, len(realisations))
-    return tuple(rows)
+    return tuple(rows) if block is None else Stack(block)

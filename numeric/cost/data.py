@@ -6,7 +6,10 @@ from typing import Any
 
 from numeric.cost.study import Row, Study
 
-MEMORY = "tracemalloc: what Python and NumPy allocate, without the limbs of big numbers"
+MEMORY = (
+    "tracemalloc: what Python and NumPy allocate; with big numbers a lower bound (≥), since their "
+    "limbs are allocated elsewhere"
+)
 ERRORS = "model_error", "rounding_error", "sampling_error"
 
 
@@ -60,10 +63,11 @@ def csv_rows(data: dict[str, Any]) -> list[dict[str, Any]]:
 def lines(data: dict[str, Any]) -> list[str]:
     """Give the table for a terminal; * marks the Pareto front."""
     result = [
-        f"Ways to '{data['quantity']}', errors relative to the largest |change|; * Pareto front",
+        f"Ways to '{data['quantity']}', measured errors relative to the largest |change|; "
+        "* Pareto front of measured error and median time",
         f"{'':2}{'way':<27}{'arithmetic':<20}{'N':>6} {'error':>9} {'model':>9} {'rounding':>9} "
         f"{'sampling':>9} {'bound':>9}  {'median s':>9} {'min … max s':>19} "
-        f"{'runs':>4} {'peak kB':>8}",
+        f"{'runs':>4} {'peak kB':>9}",
     ]
     for row in data["rows"]:
         parts = [row["error"], *(row[k] for k in ERRORS), row["certified_bound"]]
@@ -72,7 +76,8 @@ def lines(data: dict[str, Any]) -> list[str]:
         result.append(
             f"{'* ' if row['pareto'] else '  '}{row['way']:<27}{row['arithmetic']:<20}"
             f"{row['realisations'] or '':>6} {shown}  {row['seconds']:9.2e} {spread:>19} "
-            f"{row['runs']:>4} {row['peak_bytes'] / 1e3:>8.0f}"
+            f"{row['runs']:>4} {'≥' if row['peak_is_bound'] else '':>2}"
+            f"{row['peak_bytes'] / 1e3:>7.0f}"
         )
     reference = data["reference"]
     result.append(

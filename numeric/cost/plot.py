@@ -3,18 +3,18 @@
 Needs matplotlib (the extra ``plots``), which nothing else of this package imports.
 """
 
-import io
 import math
+from collections.abc import Sequence
+from decimal import Decimal
 from typing import Any
 
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
-from matplotlib.ticker import FixedLocator, FuncFormatter
 from matplotlib.transforms import Bbox
 
 from numeric.cost.study import Row, Study
+from numeric.plotting import new_figure, powers_of_ten, saved
 
 STYLES = {
     "exact, deviation form": ("o", "0.0"),
@@ -27,23 +27,18 @@ STYLES = {
 
 def plots(study: Study, command: str, title: str) -> dict[str, str | bytes]:
     """Draw a study; ``cost.png`` and ``cost.svg`` both hold the command that reproduces them."""
-    figure = draw(study, title)
-    png, svg = io.BytesIO(), io.BytesIO()
-    about = {"Title": f"Cost of accuracy: {title}", "Description": command}
-    figure.savefig(png, format="png", dpi=150, metadata=about)
-    figure.savefig(svg, format="svg", metadata={**about, "Date": None})
-    return {"cost.png": png.getvalue(), "cost.svg": svg.getvalue()}
+    return saved(draw(study, title), "cost", f"Cost of accuracy: {title}", command)
 
 
 def draw(study: Study, title: str) -> Figure:
     """Draw log10 of error against log10 of seconds; digits may lie beyond a float's range."""
-    figure = Figure(figsize=(9, 7.5))
+    figure = new_figure(9, 7.5)
     figure.subplots_adjust(0.09, 0.08, 0.98, 0.91)
-    FigureCanvasAgg(figure)
     axes = figure.subplots()
-    rows = [row for row in study.rows if row.error]
+    rows = [row for row in study.rows if row.error and not _in_vain(row, study.rows)]
     floor = [math.log10(study.sampling_floor)] if study.sampling_floor else []
-    _scale(axes, [_x(row) for row in rows], [_y(row) for row in rows] + floor)
+    powers_of_ten(axes, "x", [_x(row) for row in rows], 0.35)  # room for labels
+    powers_of_ten(axes, "y", [_y(row) for row in rows] + floor, 0.08)
     for line in _lines(rows):
         marker, grey = STYLES.get(line[0].way, ("D", "0.1"))
         dashes = "--" if line[0].arithmetic.startswith("mpmath") else "-"
@@ -66,16 +61,28 @@ def draw(study: Study, title: str) -> Figure:
     for line in _lines(rows):
         _name(axes, line, STYLES.get(line[0].way, ("D", "0.1"))[1], taken)
     axes.set_xlabel("seconds, median (thin: fastest to slowest run)")
-    axes.set_ylabel("error / largest |change|")
+    axes.set_ylabel("measured error / largest |change|")
     reference = study.reference
     axes.set_title(
         f"{title}: {study.quantity}\n"
-        f"filled: on the Pareto front; reference {reference.kind}, radius {reference.radius:.1e}",
+        "filled: on the Pareto front of measured error and time; "
+        f"reference {reference.kind}, radius {reference.radius:.1e}",
         fontsize=10,
         loc="left",
     )
     axes.spines[["top", "right"]].set_visible(False)
     return figure
+
+
+def _in_vain(row: Row, rows: Sequence[Row]) -> bool:
+    """Say whether more digits of one way bring nothing but a longer time: the table has them."""
+    return any(
+        r.way == row.way
+        and r.realisations == row.realisations
+        and r.seconds < row.seconds
+        and r.error <= row.error <= r.error * Decimal("1.01")
+        for r in rows
+    )
 
 
 def _around(axes: Axes, row: Row) -> Bbox:
@@ -146,18 +153,3 @@ def _short(row: Row) -> str:
     if row.arithmetic.startswith("arb balls"):
         return f"balls {math.floor(int(row.arithmetic.split()[2]) * math.log10(2))}"
     return row.arithmetic.replace(" digits", "").replace(",", "")
-
-
-def _scale(axes: Axes, x: list[float], y: list[float]) -> None:
-    """Set limits with room for labels, and ticks at powers of ten."""
-    for axis, values, room in (("x", x, 0.35), ("y", y, 0.08)):
-        low, high = min(values), max(values)
-        more = max((high - low) * room, 0.3)
-        low, high = low - more, high + more
-        getattr(axes, f"set_{axis}lim")(low, high)
-        step = max(1, math.ceil((high - low) / 8))
-        step = next((s for s in (1, 2, 5, 10, 20, 50, 100) if s >= step), step)
-        ticks = range(math.ceil(low / step) * step, math.floor(high) + 1, step)
-        part = getattr(axes, f"{axis}axis")
-        part.set_major_locator(FixedLocator(list(ticks)))
-        part.set_major_formatter(FuncFormatter(lambda power, _: f"$10^{{{power:.0f}}}$"))

@@ -43,7 +43,8 @@ class Row:
     ``sampling_error`` that of a finite ensemble. ``certified_bound`` is what the way itself
     certifies of its error (balls only). ``seconds`` is the median of ``runs`` runs, a warm-up not
     counted. ``peak_bytes``: what Python and NumPy allocate, by tracemalloc, in a run of its own;
-    limbs of big numbers, which flint and GMP allocate, are not in it.
+    where ``peak_is_bound``, it is a lower bound: the limbs of big numbers, which flint and GMP
+    allocate, are not in it. ``pareto``: no other row has a smaller measured error and median time.
     """
 
     way: str
@@ -59,6 +60,7 @@ class Row:
     seconds_max: float
     runs: int
     peak_bytes: int
+    peak_is_bound: bool
     pareto: bool = False
 
 
@@ -217,6 +219,7 @@ def row(
     return Row(
         way, arithmetic, realisations, error, *parts, bound,
         median(seconds), min(seconds), max(seconds), len(seconds), peak,
+        arithmetic not in {FLOAT64.name, LONGDOUBLE.name},
     )  # fmt: skip
 
 

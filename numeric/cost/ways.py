@@ -1,7 +1,6 @@
 """Ways to answer a scene: any plan in any number system, also in the plain form, as one table."""
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 from numeric import plain
 from numeric.answers import GATHERERS, Table
@@ -117,7 +116,7 @@ def _balanced(
     )  # fmt: skip
 
 
-def _line_sums(plan: Plan, packing: plain.PlainPacking, rho: tuple[Any, ...]) -> Packing:
+def _line_sums(plan: Plan, packing: plain.PlainPacking, rho: Sequence[Array]) -> Packing:
     """Put the displacements into the coordinates c^± = n^±·δx that answers are gathered from."""
     nx, ny = packing.n
     moved = plain.displacements(packing)

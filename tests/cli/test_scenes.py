@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from derivations.__main__ import main
-from numeric import runner, stability
+from numeric import runner
 from numeric.runner import ToleranceError
 
 SCENES = Path(__file__).parents[2] / "scenes"
@@ -191,18 +191,3 @@ def test_memory_stays_within_what_was_announced(tolerance: str, tmp_path: Path) 
     )
     kilobytes = int(done.stderr.split()[-1])
     assert kilobytes * 1024 <= json.loads(done.stdout)["memory_bytes"]
-
-
-def test_the_stability_table(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    few = [case for case in stability.cases() if case.group == "disorder"][:2]
-    monkeypatch.setattr(stability, "cases", lambda: iter(few))
-    status, out, _ = call(capsys, "stability", "--json")
-    assert status == 0
-    data = json.loads(out)
-    assert [row["relative_std"] for row in data["rows"]] == [0.01, 0.0001]
-    assert all(row["seconds"] > 0 for row in data["rows"])
-    status, out, _ = call(capsys, "stability")
-    assert status == 0
-    assert "surface_variance" in out

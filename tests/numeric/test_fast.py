@@ -52,7 +52,7 @@ def bits(solved: Packing | Forces) -> Any:
     )
 
     def raw(value: Any) -> Any:
-        if isinstance(value, tuple):
+        if not isinstance(value, np.ndarray):
             return [raw(v) for v in value]
         return value.shape, value.dtype, value.tobytes()
 
@@ -136,6 +136,25 @@ def test_the_engine_takes_the_compiled_sweeps_for_much_work(
     assert bits(quick.packing) == bits(usual.packing)
     assert bits(quick.forces) == bits(usual.forces)
     assert usual_work == quick_work
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_forces_go_straight_down_below_a_load(side: int) -> None:
+    height, width = 9, 3  # layers enough for a diagonal to go round
+    row = np.arange(1.0, width + 1)
+    loads: list[Array | None] = [None] * (height + 1)
+    loads[height] = row
+    none = Loads((None,) * (height + 1), (None,) * (height + 1))
+    solved = fast.deposit(
+        Fraction(3, 4), whole(width, height), (np.zeros(width),) * (height + 1), FLOAT64
+    )
+    given = Loads(none.plus, tuple(loads)) if side else Loads(tuple(loads), none.minus)
+    found = fast.sweep_down(solved, solved.region.rows, given)
+    ordered = found.ordered_minus if side else found.ordered_plus
+    for j in range(1, height + 1):
+        for q in range(width):  # what bears on (i, j) came down from (i ± (M − j), M)
+            i = 2 * q + j % 2 + (height - j) * (-1 if side else 1)
+            assert ordered[j][q] == row[(i - height % 2) // 2 % width]
 
 
 def test_without_numba_the_engine_takes_the_numpy_sweeps(monkeypatch: pytest.MonkeyPatch) -> None:
