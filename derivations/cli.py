@@ -20,6 +20,10 @@ COMMANDS = {
     "list": ("equation_commands", "List the equations."),
     "run": ("scene_commands", "Answer a scene's question."),
     "explain": ("scene_commands", "Say what 'run' would do, and why."),
+    "calibrate": (
+        "calibrate_command",
+        "Measure what this machine's arithmetic costs; a tolerance chooses the cheapest by it.",
+    ),
     "cost": (
         "scene_commands",
         "Measure what accuracy costs: every way to answer a scene, its error beside its time.",

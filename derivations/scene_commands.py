@@ -23,7 +23,7 @@ from derivations.publishing import (
 
 if TYPE_CHECKING:
     from numeric.cost.study import Study
-    from numeric.planner import Plan
+    from numeric.plans import Plan
 
 # Seconds from which on progress is shown.
 MOMENT = 1.0
@@ -37,12 +37,19 @@ _Scene = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene file, in 
 _Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
 _Tolerance = Annotated[
     str | None,
-    typer.Option(metavar="T", help="Relative error allowed, such as 1e-30; certified if given."),
+    typer.Option(
+        metavar="T",
+        help="Relative error allowed, such as 1e-30; the cheapest way that meets it is taken.",
+    ),
+]
+_Certified = Annotated[
+    bool, typer.Option("--certified", help="With a tolerance: only a rigorous bound will do.")
 ]
 
 
-def _planned(scene: Path, tolerance: str | None) -> "Plan":
+def _planned(scene: Path, tolerance: str | None, certified: bool) -> "Plan":
     """Read and plan a scene, or leave with a message."""
+    from derivations.calibrate_command import model_for
     from numeric.budget import memory_limit
     from numeric.decimals import parse
     from numeric.planner import plan
@@ -58,7 +65,11 @@ def _planned(scene: Path, tolerance: str | None) -> "Plan":
         if not 0 < asked < 1:
             fail(f"--tolerance = {tolerance}: must lie between 0 and 1", WRONG_INPUT)
     try:
-        return plan(read_scene(scene), asked)
+        found = read_scene(scene)
+        wanted = asked or found.ask.tolerance
+        if certified and wanted is None:
+            fail("--certified needs a tolerance: give --tolerance T, such as 1e-30", WRONG_INPUT)
+        return plan(found, asked, certified=certified, model=model_for(wanted is not None))
     except (SceneError, TableError) as error:
         fail(f"{scene.name}: {error}", WRONG_INPUT)
     except MemoryError:
@@ -70,11 +81,16 @@ def _planned(scene: Path, tolerance: str | None) -> "Plan":
         )
 
 
-def explain(scene: _Scene, tolerance: _Tolerance = None, as_json: _Json = False) -> None:
+def explain(
+    scene: _Scene,
+    tolerance: _Tolerance = None,
+    certified: _Certified = False,
+    as_json: _Json = False,
+) -> None:
     """Say what 'run' would do, and why."""
     from numeric.result import plan_data
 
-    planned = _planned(scene, tolerance)
+    planned = _planned(scene, tolerance, certified)
     data = plan_data(planned)
     print(json.dumps(data, indent=2) if as_json else "\n".join(_plan_lines(data)))
 
@@ -84,9 +100,10 @@ def run(
     out: Annotated[Path | None, out_option("the answer as JSON and CSV")] = None,
     as_json: _Json = False,
     tolerance: _Tolerance = None,
+    certified: _Certified = False,
 ) -> None:
     """Answer a scene's question."""
-    planned = _planned(scene, tolerance)
+    planned = _planned(scene, tolerance, certified)
     quantity = planned.scene.ask.quantity
 
     def answer() -> tuple[dict[str, Any], dict[str, str | bytes]]:
@@ -207,10 +224,49 @@ def _plan_lines(data: dict[str, Any]) -> list[str]:
         lines.append(f"  {step['step']}: {step['reason']} ({cost})")
     lines.append("What is left out")
     lines += [f"  {s['effect']}: {s['reason']}" for s in data["skipped"]] or ["  nothing"]
+    lines += _choice_lines(data["choice"]) if data["choice"] else []
     lines.append(f"About {data['estimated_seconds']:.2g} s and {data['memory_bytes'] / 1e6:.3g} MB")
     if data["sees_images"]:
         lines.append("The answer sees periodic images: it is that of the strip, not of the slab")
     return lines
+
+
+def _choice_lines(choice: dict[str, Any]) -> list[str]:
+    """Say what was chosen, from what, and what a digit costs."""
+    chosen = choice["chosen"]
+    lines = [
+        f"How, for a tolerance of {choice['tolerance']}: {_way(chosen)}",
+        f"  {choice['reason']} (cost model: {choice['coefficients']})",
+        f"  {'':2}{'way':<31}{'arithmetic':<22}{'repeated':>8} {'error':>9} {'seconds':>9}",
+    ]
+    for way in choice["candidates"]:
+        mark = "*" if way == chosen else ""
+        error, spent = way["expected_error"], way["seconds"]
+        seconds = "" if spent is None else f"{spent:.2g}"
+        lines.append(
+            f"  {mark:2}{way['algorithm']:<31}{way['arithmetic']:<22}{way['repeated'] or '':>8} "
+            f"{error:>9} {seconds:>9}  {way['out']}".rstrip()
+        )
+    for name, words in (("digit_more", "One digit more"), ("digit_less", "One digit fewer")):
+        way = choice[name]
+        if way is None:
+            lines.append(f"{words}: there is no way to it")
+        else:
+            lines.append(f"{words}, {way['tolerance']}: {_way(way)}, about {way['seconds']:.2g} s")
+    for missed in choice.get("missed", []):
+        lines.append(
+            f"Tried before: {missed['algorithm']}, {missed['arithmetic']}: {missed['why']}"
+        )
+    if "measured_seconds" in choice:
+        lines.append(
+            f"Predicted {chosen['seconds']:.2g} s, took {choice['measured_seconds']:.2g} s"
+        )
+    return lines
+
+
+def _way(way: dict[str, Any]) -> str:
+    kind = "certified" if way["certified"] else "estimated"
+    return f"{way['algorithm']}, {way['arithmetic']}, {kind}"
 
 
 def _show(data: dict[str, Any], as_json: bool) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from numeric.answers import Table
 from numeric.lattice import Array
-from numeric.systems import Balls, Hardware, NumberSystem, midpoint
+from numeric.systems import FLOAT64, Balls, Hardware, NumberSystem, as_ball, midpoint
 
 # A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.
 PRINTED = 20
@@ -100,6 +100,8 @@ def strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dict[str,
     if isinstance(system, Balls):
         most = most_digits(system)
         return {k: [_ball_string(v, most) for v in c] for k, c in table.numbers.items()}
+    if system is not FLOAT64:
+        return _long_strings(table, accuracy, system)
     largest = max(
         (float(np.abs(table.numbers[k]).max()) for k in table.small if len(table.numbers[k])),
         default=0.0,
@@ -108,6 +110,33 @@ def strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dict[str,
         float(accuracy.error_bound) * largest if math.isfinite(accuracy.error_bound) else math.inf
     )
     return {k: _float_strings(column, error) for k, column in table.numbers.items()}
+
+
+def _long_strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dict[str, list[str]]:
+    """Print numbers that a float can't hold, two digits beyond their error."""
+    exact = {k: [as_ball(value) for value in column] for k, column in table.numbers.items()}
+    error, unit = flint.arb(0), flint.arb((1, 1 - system.bits))
+    for name in table.small:
+        for value in exact[name]:
+            error = error.max(abs(value))
+    bound = Fraction(accuracy.error_bound)
+    error = error * flint.arb(flint.fmpq(bound.numerator, bound.denominator))
+    return {
+        k: [_two_beyond(value, error + abs(value) * unit) for value in c] for k, c in exact.items()
+    }
+
+
+def _two_beyond(value: Any, error: Any) -> str:
+    if not abs(value) > error:
+        return "0"
+    # powers of two, from which the digits follow within one
+    digits = (_power(value) - _power(error)) * 0.30103
+    return str(value.str(math.ceil(digits) + 3, radius=False))
+
+
+def _power(value: Any) -> int:
+    mantissa, exponent = value.mid().man_exp()
+    return int(mantissa).bit_length() + int(exponent)
 
 
 def _ball_string(value: Any, most: int) -> str:

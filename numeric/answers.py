@@ -19,7 +19,7 @@ from numeric.engine import Solved
 from numeric.forces import Forces
 from numeric.lattice import Array, Layer, pick
 from numeric.moments import Moments, unit_near
-from numeric.planner import Plan
+from numeric.plans import Plan
 from numeric.radii import DrawnRadii
 from numeric.systems import NumberSystem, array
 

@@ -6,17 +6,15 @@ from fractions import Fraction
 from numeric import regions
 from numeric.lattice import Region
 from numeric.scene import Scene, SceneError
-from numeric.systems import FLOAT64, Balls, NumberSystem
+from numeric.systems import FLOAT64, NumberSystem
 
 # Bytes that a bead takes while it is solved, a row of the answer, a line of a file and a layer of
 # the plan; measured, rounded up. The rest is the interpreter with its libraries.
 FLOAT_BEAD, BALL_BEAD, ANSWER_ROW, FILE_LINE, PLAN_LAYER = 450, 2200, 1700, 600, 900
 INTERPRETER = 100_000_000
-# Seconds of a step for a bead, of all steps for a layer, and of a draw for a layer; measured on one
-# core, good to a factor of a few.
-FLOAT_STEP, BALL_STEP, LAYER, DRAW = 3e-7, 1e-5, 9e-4, 3e-5
-# Seconds of a step for a bead of line sums, of all for a realisation of them; of a printed bin.
-LINE_STEP, LINE_SUM, BIN = 2.5e-6, 3e-4, 2e-5
+DEFAULT_BINS = 20
+# No arithmetic of more bits is tried.
+MOST_BITS = 8192
 LONGEST = 24 * 3600.0
 # Realisations that are solved twice to estimate the error: four of packings that are small.
 FEW, SMALL = 4, 20_000
@@ -107,8 +105,8 @@ def memory(
     system: NumberSystem,
 ) -> int:
     """Estimate the bytes at the peak; ``beads`` are those solved at once, in ``layers`` rows."""
-    each = FLOAT_BEAD
-    if isinstance(system, Balls):
+    each = FLOAT_BEAD if system is FLOAT64 else 2 * FLOAT_BEAD
+    if system.dtype is object:
         each = BALL_BEAD * max(64 + system.bits, 128) // 128
     file = scene.disorder is not None and scene.disorder.file is not None
     return (
@@ -130,34 +128,18 @@ def refuse_memory(scene: Scene, needed: int, limit: int) -> None:
         )
 
 
-def seconds(
-    scene: Scene, region: Region, steps: int, realisations: int, system: NumberSystem
-) -> float:
-    """Estimate the time of a run whose ``steps`` count each bead once a step.
-
-    Raises ``SceneError`` where that is more than a day.
-    """
-    each = FLOAT_STEP
-    if system is not FLOAT64:
-        each = BALL_STEP * max(system.bits / 256, 1)
-    layers = len(region.rows)
-    chunks = -(-realisations // chunk_size(region, system, scene))
-    spent = (scene.ask.bins or 0) * BIN
-    if steps and not layers:  # line sums go bead by bead
-        spent += steps * max(each, LINE_STEP) + realisations * LINE_SUM
-    else:
-        spent += steps * each + chunks * layers * LAYER + realisations * layers * DRAW
-    if spent > LONGEST:
+def refuse_seconds(scene: Scene, realisations: int, seconds: float) -> None:
+    """Raise ``SceneError`` where a scene would take more than a day."""
+    if seconds > LONGEST:
         key, value = ("packing.height", scene.packing.height)
         if realisations > 1:
             key, value = ("ask.realisations", realisations)
         raise SceneError(
             key,
             value,
-            f"this scene would take about {spent / 86400:.3g} days, and one is allowed: "
+            f"this scene would take about {seconds / 86400:.3g} days, and one is allowed: "
             "ask for fewer realisations or a smaller packing",
         )
-    return spent
 
 
 def _size(size: int) -> str:

@@ -8,7 +8,7 @@ from numeric import first_order, packing
 from numeric.forces import Forces, sweep_down
 from numeric.lattice import Layer
 from numeric.packing import Packing
-from numeric.planner import Plan
+from numeric.plans import Plan
 from numeric.radii import rows_of
 from numeric.systems import FLOAT64, NumberSystem
 from numeric.work import Work

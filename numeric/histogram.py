@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from numeric.decimals import decimal_string
 from numeric.lattice import Array
 from numeric.packing import UndecidedError
 from numeric.systems import Balls, NumberSystem, midpoint
@@ -47,6 +48,15 @@ def histogram(
         places = np.searchsorted(inner, rough, side="right")
         counts = np.bincount(places, minlength=bins).tolist()
     return list(zip(edges[:-1], edges[1:], counts, strict=True))
+
+
+def printed(bins: list[tuple[Fraction, Fraction, int]]) -> list[dict[str, Any]]:
+    """Print bins, edges as the decimals that they are; a bin begins where the last one ends."""
+    rows: list[dict[str, Any]] = []
+    for low, high, count in bins:
+        start = rows[-1]["high"] if rows else decimal_string(low, None)
+        rows.append({"low": start, "high": decimal_string(high, None), "count": count})
+    return rows
 
 
 def _scaled(values: Array) -> tuple[Fraction, Array]:

@@ -4,147 +4,153 @@ One planner serves both explaining and running: the runner takes its regions, it
 steps from here and adds nothing but the measured cost.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
-from functools import cached_property
 
 from numeric import budget, first_order, float_range, regions
+from numeric.choice import choose
+from numeric.cost_model import Model, defaults, predicted
 from numeric.images import sees_images
 from numeric.lattice import Region, standing_on_base, whole
 from numeric.load_spec import LoadSpec
+from numeric.plans import (
+    CERTIFY,
+    ESTIMATE,
+    FORCE_QUANTITIES,
+    LONGER,
+    PHYSICAL,
+    Plan,
+    Skipped,
+    Step,
+    Way,
+)
 from numeric.radii import DrawnRadii, MeasuredRadii, Monodisperse, Radii
 from numeric.regions import Rows
-from numeric.scene import DisorderSection, Scene
-from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
+from numeric.scene import DisorderSection, Scene, SceneError
+from numeric.systems import FLOAT64, Balls
 from numeric.tables import Site, TableError, read_loads, read_radii
 
-PHYSICAL = "check that it is physical"
-# What errors of float64 are estimated with: an own long double, where the platform has one.
-LONGER: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
-FORCE_QUANTITIES = {
-    "contact", "contact_forces", "profile", "histogram", "response", "base_reactions"
-}  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Step:
-    """One step of a plan; ``beads`` counts those that it visits, in all realisations."""
-
-    step: str
-    reason: str
-    beads: int
-    arithmetic: str = ""
-
-
-@dataclass(frozen=True)
-class Skipped:
-    """An effect that is not simulated, and why."""
-
-    effect: str
-    reason: str
-
-
-@dataclass(frozen=True)
-class Plan:
-    """What will be done. ``route`` is "ordered", "line sums", "first-order" or "exact"."""
-
-    scene: Scene
-    radii: Radii
-    load: LoadSpec
-    route: str
-    region: Region
-    force_rows: Rows
-    realisations: int
-    tolerance: Fraction | None
-    system: NumberSystem
-    steps: tuple[Step, ...]
-    skipped: tuple[Skipped, ...]
-    memory: int
-    estimated_seconds: float
-    sees_images: bool
-
-    @cached_property
-    def needs_forces(self) -> bool:
-        """Whether the question is about forces at all."""
-        return self.scene.ask.quantity in FORCE_QUANTITIES
-
-    @cached_property
-    def single_contact(self) -> bool:
-        """Whether one contact is asked for, and not the whole packing."""
-        return budget.one_contact(self.scene)
+__all__ = ["Plan", "Skipped", "Step", "plan"]
 
 
 def plan(
     scene: Scene,
     tolerance: Fraction | None = None,
     memory_limit: int | None = None,
+    *,
+    certified: bool = False,
+    model: Model | None = None,
 ) -> Plan:
-    """Plan a scene; ``tolerance`` overrides the scene's own.
+    """Plan a scene; ``tolerance`` and ``certified`` override the scene's own.
 
-    Reads the scene's files. Raises ``SceneError`` for a scene that is too large for the memory
-    (``memory_limit`` bytes, by default most of what is free) or for a lifetime, and ``TableError``.
+    With a tolerance the cheapest way that should meet it is chosen, by the cost model (by default
+    that for any machine); ``certified`` keeps the choice to balls. Reads the scene's files. Raises
+    ``SceneError`` for a scene that is too large for the memory (``memory_limit`` bytes, by default
+    most of what is free) or for a lifetime, and ``TableError``.
     """
-    return _Planner(scene, tolerance or scene.ask.tolerance, memory_limit).plan()
+    tolerance = tolerance or scene.ask.tolerance
+    certified = certified or scene.ask.certified
+    limit = budget.memory_limit() if memory_limit is None else memory_limit
+    model = defaults() if model is None else model
+    outline = _Outline(scene, tolerance, limit, model)
+    if tolerance is None:
+        if certified:
+            raise SceneError("ask.certified", True, "needs a tolerance, as tolerance = 1e-30")
+        return outline.plan(outline.usual_way())
+    if outline.route == "ordered":
+        return outline.plan(Way(Balls(budget.initial_bits(tolerance, scene.packing.height))))
+    outlines = {outline.algorithm: outline}
+    if outline.route == "line sums" and outline.realisations > 1:
+        # One by one they visit fewer beads, but a sweep takes many realisations at once.
+        try:
+            sweep = _Outline(scene, tolerance, limit, model, line_sums=False)
+        except SceneError:  # the memory would not hold its region
+            pass
+        else:
+            outlines[sweep.algorithm] = sweep
+    return choose(outlines, tolerance, model.source, certified=certified)
 
 
-class _Planner:
-    def __init__(self, scene: Scene, tolerance: Fraction | None, limit: int | None) -> None:
-        self.scene = scene
-        self.tolerance = tolerance
-        self.limit = budget.memory_limit() if limit is None else limit
+class _Outline:
+    """All of a plan but its arithmetic: regions, route, what is left out."""
+
+    def __init__(
+        self,
+        scene: Scene,
+        tolerance: Fraction | None,
+        limit: int,
+        model: Model,
+        *,
+        line_sums: bool = True,
+    ) -> None:
+        self.scene, self.tolerance, self.limit, self.model = scene, tolerance, limit, model
         self.width = scene.packing.width
         self.height = scene.packing.height
         self.quantity = scene.ask.quantity
         self.skipped: list[Skipped] = []
-
-    def plan(self) -> Plan:
         ordered = self._ordered_from_the_start()
-        closed = ordered or self._line_sums_suffice()
+        self.closed = closed = ordered or (line_sums and self._line_sums_suffice())
         beads = 0 if ordered else budget.bound_of_beads(self.scene, closed=closed)
-        self._refuse(None, beads, 1, self._system("exact"))
-        load = self._load()
-        force_rows = self._force_rows(load, closed) if self._needs_forces() else ()
-        region = self._region(force_rows, closed)
-        radii, route = self._route(region, ordered, closed)
-        realisations = self._realisations(route)
-        system = self._system(route)
-        if system is FLOAT64:
-            float_range.check(self.scene, radii, load)
+        self._refuse(None, beads, 1, Way(FLOAT64))
+        self.load = self._load()
+        self.force_rows = self._force_rows(self.load, closed) if self._needs_forces() else ()
+        self.region = self._region(self.force_rows, closed)
+        self.radii, self.route = self._route(self.region, ordered, closed)
+        self.realisations = self._realisations(self.route)
+
+    @property
+    def algorithm(self) -> str:
+        """How plans call the way to the numbers."""
+        return {
+            "ordered": "closed form",
+            "line sums": "line sums",
+            "first-order": "first-order sweep",
+            "exact": "exact sweep in deviation form",
+        }[self.route]
+
+    def usual_way(self) -> Way:
+        """Give the way without a tolerance: float64, or exactly known."""
+        if self.route == "ordered":
+            return Way(Balls(budget.initial_bits(Fraction(1, 2**60), self.height)))
+        return Way(FLOAT64, LONGER, budget.repeated(self.region, self.realisations))
+
+    def plan(self, way: Way) -> Plan:
+        """Plan a way. Raises ``SceneError`` where it takes too much, or its numbers can't hold."""
+        system, n = way.system, self.realisations
+        if system.dtype is not object:
+            float_range.check(self.scene, self.radii, self.load)
         steps = [
-            replace(step, beads=step.beads * realisations, arithmetic=system.name)
-            for step in self._steps(route, region, force_rows, load)
+            replace(step, beads=step.beads * n, arithmetic=system.name)
+            for step in self._steps(self.route, self.region, self.force_rows, self.load)
         ]
-        together = min(realisations, budget.chunk_size(region, system, self.scene))
-        at_once = region.beads * together
-        if closed:  # one realisation after the other
-            at_once = max((step.beads for step in steps), default=0) // realisations
-        if route != "ordered":
-            steps.append(self._judging(region, steps, realisations, system))
-        if route == "ordered" and not closed:
+        at_once = self.region.beads * min(n, budget.chunk_size(self.region, system, self.scene))
+        if self.closed:  # one realisation after the other
+            at_once = max((step.beads for step in steps), default=0) // n
+        if self.route != "ordered":
+            steps.append(self._judging(steps, way))
+        elif not self.closed:
             at_once = 0
-        memory = self._refuse(region, at_once, realisations, system)
-        visited = sum(step.beads for step in steps)
-        seconds = budget.seconds(self.scene, region, visited, realisations, system)
-        return Plan(
-            self.scene, radii, load, route, region, force_rows, realisations,
-            self.tolerance, system, tuple(steps), tuple(self.skipped), memory, seconds,
-            sees_images(self.scene, load, route),
+        memory = self._refuse(self.region, at_once, n, way)
+        made = Plan(
+            self.scene, self.radii, self.load, self.route, self.region, self.force_rows, n,
+            self.tolerance, way, tuple(steps), tuple(self.skipped), memory, 0.0,
+            sees_images(self.scene, self.load, self.route),
         )  # fmt: skip
+        seconds = predicted(made, self.model)
+        budget.refuse_seconds(self.scene, n, seconds)
+        return replace(made, estimated_seconds=seconds)
 
-    def _system(self, route: str) -> NumberSystem:
-        if self.tolerance is None and route != "ordered":
-            return FLOAT64
-        return Balls(budget.initial_bits(self.tolerance or Fraction(1, 2**60), self.height))
-
-    def _refuse(
-        self, region: Region | None, beads: int, realisations: int, system: NumberSystem
-    ) -> int:
+    def _refuse(self, region: Region | None, beads: int, realisations: int, way: Way) -> int:
         """Give the memory needed, or refuse the scene; without a region, before there are rows."""
         rows = Region(self.width, ()) if region is None else region
         one = self.scene.ask.at is not None and not beads
         layers = (0 if one else self.height + 1) if region is None else len(rows.rows)
-        needed = budget.memory(
-            self.scene, rows, beads=beads, layers=layers, realisations=realisations, system=system
+        needed = max(
+            budget.memory(
+                self.scene, rows, beads=beads, layers=layers, realisations=realisations, system=s
+            )
+            for s in (way.system, way.longer)
+            if s is not None
         )
         budget.refuse_memory(self.scene, needed, self.limit)
         return needed
@@ -330,21 +336,18 @@ class _Planner:
                 add(PHYSICAL, "gaps, overlaps and signs, always", region.beads)
         return steps
 
-    def _judging(
-        self, region: Region, steps: list[Step], realisations: int, system: NumberSystem
-    ) -> Step:
+    def _judging(self, steps: list[Step], way: Way) -> Step:
         """Give the last step, which says how accurate the answer is."""
-        if self.tolerance is not None:
+        if way.longer is None:
             why = "balls enclose the answer; bits are added, and all is done again, until it fits"
-            return Step("certify", why, 0, system.name)
-        few = budget.repeated(region, realisations)
-        passes = 1 if few == realisations else 2
-        visits = sum(s.beads for s in steps if s.step != PHYSICAL) // realisations
+            return Step(CERTIFY, why, 0, way.system.name)
+        passes = 1 if way.repeated == self.realisations else 2
+        visits = sum(s.beads for s in steps if s.step != PHYSICAL) // self.realisations
         return Step(
-            "estimate the error",
+            ESTIMATE,
             "the first realisations again with a longer significand",
-            passes * few * visits,
-            LONGER.name if passes == 1 else f"{system.name}, then {LONGER.name}",
+            passes * way.repeated * visits,
+            way.longer.name if passes == 1 else f"{way.system.name}, then {way.longer.name}",
         )
 
     def _region_reason(self, region: Region) -> str:

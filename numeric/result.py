@@ -1,13 +1,15 @@
 """Plans and outcomes as plain data: what ``--json`` prints and what result files hold."""
 
 import math
+from dataclasses import asdict
 from fractions import Fraction
 from typing import Any
 
-from numeric.decimals import bound_string
+from numeric.critical import critical_height
+from numeric.decimals import bound_string, short
 from numeric.physical import Physicality
-from numeric.planner import Plan
-from numeric.runner import Outcome, critical_height
+from numeric.plans import Candidate, Choice, Plan
+from numeric.runner import Outcome
 
 
 def plan_data(plan: Plan) -> dict[str, Any]:
@@ -27,6 +29,36 @@ def plan_data(plan: Plan) -> dict[str, Any]:
         "memory_bytes": plan.memory,
         "estimated_seconds": float(f"{plan.estimated_seconds:.3g}"),
         "sees_images": plan.sees_images,
+        "choice": None if plan.choice is None else choice_data(plan.choice),
+    }
+
+
+def choice_data(choice: Choice) -> dict[str, Any]:
+    """Give what a tolerance was weighed for; the chosen way is the first of the candidates."""
+
+    def shown(way: Candidate) -> dict[str, Any]:
+        return {
+            "algorithm": way.algorithm,
+            "arithmetic": way.arithmetic,
+            "certified": way.certified,
+            "repeated": way.repeated,
+            "expected_error": bound_string(way.error),
+            "seconds": None if way.seconds is None else float(f"{way.seconds:.3g}"),
+            "out": way.out,
+        }
+
+    def digit(way: Candidate | None, tolerance: Fraction) -> dict[str, Any] | None:
+        return None if way is None else {"tolerance": short(tolerance), **shown(way)}
+
+    ways = [shown(way) for way in choice.candidates]
+    return {
+        "tolerance": short(choice.tolerance),
+        "reason": choice.reason,
+        "coefficients": choice.coefficients,
+        "chosen": ways[0],
+        "candidates": ways,
+        "digit_more": digit(choice.digit_more, choice.tolerance / 10),
+        "digit_less": digit(choice.digit_less, choice.tolerance * 10),
     }
 
 
@@ -66,6 +98,9 @@ def outcome_data(outcome: Outcome) -> dict[str, Any]:
         i, j, branch = outcome.stopped
         data["stopped_at_tension"] = {"i": i, "j": j, "branch": branch}
     data["seconds"] = _rounded(outcome.total_seconds)
+    if data["choice"] is not None:
+        data["choice"]["missed"] = [asdict(missed) for missed in outcome.missed]
+        data["choice"]["measured_seconds"] = _rounded(outcome.total_seconds)
     return data
 
 

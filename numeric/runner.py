@@ -7,21 +7,23 @@ from fractions import Fraction
 from time import perf_counter
 from typing import Any
 
+from numeric import histogram
 from numeric.accuracy import Accuracy, of_balls, of_floats, strings
 from numeric.answers import GATHERERS, Table
-from numeric.budget import chunk_size, initial_bits, repeated
-from numeric.decimals import decimal_string, short
+from numeric.budget import DEFAULT_BINS, MOST_BITS, chunk_size, initial_bits
+from numeric.cost.ways import solve_plainly
+from numeric.critical import critical_height
+from numeric.decimals import short
 from numeric.engine import Solved, solve
+from numeric.estimate import edge_in_doubt, of_repeat
 from numeric.forces import NotStandingError
-from numeric.histogram import histogram
-from numeric.packing import UndecidedError
+from numeric.packing import UnbuildableError, UndecidedError
 from numeric.physical import Physicality
-from numeric.planner import LONGER, PHYSICAL, Plan
+from numeric.plans import CERTIFY, ESTIMATE, PHYSICAL, Choice, Plan
 from numeric.systems import FLOAT64, Balls, NumberSystem
 from numeric.work import Progress, Work
 
-MOST_BITS = 8192
-DEFAULT_BINS = 20
+__all__ = ["MOST_BITS", "Missed", "Outcome", "ToleranceError", "critical_height", "run"]
 
 
 class ToleranceError(ArithmeticError):
@@ -29,8 +31,20 @@ class ToleranceError(ArithmeticError):
 
 
 @dataclass(frozen=True)
+class Missed:
+    """A way that was tried before the one that answered, and why it did not."""
+
+    algorithm: str
+    arithmetic: str
+    why: str
+
+
+@dataclass(frozen=True)
 class Outcome:
-    """A finished run: the printed answer, its accuracy, what was physical and what it cost."""
+    """A finished run: the printed answer, its accuracy, what was physical and what it cost.
+
+    ``plan`` is that of the way that answered; ``missed`` are those tried before.
+    """
 
     plan: Plan
     rows: list[dict[str, Any]]
@@ -39,6 +53,7 @@ class Outcome:
     stopped: tuple[int, int, str] | None
     work: Work
     total_seconds: float
+    missed: tuple[Missed, ...] = ()
 
 
 @dataclass
@@ -52,25 +67,66 @@ class _Attempt:
 def run(plan: Plan, progress: Progress | None = None) -> Outcome:
     """Run a plan, to the tolerance that it was made for.
 
-    Raises ``ToleranceError``, and what the sweeps raise for a packing that can't be built.
+    Where the estimated error of a way misses the tolerance, the next way of the plan's choice is
+    taken. Raises ``ToleranceError``, and what the sweeps raise for a packing that can't be built.
     """
     start = perf_counter()
     work = Work(progress=progress)
-    system: NumberSystem
-    if isinstance(plan.system, Balls):
-        attempt, accuracy, system = _certified(plan, plan.system, work)
+    missed: list[Missed] = []
+    if plan.choice is not None:
+        plan, attempt, accuracy = _chosen(plan, plan.choice, work, missed)
+    elif plan.way.certified:
+        plan, attempt, accuracy = _certified(plan, work)
     else:
-        system = plan.system
-        attempt = _attempt(plan, system, range(plan.realisations), work)
+        attempt = _attempt(plan, plan.system, range(plan.realisations), work)
         accuracy = _estimate(plan, attempt, work)
-    rows = _rows(attempt, accuracy, system)
-    if not accuracy.certified and not accuracy.error_bound and _squares_vanish(plan):
+    rows = _rows(attempt, accuracy, plan.system)
+    zero = not accuracy.certified and not accuracy.error_bound
+    if zero and _squares_vanish(plan):
         note = "every change is zero, or below what float64 holds: a tolerance tells which"
         accuracy = replace(accuracy, error_bound=math.inf, note=note)
     return Outcome(
         plan, rows, accuracy, attempt.physical, attempt.stopped, work,
-        perf_counter() - start,
+        perf_counter() - start, tuple(missed),
     )  # fmt: skip
+
+
+def _chosen(
+    plan: Plan, choice: Choice, work: Work, missed: list[Missed]
+) -> tuple[Plan, _Attempt, Accuracy]:
+    """Try the ways in their order, until an estimate is within the tolerance or balls certify."""
+    for candidate in choice.tried:
+        assert candidate.plan is not None
+        tried = replace(candidate.plan, choice=choice)
+        if candidate.ends:
+            return _certified(tried, work)
+        try:
+            if candidate.certified:  # in the plain form, whose balls may grow too wide to decide
+                return _certified(tried, work)
+            attempt = _attempt(tried, tried.system, range(tried.realisations), work)
+            accuracy = _estimate(tried, attempt, work)
+            why = _shortfall(attempt, accuracy, choice.tolerance)
+        except (UnbuildableError, NotStandingError, ArithmeticError) as error:
+            why = str(error)  # rounding may have made it so: the next way tells
+        if not why:
+            return tried, attempt, accuracy
+        missed.append(Missed(candidate.algorithm, candidate.arithmetic, why))
+    balls = next(c for c in choice.candidates if c.certified)
+    raise ToleranceError(
+        f"the tolerance can't be reached: {missed[-1].arithmetic}: {missed[-1].why}; and "
+        f"{balls.arithmetic}: {balls.out}"
+    )
+
+
+def _shortfall(attempt: _Attempt, accuracy: Accuracy, tolerance: Fraction) -> str:
+    """Say why an estimated answer does not meet the tolerance; an empty string where it does."""
+    if not _within(accuracy, tolerance):
+        return accuracy.note if not accuracy.bits_lost else _still(accuracy)
+    if attempt.bins is not None:
+        edges = [attempt.bins[0][0], *(high for _, high, _ in attempt.bins)] if attempt.bins else []
+        if edge_in_doubt(attempt.table, edges, accuracy):
+            return "a change lies within its error of the edge of a bin"
+    return ""
 
 
 def _squares_vanish(plan: Plan) -> bool:
@@ -83,10 +139,11 @@ def _attempt(plan: Plan, system: NumberSystem, realisations: Sequence[int], work
     physical = Physicality() if plan.route == "exact" and not work.repeating else None
     gatherer = GATHERERS[plan.scene.ask.quantity](plan, system)
     stopped = None
+    solver = solve_plainly if plan.way.plain else solve
     size = 1 if plan.route == "line sums" else chunk_size(plan.region, system, plan.scene)
     with system.active():
         for chunk in _chunks(realisations, size):
-            solved = solve(plan, chunk, system, work)
+            solved = solver(plan, chunk, system, work)
             if physical is not None and solved.packing is not None:
                 _check(physical, solved, len(chunk), work)
             if solved.forces is not None and stopped is None:
@@ -96,7 +153,7 @@ def _attempt(plan: Plan, system: NumberSystem, realisations: Sequence[int], work
         bins = None
         if plan.scene.ask.quantity == "histogram" and not work.repeating:
             values = table.numbers["change"]
-            bins = histogram(values, plan.scene.ask.bins or DEFAULT_BINS, system)
+            bins = histogram.histogram(values, plan.scene.ask.bins or DEFAULT_BINS, system)
     return _Attempt(table, bins, physical, stopped)
 
 
@@ -117,19 +174,25 @@ def _chunks(realisations: Sequence[int], size: int) -> Iterator[Sequence[int]]:
 
 def _estimate(plan: Plan, attempt: _Attempt, work: Work) -> Accuracy:
     """Solve the first realisations again with a longer significand, and compare."""
-    few = range(repeated(plan.region, plan.realisations))
+    longer, few = plan.way.longer, range(plan.way.repeated)
+    assert longer is not None
     part = replace(plan, realisations=len(few))
-    with work.repeat("estimate the error"):
+    with work.repeat(ESTIMATE):
         table = attempt.table
         if len(few) < plan.realisations:
-            table = _attempt(part, FLOAT64, few, work).table
-        again = _attempt(part, LONGER, few, work).table
-        return of_floats(table, again, attempt.table, FLOAT64)
+            table = _attempt(part, plan.system, few, work).table
+        again = _attempt(part, longer, few, work).table
+        if plan.tolerance is None:
+            return of_floats(table, again, attempt.table, FLOAT64)
+        with longer.active():
+            return of_repeat(table, again, attempt.table, plan)
 
 
-def _certified(plan: Plan, system: Balls, work: Work) -> tuple[_Attempt, Accuracy, Balls]:
+def _certified(plan: Plan, work: Work) -> tuple[Plan, _Attempt, Accuracy]:
     """Raise the precision until the enclosure is small enough, or say why that does not help."""
     floor = plan.radii.relative_std()
+    system = plan.system
+    assert isinstance(system, Balls)
     if system.bits > MOST_BITS:
         raise ToleranceError(
             f"the tolerance can't be reached: {short(plan.tolerance or floor)} at height "
@@ -139,10 +202,10 @@ def _certified(plan: Plan, system: Balls, work: Work) -> tuple[_Attempt, Accurac
     while True:
         try:
             attempt = _attempt(plan, system, range(plan.realisations), work)
-            with work.timed("certify"), system.active():
+            with work.timed(CERTIFY), system.active():
                 accuracy = of_balls(attempt.table, system, floor)
             if plan.tolerance is None or _within(accuracy, plan.tolerance):
-                return attempt, accuracy, system
+                return replace(plan, way=replace(plan.way, system=system)), attempt, accuracy
             why = f"at {system.bits} bits {_still(accuracy)}"
         except (UndecidedError, NotStandingError) as error:
             why = f"at {system.bits} bits: {error}"
@@ -177,32 +240,10 @@ def _within(accuracy: Accuracy, tolerance: Fraction) -> bool:
     return math.isfinite(bound) and Fraction(bound) <= tolerance
 
 
-def critical_height(relative_std: Fraction) -> float:
-    """Give M* = (σ/r)^(−2/3), where contacts begin to pull (Eq. 15); inf beyond a float's range.
-
-    >>> critical_height(Fraction(1, 1000))
-    100.0
-    """
-    if not relative_std:
-        return math.inf
-    # The exponents of numerator and denominator may lie outside a float's range.
-    log = _log10(relative_std.numerator) - _log10(relative_std.denominator)
-    return round(10 ** (-2 * log / 3), 9) if log > -460 else math.inf
-
-
-def _log10(n: int) -> float:
-    shift = max(n.bit_length() - 60, 0)
-    return math.log10(n >> shift) + shift * math.log10(2)
-
-
 def _rows(attempt: _Attempt, accuracy: Accuracy, system: NumberSystem) -> list[dict[str, Any]]:
     """Print the answer, row by row."""
     if attempt.bins is not None:
-        rows: list[dict[str, Any]] = []
-        for low, high, count in attempt.bins:  # a bin begins where the last one ends
-            start = rows[-1]["high"] if rows else decimal_string(low, None)
-            rows.append({"low": start, "high": decimal_string(high, None), "count": count})
-        return rows
+        return histogram.printed(attempt.bins)
     with system.active():
         printed = strings(attempt.table, accuracy, system)
     columns = {**attempt.table.index, **printed}

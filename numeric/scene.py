@@ -126,6 +126,7 @@ class AskSection(Section):
     quantity: Quantity
     at: list[int | str] | None = None
     tolerance: Number | None = None
+    certified: bool = False
     realisations: int = Field(default=1, ge=1, le=10**9)
     bins: int | None = Field(default=None, ge=1, le=1_000_000)
 

@@ -157,6 +157,22 @@ def midpoint(ball: Any) -> Fraction:
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
 
 
+def as_ball(value: Any) -> Any:
+    """Give a number of any arithmetic as an exact arb (a ball, as it is).
+
+    Raises ``ValueError`` or ``OverflowError`` where it is not finite.
+    """
+    if isinstance(value, flint.arb):
+        return value
+    if hasattr(value, "_mpf_"):
+        if not mpmath.isfinite(value):
+            raise ValueError("not a finite number")
+        sign, mantissa, exponent, _ = value._mpf_
+        return flint.arb((int(-mantissa if sign else mantissa), int(exponent)))
+    numerator, denominator = value.as_integer_ratio()
+    return flint.arb((int(numerator), 1 - int(denominator).bit_length()))
+
+
 FLOAT64 = Hardware("float64", np.float64)
 LONGDOUBLE = Hardware("longdouble", np.longdouble)
 

@@ -31,7 +31,7 @@ from numeric.cost.study import (
 from numeric.cost.truth import decimal, exactly
 from numeric.cost.ways import answer
 from numeric.lattice import Array
-from numeric.planner import Plan, Skipped
+from numeric.plans import Plan, Skipped
 from numeric.scene import Scene
 from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem, array
 
@@ -129,7 +129,9 @@ class _Truth:
     """
 
     def __init__(self, scene: Scene, notice: Notice) -> None:
-        asked = scene.model_copy(update={"ask": scene.ask.model_copy(update={"tolerance": None})})
+        asked = scene.model_copy(
+            update={"ask": scene.ask.model_copy(update={"tolerance": None, "certified": False})}
+        )
         self.plans = {
             name: planner.plan(with_geometry(asked, name)) for name in ("first-order", "exact")
         }

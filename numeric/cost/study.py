@@ -22,7 +22,7 @@ from numeric.cost.truth import BEYOND, DIGITS, IncomparableError, Truth
 from numeric.cost.ways import answer, solve_plainly, why_not_plain
 from numeric.forces import NotStandingError
 from numeric.packing import UnbuildableError, UndecidedError
-from numeric.planner import Skipped
+from numeric.plans import Skipped
 from numeric.radii import RadiusError
 from numeric.scene import Scene, SceneError
 from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem

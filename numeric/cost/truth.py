@@ -6,17 +6,16 @@ from fractions import Fraction
 from typing import Any
 
 import flint
-import mpmath
 
 from numeric.answers import Table
 from numeric.budget import initial_bits
 from numeric.cost.ways import answer
 from numeric.forces import NotStandingError
 from numeric.packing import UndecidedError
-from numeric.planner import Plan
+from numeric.plans import Plan
 from numeric.runner import MOST_BITS, ToleranceError
 from numeric.scene import SceneError
-from numeric.systems import Balls
+from numeric.systems import Balls, as_ball
 
 DIGITS = (20, 30, 50, 100, 300)
 # The reference's radius has to lie this far below the last digit of the most precise way.
@@ -85,17 +84,14 @@ class Truth:
 
 
 def exactly(value: Any) -> Any:
-    """Give a number (of a ball, its midpoint) as an arb at the precision that is active."""
-    if isinstance(value, flint.arb):
-        if not value.is_finite():
-            raise IncomparableError("its enclosure is infinite")
-        return value.mid()
-    if hasattr(value, "_mpf_"):
-        return flint.arb(flint.fmpq(*map(int, mpmath.libmp.to_rational(value._mpf_))))
+    """Give a number (of a ball, its midpoint) as an exact arb."""
     try:
-        return flint.arb(flint.fmpq(*map(int, value.as_integer_ratio())))
+        ball = as_ball(value)
     except (ValueError, OverflowError) as error:
         raise IncomparableError("a number is not finite") from error
+    if not ball.is_finite():
+        raise IncomparableError("its enclosure is infinite")
+    return ball.mid()
 
 
 def decimal(value: Any, digits: int = 5) -> Decimal:

@@ -7,9 +7,9 @@ from numeric.answers import GATHERERS, Table
 from numeric.budget import chunk_size
 from numeric.engine import Solved, solve
 from numeric.forces import Forces
-from numeric.lattice import Array, Layer, full_layer, pick, whole
+from numeric.lattice import Array, Layer, Region, full_layer, pick, whole
 from numeric.packing import Packing
-from numeric.planner import Plan
+from numeric.plans import Plan
 from numeric.radii import rows_of
 from numeric.systems import NumberSystem, zeros
 from numeric.work import Work
@@ -55,16 +55,36 @@ def solve_plainly(
     """Solve one realisation of a periodic packing in the plain form, like ``engine.solve``.
 
     The ordered values are subtracted from solved positions and forces, which is where the plain
-    form loses its digits. Only what the gatherers of ``PLAIN_QUANTITIES`` read is filled in.
+    form loses its digits. Only what the gatherers of ``PLAIN_QUANTITIES`` and the check that it is
+    physical read is filled in.
     """
     scene = plan.scene
     width = scene.packing.width
     assert width is not None
     region = whole(width, scene.packing.height)
-    rho = rows_of(plan.radii, region.rows, realisations, system, work)
-    packing = plain.deposit(scene.n_x, rho, system)
+    with work.timed("radii"):
+        rho = rows_of(plan.radii, region.rows, realisations, system, work)
+    with work.timed("deposit"):
+        packing = plain.deposit(scene.n_x, rho, system)
+        placed = _line_sums(plan, packing, rho)
+    for layer in region.rows:
+        work.did("deposited", layer)
     if not plan.needs_forces:
-        return Solved(system, _line_sums(plan, packing, rho), None, None)
+        return Solved(system, placed, None, None)
+    with work.timed("balance forces"):
+        forces = _balanced(plan, packing, region, system)
+    for layer in plan.force_rows[1:]:
+        work.did("balanced", layer)
+    return Solved(system, placed, forces, None)
+
+
+def _balanced(
+    plan: Plan, packing: plain.PlainPacking, region: Region, system: NumberSystem
+) -> Forces:
+    """Balance forces and subtract the ordered ones."""
+    scene = plan.scene
+    width = scene.packing.width
+    assert width is not None
     nx, ny = packing.n
     strength = plan.load.strength(scene.n_x, system)
     on = plan.load.on(region.rows, strength, system)
@@ -90,11 +110,10 @@ def solve_plainly(
         [f - F for f, F in zip(found.plus, ordered.ordered_plus, strict=True)],
         [f - F for f, F in zip(found.minus, ordered.ordered_minus, strict=True)],
     ]
-    forces = Forces(
+    return Forces(
         system, plan.force_rows, wanted(ordered.ordered_plus), wanted(ordered.ordered_minus),
         wanted(changes[0]), wanted(changes[1]),
     )  # fmt: skip
-    return Solved(system, None, forces, None)
 
 
 def _line_sums(plan: Plan, packing: plain.PlainPacking, rho: Sequence[Array]) -> Packing:

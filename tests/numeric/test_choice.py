@@ -1,0 +1,207 @@
+"""A tolerance is kept, whatever way is taken to it; choices and calibrations are sound."""
+
+import itertools
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from numeric.cost import ways
+from numeric.plans import Candidate, Plan
+from numeric.result import outcome_data
+from numeric.runner import Outcome, ToleranceError, run
+from numeric.scene import SceneError
+from numeric.systems import FLOAT64, LONGDOUBLE, Hardware, midpoint
+from tests.numeric.scenes import basic, planned, scenes
+from tests.numeric.test_answers import numbers
+
+QUANTITIES = (
+    "contact", "contact_forces", "positions", "profile", "histogram", "response", "base_reactions"
+)  # fmt: skip
+TOLERANCES = ("1e-3", "1e-6", "1e-9", "1e-11", "1e-12", "1e-14", "1e-16", "1e-18", "1e-30", "1e-60")
+SPACINGS = ("2.05", "2.75", "3.0", "3.4")
+# height, width (None: the slab); 4 on 3 is a strip that sees its images
+SHAPES: tuple[tuple[int, int | None], ...] = ((4, 9), (3, 4), (5, None), (4, 3))
+
+
+def only(plan: Plan, way: Candidate) -> Plan:
+    """Give the plan with a single way, and balls for where it misses."""
+    assert plan.choice is not None
+    assert way.plan is not None
+    last = [c for c in plan.choice.candidates if c.ends and c is not way]
+    return replace(way.plan, choice=replace(plan.choice, candidates=(way, *last)))
+
+
+def reference(sections: dict[str, dict[str, Any]]) -> Outcome:
+    """Certify far more digits than are asked for."""
+    tolerance = Fraction(sections["ask"]["tolerance"][1:]) / 10**15
+    digits = len(str(tolerance.denominator)) + 1
+    ask = {**sections["ask"], "tolerance": f"=1e-{digits}", "certified": True}
+    return run(planned({**sections, "ask": ask}))
+
+
+def recounted(bins: list[dict[str, Any]], plan: Plan) -> list[int]:
+    """Count the true changes into the bins that were printed."""
+    table = ways.answer(plan, plan.system, range(plan.realisations))
+    values = [midpoint(value) for value in table.numbers["change"]]
+    edges = [(Fraction(row["low"]), Fraction(row["high"])) for row in bins]
+    return [sum(low <= value < high for value in values) for low, high in edges]
+
+
+def assert_kept(outcome: Outcome, true: Outcome, tolerance: Fraction) -> None:
+    """Compare what was printed, relative to the largest change."""
+    assert outcome.accuracy.error_bound <= tolerance
+    assert true.accuracy.certified
+    if outcome.plan.scene.ask.quantity == "histogram":
+        assert recounted(outcome.rows, true.plan) == [row["count"] for row in outcome.rows]
+        return
+    largest = max((abs(Fraction(v)) for _, v in numbers(true, True)), default=0)
+    rows = zip(numbers(outcome, True), numbers(true, True), strict=True)
+    error = max((abs(Fraction(a) - Fraction(b)) for (_, a), (_, b) in rows), default=0)
+    assert error <= tolerance * largest
+    # what is stated holds, too, and not only what was asked for
+    assert error <= Fraction(outcome.accuracy.error_bound) * largest * Fraction(1001, 1000)
+
+
+def grid() -> Iterator[Any]:
+    """Every quantity, geometry and load; shapes, spacings, disorder and tolerances take turns."""
+    loads: tuple[dict[str, Any], ...] = (
+        {"kind": "surface"}, {"kind": "bulk", "angle_deg": 12}, {"kind": "point"}
+    )  # fmt: skip
+    turn = itertools.count()
+    for quantity, geometry, load in itertools.product(QUANTITIES, ("exact", "first-order"), loads):
+        k = next(turn)
+        height, width = SHAPES[k % len(SHAPES)]
+        point = quantity == "response" or load["kind"] == "point"
+        listed = quantity in {"positions", "profile", "histogram", "contact_forces"}
+        if width is None and (listed or (quantity == "base_reactions" and not point)):
+            height, width = SHAPES[0]
+        here = {"kind": "point", "at": [height % 2, height]} if point else load
+        sections = basic(height, width, quantity=quantity)
+        sections["packing"] |= {"spacing": f"={SPACINGS[k % 3 + k % 2]}", "allow_images": True}
+        std = ("=2e-3", "=1e-7", "=1e-40")[k % 3 if quantity != "histogram" else 1]
+        sections["disorder"] |= {"relative_std": std, "kind": ("uniform", "normal")[k % 2]}
+        sections |= {"load": here, "effects": {"geometry": geometry}}
+        if quantity == "contact":
+            sections["ask"]["at"] = [k % 2, k % 2, "+-"[k // 2 % 2]]
+        if k % 4 >= 2:
+            sections["ask"]["realisations"] = 5
+        for step in (0, 5) if geometry == "exact" else (0,):
+            tolerance = TOLERANCES[(k + step) % len(TOLERANCES)]
+            ask = {**sections["ask"], "tolerance": f"={tolerance}"}
+            name = f"{quantity}-{geometry}-{here['kind']}-{tolerance}"
+            yield pytest.param({**sections, "ask": ask}, id=name)
+
+
+@pytest.mark.parametrize("sections", list(grid()))
+def test_every_way_that_may_answer_keeps_the_tolerance(
+    sections: dict[str, dict[str, Any]], record_property: Callable[[str, object], None]
+) -> None:
+    """Not only the cheapest way: on another machine another one is."""
+    plan, true = planned(sections), reference(sections)
+    assert plan.choice is not None
+    tolerance = plan.choice.tolerance
+    for way in plan.choice.candidates:
+        if way.out:
+            continue
+        outcome = run(only(plan, way))
+        assert_kept(outcome, true, tolerance)
+        assert outcome.accuracy.certified == outcome.plan.way.certified
+        assert way.seconds is not None
+        ratio = way.seconds / outcome.total_seconds
+        record_property(f"predicted/measured, {way.arithmetic}", f"{ratio:.2g}")
+
+
+@given(scenes(), st.sampled_from(TOLERANCES))
+def test_any_scene_keeps_its_tolerance(sections: dict[str, dict[str, Any]], wanted: str) -> None:
+    sections["ask"]["tolerance"] = f"={wanted}"
+    plan = planned(sections)
+    try:
+        true = reference(sections)
+    except ToleranceError:  # a force that is exactly zero has no sign
+        assume("stop_at_tension" not in sections["effects"])
+        raise
+    every = [] if plan.choice is None else [c for c in plan.choice.candidates if not c.out]
+    for one in [only(plan, way) for way in every] or [plan]:
+        outcome = run(one)
+        assert_kept(outcome, true, Fraction(wanted))
+        outcome_data(outcome)
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "system"), [("1e-3", FLOAT64), ("1e-13", FLOAT64), ("1e-16", LONGDOUBLE)]
+)
+def test_estimated_ways_do_answer(tolerance: str, system: Hardware) -> None:
+    """Were their estimates too careful, balls would answer everything, and the tests above hold."""
+    if system.bits < 54 and system is LONGDOUBLE:
+        pytest.skip("long double is no longer than float64 here")
+    plan = planned(basic(tolerance=f"={tolerance}"))
+    assert plan.choice is not None
+    (way,) = (c for c in plan.choice.candidates if c.arithmetic == system.name)
+    outcome = run(only(plan, way))
+    assert not outcome.missed
+    assert outcome.plan.system is system
+    assert not outcome.accuracy.certified
+    assert "estimated" in outcome.accuracy.note
+
+
+def candidates(sections: dict[str, dict[str, Any]]) -> tuple[Candidate, ...]:
+    plan = planned(sections)
+    assert plan.choice is not None
+    return plan.choice.candidates
+
+
+def test_certified_leaves_balls_alone() -> None:
+    for way in candidates(basic(tolerance="=1e-3", certified=True)):
+        assert way.certified or "certified was asked for" in way.out
+    with pytest.raises(SceneError, match=r"ask\.certified.*tolerance"):
+        planned(basic(certified=True))
+
+
+def test_what_only_balls_decide_is_left_to_them() -> None:
+    stopping = {**basic(tolerance="=1e-3"), "effects": {"stop_at_tension": True}}
+    high = basic(24, 25, tolerance="=1e-3")
+    high["disorder"]["relative_std"] = "=1e-2"
+    tiny = basic(tolerance="=1e-3")
+    tiny["disorder"]["relative_std"] = "=1e-400"
+    for sections, why in ((stopping, "signs of forces"), (high, r"M*/2"), (tiny, "in float64")):
+        chosen, *rest = candidates(sections)
+        assert chosen.certified
+        floats = [way for way in rest if way.arithmetic in {"float64", "longdouble"}]
+        assert floats
+        assert all(why in way.out for way in floats)
+
+
+def test_an_effect_is_never_replaced() -> None:
+    for geometry in ("exact", "first-order"):
+        sections = {**basic(tolerance="=1e-3"), "effects": {"geometry": geometry}}
+        assert {way.plan.route for way in candidates(sections) if way.plan} == {geometry}
+
+
+def test_line_sums_and_a_sweep_are_both_weighed_for_an_ensemble() -> None:
+    sections = basic(quantity="contact", at=[0, 0, "+"], tolerance="=1e-6", realisations=20)
+    sections["effects"] = {"geometry": "first-order"}
+    found = {way.algorithm: way for way in candidates(sections) if not way.out}
+    assert set(found) == {"line sums", "first-order sweep"}
+    answers = {name: run(only(planned(sections), way)).rows for name, way in found.items()}
+    one, other = answers.values()
+    largest = max(abs(float(row["change"])) for row in one)
+    for a, b in zip(one, other, strict=True):
+        assert abs(float(a["change"]) - float(b["change"])) <= 2e-6 * largest
+
+
+def test_an_estimate_that_misses_gives_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The next way answers, and the outcome says why the first did not."""
+    plan = planned(basic(tolerance="=1e-9"))
+    monkeypatch.setattr("numeric.estimate.SAFETY", 10**9)
+    assert plan.choice is not None
+    (way,) = (c for c in plan.choice.candidates if c.arithmetic == "float64")
+    outcome = run(only(plan, way))
+    assert [missed.arithmetic for missed in outcome.missed] == ["float64"]
+    assert "error is still" in outcome.missed[0].why
+    assert outcome.accuracy.certified
+    assert outcome_data(outcome)["choice"]["missed"][0]["arithmetic"] == "float64"
