@@ -37,7 +37,7 @@ _VECTOR = re.compile(r"(?<![A-Za-z\\{])n(?=\^\{[-+]|\^?\\pm)")
 _FORCE = re.compile(r"F(?=\^\{\\rm load)")
 _RECIPROCAL = re.compile(r"(?<![A-Za-z\\{])b(?=\^\{[-+]|\^?\\pm)")
 _NAMES = re.compile(r"(?<![A-Za-z\\])(max|min)(?![A-Za-z])")
-_POWER = re.compile(r"\^\(([^()]*)\)")
+_POWER = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\d+))")
 _STAR = re.compile(r"(?<=[A-Za-z])\*")
 _ROOT = re.compile(r"√(\d+|\([^()]*\))")
 _PUNCTUATION = re.compile(r"(?P<open>[(“\"]*)(?P<core>.*?)(?P<close>[)”\".,;:?!]*)", re.DOTALL)
@@ -84,7 +84,7 @@ def _power_of_ten(found: re.Match[str]) -> str:
 def _set_mathematics(word: str) -> str:
     for special in "%#&{}":
         word = word.replace(special, f"\\{special}")
-    word = _STAR.sub("^{*}", _POWER.sub(r"^{\1}", word))
+    word = _STAR.sub("^{*}", _POWER.sub(lambda found: f"^{{{found[1] or found[2]}}}", word))
     for raised, source in _WORDS.items():
         word = word.replace(raised, source)
     word = _ROOT.sub(r"\\sqrt{\1}", _RUN.sub(_run, _INDEXED.sub(_lowered, word)))

@@ -21,12 +21,13 @@ STATUSES = (
 def report(
     out: Annotated[Path, out_option("the page")] = Path("report"),
 ) -> None:
-    """Write all results as one HTML page: derivations, checks, costs, stability."""
+    """Write all results as one HTML page: derivations, checks, figures, costs, stability."""
     import shlex
 
     try:
         import jinja2  # noqa: F401
         import matplotlib  # noqa: F401
+        import scipy  # noqa: F401
     except ImportError as missing:
         fail(f"{missing.name} is missing; pip install 'force-diffusion[report]'", NOT_REACHED)
     from derivations.deriving import status_of, verdict_counts

@@ -8,6 +8,7 @@ from symbolic import affine
 from symbolic.affine import Affine, Region
 from symbolic.exact import FIELD, NotExactError, RationalFunction
 from symbolic.linear_forms import LinearForm
+from symbolic.printing.text import text
 from symbolic.symbols import (
     INDICES,
     Braces,
@@ -114,11 +115,11 @@ class Reader:
         elif divisor.free_symbols == {phi}:
             # the number of roots in an interval is decided exactly (Sturm)
             if sympy.Poly(divisor, phi).count_roots(*_COSINES):
-                raise VanishingDivisorError(f"{divisor} vanishes for a φ between −½ and ½")
+                raise VanishingDivisorError(f"{text(divisor)} vanishes for a φ between −½ and ½")
         elif not (divisor.is_positive or divisor == -1):
             assert self.region is not None
             if not self.region.differ(affine.from_sympy(divisor), affine.ZERO):
-                raise UnsafeDivisorError(f"{divisor} may vanish for {self.region}")
+                raise UnsafeDivisorError(f"{text(divisor)} may vanish for {self.region}")
 
     def _atom(self, atom: SiteFunction) -> LinearForm | Vector:
         i, j = (affine.from_sympy(index) for index in atom.args)

@@ -1,10 +1,11 @@
-"""What the report measures: what accuracy costs for one small scene, and how stable it is."""
+"""What the report draws and measures: the figures, what accuracy costs, and how stable it is."""
 
 from collections.abc import Callable, Sequence
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
+from derivations.page.figures import figures_part
 from derivations.page.parts import Data, Figure, Part, Table, csv_data
 from derivations.page.words import plain_number
 
@@ -185,5 +186,5 @@ def _bytes(content: str | bytes) -> bytes:
 
 
 def parts(notice: Notice) -> list[Part]:
-    """All that is measured, in the order of the page."""
-    return [cost_part(notice), stability_part(notice)]
+    """All that is drawn and measured, in the order of the page."""
+    return [figures_part(notice), cost_part(notice), stability_part(notice)]

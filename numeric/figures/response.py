@@ -2,19 +2,22 @@
 
 p is the vertical force that a bead gets from *both* its upper contacts. To first order the two lie
 on different diagonals, whose heights add up to l + j: their variances add up to Eq. 16, whatever
-the horizontal position. One contact alone depends on the position. The exact first-order variances
-at finite l come from solving for δr on one bead at a time; the simulation is exact and nonlinear.
+the horizontal position. One contact alone depends on the position. On a leg of the cone one
+contact carries all of p, half of the load on average, and fluctuates less. The variances at finite
+l are the closed forms, exact to first order; the simulation is exact and nonlinear.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from math import asin
+from math import asin, sqrt
 from typing import Any
 
 import numpy as np
 
+from numeric.closed_forms import bead_response, contact_response
 from numeric.engine import Solved
 from numeric.figures.bands import Band, averaged, simultaneous
-from numeric.figures.packings import N_X, PHI, Notice, Row, forces_of, impulses, planned, solved
+from numeric.figures.packings import N_X, PHI, Notice, Row, forces_of, planned, solved
 from numeric.lattice import Array
 from numeric.models.double_y import Profile, profiles
 
@@ -28,7 +31,7 @@ CUTS = (18, 12, 6, 0)
 class Response:
     """The response on layers j = 0 … l − 1, in units of the load; lists hold one array a layer.
 
-    Layer j has the l − j + 1 beads i = −(l − j), …, l − j within the cone, its two edges included.
+    Layer j has the l − j + 1 beads i = −(l − j), …, l − j within the cone, its two legs included.
     ``variance`` and ``one_contact`` (upper contacts "+", the bead's upper right) are exact to first
     order, in (σ/r)²; ``simulated_*`` are those of the ensemble, and ``bands`` lie around its ln σ.
     """
@@ -52,14 +55,18 @@ class Response:
         return np.arange(-(self.apex - j), self.apex - j + 1, 2)
 
     def limits(self) -> dict[int, tuple[Array, Array]]:
-        """Give the band of the variance inside the cone, by height of the cuts."""
+        """Give the band of the variance, legs included, by height of the cuts."""
         low, high = (edge**2 for edge in self.band.limits)
         found, at = {}, 0
         for j in CUTS:
-            n = self.apex - j - 1
+            n = self.apex - j + 1
             found[j] = (low[at : at + n], high[at : at + n])
             at += n
         return found
+
+    def standard_error(self, j: int, q: int) -> float:
+        """Give the standard error of the simulated mean on the q-th bead of layer j."""
+        return STD * sqrt(float(self.simulated_variance[j][q]) / (self.realisations - 1))
 
     def deviation(self) -> float:
         """Give the largest deviation of the exact first-order σ on the cuts, in half-widths."""
@@ -73,21 +80,22 @@ class Response:
         for j in range(self.apex):
             sites = self.sites(j).tolist()
             for q, i in enumerate(sites):
-                edge = q in {0, len(sites) - 1}
+                leg = q in {0, len(sites) - 1}
                 row: Row = {
                     "i": i,
                     "j": j,
-                    "on_cone": int(edge),
+                    "on_cone": int(leg),
                     "mean_ordered": float(self.mean[j][q]),
                     "mean_simulated": float(self.simulated_mean[j][q]),
+                    "mean_standard_error": self.standard_error(j, q),
                     "variance_exact_first_order": float(self.variance[j][q]),
-                    "variance_printed": "" if edge else self.printed(j),
+                    "variance_printed": "" if leg else self.printed(j),
                     "variance_simulated": float(self.simulated_variance[j][q]),
                     "variance_upper_plus_contact": float(self.one_contact[j][q]),
                 }
                 beads.append(row)
-                if j in limits and not edge:
-                    low, high = (float(side[q - 1]) for side in limits[j])
+                if j in limits:
+                    low, high = (float(side[q]) for side in limits[j])
                     cuts.append({**row, "band_low": low, "band_high": high})
         tables = {"figure4": beads, "figure4_cuts": cuts}
         if self.double_y:
@@ -122,30 +130,29 @@ class Response:
 
 
 def _on_cuts(layers: tuple[Array, ...]) -> Array:
-    """Put the beads inside the cone on the cuts one after the other."""
-    return np.concatenate([layers[j][..., 1:-1] for j in CUTS], axis=-1)
+    """Put the beads of the cuts one after the other."""
+    return np.concatenate([layers[j] for j in CUTS], axis=-1)
 
 
 def respond(realisations: int, seed: int, notice: Notice, *, double_y: bool = False) -> Response:
-    """Solve for the weights, and simulate."""
+    """Evaluate the closed forms, and simulate."""
     ensemble = planned(
         '"response"', height=APEX, width=None, seed=seed, std=STD,
         load=f'"point", at = [0, {APEX}]', realisations=realisations,
     )  # fmt: skip
-    weights, single = vertical(impulses(ensemble), ensemble.region.beads, linear=True)
     ordered = tuple(_ordered(j) for j in range(APEX))
     samples: list[tuple[Array, ...]] = []
     for answer, number in solved(ensemble, range(realisations), notice, "figure 4"):
-        samples.append(vertical(answer, number, linear=False)[0])
+        samples.append(vertical(answer, number))
     changes = tuple(np.concatenate(parts) for parts in zip(*samples, strict=True))
-    inside = _on_cuts(changes) / STD
-    variance = inside.var(axis=0)
-    influence = (inside - inside.mean(axis=0)) ** 2 / (2 * variance) - 0.5
+    cut = _on_cuts(changes) / STD
+    variance = cut.var(axis=0)
+    influence = (cut - cut.mean(axis=0)) ** 2 / (2 * variance) - 0.5
     return Response(
         APEX,
         realisations,
-        tuple((w**2).sum(axis=0) for w in weights),
-        tuple((w**2).sum(axis=0) for w in single),
+        tuple(_exact(j, bead_response) for j in range(APEX)),
+        tuple(_exact(j, contact_response, "+") for j in range(APEX)),
         ordered,
         tuple(F + p.mean(axis=0) for F, p in zip(ordered, changes, strict=True)),
         tuple(p.var(axis=0) / STD**2 for p in changes),
@@ -160,17 +167,19 @@ def _ordered(j: int) -> Array:
     return mean
 
 
-def vertical(
-    answer: Solved, number: int, *, linear: bool
-) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
-    """Give the change of p by layer 0 … l − 1, and its part from the upper right contact alone.
+def _exact(j: int, variance: Callable[..., Any], *branch: str) -> Array:
+    """Evaluate a closed form on all beads of layer j within the cone, in (f_load σ/r)²."""
+    reach = APEX - j
+    found = [variance(i, j, 0, APEX, *branch, PHI, 1, 1) for i in range(-reach, reach + 1, 2)]
+    return np.array(found, dtype=float)
 
-    Shapes (number, l − j + 1): realisations, or impulses, by the beads of the cone.
-    """
+
+def vertical(answer: Solved, number: int) -> tuple[Array, ...]:
+    """Give the change of p by layer 0 … l − 1, shapes (number, l − j + 1): beads of the cone."""
     forces, packing = forces_of(answer), answer.packing
     assert packing is not None
     ny = np.sqrt(1 - float(N_X) ** 2)
-    both, right = [], []
+    found = []
     for j in range(1, len(forces.rows)):
         parts = []
         for F, g, dn in (
@@ -179,11 +188,9 @@ def vertical(
         ):
             change = g.reshape(number, -1)
             tilt = (dn[0] + dn[1]).reshape(number, -1)
-            f = F if linear else F + change
-            parts.append((change + f * tilt) * ny)
+            parts.append((change + (F + change) * tilt) * ny)
         nothing = np.zeros((number, 1))
         plus = np.concatenate((parts[0], nothing), axis=1)
         minus = np.concatenate((nothing, parts[1]), axis=1)
-        both.append(plus + minus)
-        right.append(plus)
-    return tuple(both), tuple(right)
+        found.append(plus + minus)
+    return tuple(found)

@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
 from numeric.figures import style
@@ -25,8 +26,9 @@ def draw(data: Response) -> Figure:
         grid = figure.add_gridspec(2, 2, width_ratios=(1, 1.1))
         cells = (grid[0, 0], grid[1, 0], grid[:, 1])
         panels = [figure.add_subplot(cell) for cell in cells]
-    _map(panels[0], data, data.mean, r"$\langle p\rangle\,/\,f^{\rm load}$", where, edges=True)
-    _map(panels[1], data, data.variance, VARIANCE, where, edges=False)
+    _map(panels[0], data, data.mean, r"$\langle p\rangle\,/\,f^{\rm load}$", where, 0.5)
+    highest = float(data.variance[data.apex - 2][1])
+    _map(panels[1], data, data.variance, VARIANCE, where, highest)
     _cuts(panels[2], data)
     style.letter(panels)
     return figure
@@ -36,21 +38,16 @@ VARIANCE = r"$\sigma^2_{\rm ensemble}(p)\,/\,(f^{\rm load}\sigma_{\delta r}/r)^2
 
 
 def _map(
-    axes: Axes, data: Response, values: tuple[Array, ...], name: str, where: str, *, edges: bool
+    axes: Axes, data: Response, values: tuple[Array, ...], name: str, where: str, highest: float
 ) -> None:
     nx, ny = float(N_X), np.sqrt(1 - float(N_X) ** 2)
-    discs, shades = [], []
+    discs: list[Circle] = []
+    shades: list[float] = []
     for j in range(data.apex):
-        for q, i in enumerate(data.sites(j)):
-            edge = q in {0, data.apex - j}
-            if edge and not edges:
-                axes.add_patch(Circle((2 * nx * i, 2 * ny * j), 1, fc="none", ec="0.6", lw=0.35))
-                continue
-            discs.append(Circle((2 * nx * i, 2 * ny * j), 1))
-            shades.append(values[j][q])
+        discs += [Circle((2 * nx * i, 2 * ny * j), 1) for i in data.sites(j)]
+        shades += values[j].tolist()
     beads = PatchCollection(discs, cmap="Greys", ec="0.75", lw=0.25)
     beads.set_array(np.array(shades))
-    highest = 0.5 if edges else float(values[data.apex - 2][1])
     beads.set_clim(0, 1.15 * highest)  # the darkest grey still lets circles be seen
     axes.add_collection(beads)
     top = (0, 2 * ny * data.apex)
@@ -76,12 +73,17 @@ def _cuts(axes: Axes, data: Response) -> None:
     limits = data.limits()
     for number, j in enumerate(CUTS):
         colour, marker = style.series(number)
-        x = data.sites(j)[1:-1] / data.apex
+        x = data.sites(j) / data.apex
         low, high = limits[j]
-        middle = data.simulated_variance[j][1:-1]
-        axes.fill_between(x, low, high, color=colour, alpha=0.2, lw=0)
-        axes.plot(x, middle, marker, color=colour, ms=2.6, mew=0.6, markerfacecolor="white")
-        axes.plot(x, data.variance[j][1:-1], color=colour, lw=0.9)
+        axes.fill_between(x[1:-1], low[1:-1], high[1:-1], color=colour, alpha=0.2, lw=0)
+        axes.plot(x[1:-1], data.variance[j][1:-1], color=colour, lw=0.9)
+        for leg in (0, -1):
+            axes.vlines(x[leg], low[leg], high[leg], color=colour, alpha=0.2, lw=3)
+            axes.plot(x[leg], data.variance[j][leg], "_", color=colour, ms=6, mew=0.9)
+        axes.plot(
+            x, data.simulated_variance[j], marker, color=colour, ms=2.6, mew=0.6,
+            markerfacecolor="white",
+        )  # fmt: skip
         reach = 1 - j / data.apex
         axes.hlines(data.printed(j), -reach, reach, color="black", lw=0.8, ls="--")
         axes.annotate(
@@ -94,9 +96,12 @@ def _cuts(axes: Axes, data: Response) -> None:
         color=style.series(2)[0], lw=0.9, ls=":",
     )  # fmt: skip
     axes.text(
-        0.7, 13, f"one contact,\n$j={lower}$", color=style.series(2)[0], fontsize=7.5, va="center"
+        0.1, 26, f"one contact, $j={lower}$", color=style.series(2)[0], fontsize=7.5, va="center"
     )
-    axes.set_xlim(-1.05, 1.4)
+    axes.annotate(
+        "legs of the cone", (0, 23 / 1.5), ha="center", va="center", color="0.3", fontsize=7.5
+    )
+    axes.set_xlim(-1.08, 1.4)
     axes.set_ylim(0, None)
     axes.set_xlabel("horizontal position $i/l$")
     axes.set_ylabel(VARIANCE)
@@ -104,8 +109,10 @@ def _cuts(axes: Axes, data: Response) -> None:
         handles=[
             style.line("0.3", "-", "exact first order"),
             style.line("black", "--", "Eq. (16), printed"),
+            Line2D([], [], color="0.3", marker="o", ls="", ms=2.6, mew=0.6, mfc="white",
+                   label="simulated"),
         ],
-        loc="lower left",
+        loc="lower center", ncols=3, columnspacing=1.0,
     )  # fmt: skip
 
 

@@ -56,6 +56,7 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
         return Path(given).resolve()
     from derivations.page import measured
     from numeric.cost import study
+    from numeric.figures import catalogue
     from numeric.stability import data as tables
     from numeric.stability import forms
     from symbolic import mutants
@@ -68,6 +69,7 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(mutants, "mutants", lambda equation: islice(every_mutant(equation), 3))
         patch.setattr(measured, "SCENE", scene)
+        patch.setattr(catalogue, "FIGURES", {name: catalogue.FIGURES[name] for name in "12"})
         patch.setattr(tables, "cases", lambda: islice(every_case(), 3))
         patch.setattr(tables, "strips", lambda: (s for s in every_strip() if s.height == 4))
         patch.setattr(forms, "ENOUGH_SECONDS", 0.0)
