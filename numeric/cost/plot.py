@@ -1,76 +1,74 @@
-"""The plot of a study of cost: error against time, both logarithmic, every line named beside it.
+"""The plot of a study of cost: error against time, both logarithmic, the Pareto front named.
 
-Needs matplotlib (the extra ``plots``), which nothing else of this package imports.
+Colour and marker tell ways apart, lines join the digits of one family of arithmetic. Needs
+matplotlib (the extra ``plots``).
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
+from numeric import style
 from numeric.cost.study import Row, Study
-from numeric.plotting import new_figure, powers_of_ten, saved
 
-STYLES = {
-    "exact, deviation form": ("o", "0.0"),
-    "exact, plain form": ("s", "0.45"),
-    "first-order line sums": ("^", "0.25"),
-    "Monte Carlo, exact": ("o", "0.0"),
-    "Monte Carlo, first-order": ("^", "0.45"),
+WAYS = {
+    "exact, deviation form": (style.BLUE, "o"),
+    "exact, plain form": (style.VERMILLION, "s"),
+    "first-order line sums": (style.GREEN, "^"),
+    "Monte Carlo, exact": (style.BLUE, "o"),
+    "Monte Carlo, first-order": (style.GREEN, "^"),
+    "exact finite-M formula": (style.PURPLE, "D"),
+    "printed asymptotic formula": (style.ORANGE, "v"),
+}
+DASHES: Mapping[str, tuple[str, Any]] = {
+    "hardware": ("float64, long double", "-"),
+    "mpmath": ("mpmath", (0, (5, 2))),
+    "arb balls": ("arb balls", (0, (1, 1.2))),
 }
 
 
-def plots(study: Study, command: str, title: str) -> dict[str, str | bytes]:
-    """Draw a study; ``cost.png`` and ``cost.svg`` both hold the command that reproduces them."""
-    return saved(draw(study, title), "cost", f"Cost of accuracy: {title}", command)
+def plots(study: Study, command: str, title: str) -> Mapping[str, str | bytes]:
+    """Draw a study; ``cost.png``, ``.svg`` and ``.pdf`` hold the command that reproduces them."""
+    return style.images(lambda: draw(study, title), "cost", f"Cost of accuracy: {title}", command)
 
 
 def draw(study: Study, title: str) -> Figure:
     """Draw log10 of error against log10 of seconds; digits may lie beyond a float's range."""
-    figure = new_figure(9, 7.5)
-    figure.subplots_adjust(0.09, 0.08, 0.98, 0.91)
+    figure = style.figure(style.PAGE, 4.6)
     axes = figure.subplots()
     rows = [row for row in study.rows if row.error and not _in_vain(row, study.rows)]
     floor = [math.log10(study.sampling_floor)] if study.sampling_floor else []
-    powers_of_ten(axes, "x", [_x(row) for row in rows], 0.35)  # room for labels
-    powers_of_ten(axes, "y", [_y(row) for row in rows] + floor, 0.08)
-    for line in _lines(rows):
-        marker, grey = STYLES.get(line[0].way, ("D", "0.1"))
-        dashes = "--" if line[0].arithmetic.startswith("mpmath") else "-"
+    style.powers_of_ten(axes, "x", [_x(row) for row in rows], 0.06)
+    style.powers_of_ten(axes, "y", [_y(row) for row in rows] + floor, 0.06)
+    lines = _lines(rows)
+    for (way, family), line in lines.items():
+        colour, marker = WAYS[way]
         x, y = [_x(row) for row in line], [_y(row) for row in line]
-        axes.plot(x, y, dashes, color=grey, linewidth=0.8, zorder=2)
+        axes.plot(x, y, ls=DASHES[family][1], color=colour, lw=0.9, zorder=2)
         for row in line:
             spread = [math.log10(row.seconds_min), math.log10(row.seconds_max)]
-            axes.plot(spread, [_y(row)] * 2, color=grey, linewidth=0.6, zorder=1)
-            face = grey if row.pareto else "white"
-            axes.plot(_x(row), _y(row), marker, color=grey, markerfacecolor=face, zorder=3)
+            axes.plot(spread, [_y(row)] * 2, color=colour, lw=0.5, zorder=1)
+            face = colour if row.pareto else "white"
+            axes.plot(_x(row), _y(row), marker, color=colour, mfc=face, ms=4, mew=0.8, zorder=3)
     for level in floor:
-        n = max((row.realisations or 0 for row in rows), default=0)
-        axes.axhline(level, color="0.3", linestyle=":", linewidth=1)
-        axes.annotate(
-            f"sampling floor: standard error of {n} realisations",
-            (0.01, level), xycoords=("axes fraction", "data"), xytext=(0, 3),
-            textcoords="offset points", fontsize=8, color="0.3",
-        )  # fmt: skip
-    taken = [_around(axes, row) for row in rows]
-    for line in _lines(rows):
-        _name(axes, line, STYLES.get(line[0].way, ("D", "0.1"))[1], taken)
-    axes.set_xlabel("seconds, median (thin: fastest to slowest run)")
-    axes.set_ylabel("measured error / largest |change|")
+        axes.axhline(level, color="0.3", ls=":", lw=0.8, zorder=1)
+    axes.set_xlabel("time (s): median, and thin from the fastest to the slowest run")
+    axes.set_ylabel("error / largest |change|, measured")
     reference = study.reference
     axes.set_title(
-        f"{title}: {study.quantity}\n"
-        "filled: on the Pareto front of measured error and time; "
-        f"reference {reference.kind}, radius {reference.radius:.1e}",
-        fontsize=10,
+        f"{title}: {study.quantity}; reference {reference.kind}, radius {reference.radius:.1e}",
         loc="left",
     )
-    axes.spines[["top", "right"]].set_visible(False)
+    figure.legend(handles=_keys(lines, bool(floor)), loc="outside lower center", ncols=3)
+    figure.draw_without_rendering()  # lays out, so that labels know where points are
+    _name(axes, rows)
     return figure
 
 
@@ -85,11 +83,6 @@ def _in_vain(row: Row, rows: Sequence[Row]) -> bool:
     )
 
 
-def _around(axes: Axes, row: Row) -> Bbox:
-    x, y = axes.transData.transform((_x(row), _y(row)))
-    return Bbox.from_extents(x - 6, y - 6, x + 6, y + 6)
-
-
 def _x(row: Row) -> float:
     return math.log10(row.seconds)
 
@@ -98,39 +91,60 @@ def _y(row: Row) -> float:
     return float(row.error.log10())
 
 
-def _lines(rows: list[Row]) -> list[list[Row]]:
+def _family(row: Row) -> str:
+    return next((name for name in DASHES if row.arithmetic.startswith(name)), "hardware")
+
+
+def _lines(rows: list[Row]) -> dict[tuple[str, str], list[Row]]:
     """Collect the rows that a line joins: one way in one family of arithmetic, by error."""
     found: dict[tuple[str, str], list[Row]] = {}
     for row in rows:
-        family = row.arithmetic.split(",", maxsplit=1)[0]
-        family = "hardware" if family in {"float64", "longdouble"} else family
-        found.setdefault((row.way, family), []).append(row)
-    return list(found.values())
+        found.setdefault((row.way, _family(row)), []).append(row)
+    return found
 
 
-def _name(axes: Axes, line: list[Row], grey: str, taken: list[Bbox]) -> None:
-    """Name each point beside it, the last of a line in full, away from all that is there."""
+def _keys(lines: Mapping[tuple[str, str], list[Row]], floor: bool) -> list[Line2D]:
+    """Explain markers, then lines, then what is filled."""
+    ways = [way for way in WAYS if any(way == drawn for drawn, _ in lines)]
+    keys = [
+        Line2D([], [], color=WAYS[way][0], marker=WAYS[way][1], mfc="white", ls="", ms=4, label=way)
+        for way in ways
+    ]
+    for family, (name, dashes) in DASHES.items():
+        if any(len(line) > 1 and family == drawn for (_, drawn), line in lines.items()):
+            keys.append(Line2D([], [], color="0.3", ls=dashes, lw=0.9, label=name))
+    keys.append(Line2D([], [], color="0.3", marker="o", ls="", ms=4, label="filled: Pareto front"))
+    if floor:
+        keys.append(Line2D([], [], color="0.3", ls=":", lw=0.8, label="standard error of sampling"))
+    return keys
+
+
+def _name(axes: Axes, rows: list[Row]) -> None:
+    """Name the points of the front, beside or below them: nothing is more accurate and faster."""
+    taken = [_around(axes, row) for row in rows]
     canvas: Any = axes.figure.canvas
-    for row in line:
-        text = _short(row)
-        if row is line[-1]:
-            text = f"{row.way}: {text}" if text else row.way
+    for row in sorted((row for row in rows if row.pareto), key=_x):
         note = axes.annotate(
-            text, (_x(row), _y(row)), xytext=(8, 0), textcoords="offset points", fontsize=7.5,
-            color=grey, va="center",
-            bbox={"boxstyle": "square,pad=0.05", "fc": "white", "ec": "none"},
-            arrowprops={"arrowstyle": "-", "color": grey, "linewidth": 0.4, "shrinkB": 3},
+            _short(row), (_x(row), _y(row)), xytext=(-6, 0), textcoords="offset points",
+            fontsize=7, color=WAYS[row.way][0], va="center", zorder=4,
+            arrowprops={"arrowstyle": "-", "color": "0.5", "lw": 0.4, "shrinkA": 0, "shrinkB": 2},
         )  # fmt: skip
-        for reach in range(8, 120, 8):
-            spots = [(reach, 0, "left"), (-reach, 0, "right")]
-            for up in range(10, min(reach, 60) + 1, 10):
-                spots += [(s * reach, v * up, a) for v in (1, -1) for s, a in _SIDES]
-            if any(_fits(note, spot, canvas, axes.bbox, taken) for spot in spots):
-                break
-        taken.append(Text.get_window_extent(note, canvas.get_renderer()))
+        note.set_in_layout(False)
+        spots = [
+            (side * reach, up, "right" if side < 0 else "left")
+            for reach in (6, 12, 20, 30, 45)
+            for up in (0, -6, 6, -12, -18, -26, 12, -36)
+            for side in (-1, 1)
+        ]
+        if any(_fits(note, spot, canvas, axes.bbox, taken) for spot in spots):
+            taken.append(Text.get_window_extent(note, canvas.get_renderer()))
+        else:
+            note.remove()  # the table has it
 
 
-_SIDES = ((1, "left"), (-1, "right"))
+def _around(axes: Axes, row: Row) -> Bbox:
+    x, y = axes.transData.transform((_x(row), _y(row)))
+    return Bbox.from_extents(x - 4, y - 4, x + 4, y + 4)
 
 
 def _fits(
@@ -149,7 +163,7 @@ def _fits(
 
 def _short(row: Row) -> str:
     if row.realisations is not None:
-        return f"N = {row.realisations}"
+        return f"$N={row.realisations}$"
     if row.arithmetic.startswith("arb balls"):
         return f"balls {math.floor(int(row.arithmetic.split()[2]) * math.log10(2))}"
     return row.arithmetic.replace(" digits", "").replace(",", "")

@@ -28,6 +28,8 @@ from numeric.scene import Scene, SceneError
 from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
 
 LEAST_RUNS, MOST_RUNS, ENOUGH_SECONDS = 3, 15, 0.2
+# After so many seconds no further run is timed: slow rows scatter little, and a study stays short.
+LONG_SECONDS = 2.0
 _FAILURES = (UnbuildableError, UndecidedError, NotStandingError, RadiusError, IncomparableError)
 T = TypeVar("T")
 Notice = Callable[[str], None]
@@ -196,8 +198,9 @@ def measured(work: Callable[[], T]) -> tuple[T, list[float], int]:
     finally:
         tracemalloc.stop()
     seconds: list[float] = []
-    while len(seconds) < LEAST_RUNS or (
-        len(seconds) < MOST_RUNS and math.fsum(seconds) < ENOUGH_SECONDS
+    while math.fsum(seconds) < LONG_SECONDS and (
+        len(seconds) < LEAST_RUNS
+        or (len(seconds) < MOST_RUNS and math.fsum(seconds) < ENOUGH_SECONDS)
     ):
         start = perf_counter()
         work()

@@ -114,7 +114,7 @@ def make(name: str, options: Options, command: str) -> Made:
     ``name`` is a key of ``FIGURES``. Needs matplotlib, and "pf" SciPy (the extra ``plots``). Raises
     ``SceneError``, ``UnbuildableError`` and ``NotStandingError`` where heights can't be built.
     """
-    from numeric.figures import style
+    from numeric import style
 
     file, title, data_of, draw = FIGURES[name]
     data = data_of(options)

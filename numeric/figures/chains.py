@@ -97,7 +97,7 @@ def draw(data: Chains) -> "Figure":
     """Draw contacts as lines, pressing ones dark, pulling ones vermillion; widths in proportion."""
     from matplotlib.collections import LineCollection
 
-    from numeric.figures import style
+    from numeric import style
 
     figure = style.figure(style.PAGE, 2.75)
     axes = figure.subplots()

@@ -4,8 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from numeric import closed_forms
-from numeric.figures import style
+from numeric import closed_forms, style
 from numeric.figures.comparison import NOTEWORTHY, Comparison, Height
 from numeric.figures.packings import PAPER_STD, PHI
 from numeric.models.q_model import weight_variance

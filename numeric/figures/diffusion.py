@@ -87,7 +87,7 @@ def widths(height: int, notice: Notice) -> Diffusion:
 
 def draw(data: Diffusion) -> "Figure":
     """Draw both distributions as clouds, as wide at each height as they are there."""
-    from numeric.figures import style
+    from numeric import style
 
     figure = style.figure(style.COLUMN, 2.75)
     left, right = figure.subplots(1, 2, sharey=True)

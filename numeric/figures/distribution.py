@@ -145,7 +145,7 @@ def tests(deviates: Array, seed: int) -> tuple[float, float]:
 
 def draw(data: Distribution) -> "Figure":
     """Draw histograms of two samples with the Gaussian of theory."""
-    from numeric.figures import style
+    from numeric import style
 
     figure = style.figure(style.PAGE, 2.6)
     panels = figure.subplots(1, 2)

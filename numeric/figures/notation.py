@@ -58,7 +58,7 @@ def draw(data: Notation) -> "Figure":
     """Draw ordered beads black, the disordered ones grey, and name what the text names."""
     from matplotlib.patches import Circle
 
-    from numeric.figures import style
+    from numeric import style
 
     figure = style.figure(style.COLUMN, 1.85)
     axes = figure.subplots()
@@ -77,7 +77,7 @@ def draw(data: Notation) -> "Figure":
 
 
 def _names(axes: "Axes") -> None:
-    from numeric.figures import style
+    from numeric import style
 
     nx = float(N_X)
     ny = np.sqrt(1 - nx**2)

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
-from numeric.figures import style
+from numeric import style
 from numeric.figures.packings import N_X
 from numeric.figures.response import CUTS, Response
 from numeric.lattice import Array

@@ -1,9 +1,9 @@
 """The figure of the cost of stability: errors and lost bits above, the times they cost below.
 
-Needs matplotlib (the extra ``plots``). Colours keep apart in grey and for the colour-blind; markers
-and lines say the same once more.
+Needs matplotlib (the extra ``plots``). Markers and lines say the same as colours.
 """
 
+from collections.abc import Mapping
 from itertools import pairwise
 from math import log10
 from typing import Any
@@ -12,24 +12,23 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from numeric.plotting import new_figure, powers_of_ten, saved
+from numeric import style
 from numeric.stability.enclosures import DIGITS, LINE_SUMS, POSITIONS
 
-PLAIN, DEVIATION = "#BB5566", "#004488"
+PLAIN, DEVIATION = style.VERMILLION, style.BLUE
 LEAST = 1e-30  # of σ/r: below it nothing changes any more
 FORMS = ((POSITIONS, PLAIN, "s", "--"), (LINE_SUMS, DEVIATION, "o", "-"))
 Rows = list[dict[str, Any]]
 
 
-def plots(data: dict[str, Any]) -> dict[str, str | bytes]:
-    """Draw ``stability_data``; ``stability.png`` and ``.svg`` hold the command that made it."""
-    return saved(draw(data), "stability", "The cost of stability", data["command"])
+def plots(data: dict[str, Any]) -> Mapping[str, str | bytes]:
+    """Draw ``stability_data``; ``stability.png``, ``.svg`` and ``.pdf`` hold the command."""
+    return style.images(lambda: draw(data), "stability", "The cost of stability", data["command"])
 
 
 def draw(data: dict[str, Any]) -> Figure:
     """Draw four panels: float64 on the left, balls on the right; times below."""
-    figure = new_figure(9.5, 7.5)
-    figure.subplots_adjust(0.075, 0.095, 0.985, 0.94, wspace=0.17, hspace=0.14)
+    figure = style.figure(style.PAGE, 5.2)
     (errors, lost), (ratios, seconds) = figure.subplots(
         2, 2, sharex="col", gridspec_kw={"height_ratios": (5, 3)}
     )
@@ -39,9 +38,6 @@ def draw(data: dict[str, Any]) -> Figure:
     balls = [row for row in data["enclosures"] if row["bits_lost"] is not None]
     _lost(lost, balls)
     _seconds(seconds, balls)
-    for axes in (errors, lost, ratios, seconds):
-        axes.spines[["top", "right"]].set_visible(False)
-    figure.text(0.008, 0.008, data["command"], fontsize=6.5, color="0.35", family="monospace")
     return figure
 
 
@@ -50,7 +46,7 @@ def _heights(rows: Rows) -> list[int]:
 
 
 def _errors(axes: Axes, rows: Rows) -> None:
-    axes.set_title("float64: largest error of the contact forces", fontsize=10, loc="left")
+    axes.set_title("float64: largest error of the contact forces", loc="left")
     marks = dict(zip(_heights(rows), ("white", None), strict=False))
     for key, colour, marker, dashes in (
         ("plain_error", PLAIN, "s", "--"),
@@ -61,31 +57,31 @@ def _errors(axes: Axes, rows: Rows) -> None:
             x = [log10(row["relative_std"]) for row in here]
             y = [log10(row[key]) for row in here]
             face = colour if fill is None else fill
-            axes.plot(x, y, dashes, marker=marker, color=colour, markerfacecolor=face, ms=5)
-    powers_of_ten(axes, "x", [log10(row["relative_std"]) for row in rows], 0.03)
-    powers_of_ten(axes, "y", [-17.0, *(log10(row["plain_error"]) for row in rows)], 0.06)
+            axes.plot(x, y, dashes, marker=marker, color=colour, markerfacecolor=face, ms=3.5)
+    style.powers_of_ten(axes, "x", [log10(row["relative_std"]) for row in rows], 0.03)
+    style.powers_of_ten(axes, "y", [-17.0, *(log10(row["plain_error"]) for row in rows)], 0.06)
     axes.axhline(0, color="0.5", linewidth=0.8, linestyle=":")
-    axes.text(-2, 0.2, "no digit left above", fontsize=8, color="0.35", ha="right")
-    axes.text(-20.5, 5.2, "plain form", fontsize=9, color=PLAIN)
-    axes.text(-20.5, -14.3, "deviation form", fontsize=9, color=DEVIATION)
+    axes.text(-2, 0.2, "no digit left above", fontsize=7.5, color="0.35", ha="right")
+    axes.text(-20.5, 5.2, "plain form", fontsize=7.5, color=PLAIN)
+    axes.text(-20.5, -14.3, "deviation form", fontsize=7.5, color=DEVIATION)
     few, many = min(marks), max(marks)
     axes.text(
-        0.02, 0.35, f"open: M = {few}\nfilled: M = {many}", fontsize=8, color="0.25",
+        0.02, 0.35, f"open: M = {few}\nfilled: M = {many}", fontsize=7.5, color="0.25",
         transform=axes.transAxes,
     )  # fmt: skip
     axes.set_ylabel("error / largest |change|")
 
 
 def _ratios(axes: Axes, rows: Rows) -> None:
-    axes.set_title("their time: deviation form / plain form", fontsize=10, loc="left")
+    axes.set_title("their time: deviation form / plain form", loc="left")
     for height, face in zip(_heights(rows), ("white", "0.2"), strict=False):
         here = [r for r in rows if r["height"] == height and r["plain_seconds"] and r["seconds"]]
         x = [log10(row["relative_std"]) for row in here]
         y = [row["seconds"] / row["plain_seconds"] for row in here]
-        axes.plot(x, y, "D", color="0.2", markerfacecolor=face, markersize=4.5)
+        axes.plot(x, y, "D", color="0.2", markerfacecolor=face, markersize=3.2)
     axes.set_ylim(0, 4)  # the ratio is one number; what scatters is the machine
     axes.axhline(1, color="0.5", linewidth=0.8, linestyle=":")
-    axes.text(-2, 1.08, "as long as the plain form", fontsize=8, color="0.35", ha="right")
+    axes.text(-2, 1.08, "as long as the plain form", fontsize=7.5, color="0.35", ha="right")
     axes.set_ylabel("ratio of seconds")
     axes.set_xlabel("σ/r")
 
@@ -99,25 +95,25 @@ def _series(rows: Rows, form: str) -> dict[float, Rows]:
 
 
 def _lost(axes: Axes, rows: Rows) -> None:
-    axes.set_title("balls: bits lost in all", fontsize=10, loc="left")
+    axes.set_title("balls: bits lost in all", loc="left")
     for form, colour, marker, dashes in FORMS:
         for std, here in _series(rows, form).items():
             x, y = [row["height"] for row in here], [row["bits_lost"] for row in here]
-            axes.plot(x, y, dashes, marker=marker, color=colour, ms=4, linewidth=1, mfc="white")
+            axes.plot(x, y, dashes, marker=marker, color=colour, ms=3.2, mfc="white")
             if form == LINE_SUMS:
                 axes.annotate(
                     f"σ/r = {std:.0e}".replace("e-0", "e-"), (x[-1], y[-1]), xytext=(6, 0),
-                    textcoords="offset points", fontsize=8, color=colour, va="center",
+                    textcoords="offset points", fontsize=7.5, color=colour, va="center",
                 )  # fmt: skip
                 _mark_critical(axes, here)
     axes.set_xscale("log", base=2)
     axes.set_yscale("log")
     axes.set_xlim(3.4, 4100)
     axes.set_ylim(4, 5000)
-    axes.text(7, 400, "positions:\nabout 3 bits a layer", fontsize=9, color=PLAIN)
-    axes.text(3.9, 11, "line sums", fontsize=9, color=DEVIATION)
+    axes.text(7, 400, "positions:\nabout 3 bits a layer", fontsize=7.5, color=PLAIN)
+    axes.text(3.9, 11, "line sums", fontsize=7.5, color=DEVIATION)
     axes.text(
-        0.99, 0.02, "filled diamond: M* = (σ/r)$^{-2/3}$", fontsize=8, color="0.25", ha="right",
+        0.99, 0.02, "filled diamond: M* = (σ/r)$^{-2/3}$", fontsize=7.5, color="0.25", ha="right",
         transform=axes.transAxes,
     )  # fmt: skip
     axes.set_ylabel("bits")
@@ -130,21 +126,21 @@ def _mark_critical(axes: Axes, rows: Rows) -> None:
         if a["height"] <= highest <= b["height"]:
             share = log10(highest / a["height"]) / log10(b["height"] / a["height"])
             bits = a["bits_lost"] ** (1 - share) * b["bits_lost"] ** share
-            axes.plot(highest, bits, "D", color="black", markersize=6, zorder=5)
+            axes.plot(highest, bits, "D", color="black", markersize=4.5, zorder=5)
             return
 
 
 def _seconds(axes: Axes, rows: Rows) -> None:
-    axes.set_title(f"the time of {DIGITS} certified digits", fontsize=10, loc="left")
+    axes.set_title(f"the time of {DIGITS} certified digits", loc="left")
     for form, colour, marker, dashes in FORMS:
         for here in _series(rows, form).values():
             x, y = [row["height"] for row in here], [row["seconds"] for row in here]
-            axes.plot(x, y, dashes, marker=marker, color=colour, ms=4, linewidth=1, mfc="white")
+            axes.plot(x, y, dashes, marker=marker, color=colour, ms=3.2, mfc="white")
     axes.set_yscale("log")
     axes.set_ylabel("seconds")
     axes.set_xlabel(f"layers M (strips of {rows[0]['width']} beads a layer)")
     axes.xaxis.set_major_locator(FixedLocator([4, 16, 64, 256, 1024]))
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_major_formatter(lambda value, _: f"{value:.0f}")
-    axes.text(0.03, 0.86, "positions", fontsize=9, color=PLAIN, transform=axes.transAxes)
-    axes.text(0.03, 0.74, "line sums", fontsize=9, color=DEVIATION, transform=axes.transAxes)
+    axes.text(0.03, 0.86, "positions", fontsize=7.5, color=PLAIN, transform=axes.transAxes)
+    axes.text(0.03, 0.74, "line sums", fontsize=7.5, color=DEVIATION, transform=axes.transAxes)

@@ -73,7 +73,7 @@ def test_without_matplotlib_only_the_figure_is_missing(
 ) -> None:
     for name in [name for name in sys.modules if name.split(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
-    for name in ("numeric.stability.plot", "numeric.plotting"):
+    for name in ("numeric.stability.plot", "numeric.style"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     out = tmp_path / "out"

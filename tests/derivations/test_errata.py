@@ -27,6 +27,10 @@ def test_the_claim_is_proved(number: int, name: str) -> None:
     assert ruling.verdict is Verdict.PROVED, ruling.note
 
 
-def test_the_files_that_it_points_to_exist() -> None:
-    for path in re.findall(r"`([\w/]+\.py)`", ERRATA):
+def test_the_files_and_tests_that_it_points_to_exist() -> None:
+    pointers = re.findall(r"`([\w/]+\.py)(?:::(\w+))?`", ERRATA)
+    assert len(pointers) >= 5
+    for path, test in pointers:
         assert (ROOT / path).is_file(), path
+        if test:
+            assert f"def {test}(" in (ROOT / path).read_text(encoding="utf-8"), test

@@ -25,7 +25,7 @@ def test_the_recursion_of_the_q_model_is_what_simulation_finds() -> None:
 def test_q_model_weights_saturate_at_one_half() -> None:
     """P(w) = 4 w exp(−2w) at infinite depth, of variance 1/2; approached as depth^(−1/2)."""
     variance = q_model.weight_variance(4000)
-    assert variance[1] == pytest.approx(1 / 6)
+    assert variance[1:3] == pytest.approx([1 / 6, 17 / 72])
     missing = 0.5 - variance
     assert (np.diff(missing) < 0).all()
     assert missing[1000] / missing[4000] == pytest.approx(2, rel=0.01)
