@@ -9,14 +9,20 @@ from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from matplotlib.transforms import Bbox
 
 from numeric import style
 from numeric.cost.study import Row, Study
+
+WIDE = 60
+"""Decades of error beyond which the axis is one of √digits."""
 
 WAYS = {
     "exact, deviation form": (style.BLUE, "o"),
@@ -46,7 +52,11 @@ def draw(study: Study, title: str) -> Figure:
     rows = [row for row in study.rows if row.error and not _in_vain(row, study.rows)]
     floor = [math.log10(study.sampling_floor)] if study.sampling_floor else []
     style.powers_of_ten(axes, "x", [_x(row) for row in rows], 0.06)
-    style.powers_of_ten(axes, "y", [_y(row) for row in rows] + floor, 0.06)
+    levels = [_y(row) for row in rows] + floor
+    style.powers_of_ten(axes, "y", levels, 0.06)
+    stretched = max(levels) - min(levels) > WIDE
+    if stretched:
+        _stretch(axes, min(levels), max(levels))
     lines = _lines(rows)
     for (way, family), line in lines.items():
         colour, marker = WAYS[way]
@@ -54,13 +64,15 @@ def draw(study: Study, title: str) -> Figure:
         axes.plot(x, y, ls=DASHES[family][1], color=colour, lw=0.9, zorder=2)
         for row in line:
             spread = [math.log10(row.seconds_min), math.log10(row.seconds_max)]
-            axes.plot(spread, [_y(row)] * 2, color=colour, lw=0.5, zorder=1)
+            axes.plot(spread, [_y(row)] * 2, color=colour, lw=0.8, alpha=0.35, zorder=1)
             face = colour if row.pareto else "white"
             axes.plot(_x(row), _y(row), marker, color=colour, mfc=face, ms=4, mew=0.8, zorder=3)
     for level in floor:
         axes.axhline(level, color="0.3", ls=":", lw=0.8, zorder=1)
-    axes.set_xlabel("time (s): median, and thin from the fastest to the slowest run")
-    axes.set_ylabel("error / largest |change|, measured")
+    axes.set_xlabel("time (s): median; pale: from the fastest to the slowest run")
+    axes.set_ylabel(
+        "measured error / largest |change|" + (", spaced by √digits" if stretched else "")
+    )
     reference = study.reference
     axes.set_title(
         f"{title}: {study.quantity}; reference {reference.kind}, radius {reference.radius:.1e}",
@@ -70,6 +82,21 @@ def draw(study: Study, title: str) -> Figure:
     figure.draw_without_rendering()  # lays out, so that labels know where points are
     _name(axes, rows)
     return figure
+
+
+def _stretch(axes: Axes, low: float, high: float) -> None:
+    """Give the few digits of hardware as much room as the many of big numbers."""
+    axes.set_yscale(
+        "function",
+        functions=(
+            lambda y: np.sign(y) * np.sqrt(np.abs(y)),
+            lambda root: np.sign(root) * root**2,
+        ),
+    )
+    axes.set_ylim(low * 1.15, max(high, 0) + 1)
+    axes.yaxis.set_major_locator(FixedLocator([0, -5, -15, -30, -50, -100, -200, -300]))
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda power, _: f"$10^{{{power:.0f}}}$"))
 
 
 def _in_vain(row: Row, rows: Sequence[Row]) -> bool:
@@ -110,8 +137,9 @@ def _keys(lines: Mapping[tuple[str, str], list[Row]], floor: bool) -> list[Line2
         Line2D([], [], color=WAYS[way][0], marker=WAYS[way][1], mfc="white", ls="", ms=4, label=way)
         for way in ways
     ]
+    joined = {family for (_, family), line in lines.items() if len(line) > 1}
     for family, (name, dashes) in DASHES.items():
-        if any(len(line) > 1 and family == drawn for (_, drawn), line in lines.items()):
+        if family in joined and len(joined) > 1:
             keys.append(Line2D([], [], color="0.3", ls=dashes, lw=0.9, label=name))
     keys.append(Line2D([], [], color="0.3", marker="o", ls="", ms=4, label="filled: Pareto front"))
     if floor:
@@ -120,13 +148,14 @@ def _keys(lines: Mapping[tuple[str, str], list[Row]], floor: bool) -> list[Line2
 
 
 def _name(axes: Axes, rows: list[Row]) -> None:
-    """Name the points of the front, beside or below them: nothing is more accurate and faster."""
-    taken = [_around(axes, row) for row in rows]
+    """Name the points of the front, and the sizes of ensembles, beside or below them."""
+    taken = [box for row in rows for box in _around(axes, row)]
     canvas: Any = axes.figure.canvas
-    for row in sorted((row for row in rows if row.pareto), key=_x):
+    for row in sorted((row for row in rows if row.pareto or row.realisations), key=_x):
         note = axes.annotate(
             _short(row), (_x(row), _y(row)), xytext=(-6, 0), textcoords="offset points",
             fontsize=7, color=WAYS[row.way][0], va="center", zorder=4,
+            path_effects=[withStroke(linewidth=1.5, foreground="white")],
             arrowprops={"arrowstyle": "-", "color": "0.5", "lw": 0.4, "shrinkA": 0, "shrinkB": 2},
         )  # fmt: skip
         note.set_in_layout(False)
@@ -142,9 +171,17 @@ def _name(axes: Axes, rows: list[Row]) -> None:
             note.remove()  # the table has it
 
 
-def _around(axes: Axes, row: Row) -> Bbox:
+def _around(axes: Axes, row: Row) -> tuple[Bbox, Bbox]:
+    """Give what the marker takes, and the line of its times."""
     x, y = axes.transData.transform((_x(row), _y(row)))
-    return Bbox.from_extents(x - 4, y - 4, x + 4, y + 4)
+    left, right = (
+        axes.transData.transform((math.log10(seconds), _y(row)))[0]
+        for seconds in (row.seconds_min, row.seconds_max)
+    )
+    return (
+        Bbox.from_extents(x - 4, y - 4, x + 4, y + 4),
+        Bbox.from_extents(left, y - 1, right, y + 1),
+    )
 
 
 def _fits(
