@@ -4,15 +4,11 @@ from collections.abc import Callable
 
 from derivations.page.parts import Data, Figure, Part
 
-REALISATIONS = 400
-_ENSEMBLE = f"{REALISATIONS} packings in each ensemble."
-_PACKINGS = {
-    "1": "One packing.",
-    "2": "No packing: closed forms.",
-    "3": _ENSEMBLE,
-    "4": _ENSEMBLE,
-    "pf": _ENSEMBLE,
-    "chains": "One packing.",
+REALISATIONS = {"3": 200, "4": 2000, "pf": 2000}
+"""Packings in each ensemble of a figure that draws ensembles."""
+
+_PACKINGS = {"1": "One packing.", "2": "No packing: closed forms.", "chains": "One packing."} | {
+    name: f"{n} packings in each ensemble." for name, n in REALISATIONS.items()
 }
 
 
@@ -20,11 +16,12 @@ def figures_part(notice: Callable[[str], None]) -> Part:
     """All figures, each with what it found, of how many packings, and its data."""
     from numeric.figures.catalogue import FIGURES, Options, make
 
-    command = f"force-diffusion figures --realisations {REALISATIONS} --seed 1 --out figures"
-    options = Options(realisations=REALISATIONS, notice=notice)
     figures = []
     for name in FIGURES:
-        made = make(name, options, command)
+        n = REALISATIONS.get(name)
+        few = "" if n is None else f" --realisations {n}"
+        command = f"force-diffusion figures {name}{few} --seed 1 --out figure"
+        made = make(name, Options(realisations=n, notice=notice), command)
         drawing = next(content for file, content in made.files.items() if file.endswith(".svg"))
         assert isinstance(drawing, bytes)
         told = f"{made.title}: {'; '.join(made.lines)}. {_PACKINGS[name]}"
@@ -33,7 +30,7 @@ def figures_part(notice: Callable[[str], None]) -> Part:
             for file, text in made.files.items()
             if file.endswith(".csv") and isinstance(text, str)
         ]
-        figures.append(Figure(drawing, alt=told, caption=told, data=data))
+        figures.append(Figure(drawing, alt=told, caption=told, data=data, command=command))
     return Part(
         id="figures",
         title="The figures",
@@ -41,6 +38,5 @@ def figures_part(notice: Callable[[str], None]) -> Part:
             "The paper’s four figures, drawn from exact packings, and two more. Those of ensembles "
             "are made here of fewer packings than the command makes by default.",
         ),
-        command=command,
         figures=tuple(figures),
     )

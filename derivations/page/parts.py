@@ -4,6 +4,7 @@ Everything that is drawn or measured comes in as a ``Part``.
 """
 
 import base64
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
@@ -13,6 +14,9 @@ from markupsafe import Markup
 
 from derivations.page.words import number, prose
 from derivations.publishing import csv_text
+
+ONE_COLUMN = 360.0
+"""Points: narrower drawings are for one column."""
 
 
 @dataclass(frozen=True)
@@ -54,27 +58,34 @@ class Table:
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawing, what it shows in words for those who can't see it, and its data."""
+    """A drawing, what it shows in words for those who can't see it, its data, what makes it."""
 
     svg: bytes
     alt: str
     caption: str
     data: Sequence[Data] = ()
+    command: str = ""
 
     @property
     def link(self) -> str:
         """The drawing as an address; an image has its own names, styles and no scripts."""
         return data_url(self.svg, "image/svg+xml")
 
+    @property
+    def narrow(self) -> bool:
+        """Whether it is made for one column of two."""
+        width = re.search(rb'<svg[^>]*?\swidth="([\d.]+)pt"', self.svg)
+        return width is not None and float(width[1]) < ONE_COLUMN
+
 
 @dataclass(frozen=True)
 class Part:
-    """A section of the page; ``command`` is what makes its content again."""
+    """A section of the page; ``command`` makes all of its content again, where one does."""
 
     id: str
     title: str
     words: tuple[str, ...]
-    command: str
+    command: str = ""
     figures: tuple[Figure, ...] = ()
     tables: tuple[Table, ...] = ()
     files: tuple[Data, ...] = ()

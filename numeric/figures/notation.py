@@ -35,7 +35,7 @@ class Notation:
 
     def lines(self) -> list[str]:
         """Nothing is decided here."""
-        return [f"{len(self.beads)} beads of an exact packing at sigma/r = {STD}"]
+        return [f"{len(self.beads)} beads of an exact packing at σ/r = {STD}"]
 
 
 def beads(seed: int, notice: Notice) -> Notation:

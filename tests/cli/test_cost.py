@@ -57,7 +57,7 @@ def test_json_and_files(text: str, tmp_path: Path, capsys: pytest.CaptureFixture
     assert [row["error"] for row in rows] == [row["error"] for row in data["rows"]]
     assert rows[0]["command"] == data["command"]
     assert sorted(path.name for path in out.iterdir()) == [
-        "cost.csv", "cost.json", "cost.png", "cost.svg", "manifest.json"
+        "cost.csv", "cost.json", "cost.pdf", "cost.png", "cost.svg", "manifest.json"
     ]  # fmt: skip
     png = (out / "cost.png").read_bytes()
     assert png.startswith(b"\x89PNG")

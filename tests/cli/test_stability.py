@@ -16,8 +16,8 @@ from numeric.stability.enclosures import strips
 from numeric.stability.floats import cases
 
 FILES = [
-    "closed_forms.csv", "manifest.json", "stability.csv", "stability.json", "stability.png",
-    "stability.svg", "stability_balls.csv",
+    "closed_forms.csv", "manifest.json", "stability.csv", "stability.json", "stability.pdf",
+    "stability.png", "stability.svg", "stability_balls.csv",
 ]  # fmt: skip
 
 
@@ -82,7 +82,7 @@ def test_without_matplotlib_only_the_figure_is_missing(
     assert json.loads(printed)["rows"]
     assert "force-diffusion[plots]" in err
     assert sorted(path.name for path in out.iterdir()) == [
-        name for name in FILES if not name.endswith((".png", ".svg"))
+        name for name in FILES if not name.endswith((".pdf", ".png", ".svg"))
     ]
 
 
