@@ -14,8 +14,8 @@ PROGRAM = "force-diffusion"
 
 _OURS = re.compile(
     r"eq\d\d\.tex|equations\.tex|manifest\.json|result\.json"
-    r"|(cost|stability)\.(json|png|svg)|report\.html|[a-z_]{1,20}\.csv"
-    r"|figures\.json|figure\d[a-z_]{0,20}\.csv|(figure\d|pf|chains)\.(png|svg|pdf)"
+    r"|(cost|stability|figures)\.json|report\.html|[a-z_]{1,20}\.csv"
+    r"|figure\d[a-z_]{0,20}\.csv|(figure\d|pf|chains|cost|stability)\.(png|svg|pdf)"
 )
 _LATEX_LEAVES = re.compile(r"equations\.(aux|log|out|pdf|synctex\.gz|fls|fdb_latexmk)")
 _ASIDE = ".force-diffusion-"
