@@ -38,6 +38,8 @@ def draw(data: dict[str, Any]) -> Figure:
     balls = [row for row in data["enclosures"] if row["bits_lost"] is not None]
     _lost(lost, balls)
     _seconds(seconds, balls)
+    for words in [one for axes in figure.axes for one in axes.texts]:
+        words.set_in_layout(False)  # they stand at data, which may lie outside of an axis
     return figure
 
 
