@@ -135,3 +135,13 @@ def test_the_same_page_every_time() -> None:
         for seed in ("1", "2")
     )
     assert first == second
+
+
+@pytest.mark.parametrize(("width", "narrow"), [("244.8", True), ("504", False)])
+def test_drawings_for_one_column_are_not_blown_up(width: str, narrow: bool) -> None:
+    svg = f'<svg height="9pt" viewBox="0 0 9 9" width="{width}pt"/>'.encode()
+    figure = Figure(svg, "alt", "caption", command="force-diffusion figures 3")
+    found = made(fakes.PREMISE, parts=[Part("p", "A part", (), figures=(figure,))])
+    assert ('<img class="narrow"' in found) == narrow
+    assert "<code>force-diffusion figures 3</code>" in found
+    assert found.count("Made by") == made(fakes.PREMISE).count("Made by")  # no empty command
