@@ -7,6 +7,7 @@ system solves the very same packing.
 """
 
 import math
+import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -48,6 +49,26 @@ class Radii(Protocol):
         """σ_δr/r: of the distribution, or as measured."""
 
 
+class _Streams(threading.local):
+    """A generator for each thread, which is set anew for each row: making one takes far longer."""
+
+    def __init__(self) -> None:
+        self._generator = np.random.Philox(key=0)
+        self._counter, self._key = np.zeros(4, np.uint64), np.zeros(2, np.uint64)
+        self._state = self._generator.state
+        self._state["state"] = {"counter": self._counter, "key": self._key}
+
+    def words(self, low: int, count: int, high: int, key: tuple[int, int]) -> Array:
+        """Give ``philox`` of the counters (low, high) … (low + count − 1, high); (2, count)."""
+        self._counter[:2] = low - 1, high  # NumPy steps it before each block of four words
+        self._key[:] = key
+        self._generator.state = self._state
+        return np.asarray(self._generator.random_raw(4 * count).reshape(count, 4)[:, :2].T)
+
+
+_streams = _Streams()
+
+
 @dataclass(frozen=True)
 class Monodisperse:
     """No disorder: δr = 0 everywhere."""
@@ -81,42 +102,36 @@ class DrawnRadii:
 
     def deviates(self, layer: Layer, realisation: int) -> Array:
         """Give deviates of zero mean and unit variance; shape (count,), float64."""
-        q = (layer.first - layer.j % 2) // 2
-        if self.width is None:
-            return self._columns(q, layer.count, layer.j, realisation)
-        parts = []
-        left = layer.count
-        while left:
-            start = q % self.width
-            n = min(left, self.width - start)
-            parts.append(self._columns(start, n, layer.j, realisation))
-            q, left = q + n, left - n
-        return np.concatenate(parts) if parts else np.empty(0)
+        return np.asarray(self._drawn(layer, [realisation])[0])
 
-    def _columns(self, q: int, count: int, j: int, realisation: int) -> Array:
-        # NumPy's Philox steps its counter before each block of four words.
-        generator = np.random.Philox(
-            counter=[q + _OFFSET - 1, j, 0, 0], key=[self.seed, realisation]
-        )
-        words = generator.random_raw(4 * count).reshape(count, 4)
-        return self._deviates(words[:, 0], words[:, 1])
+    def _drawn(self, layer: Layer, realisations: Sequence[int]) -> Array:
+        words = np.empty((2, len(realisations), layer.count), dtype=np.uint64)
+        column = (layer.first - layer.j % 2) // 2
+        at = 0
+        while at < layer.count:  # up to where a periodic packing begins anew
+            q = column + at if self.width is None else (column + at) % self.width
+            n = layer.count - at if self.width is None else min(layer.count - at, self.width - q)
+            for row, k in enumerate(realisations):
+                key = (self.seed, k)
+                words[:, row, at : at + n] = _streams.words(q + _OFFSET, n, layer.j, key)
+            at += n
+        return self._deviates(*words)
 
     def _deviates(self, first: Array, second: Array) -> Array:
-        first = np.ascontiguousarray(first)
         if self.kind == "two-point":
             return np.asarray(np.where(first >> np.uint64(63), 1.0, -1.0))
         if self.kind == "uniform":
             odd = ((first >> np.uint64(11)) << np.uint64(1)).astype(np.int64) + 1 - 2**53
             return np.asarray(odd.astype(np.float64) * 2.0**-53 * np.sqrt(3.0))
-        return normal_deviates(first, np.ascontiguousarray(second))
+        return normal_deviates(first, second)
 
     def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
         """Scale the deviates; a radius that is not positive raises ``RadiusError``."""
-        rows = [self.deviates(layer, k) for k in realisations]
-        for deviates in rows:
-            if deviates.size and self.std * Fraction(float(deviates.min())) < -_NEARLY:
-                self._check(deviates, layer)
-        values = rows[0] if len(rows) == 1 else np.stack(rows)
+        deviates = self._drawn(layer, realisations)
+        if deviates.size and self.std * Fraction(float(deviates.min())) < -_NEARLY:
+            for row in deviates:
+                self._check_sites(row, [(i, layer.j) for i in layer.sites()])
+        values = deviates[0] if len(deviates) == 1 else deviates
         return np.asarray(from_floats(system, values) * system.scalar(self.std))
 
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
@@ -130,9 +145,6 @@ class DrawnRadii:
         if deviates.size and deviates.min() * float(self.std) < -0.999:
             self._check_sites(deviates, sites)
         return np.asarray(from_floats(system, deviates) * system.scalar(self.std))
-
-    def _check(self, deviates: Array, layer: Layer) -> None:
-        self._check_sites(deviates, [(i, layer.j) for i in layer.sites()])
 
     def _check_sites(self, deviates: Array, sites: Sequence[tuple[int, int]]) -> None:
         for site, u in zip(sites, deviates, strict=True):

@@ -14,8 +14,8 @@ from numeric.ensemble.sums import Sums, from_bytes
 from numeric.ensemble.workers import WorkersError, solve_block
 
 distributed: Any = untyped  # it has no types
-# Seconds until somebody has to answer, and until a worker has to be there.
-PATIENCE = 30
+# Seconds until a scheduler has to answer, and until a worker has to be there.
+TO_ANSWER, PATIENCE = 10, 30
 
 
 def _block(m: Measurement, first: int, stop: int) -> tuple[str, bytes]:
@@ -82,7 +82,7 @@ class Cluster:
             )
             return open_things.enter_context(distributed.Client(cluster))
         try:
-            client = open_things.enter_context(distributed.Client(self.address, timeout=PATIENCE))
+            client = open_things.enter_context(distributed.Client(self.address, timeout=TO_ANSWER))
         except (OSError, ValueError) as error:
             raise WorkersError(
                 f"no scheduler answers at {self.address} ({error}): give the address that "

@@ -203,6 +203,37 @@ def test_killed_again_and_again_at_random(
     assert shown == call(capsys, *arguments, whole)[1]
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no limit of a file's size there")
+def test_a_full_disk_keeps_what_is_written_and_says_how_to_go_on(
+    small: Path, tmp_path: Path
+) -> None:
+    """A limit of the file's size stands for the full disk: writing fails in the middle."""
+    store = tmp_path / "ensemble.fd"
+    arguments = program(small, "--realisations", 9000, "--store", store, "--json", "--workers", 1)
+
+    def limited(kilobytes: int) -> "subprocess.CompletedProcess[str]":
+        limit = (
+            "import os, resource, sys; "
+            f"resource.setrlimit(resource.RLIMIT_FSIZE, ({kilobytes << 10},) * 2); "
+            "os.execv(sys.argv[1], sys.argv[1:])"
+        )
+        command = [sys.executable, "-c", limit, *arguments]
+        return subprocess.run(
+            command, env=ENVIRONMENT, capture_output=True, text=True, timeout=60, check=False
+        )
+
+    full = limited(24)
+    assert (full.returncode, full.stdout) == (3, "")
+    assert f"--store {store} can't be written to" in full.stderr
+    held = re.search(r"holds (\d+) realisations; the same command goes on", full.stderr)
+    assert held is not None
+    assert 0 < int(held[1]) < 9000
+    whole = limited(10_000)
+    assert (whole.returncode, whole.stderr) == (0, "")
+    arguments[arguments.index("--store") + 1] = str(tmp_path / "other.fd")
+    assert limited(10_000).stdout == whole.stdout
+
+
 def test_an_interrupt_says_how_to_go_on(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     store = tmp_path / "ensemble.fd"
     arguments = [SCENE, "--realisations", 100_000, "--workers", 2, "--store", store]

@@ -283,6 +283,27 @@ def test_streams_differ_between_seeds_and_realisations() -> None:
             assert not (drawn[a] == drawn[b]).any()
 
 
+@pytest.mark.parametrize("kind", ["uniform", "normal", "two-point"])
+@pytest.mark.parametrize("seed", [0, 2**63 - 1, 2**63 + 5, 2**63 + 6, 2**64 - 1])
+def test_rows_drawn_together_are_numpys_words_for_every_seed(kind: str, seed: int) -> None:
+    """Words of NumPy's own generator, its key given as 64-bit words: no seed is rounded."""
+    radii = DrawnRadii(kind, Fraction(1, 100), seed, 5)
+    ring, together = Layer(3, 1, 5), [7, 0, 2**40]
+    rows = radii.row(ring, together, FLOAT64)
+    for row, k in zip(rows, together, strict=True):
+        key = np.array([seed, k], dtype=np.uint64)
+        words = np.random.Philox(counter=[2**62 - 1, 3, 0, 0], key=key).random_raw(20)
+        alone = radii.row(ring, [k], FLOAT64)
+        assert row.tolist() == alone.tolist()
+        assert row.tolist() == radii.at([(i, 3) for i in ring.sites()], k, FLOAT64).tolist()
+        if kind == "two-point":
+            assert (np.sign(row) == np.where(words[::4] >= 2**63, 1, -1)).all()
+        elif kind == "uniform":  # the upper 53 bits, in units of 2^-53
+            whole = [Fraction(int(w) >> 11) + Fraction(1, 2) for w in words[::4]]
+            exact = [float((2 * w / 2**53 - 1) / 100) * math.sqrt(3) for w in whole]
+            assert row == pytest.approx(exact, rel=1e-14)
+
+
 @pytest.mark.parametrize(
     ("kind", "fourth"), [("uniform", 9 / 5), ("normal", 3.0), ("two-point", 1.0)]
 )
