@@ -26,7 +26,6 @@ from symbolic.variance import (
     CASES,
     ExactForm,
     exact_variances,
-    fluctuation,
     largest_weight,
     order,
 )
@@ -102,7 +101,7 @@ def _no_radius_dominates() -> Ruling:
     exact = eq11.in_radii(eq11.PRINTED.rhs)
     shares = []
     for case, (at, region, *_) in CASES.items():
-        weight = largest_weight(fluctuation(exact.xreplace(at), region), region)
+        weight = largest_weight(exact.xreplace(at), region)
         shares.append(2 * weight - order(exact_forms()[case].value))
     return from_test(
         max(shares) == -1, "a radius has a share of order 1/M in the variance, in every layer"
