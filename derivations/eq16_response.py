@@ -176,7 +176,7 @@ def steps() -> Iterator[Step]:
         "Eq. 9. With the contact's own tilt its vertical component over f_load is",
         terms(
             sympy.Rational(1, 2),
-            times(1 / (2 * (1 - phi**2)), LEG_TILTS),
+            times(sympy.Rational(1, 2), 1 / (1 - phi**2), LEG_TILTS),
         ),
     )
     yield Step(
@@ -265,19 +265,32 @@ def _one_contact() -> Ruling:
     )
 
 
+def _covariance(piece: Piece) -> RationalFunction:
+    """Twice the covariance of a bead's two contacts: what their variances leave of the bead's."""
+
+    def put_in(other: Piece, coordinates: dict[sympy.Symbol, sympy.Expr]) -> RationalFunction:
+        value = FIELD.from_sympy(other.expression.xreplace(IN_CONE).xreplace(coordinates))
+        return value.substitute({s: FIELD.constant(at) for s, at in piece.at.items()})
+
+    def contact(at: dict[sympy.Symbol, int]) -> Piece:
+        return next(found for found in CONTACT if found.at.items() <= at.items())
+
+    swapped = {p: q, q: p}  # f⁻ is the mirror image of f⁺
+    mirrored = {swapped.get(symbol, symbol): value for symbol, value in piece.at.items()}
+    left, right = put_in(contact(mirrored), swapped), put_in(contact(piece.at), {})
+    return put_in(piece, {}) - left - right
+
+
 def _common_weights() -> Ruling:
-    """What the two contacts' variances leave of the bead's: twice their covariance."""
-    both = CONTACT[-1].expression + CONTACT[-1].expression.xreplace({k: -k, i: -i})
-    rulings = [decide_identity(BEAD[-1].expression, both)]
-    below_load, two, one = BEAD[-2], BEAD[-3], BEAD[-5]
-    for piece, doubled in (
-        (below_load, (1 + phi) ** 2 / 2),
-        (two, -sympy.Rational(3, 2)),
-        (one, sympy.Integer(4)),
-    ):
-        layer = _numbers(piece.at)
-        rulings.append(decide_identity(piece.expression - both.xreplace(layer), doubled))
-    return all_of(*rulings)
+    *_, below_load, deep = BEAD
+    stated = FIELD.from_sympy((1 + phi) ** 2 / 2)
+    return from_test(
+        _covariance(deep).is_zero()
+        and (_covariance(below_load) - stated).is_zero()
+        and all(order(_covariance(piece), *SIZES) <= 0 for piece in BEAD),
+        "twice the covariance is ½(1+φ)² straight below the load for j ≥ 3, in units of "
+        "(σ/r)²/4(1−φ²)²; no case of it grows with j or l",
+    )
 
 
 def _leg() -> Ruling:
@@ -318,7 +331,9 @@ def _apex_and_base() -> Ruling:
     excess = (1 + 2 * phi - phi**2) / (2 * (6 * l - 9 + phi**2))
     limit = PRINTED.rhs.xreplace({j: l}) / PRINTED.rhs.xreplace({j: sympy.Integer(0)})
     return all_of(
-        decide_identity(apex / base, 2 + excess), decide_identity(limit, sympy.Integer(2))
+        decide_identity(apex / base, 2 + excess),
+        from_test(order(FIELD.from_sympy(excess), l) < 0, "what exceeds 2 vanishes as l → ∞"),
+        decide_identity(limit, sympy.Integer(2)),
     )
 
 
