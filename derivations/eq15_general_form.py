@@ -18,7 +18,7 @@ from symbolic.exact import FIELD, NotExactError, RationalFunction
 from symbolic.kernel import Ruling, all_of, decide_identity, from_test, proved, refuted, undecided
 from symbolic.printing.structure import rebuilt
 from symbolic.printing.text import text
-from symbolic.symbols import Dot, M, j, n_minus, n_plus, phi, r, sigma, z
+from symbolic.symbols import Dot, M, j, n_minus, n_plus, n_x, n_y, phi, r, sigma, z
 from symbolic.variance import leading, order, variance
 
 DEVIATION = sympy.Symbol(r"\sigma_f/\langle f\rangle")
@@ -160,7 +160,8 @@ def _decide_for(load: str, part: int, side: sympy.Expr) -> Ruling:
         return undecided(str(reason))
     if side.is_negative:
         return refuted(f"{text(side)} is negative, which neither a deviation nor a height is")
-    names = [text(symbol) for symbol in FIELD.generators if symbol != phi and ratio.holds(symbol)]
+    others = (symbol for symbol in FIELD.generators if symbol not in (phi, n_x, n_y))
+    names = [text(symbol) for symbol in others if ratio.holds(symbol)]
     what = f"{load} load: leading order of the mean of σ_f²/⟨f⟩² " + (
         "over the squared right-hand side" if part == 0 else "at M equal to the right-hand side"
     )
