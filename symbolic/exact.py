@@ -125,16 +125,6 @@ class RationalFunction:
     def _same(self, numerator: Polynomial, denominator: Polynomial) -> Self:
         return type(self)(self.domain, numerator, denominator)
 
-    def _over(self, numerator: Polynomial) -> Self:
-        """A multiple by a number: nothing to cancel."""
-        result = object.__new__(type(self))
-        result.domain, result.numerator, result.denominator = (
-            self.domain,
-            numerator,
-            self.denominator,
-        )
-        return result
-
     def __add__(self, other: Self) -> Self:
         if self.numerator == 0:
             return other
@@ -148,7 +138,10 @@ class RationalFunction:
         )
 
     def __neg__(self) -> Self:
-        return self._over(-self.numerator)
+        negative = object.__new__(type(self))  # in lowest terms already
+        negative.domain, negative.denominator = self.domain, self.denominator
+        negative.numerator = -self.numerator
+        return negative
 
     def __sub__(self, other: Self) -> Self:
         return self + (-other)
