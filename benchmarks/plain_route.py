@@ -190,8 +190,15 @@ def eq15() -> bool:
     return simplify(sqrt(surface) / M ** Rational(3, 2)) == 1 and simplify(5 * bulk / M**3) == 1
 
 
+def eq16() -> bool:
+    """Six radii's worth for each Δ below either turn, a quarter for ½(f⁺ + f⁻), ends left out."""
+    below_turns = Sum(6, (m, 1, j + p)) + Sum(6, (m, 1, j + q))
+    total = below_turns.doit().subs(p, l - j - q) / 4
+    return simplify(total - Rational(3, 2) * (l + j)) == 0
+
+
 ROUTES: dict[int, Callable[[], bool]] = {
-    number: globals()[f"eq{number:02}"] for number in range(1, 16)
+    number: globals()[f"eq{number:02}"] for number in range(1, 17)
 }
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from symbolic.exact import FIELD, NotExactError, RationalFunction
 from symbolic.kernel import Ruling, from_test, proved, refuted, undecided
 from symbolic.printing.text import text
 from symbolic.symbols import M, j, phi, r, sigma, z
-from symbolic.variance import ExactForm, at_fixed_z, leading, order
+from symbolic.variance import CASES, ExactForm, at_fixed_z, largest_weight, leading, order
 
 
 def compare_leading_order(exact: RationalFunction, candidate: sympy.Expr) -> Ruling:
@@ -55,6 +55,17 @@ def next_order_is(forms: dict[str, ExactForm], printed: sympy.Expr, stated: symp
     return from_test(
         (leading(rest) - expected).is_zero(),
         f"in units of (σ/r)²/(1−φ²)² the next order is {text(stated)}",
+    )
+
+
+def no_radius_dominates(force: sympy.Expr, forms: dict[str, ExactForm]) -> Ruling:
+    """The largest squared weight over the variance: what the central limit theorem needs."""
+    shares = [
+        2 * largest_weight(force.xreplace(at), region) - order(forms[case].value)
+        for case, (at, region, *_) in CASES.items()
+    ]
+    return from_test(
+        max(shares) == -1, "a radius has a share of order 1/M in the variance, in every layer"
     )
 
 

@@ -7,9 +7,11 @@ Variances over f_load² are in units of ¼ (σ/r)²/(1−φ²)², those over a m
 units of (σ/r)²/(1−φ²)².
 """
 
-from sympy import Rational
+from sympy import Expr, Rational, Symbol
 
 from symbolic.cases import Piece
+from symbolic.exact import FIELD, RationalFunction
+from symbolic.paths import IN_CONE
 from symbolic.symbols import i, j, k, l, p, phi, q
 
 HALF = Rational(1, 2)
@@ -60,3 +62,22 @@ LEG_FORCE = (
     Piece("2 ≤ j ≤ l − 2, on a leg", {}, _LEG_FORCE),
 )
 """Variance of the magnitude of the contact force on a leg, over its mean squared."""
+
+
+def covariance(piece: Piece) -> RationalFunction:
+    """Twice the covariance of a bead's two contacts, for one piece of ``BEAD``.
+
+    It is what the variances of the contacts leave of the bead's.
+    """
+
+    def put_in(other: Piece, coordinates: dict[Symbol, Expr]) -> RationalFunction:
+        value = FIELD.from_sympy(other.expression.xreplace(IN_CONE).xreplace(coordinates))
+        return value.substitute({s: FIELD.constant(at) for s, at in piece.at.items()})
+
+    def contact(at: dict[Symbol, int]) -> Piece:
+        return next(found for found in CONTACT if found.at.items() <= at.items())
+
+    swapped = {p: q, q: p}  # f⁻ is the mirror image of f⁺
+    mirrored = {swapped.get(symbol, symbol): value for symbol, value in piece.at.items()}
+    left, right = put_in(contact(mirrored), swapped), put_in(contact(piece.at), {})
+    return put_in(piece, {}) - left - right

@@ -1,6 +1,7 @@
 """Eq. 11: the contact force under a surface load, as the sum over all loads and paths."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import sympy
 
@@ -74,6 +75,7 @@ def branched_load(count: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
     return i + 2 * count - (M - j), M
 
 
+@cache
 def in_radii(expression: sympy.Expr) -> sympy.Expr:
     """Put Eqs. 4 and 5 in for the contact directions."""
     return expression.replace(DeltaNPlus, eq04.contact_direction).replace(

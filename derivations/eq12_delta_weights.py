@@ -43,7 +43,7 @@ from symbolic.symbols import (
     r,
     sigma,
 )
-from symbolic.variance import at_fixed_z, fluctuation, largest_weight, order, variance
+from symbolic.variance import at_fixed_z, largest_weight, order, variance
 from symbolic.weights import UndeterminedError, take_apart
 
 ON_DIAGONAL = SecondDifference(i - (j - m), m)
@@ -191,11 +191,11 @@ def _dropped() -> Ruling:
     dropped = exact_fluctuation() - PRINTED.rhs
     rest = dropped + BASE_TERM
     orders = (
-        largest_weight(fluctuation(dropped, DEEP), DEEP),
-        largest_weight(fluctuation(rest, DEEP), DEEP),
+        largest_weight(dropped, DEEP),
+        largest_weight(rest, DEEP),
     )
     end = minus(times(1 / (1 - phi**2), Dot(n_plus, DeltaNMinus(i + M - j + 1, M - 1))))
-    end_order = largest_weight(fluctuation(eq11.in_radii(end), DEEP), DEEP)
+    end_order = largest_weight(eq11.in_radii(end), DEEP)
     return from_test(
         orders == (1, 0) and end_order == 0,
         "dropped weights are of order M on the three base radii of ½(M−j−1)Δ and of order 1 "
@@ -218,7 +218,7 @@ def _one_more_term() -> Ruling:
     """The double sum with Eq. 11's end, and the term n = M − j that it has not, as weights of Δ."""
     shorter = DOUBLE_SUM.xreplace({M - j: M - j - 1})
     added = sympy.Sum(ON_DIAGONAL, (m, 1, M))
-    weights = largest_weight(fluctuation(added, DEEP), DEEP)
+    weights = largest_weight(added, DEEP)
     return all_of(
         decide_linear(DOUBLE_SUM, terms(shorter, added), Region({j: 1, M: j + 1})),
         from_test(weights == 0, "the term n = M − j has weights of order 1"),

@@ -14,21 +14,18 @@ from derivations.asymptotics import (
     exact_steps,
     exact_views,
     next_order_is,
+    no_radius_dominates,
     weights_follow,
 )
 from derivations.record import Claim, Derivation, ExactView, Step, Witness
 from derivations.runner import run_alone
 from symbolic.as_printed import equation, power, terms, times
 from symbolic.certified_sums import certified_sum
-from symbolic.kernel import Ruling, all_of, decide_identity, from_test, undecided
+from symbolic.kernel import Ruling, all_of, decide_identity, undecided
 from symbolic.symbols import M, j, m, phi, r, sigma, z
 from symbolic.variance import (
-    CASES,
     ExactForm,
     exact_variances,
-    fluctuation,
-    largest_weight,
-    order,
 )
 
 RELATIVE_VARIANCE = sympy.Symbol(r"\sigma_f^2(z)/\langle f\rangle^2")
@@ -98,15 +95,7 @@ def _weights() -> Ruling:
 
 
 def _no_radius_dominates() -> Ruling:
-    """The largest squared weight over the variance: what the central limit theorem needs."""
-    exact = eq11.in_radii(eq11.PRINTED.rhs)
-    shares = []
-    for case, (at, region, *_) in CASES.items():
-        weight = largest_weight(fluctuation(exact.xreplace(at), region), region)
-        shares.append(2 * weight - order(exact_forms()[case].value))
-    return from_test(
-        max(shares) == -1, "a radius has a share of order 1/M in the variance, in every layer"
-    )
+    return no_radius_dominates(eq11.in_radii(eq11.PRINTED.rhs), exact_forms())
 
 
 def _corollaries() -> Ruling:

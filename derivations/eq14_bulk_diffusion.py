@@ -18,6 +18,7 @@ from derivations.asymptotics import (
     exact_steps,
     exact_views,
     next_order_is,
+    no_radius_dominates,
     weights_follow,
 )
 from derivations.record import Claim, Derivation, ExactView, Step, Witness
@@ -277,6 +278,10 @@ DERIVATION = Derivation(
         Claim(
             "exact forms at the base and below the surface",
             lambda: edges_follow(exact_forms(), PRINTED.rhs),
+        ),
+        Claim(
+            "no radius has more than O(1/M) of the variance, in any layer",
+            lambda: no_radius_dominates(eq11.in_radii(bulk_force()), exact_forms()),
         ),
         Claim("one layer below the surface both loads agree", _one_layer_below_the_surface),
         Claim(

@@ -18,8 +18,8 @@ from symbolic.exact import FIELD, NotExactError, RationalFunction
 from symbolic.kernel import Ruling, all_of, decide_identity, from_test, proved, refuted, undecided
 from symbolic.printing.structure import rebuilt
 from symbolic.printing.text import text
-from symbolic.symbols import Dot, M, j, n_plus, phi, r, sigma, z
-from symbolic.variance import order, variance
+from symbolic.symbols import Dot, M, j, n_minus, n_plus, n_x, n_y, phi, r, sigma, z
+from symbolic.variance import leading, order, variance
 
 DEVIATION = sympy.Symbol(r"\sigma_f/\langle f\rangle")
 HEIGHT = sympy.Symbol("M_star", positive=True)
@@ -117,13 +117,16 @@ def steps() -> Iterator[Step]:
         first, second = (part.to_sympy() for part in average.leading_orders())
         yield Step(f"Its two leading orders, {load} load:", equation(MEAN_SQUARE, first + second))
     yield Step("So its root goes as printed, for both loads alike.", PRINTED)
+    yield Step(
+        "The mean of σ_f/⟨f⟩ itself goes the same way with another prefactor, in units of "
+        "M^(3/2) (σ/r)/(1−φ²):"
+    )
     for load in LOADS:
         a, c, _ = ROOTS[load]
         root = power(times(a, terms(1, times(c, z))), sympy.S.Half)
         whole = sympy.Integral(times(terms(1, -z), root), (z, 0, 1))
         yield Step(
-            f"The mean of σ_f/⟨f⟩ itself has another prefactor, in units of M^(3/2) (σ/r)/(1−φ²); "
-            f"{load} load:",
+            f"… under a {load} load:",
             equation(whole, MEAN_DEVIATION[load]),
         )
     yield Step(
@@ -155,7 +158,10 @@ def _decide_for(load: str, part: int, side: sympy.Expr) -> Ruling:
         ratio = _squared_ratio(first, part, rebuilt(side))
     except NotExactError as reason:
         return undecided(str(reason))
-    names = [text(symbol) for symbol in (M, sigma, r) if ratio.holds(symbol)]
+    if side.is_negative:
+        return refuted(f"{text(side)} is negative, which neither a deviation nor a height is")
+    others = (symbol for symbol in FIELD.generators if symbol not in (phi, n_x, n_y))
+    names = [text(symbol) for symbol in others if ratio.holds(symbol)]
     what = f"{load} load: leading order of the mean of σ_f²/⟨f⟩² " + (
         "over the squared right-hand side" if part == 0 else "at M equal to the right-hand side"
     )
@@ -247,13 +253,18 @@ _ONE = sympy.Integer(1)
 
 def _displacements() -> Ruling:
     """The geometry diffuses as j: (4j − 2)σ² along either direction, exactly."""
-    found = variance(Dot(n_plus, eq03.PRINTED.rhs), Region({j: 2}))
-    exact = found - FIELD.from_sympy((4 * j - 2) * sigma**2)
-    # a height at which σ² M is r² is (σ/r)^−2, and M* over that is (σ/r)^(4/3) → 0
-    ratio = (sigma / r) ** sympy.Rational(-2, 3) / (sigma / r) ** -2
+    region, stated = Region({j: 2}), FIELD.from_sympy((4 * j - 2) * sigma**2)
+    found = [variance(Dot(unit, eq03.PRINTED.rhs), region) for unit in (n_plus, n_minus)]
+    height = (r / sigma) ** 2 / 4
+    ratio = rebuilt(PRINTED_HEIGHT.rhs) / height
     return all_of(
-        from_test(exact.is_zero(), "the variance of n^±·δx is (4j − 2)σ² for j ≥ 2"),
-        decide_identity(ratio**3, (sigma / r) ** 4),
+        from_test(
+            all((exact - stated).is_zero() for exact in found),
+            "the variance of n^±·δx is (4j − 2)σ² for j ≥ 2; to leading order that is r² at "
+            "j = ¼(σ/r)^(−2)",
+        ),
+        decide_identity(leading(stated).to_sympy().xreplace({j: height}), r**2),
+        decide_identity(ratio**3, (4 * (sigma / r) ** sympy.Rational(4, 3)) ** 3),
     )
 
 
@@ -273,7 +284,7 @@ DERIVATION = Derivation(
     name="general_form",
     title="Average over the system, and the height of tensile contacts",
     symbols=(
-        (DEVIATION, "relative standard deviation of the forces, averaged over the system"),
+        (DEVIATION, "relative standard deviation of the forces: root of the mean of its square"),
         (HEIGHT, "height at which the leading order of the mean of σ_f²/⟨f⟩² is one"),
         (MEAN_SQUARE, "mean over all contacts"),
         (TENSILE, "expected fraction of contacts with f < 0"),
@@ -300,7 +311,7 @@ DERIVATION = Derivation(
             "(M³/5 + 11M²/40 + …) (σ/r)²/(1−φ²)² under a bulk load",
             _leading_is_the_integral,
         ),
-        Claim("the exact mean is 1 at M* + 1/6 and at M* − 11/24", _height_next_order),
+        Claim("as M* → ∞ the exact mean is 1 at M* + 1/6 and at M* − 11/24", _height_next_order),
         Claim("the mean of σ_f/⟨f⟩ itself goes as M^(3/2) σ/r too", _mean_of_deviation),
         Claim(
             "at leading order σ_f²/⟨f⟩² is (M/M*)³ times a profile of mean one",
@@ -312,7 +323,7 @@ DERIVATION = Derivation(
             _displacements,
         ),
         Claim(
-            "a vanishing number of tensile contacts lowers M* by a power of ln M alone",
+            "lowering M* by a power of ln M is enough for a vanishing number of tensile contacts",
             _number_of_tensile_contacts,
         ),
     ),

@@ -82,7 +82,8 @@ def solve(
     )
     matrix = sympy.ImmutableMatrix(system.jacobian(list(unknowns)))
     right = dotted(carried, tilts)
-    solution = matrix.inv(method="ADJ") * right
+    # not matrix.inv(): it guesses by numbers whether the determinant is zero
+    solution = matrix.adjugate() / matrix.det() * right
     at_zero, slope = solution.subs(epsilon, 0), sympy.diff(solution, epsilon).subs(epsilon, 0)
     meaning = {
         tilt: Dot(n_minus if isinstance(atom, DeltaNPlus) else n_plus, atom)

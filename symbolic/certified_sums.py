@@ -1,5 +1,7 @@
 """Sums by SymPy, each accepted only with its telescoping certificate."""
 
+from functools import cache
+
 import sympy
 
 from symbolic.exact import FIELD
@@ -7,6 +9,13 @@ from symbolic.exact import FIELD
 
 class SumRefusedError(ValueError):
     """What SymPy returned for a sum does not telescope."""
+
+
+@cache
+def _sum_up_to(power: sympy.Expr, index: sympy.Symbol, low: sympy.Expr) -> sympy.Expr:
+    """Σ from low to the index itself, whose name is free outside of the sum."""
+    bound = sympy.Dummy("bound", integer=True)
+    return sympy.Sum(power.xreplace({index: bound}), (bound, low, index)).doit()
 
 
 def certified_sum(
@@ -20,11 +29,11 @@ def certified_sum(
     Raises:
         SumRefusedError: when either fails.
     """
-    end = index  # the bound name is free outside of the sum, so it can serve as the upper end
-    bound = sympy.Dummy("bound", integer=True)
     # term by term: of a whole polynomial SymPy first asks, with solve, whether it telescopes
-    monomials = sympy.Add.make_args(sympy.expand(term.xreplace({index: bound})))
-    partial = sympy.Add(*(sympy.Sum(one, (bound, low, end)).doit() for one in monomials))
+    monomials = (
+        one.as_independent(index, as_Add=False) for one in sympy.Add.make_args(sympy.expand(term))
+    )
+    partial = sympy.Add(*(factor * _sum_up_to(power, index, low) for factor, power in monomials))
     telescopes = FIELD.from_sympy(partial - partial.xreplace({index: index - 1}) - term)
     starts = FIELD.from_sympy(partial.xreplace({index: low - 1}))
     if not (telescopes.is_zero() and starts.is_zero()):

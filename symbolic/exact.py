@@ -7,6 +7,7 @@ reduced by these before it is compared with zero.
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from functools import cache
 from typing import Any, Self
 
 import sympy
@@ -91,10 +92,8 @@ class Domain:
             x, y = self._gens[self.position[n_x]], self._gens[self.position[n_y]]
             self._relations = (y * y - x * x, x * x + y * y - 1)
         cosine, circle = self._relations
-        uses_components = any(
-            polynomial.degrees()[self.position[component]] for component in (n_x, n_y)
-        )
-        if not uses_components:
+        degrees = polynomial.degrees()
+        if not (degrees[self.position[n_x]] or degrees[self.position[n_y]]):
             return False
         if phi in self.position:
             images = list(self._gens)
@@ -127,6 +126,10 @@ class RationalFunction:
         return type(self)(self.domain, numerator, denominator)
 
     def __add__(self, other: Self) -> Self:
+        if self.numerator == 0:
+            return other
+        if other.numerator == 0:
+            return self
         if self.denominator == other.denominator:
             return self._same(self.numerator + other.numerator, self.denominator)
         return self._same(
@@ -135,12 +138,18 @@ class RationalFunction:
         )
 
     def __neg__(self) -> Self:
-        return self._same(-self.numerator, self.denominator)
+        negative = object.__new__(type(self))  # in lowest terms already
+        negative.domain, negative.denominator = self.domain, self.denominator
+        negative.numerator = -self.numerator
+        return negative
 
     def __sub__(self, other: Self) -> Self:
         return self + (-other)
 
     def __mul__(self, other: Self) -> Self:
+        for one, scale in ((self, other), (other, self)):
+            if scale.numerator == 1 and scale.denominator == 1:
+                return one
         return self._same(self.numerator * other.numerator, self.denominator * other.denominator)
 
     def __truediv__(self, other: Self) -> Self:
@@ -253,23 +262,26 @@ def _reads_negative(factor: sympy.Expr) -> bool:
 
 
 def antidifference(f: RationalFunction, symbol: sympy.Expr) -> RationalFunction:
-    """F with F(n) − F(n−1) = f(n) and F(0) = 0, for f polynomial in ``symbol``.
+    """F with F(n) − F(n−1) = f(n) and F(0) = 0, for f polynomial in ``symbol``."""
+    total = f.domain.zero
+    for power, coefficient in enumerate(f.coefficients(symbol)):
+        total = total + coefficient * _antidifference_of_power(f.domain, symbol, power)
+    return total
 
-    Powers are taken from the highest down: n^(k+1)/(k+1) has the difference n^k + lower
-    powers, and what is left over is of lower degree. The defining equation is checked, so the
-    result is its own telescoping certificate.
+
+@cache
+def _antidifference_of_power(domain: Domain, symbol: sympy.Expr, power: int) -> RationalFunction:
+    """The same for f(n) = n^power.
+
+    n^(k+1)/(k+1) has the difference n^k + lower powers, which are taken off in turn. The defining
+    equation is checked, so the result is its own telescoping certificate.
     """
-    domain = f.domain
     n = domain.generator(symbol)
-    total, rest = domain.zero, f
     before = {symbol: n - domain.one}
-    while rest.numerator != 0:
-        power = rest.degree(symbol)
-        lead = rest.coefficients(symbol)[power]
-        piece = lead * n ** (power + 1) / domain.constant(power + 1)
-        total = total + piece
-        rest = rest - (piece - piece.substitute(before))
-    if (total - total.substitute(before) - f).numerator != 0:  # pragma: no cover
+    first = n ** (power + 1) / domain.constant(power + 1)
+    rest = first - first.substitute(before) - n**power
+    total = first - antidifference(rest, symbol) if power else first
+    if (total - total.substitute(before) - n**power).numerator != 0:  # pragma: no cover
         raise AssertionError("the telescoping certificate fails")
     return total
 
@@ -278,6 +290,8 @@ def sum_polynomial(
     f: RationalFunction, symbol: sympy.Expr, low: RationalFunction, high: RationalFunction
 ) -> RationalFunction:
     """Σ f(n) for low ≤ n ≤ high; zero when high = low − 1, Karr's convention below that."""
+    if not f.holds(symbol):
+        return f * (high - low + f.domain.one)
     antiderivative = antidifference(f, symbol)
     before_low = low - f.domain.one
     return antiderivative.substitute({symbol: high}) - antiderivative.substitute(

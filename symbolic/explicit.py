@@ -20,6 +20,7 @@ Vector = tuple[Weights, Weights]
 Values = Mapping[sympy.Symbol, Fraction | int]
 
 _CONSTANT = ("", 0, 0)
+_ZERO, _ONE = Fraction(0), Fraction(1)
 
 
 class AmbiguousError(ValueError):
@@ -67,14 +68,19 @@ def number(expression: sympy.Expr, values: Values) -> Fraction:
     return result.get(_CONSTANT, Fraction(0))
 
 
-def _add(left: Weights, right: Weights, scale: Fraction = Fraction(1)) -> Weights:
-    total = dict(left)
-    for key, weight in right.items():
-        value = total.get(key, Fraction(0)) + scale * weight
+def _accumulate(total: Weights, part: Weights) -> None:
+    for key, weight in part.items():
+        value = total[key] + weight if key in total else weight
         if value:
             total[key] = value
         else:
-            total.pop(key, None)
+            del total[key]
+
+
+def _sum(*parts: Weights) -> Weights:
+    total: Weights = {}
+    for part in parts:
+        _accumulate(total, part)
     return total
 
 
@@ -97,7 +103,7 @@ def _read(expression: sympy.Expr, values: Values) -> Weights | Vector:
         if expression in values:
             return {_CONSTANT: Fraction(values[expression])} if values[expression] else {}
         if expression in sy.VECTORS:
-            one = {_CONSTANT: Fraction(1)}
+            one = {_CONSTANT: _ONE}
             return tuple(_scaled(one, c) for c in _base_vectors(values)[expression])  # type: ignore[return-value]
         raise AmbiguousError(f"no value for {expression}")
     if isinstance(expression, sy.SecondDifference):
@@ -125,16 +131,18 @@ def _read(expression: sympy.Expr, values: Values) -> Weights | Vector:
     if isinstance(expression, sy.MatrixTimes):
         a, b, c, d = (number(entry, values) for entry in expression.args[:4])
         across, up = vector_weights(expression.args[4], values)
-        return _add(_scaled(across, a), up, b), _add(_scaled(across, c), up, d)
+        return _sum(_scaled(across, a), _scaled(up, b)), _sum(_scaled(across, c), _scaled(up, d))
     raise AmbiguousError(f"{expression} is not read here")
 
 
 def _scaled(form: Weights, factor: Fraction) -> Weights:
+    if factor == 1:
+        return form
     return {key: weight * factor for key, weight in form.items()} if factor else {}
 
 
 def _atom(atom: sy.SiteFunction, values: Values) -> Weights | Vector:
-    family, one = type(atom).__name__, Fraction(1)
+    family, one = type(atom).__name__, _ONE
     site = (_index(atom.args[0], values), _index(atom.args[1], values))
     if not atom.is_vector:
         return {(family, *site): one}
@@ -169,17 +177,18 @@ def _total(parts: list[Weights | Vector]) -> Weights | Vector:
                 if part:
                     raise AmbiguousError("a number added to a vector")
                 continue
-            x, y = _add(x, part[0]), _add(y, part[1])
+            _accumulate(x, part[0])
+            _accumulate(y, part[1])
         return x, y
     total: Weights = {}
     for part in parts:
         assert isinstance(part, dict)
-        total = _add(total, part)
+        _accumulate(total, part)
     return total
 
 
 def _product(parts: list[Weights | Vector]) -> Weights | Vector:
-    scale = Fraction(1)
+    scale = _ONE
     linear: Weights | None = None
     vector: Vector | None = None
     for part in parts:
@@ -188,13 +197,13 @@ def _product(parts: list[Weights | Vector]) -> Weights | Vector:
                 raise AmbiguousError("a product of two vectors")
             vector = part
         elif set(part) <= {_CONSTANT}:
-            scale *= part.get(_CONSTANT, Fraction(0))
+            scale *= part.get(_CONSTANT, _ZERO)
         elif linear is not None:
             raise AmbiguousError("a product of two lattice quantities")
         else:
             linear = part
     if vector is None:
-        return _scaled({_CONSTANT: Fraction(1)} if linear is None else linear, scale)
+        return _scaled({_CONSTANT: _ONE} if linear is None else linear, scale)
     if linear is None:
         return _scaled(vector[0], scale), _scaled(vector[1], scale)
     x, y = (_product([linear, component]) for component in vector)

@@ -6,7 +6,7 @@ squared weights. Orders count M and j together, as at a fixed relative height z 
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import sympy
 
@@ -15,7 +15,7 @@ from symbolic.exact import FIELD, LAYER, RationalFunction
 from symbolic.linear_forms import CONSTANT, LinearForm
 from symbolic.reading import Reader
 from symbolic.symbols import M, j, sigma, z
-from symbolic.weights import take_apart
+from symbolic.weights import Pieces, take_apart
 
 
 def fluctuation(expression: sympy.Expr, region: Region) -> LinearForm:
@@ -31,10 +31,14 @@ def without_constant(form: LinearForm) -> LinearForm:
     )
 
 
+@cache
+def _pieces(expression: sympy.Expr, region: Region) -> Pieces:
+    return take_apart(fluctuation(expression, region), region)
+
+
 def variance(expression: sympy.Expr, region: Region) -> RationalFunction:
     """σ² Σ weight² of a linear expression in δr, in closed form, exact in the region."""
-    pieces = take_apart(fluctuation(expression, region), region)
-    return pieces.sum_of_squares() * FIELD.from_sympy(sigma**2)
+    return _pieces(expression, region).sum_of_squares() * FIELD.from_sympy(sigma**2)
 
 
 def order(value: RationalFunction, *sizes: sympy.Expr) -> int:
@@ -53,9 +57,9 @@ def leading(value: RationalFunction, *sizes: sympy.Expr) -> RationalFunction:
     return _top(value.numerator, sizes) / _top(value.denominator, sizes)
 
 
-def largest_weight(form: LinearForm, region: Region) -> int:
-    """The order of the largest weight of a form, over all its sites."""
-    pieces = take_apart(form, region)
+def largest_weight(expression: sympy.Expr, region: Region) -> int:
+    """The order of the largest weight of a linear expression in δr, over all sites."""
+    pieces = _pieces(expression, region)
     sizes = (M, j, LAYER)
     orders = [order(run.weight, *sizes) for run in pieces.runs]
     orders += [order(full, *sizes) for full, _ in pieces.special.values()]

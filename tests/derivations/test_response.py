@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from derivations import eq10_branched_path as eq10
 from derivations import eq11_total_force as eq11
 from derivations import eq16_response as eq16
-from derivations.cone_forms import BEAD
+from derivations.cone_forms import BEAD, covariance
 from derivations.small_packings import DIRECTIONS, draw
 from derivations.witnesses import responses, weights_below_a_load
 from numeric import closed_forms
@@ -68,6 +68,18 @@ def test_a_wrong_closed_form_is_found() -> None:
     assert "no closed form" in str(first_difference(BEAD[:-1], cases, unit, eq16.IN_CONE))
     vague = [Piece("j = 5", {sy.j: 5}, BEAD[-1].expression)]
     assert "in part" in str(first_difference(vague, cases[-1:], unit, eq16.IN_CONE))
+
+
+@pytest.mark.parametrize("piece", BEAD, ids=lambda piece: piece.where)
+def test_the_covariance_of_both_contacts_is_that_on_explicit_sites(piece: Piece) -> None:
+    values = explicit.geometry(*DIRECTIONS[1], ONE)
+    at = {**values, sy.i: 0, sy.j: 4, sy.p: 3, sy.q: 4} | piece.at
+    right, left = (
+        explicit.weights(eq11.in_radii(force), at) for force in (eq16.UPPER_RIGHT, eq16.UPPER_LEFT)
+    )
+    common = sum((w * left[site] for site, w in right.items() if site in left), Fraction(0))
+    phi = Fraction(values[sy.phi])
+    assert covariance(piece).at({sy.phi: phi}) == 2 * common * (1 - phi**2) ** 2
 
 
 def test_cases_cover_every_site_once() -> None:
