@@ -340,8 +340,7 @@ DERIVATION = Derivation(
         "definition given, and the prefactor is found: (1−φ²)^(2/3) for a surface load, 5^(1/3) "
         "times that for a bulk load.",
         "The fraction of tensile contacts is an estimate: the forces are Gaussian exactly for "
-        "normal radii and else in the limit, but where a finite fraction is tensile first order "
-        "is no longer small.",
+        "normal radii and else in the limit, to first order in δr.",
         "To let the expected number of tensile contacts vanish, rather than their fraction, the "
         "paper expects a much lower M*. With Gaussian forces M* divided by the cube root of "
         "8c ln M, c > 1, is enough for a square packing, to leading order: a logarithm, not "

@@ -2,9 +2,9 @@
 
 Simulated are exact, nonlinear packings of W = 2M beads a layer, wide enough that no force sees an
 image of itself. The theory is Eq. 13 as printed, and its exact form at finite M. Far below
-M* = (σ/r)^(-2/3) the exact form has to lie within the band. Nearer to M* forces are no longer
-linear in δr: the ratio of nonlinear to first-order σ_f is estimated on realisations of its own,
-each solved both ways, so that most of the sampling error cancels.
+M* = (σ/r)^(-2/3) the exact form has to lie within the band. Nearer to M* forces need not be linear
+in δr: the ratio of nonlinear to first-order σ_f is estimated on realisations of its own, each
+solved both ways, so that most of the sampling error cancels.
 """
 
 from collections.abc import Sequence
@@ -135,9 +135,12 @@ class Comparison:
         for one, fact in zip(self.heights, self.facts()["heights"], strict=True):
             alone = fact["largest_deviation_in_half_widths"]
             words = f"M = {one.height}: exact finite-M curve {_inside(alone)}"
-            if alone > 1 or fact["largest_correction"] > NOTEWORTHY:
+            near = one.height / critical_height(Fraction(PAPER_STD))
+            if near > NEAR:
+                words += f"; M = {near:.2g} M*"
+            if alone > 1 or fact["largest_correction"] > NOTEWORTHY or near > NEAR:
                 words += (
-                    f"; with the nonlinear correction (up to {fact['largest_correction']:.1%}) "
+                    f"; with the nonlinear correction (up to {fact['largest_correction']:.2%}) "
                     f"{_inside(fact['corrected_deviation_in_half_widths'])}"
                 )
             said.append(words)
@@ -146,6 +149,8 @@ class Comparison:
 
 # Nonlinear corrections from here on are drawn and told of.
 NOTEWORTHY = 0.01
+# … and these parts of M* are told of, whatever the correction is.
+NEAR = 0.5
 
 
 def _inside(deviation: float) -> str:

@@ -38,6 +38,9 @@ def _theory_and_simulation(axes: Axes, data: Comparison) -> None:
         axes.plot(one.z, by * one.exact, color=colour, lw=0.9)
         low, high = one.band.limits
         axes.fill_between(one.z, by * low, by * high, color=colour, alpha=0.25, lw=0)
+        if one.height == 1:  # of a single layer neither a curve nor a band would show
+            axes.vlines(one.z, by * low, by * high, color=colour, lw=0.7)
+            axes.plot(one.z, by * one.exact, "_", color=colour, ms=7, mew=0.9)
         if np.abs(np.expm1(one.correction.log)).max() > NOTEWORTHY:
             axes.plot(one.z, by * one.corrected, ":", color=colour, lw=0.9)
         some = _some(one, number)
@@ -72,6 +75,8 @@ def _ratio(axes: Axes, data: Comparison) -> None:
         axes.fill_between(one.z, low, high, color=colour, alpha=0.18, lw=0)
         for edge in (low, high):
             axes.plot(one.z, edge, color=colour, lw=0.5)
+        if one.height == 1:
+            axes.vlines(one.z, low, high, color=colour, lw=0.7)
         some = _some(one, number)
         axes.plot(
             one.z[some],
