@@ -194,6 +194,29 @@ def test_line_sums_and_a_sweep_are_both_weighed_for_an_ensemble() -> None:
         assert abs(float(a["change"]) - float(b["change"])) <= 2e-6 * largest
 
 
+def test_a_contact_that_no_load_comes_near_has_one_row_a_realisation() -> None:
+    """Its sweep would be the ordered packing, and that one solved once."""
+    sections = basic(6, 21, quantity="contact", at=[30, 2, "+"], realisations=5)
+    sections |= {"effects": {"geometry": "first-order"}, "load": {"kind": "point", "at": [6, 6]}}
+    plain = run(planned(sections)).rows
+    sections["ask"]["tolerance"] = "=1e-6"
+    rows = run(planned(sections)).rows
+    assert [row["realisation"] for row in rows] == [0, 1, 2, 3, 4]
+    assert rows == plain
+
+
+def test_a_change_about_as_small_as_its_error_is_within_the_stated_bound() -> None:
+    """Two-point radii leave changes of second order, here 9e-16 of the largest one."""
+    sections = basic(11, 6, quantity="positions", realisations=6, tolerance="=1e-12")
+    sections["packing"] |= {"spacing": "=2.9999813928", "allow_images": True}
+    sections["disorder"] = {"kind": "two-point", "relative_std": "=2e-16", "seed": 611859}
+    true, plan = reference(sections), planned(sections)
+    assert plan.choice is not None
+    for way in plan.choice.candidates:
+        if not way.out:
+            assert_kept(run(only(plan, way)), true, plan.choice.tolerance)
+
+
 def test_an_estimate_that_misses_gives_way(monkeypatch: pytest.MonkeyPatch) -> None:
     """The next way answers, and the outcome says why the first did not."""
     plan = planned(basic(tolerance="=1e-9"))
