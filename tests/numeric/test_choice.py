@@ -176,6 +176,14 @@ def test_what_only_balls_decide_is_left_to_them() -> None:
         assert all(why in way.out for way in floats)
 
 
+def test_the_plan_says_which_form_it_deposits_in() -> None:
+    for way in candidates(basic(tolerance="=1e-30")):
+        if way.plan is not None:
+            (reason,) = (s.reason for s in way.plan.steps if s.step == "deposit")
+            assert ("circles" in reason) == ("plain form" in way.algorithm)
+            assert ("deviations" in reason) == ("deviation form" in way.algorithm)
+
+
 def test_an_effect_is_never_replaced() -> None:
     for geometry in ("exact", "first-order"):
         sections = {**basic(tolerance="=1e-3"), "effects": {"geometry": geometry}}
