@@ -93,7 +93,8 @@ def _plans(small: int) -> Iterator[Plan]:
 def families() -> dict[str, list[tuple[NumberSystem, list[Plan]]]]:
     """Give the number systems that are timed, with their plans."""
     middle = list(_plans(8))
-    large = [_plan(40, 200), _plan(40, 200, 'quantity = "profile"')]
+    large = [_plan(h, w, 'quantity = "profile"') for h, w in ((40, 200), (12, 3000))]
+    large.append(_plan(40, 200))
     # What many digits cost needs no more than a small packing.
     small = list(_plans(3))
     few = [small[k] for k in (0, 1, 4, 8, 10)]
