@@ -14,6 +14,9 @@ from numeric.systems import FLOAT64, Balls, Hardware, NumberSystem, as_ball, mid
 
 # A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.
 PRINTED = 20
+# An estimated bound is twice what was measured or more: a number within half of it is printed as 0,
+# which is then off by its size and by its own error, together no more than the bound.
+SWALLOWED = 2
 
 
 def most_digits(system: Balls) -> int:
@@ -127,7 +130,7 @@ def _long_strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dic
 
 
 def _two_beyond(value: Any, error: Any) -> str:
-    if not abs(value) > error:
+    if not SWALLOWED * abs(value) > error:
         return "0"
     # powers of two, from which the digits follow within one
     digits = (_power(value) - _power(error)) * 0.30103
@@ -149,7 +152,7 @@ def _float_strings(column: Array, error: float) -> list[str]:
     result = []
     for value in column.tolist():
         off = error + abs(value) * 2.0**-52
-        if not value or not math.isfinite(value) or not abs(value) > off:
+        if not value or not math.isfinite(value) or not SWALLOWED * abs(value) > off:
             result.append("0" if math.isfinite(value) else str(value))
             continue
         # two digits beyond the error: cutting the rest off adds at most a twentieth of it

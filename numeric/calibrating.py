@@ -37,8 +37,8 @@ from numeric.scene import parse_scene
 from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
 from numeric.work import Work as Clocks
 
-# Hardware floats are soon done, and need more runs for a quiet one.
-RUNS, MOST_RUNS = 3, 6
+# A plan is run again, for a quiet run, until its runs have taken so many seconds together.
+RUNS, MOST_RUNS, ENOUGH = 2, 6, 0.02
 COMPILED_STEPS = ("deposit", "balance forces")
 # Steps that the engine times by itself, under other names.
 CLOCKS = {
@@ -92,13 +92,15 @@ def _plans(small: int) -> Iterator[Plan]:
 
 def families() -> dict[str, list[tuple[NumberSystem, list[Plan]]]]:
     """Give the number systems that are timed, with their plans."""
-    hardware = [*_plans(8), _plan(40, 200), _plan(40, 200, 'quantity = "profile"')]
+    middle = list(_plans(8))
+    large = [_plan(h, w, 'quantity = "profile"') for h, w in ((40, 200), (12, 3000))]
+    large.append(_plan(40, 200))
     # What many digits cost needs no more than a small packing.
     small = list(_plans(3))
     few = [small[k] for k in (0, 1, 4, 8, 10)]
     plainly = [replace(made, way=Way(Balls(53), plain=True)) for made in (small[0], small[2])]
     found: dict[str, list[tuple[NumberSystem, list[Plan]]]] = {
-        "float64": [(FLOAT64, hardware)],
+        "float64": [(FLOAT64, middle + large)],
         "mpmath": [(BigFloat(d), small if d == 30 else few) for d in (30, 200, 800)],
         "balls": [
             (Balls(bits), [*(small if bits == 100 else few), *plainly])
@@ -106,7 +108,7 @@ def families() -> dict[str, list[tuple[NumberSystem, list[Plan]]]]:
         ],
     }
     if LONGDOUBLE.bits > FLOAT64.bits:
-        found["longdouble"] = [(LONGDOUBLE, hardware)]
+        found["longdouble"] = [(LONGDOUBLE, middle)]
     return found
 
 
@@ -172,8 +174,7 @@ def calibrate(notice: Callable[[str], None] = lambda _: None, *, compiled: bool 
         samples: Samples = defaultdict(list)
         for system, plans in systems:
             for made in plans:
-                times = MOST_RUNS if system.dtype is not object else RUNS
-                runs = [timed(made, system) for _ in range(times)]
+                runs = _runs(made, system)
                 work = pass_work(made, system, made.realisations, again=False)
                 work |= last_work(made, system, made.realisations)
                 for step, amounts in work.items():
@@ -189,13 +190,21 @@ def calibrate(notice: Callable[[str], None] = lambda _: None, *, compiled: bool 
     return Model(source="calibrated on this machine", load_seconds=load, families=fitted)
 
 
+def _runs(made: Plan, system: NumberSystem) -> list[Seconds]:
+    """Time a plan a few times: the sooner it is done, the more often."""
+    start, runs = process_time(), [timed(made, system)]
+    while len(runs) < RUNS or (len(runs) < MOST_RUNS and process_time() - start < ENOUGH):
+        runs.append(timed(made, system))
+    return runs
+
+
 def _compiled() -> tuple[float, dict[str, Fitted]]:
     """Time the compiled sweeps, and loading them in a fresh process."""
     samples: Samples = defaultdict(list)
     sweep_compiled()
     for height, width in ((8, 20), (20, 5000), (100, 10_000)):
         made = _plan(height, width)
-        runs = [sweep_compiled(made) for _ in range(RUNS)]
+        runs = [sweep_compiled(made) for _ in range(MOST_RUNS)]
         best = [min(seconds) for seconds in zip(*runs, strict=True)]
         work = pass_work(made, FLOAT64, 1, again=False)
         for step, seconds in zip(COMPILED_STEPS, best, strict=True):
@@ -205,7 +214,7 @@ def _compiled() -> tuple[float, dict[str, Fitted]]:
         "import numeric.calibrating as c; c.sweep_compiled(); print(process_time() - start)"
     )
     done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=False
+        [sys.executable, "-P", "-c", program], capture_output=True, text=True, check=False
     )
     load = float(done.stdout) if not done.returncode else defaults().load_seconds
     return load, {step: _fit(found) for step, found in samples.items()}

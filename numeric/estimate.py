@@ -22,7 +22,7 @@ SAFETY = 2
 # normal: of N numbers the largest is below 6 standard deviations for every N that is allowed, and
 # that the largest of four is below 6/1000 of one has a chance of 5e-10.
 UNSEEN = 1000
-# A change that its error swallows is printed as 0: off by its size and by its error.
+# Room for printing: see ``accuracy.SWALLOWED``, and what digits that are cut off add.
 PRINTED = 2
 
 

@@ -67,7 +67,8 @@ def plan(
         except SceneError:  # the memory would not hold its region
             pass
         else:
-            outlines[sweep.algorithm] = sweep
+            if sweep.route == "first-order":  # not where no load comes near the contact
+                outlines[sweep.algorithm] = sweep
     return choose(outlines, tolerance, model.source, certified=certified)
 
 
@@ -123,6 +124,9 @@ class _Outline:
             replace(step, beads=step.beads * n, arithmetic=system.name)
             for step in self._steps(self.route, self.region, self.force_rows, self.load)
         ]
+        if way.plain:
+            why = "exact positions by intersecting circles, the ordered ones subtracted at the end"
+            steps = [replace(s, reason=why) if s.step == "deposit" else s for s in steps]
         at_once = self.region.beads * min(n, budget.chunk_size(self.region, system, self.scene))
         if self.closed:  # one realisation after the other
             at_once = max((step.beads for step in steps), default=0) // n

@@ -1,6 +1,7 @@
 """Ways to answer a scene: any plan in any number system, also in the plain form, as one table."""
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 from numeric import plain
 from numeric.answers import GATHERERS, Table
@@ -16,7 +17,9 @@ from numeric.work import Work
 
 Solver = Callable[[Plan, Sequence[int], NumberSystem, Work], Solved]
 
-PLAIN_QUANTITIES = {"contact", "contact_forces", "positions"}
+# What needs the turned directions of contacts, and not only their forces.
+TURNED = {"base_reactions", "response"}
+PLAIN_QUANTITIES = {"contact", "contact_forces", "positions", *TURNED}
 
 
 def answer(
@@ -66,7 +69,7 @@ def solve_plainly(
         rho = rows_of(plan.radii, region.rows, realisations, system, work)
     with work.timed("deposit"):
         packing = plain.deposit(scene.n_x, rho, system)
-        placed = _line_sums(plan, packing, rho)
+        placed = _placed(plan, packing, rho)
     for layer in region.rows:
         work.did("deposited", layer)
     if not plan.needs_forces:
@@ -116,12 +119,20 @@ def _balanced(
     )  # fmt: skip
 
 
-def _line_sums(plan: Plan, packing: plain.PlainPacking, rho: Sequence[Array]) -> Packing:
-    """Put the displacements into the coordinates c^± = n^±·δx that answers are gathered from."""
+def _placed(plan: Plan, packing: plain.PlainPacking, rho: Sequence[Array]) -> Packing:
+    """Put displacements into the coordinates c^± = n^±·δx that answers are gathered from."""
     nx, ny = packing.n
     moved = plain.displacements(packing)
+    turned = plan.scene.ask.quantity in TURNED
     return Packing(
         plan.scene.n_x, packing.system, packing.region, rho,
         tuple(d.x * nx + d.y * ny for d in moved), tuple(d.y * ny - d.x * nx for d in moved),
-        (), (),
+        tuple(_turned(N, nx, ny) for N in packing.plus) if turned else (),
+        tuple(_turned(N, -nx, ny) for N in packing.minus) if turned else (),
     )  # fmt: skip
+
+
+def _turned(N: plain.Vector, nx: Any, ny: Any) -> tuple[Array, Array]:
+    """Give (a, b) of N − n = a n⁺ + b n⁻, for the contacts of ordered direction n = (nx, ny)."""
+    x, y = (N.x - nx) / (2 * abs(nx)), (N.y - ny) / (2 * ny)
+    return y + x, y - x

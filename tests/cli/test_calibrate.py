@@ -46,6 +46,7 @@ def test_a_calibration_measures_every_step(
     own_cache: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(calibrating, "RUNS", 1)
+    monkeypatch.setattr(calibrating, "ENOUGH", 0)
     measure = calibrating.calibrate
     monkeypatch.setattr(
         calibrating, "calibrate", lambda notice, compiled: measure(notice, compiled=False)

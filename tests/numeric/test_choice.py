@@ -176,6 +176,14 @@ def test_what_only_balls_decide_is_left_to_them() -> None:
         assert all(why in way.out for way in floats)
 
 
+def test_the_plan_says_which_form_it_deposits_in() -> None:
+    for way in candidates(basic(tolerance="=1e-30")):
+        if way.plan is not None:
+            (reason,) = (s.reason for s in way.plan.steps if s.step == "deposit")
+            assert ("circles" in reason) == ("plain form" in way.algorithm)
+            assert ("deviations" in reason) == ("deviation form" in way.algorithm)
+
+
 def test_an_effect_is_never_replaced() -> None:
     for geometry in ("exact", "first-order"):
         sections = {**basic(tolerance="=1e-3"), "effects": {"geometry": geometry}}
@@ -192,6 +200,30 @@ def test_line_sums_and_a_sweep_are_both_weighed_for_an_ensemble() -> None:
     largest = max(abs(float(row["change"])) for row in one)
     for a, b in zip(one, other, strict=True):
         assert abs(float(a["change"]) - float(b["change"])) <= 2e-6 * largest
+
+
+def test_a_contact_that_no_load_comes_near_has_one_row_a_realisation() -> None:
+    """Its sweep would be the ordered packing, and that one solved once."""
+    sections = basic(6, 21, quantity="contact", at=[30, 2, "+"], realisations=5)
+    sections |= {"effects": {"geometry": "first-order"}, "load": {"kind": "point", "at": [6, 6]}}
+    plain = run(planned(sections)).rows
+    sections["ask"]["tolerance"] = "=1e-6"
+    rows = run(planned(sections)).rows
+    assert [row["realisation"] for row in rows] == [0, 1, 2, 3, 4]
+    assert rows == plain
+
+
+def test_a_change_about_as_small_as_its_error_is_within_the_stated_bound() -> None:
+    """Two-point radii leave changes of second order, here 9e-16 of the largest one."""
+    sections = basic(11, 6, quantity="positions", realisations=6, tolerance="=1e-12")
+    sections["packing"] |= {"spacing": "=2.9999813928", "allow_images": True}
+    sections["disorder"] = {"kind": "two-point", "relative_std": "=2e-16", "seed": 611859}
+    true, plan = reference(sections), planned(sections)
+    assert plan.choice is not None
+    (way,) = (c for c in plan.choice.candidates if c.arithmetic == "float64" and c.repeated == 6)
+    outcome = run(only(plan, way))
+    assert outcome.plan.system is FLOAT64
+    assert_kept(outcome, true, plan.choice.tolerance)
 
 
 def test_an_estimate_that_misses_gives_way(monkeypatch: pytest.MonkeyPatch) -> None:
