@@ -43,7 +43,7 @@ COMMANDS = {
     "figures": ("figures_command", "Draw the paper's figures anew, from exact packings."),
     "report": (
         "report_command",
-        "Write all results as one HTML page: derivations, checks, costs, stability.",
+        "Write all results as one HTML page: derivations, checks, figures, costs, stability.",
     ),
 }
 STATUSES = (

@@ -64,7 +64,7 @@ def test_another_version_on_a_worker_is_refused(
 
 
 def test_a_scheduler_that_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cluster_module, "PATIENCE", 1)
+    monkeypatch.setattr(cluster_module, "TO_ANSWER", 1)
     for address in ("tcp://127.0.0.1:9", "nonsense://x"):
         with pytest.raises(WorkersError, match="no scheduler answers"):
             run.run(M, 40, Cluster(address))
