@@ -22,7 +22,7 @@ from derivations.publishing import (
 )
 
 if TYPE_CHECKING:
-    from numeric.cost.study import Study
+    from numeric.cost.rows import Study
     from numeric.plans import Plan
 
 # Seconds from which on progress is shown.

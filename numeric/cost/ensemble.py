@@ -17,19 +17,9 @@ import numpy as np
 
 from numeric import closed_forms, planner
 from numeric.answers import Table
-from numeric.cost.study import (
-    Notice,
-    Reference,
-    Row,
-    Study,
-    marked,
-    measured,
-    row,
-    systems,
-    with_geometry,
-)
+from numeric.cost.rows import Notice, Reference, Row, Study, marked, measured, row
 from numeric.cost.truth import decimal, exactly
-from numeric.cost.ways import answer
+from numeric.cost.ways import answer, systems, with_geometry
 from numeric.lattice import Array
 from numeric.plans import Plan, Skipped
 from numeric.scene import Scene

@@ -19,7 +19,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from matplotlib.transforms import Bbox
 
 from numeric import style
-from numeric.cost.study import Row, Study
+from numeric.cost.rows import Row, Study
 
 WIDE = 60
 """Decades of error beyond which the axis is one of √digits."""

@@ -9,7 +9,7 @@ import flint
 
 from numeric.answers import Table
 from numeric.budget import initial_bits
-from numeric.cost.ways import answer
+from numeric.cost.ways import DIGITS, answer
 from numeric.forces import NotStandingError
 from numeric.packing import UndecidedError
 from numeric.plans import Plan
@@ -17,7 +17,6 @@ from numeric.runner import MOST_BITS, ToleranceError
 from numeric.scene import SceneError
 from numeric.systems import Balls, as_ball
 
-DIGITS = (20, 30, 50, 100, 300)
 # The reference's radius has to lie this far below the last digit of the most precise way.
 BEYOND = Fraction(1, 10 ** (max(DIGITS) + 20))
 

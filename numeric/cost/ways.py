@@ -1,6 +1,7 @@
 """Ways to answer a scene: any plan in any number system, also in the plain form, as one table."""
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from numeric import plain
@@ -12,14 +13,32 @@ from numeric.lattice import Array, Layer, Region, full_layer, pick, whole
 from numeric.packing import Packing
 from numeric.plans import Plan
 from numeric.radii import rows_of
-from numeric.systems import NumberSystem, zeros
+from numeric.scene import Scene
+from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem, zeros
 from numeric.work import Work
+
+DIGITS = (20, 30, 50, 100, 300)
 
 Solver = Callable[[Plan, Sequence[int], NumberSystem, Work], Solved]
 
 # What needs the turned directions of contacts, and not only their forces.
 TURNED = {"base_reactions", "response"}
 PLAIN_QUANTITIES = {"contact", "contact_forces", "positions", *TURNED}
+
+
+def systems() -> Iterator[NumberSystem]:
+    """All arithmetics: float64, long double where it is longer, mpmath and balls by digits."""
+    yield FLOAT64
+    if LONGDOUBLE.bits > FLOAT64.bits:
+        yield LONGDOUBLE
+    yield from (BigFloat(digits) for digits in DIGITS)
+    yield from (Balls(math.ceil(digits * math.log2(10))) for digits in DIGITS)
+
+
+def with_geometry(scene: Scene, geometry: str) -> Scene:
+    """Give the scene with another ``effects.geometry``."""
+    effects = scene.effects.model_copy(update={"geometry": geometry})
+    return scene.model_copy(update={"effects": effects})
 
 
 def answer(

@@ -55,7 +55,7 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
     if given:
         return Path(given).resolve()
     from derivations.page import measured
-    from numeric.cost import study
+    from numeric.cost import rows
     from numeric.figures import catalogue
     from numeric.stability import data as tables
     from numeric.stability import forms
@@ -73,7 +73,7 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
         patch.setattr(tables, "cases", lambda: islice(every_case(), 3))
         patch.setattr(tables, "strips", lambda: (s for s in every_strip() if s.height == 4))
         patch.setattr(forms, "ENOUGH_SECONDS", 0.0)
-        patch.setattr(study, "LEAST_RUNS", 1)
-        patch.setattr(study, "ENOUGH_SECONDS", 0.0)
+        patch.setattr(rows, "LEAST_RUNS", 1)
+        patch.setattr(rows, "ENOUGH_SECONDS", 0.0)
         assert main(["report", "--out", str(out)]) == 0
     return out / "report.html"

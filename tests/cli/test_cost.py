@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from derivations.__main__ import main
-from numeric.cost import study as cost
+from numeric.cost import rows, study
 from numeric.runner import ToleranceError
 
 SCENE = """
@@ -28,8 +28,8 @@ PROFILE = SCENE.replace('"contact_forces"', '"profile"\nrealisations = 4')
 
 @pytest.fixture(autouse=True)
 def _one_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cost, "LEAST_RUNS", 1)
-    monkeypatch.setattr(cost, "ENOUGH_SECONDS", 0.0)
+    monkeypatch.setattr(rows, "LEAST_RUNS", 1)
+    monkeypatch.setattr(rows, "ENOUGH_SECONDS", 0.0)
 
 
 def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
@@ -140,7 +140,7 @@ def test_what_ends_it_early(
     def fail(*_: Any) -> None:
         raise failure
 
-    monkeypatch.setattr(cost, "study", fail)
+    monkeypatch.setattr(study, "study", fail)
     out = tmp_path / "out"
     assert call(capsys, "cost", written(tmp_path), "--out", out)[0] == status
     assert not out.exists()

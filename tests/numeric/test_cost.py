@@ -10,11 +10,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from numeric.cost import study as cost
+from numeric.cost import rows as cost
 from numeric.cost.data import csv_rows, lines, study_data
-from numeric.cost.study import Row, Study, marked, pareto, study, systems
+from numeric.cost.rows import Row, Study, marked, pareto
+from numeric.cost.study import study
 from numeric.cost.truth import BEYOND, decimal
-from numeric.cost.ways import answer, solve_plainly, why_not_plain
+from numeric.cost.ways import answer, solve_plainly, systems, why_not_plain
 from numeric.planner import plan
 from numeric.scene import SceneError
 from numeric.systems import FLOAT64, Balls
