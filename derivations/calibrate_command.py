@@ -16,21 +16,12 @@ def calibrate(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
 ) -> None:
     """Measure what this machine's arithmetic costs; a tolerance chooses the cheapest by it."""
-    from derivations.publishing import NOT_REACHED, fail
+    from derivations.publishing import NOT_REACHED, fail, noticing
     from numeric import stored_costs
     from numeric.calibrating import calibrate as measure
 
-    terminal = sys.stderr.isatty()
-
-    def notice(what: str) -> None:
-        if terminal:
-            print(f"\r\x1b[Ktiming {what}", end="", file=sys.stderr, flush=True)
-
-    try:
-        model = measure(notice, compiled=True)
-    finally:
-        if terminal:
-            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    with noticing() as notice:
+        model = measure(lambda what: notice(f"timing {what}"), compiled=True)
     print(json.dumps(model.model_dump(), indent=2) if as_json else "\n".join(_lines(model)))
     try:
         path = stored_costs.store(model)

@@ -1,6 +1,5 @@
 """Who solves an ensemble, what the user sees meanwhile, and what is said where it fails."""
 
-import os
 import sys
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -35,7 +34,7 @@ def executor_for(
     cluster: Where | None,
 ) -> "Executor":
     """Choose who solves, or leave with a message."""
-    from numeric.budget import memory_limit
+    from numeric.budget import cores, memory_limit
     from numeric.ensemble.workers import InProcess, Pool
 
     if scheduler is not None and (cluster is not None or workers is not None):
@@ -47,7 +46,7 @@ def executor_for(
             fail(f"--workers = {workers}: the free memory is enough for {room}", WRONG_INPUT)
         if workers is None:
             short = cluster is None and size * m.plan.estimated_seconds < WORTH_WORKERS
-            workers = 1 if short else min(_cores(), room)
+            workers = 1 if short else min(cores(), room)
         if cluster is None:
             return InProcess() if workers == 1 else Pool(workers)
     try:
@@ -58,13 +57,6 @@ def executor_for(
             WRONG_INPUT,
         )
     return Cluster(scheduler, workers or 1)
-
-
-def _cores() -> int:
-    try:
-        return len(os.sched_getaffinity(0))
-    except AttributeError:  # not on this system
-        return os.cpu_count() or 1
 
 
 def run_shown(

@@ -2,13 +2,12 @@
 
 import json
 import shlex
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from derivations.publishing import NOT_REACHED, WRONG_INPUT, fail, out_option, published
+from derivations.publishing import NOT_REACHED, WRONG_INPUT, fail, noticing, out_option, published
 
 if TYPE_CHECKING:
     from numeric.figures.catalogue import Options
@@ -113,8 +112,9 @@ def figures(
     words += [word for model in beside or [] for word in ("--with", model)]
     command = shlex.join([*words, "--out", str(out)])
     command = command if command.isprintable() else ascii(command)  # it stands in one line of CSV
-    options = Options(chosen or HEIGHTS, realisations, seed, frozenset(beside or []), _notice)
-    data = published(out, lambda: _made(wanted, options, command))
+    with noticing() as notice:
+        options = Options(chosen or HEIGHTS, realisations, seed, frozenset(beside or []), notice)
+        data = published(out, lambda: _made(wanted, options, command))
     if as_json:
         print(json.dumps(data, indent=2))
         return
@@ -133,11 +133,6 @@ def _refuse_without_libraries(*, scipy: bool) -> None:
                 f"figures need {name}, which is missing; pip install 'force-diffusion[plots]'",
                 NOT_REACHED,
             )
-
-
-def _notice(text: str) -> None:
-    if sys.stderr.isatty():
-        print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
 
 
 def _made(
@@ -168,9 +163,6 @@ def _made(
         fail(f"figure {name}: {error}{hint}", WRONG_INPUT)
     except MemoryError:
         fail(f"figure {name}: the memory is full; ask for less", NOT_REACHED)
-    finally:
-        if sys.stderr.isatty():
-            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
     return data, {**files, "figures.json": json.dumps(data, indent=2, allow_nan=False) + "\n"}
 
 

@@ -44,6 +44,14 @@ def repeated(region: Region, realisations: int) -> int:
     return min(realisations, FEW if region.beads < SMALL else 1)
 
 
+def cores() -> int:
+    """Give the number of cores that may be used."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # not on this system
+        return os.cpu_count() or 1
+
+
 def memory_limit() -> int:
     """Give the bytes that may be used: most of the free memory, 1 GB where that is unknown."""
     try:

@@ -23,10 +23,10 @@ import numpy as np
 from numeric import histogram
 from numeric.accuracy import Accuracy, of_balls, strings
 from numeric.answers import GATHERERS
-from numeric.budget import DEFAULT_BINS, chunk_size
+from numeric.budget import DEFAULT_BINS
 from numeric.cost.ways import solve_plainly
 from numeric.cost_model import TERMS, Fitted, Model, defaults, gathering, last_work, pass_work
-from numeric.engine import solve
+from numeric.engine import batches, solve
 from numeric.estimate import of_repeat
 from numeric.lattice import Array
 from numeric.physical import Physicality
@@ -123,14 +123,12 @@ def timed(made: Plan, system: NumberSystem) -> Seconds:
         spent[step] += process_time() - start
 
     n = made.realisations
-    size = 1 if made.route == "line sums" else chunk_size(made.region, system, made.scene)
     clocks, physical = Clocks(), Physicality()
     gather = gathering(made)
     solver = solve_plainly if made.way.plain else solve
     with system.active():
         gatherer = GATHERERS[made.scene.ask.quantity](made, system)
-        for at in range(0, n, size):
-            chunk = range(n)[at : at + size]
+        for chunk in batches(made, range(n), system):
             solved = solver(made, chunk, system, clocks)
             if made.route == "exact" and solved.packing is not None:
                 with clock("check"):

@@ -1,10 +1,11 @@
 """The engine: solves a plan for some realisations in one number system, counting its work."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from numeric import first_order, packing
+from numeric.budget import chunk_size
 from numeric.forces import Forces, sweep_down
 from numeric.lattice import Layer
 from numeric.packing import Packing
@@ -31,6 +32,15 @@ class Solved:
     packing: Packing | None
     forces: Forces | None
     single: tuple[Any, Any] | None
+
+
+def batches(
+    plan: Plan, realisations: Sequence[int], system: NumberSystem
+) -> Iterator[Sequence[int]]:
+    """Give the realisations that ``solve`` takes together, in their order."""
+    size = 1 if plan.route == "line sums" else chunk_size(plan.region, system, plan.scene)
+    for at in range(0, len(realisations), size):
+        yield realisations[at : at + size]
 
 
 def solve(plan: Plan, realisations: Sequence[int], system: NumberSystem, work: Work) -> Solved:

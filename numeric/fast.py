@@ -8,7 +8,6 @@ a number that is not finite) is left to the NumPy sweep, whose errors name the b
 Only ``engine`` imports this file, and only for work that repays loading the compiler.
 """
 
-import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -22,6 +21,7 @@ import numba
 import numpy as np
 
 from numeric import forces, packing
+from numeric.budget import cores
 from numeric.forces import Forces, Loads
 from numeric.lattice import Array, Layer, Region, Rows, Stack
 from numeric.packing import Packing
@@ -307,15 +307,8 @@ def _all(function: Callable[[int], bool], batch: int) -> bool:
     """Call ``function`` for every packing of a batch, on all cores that may be used."""
     if batch == 1:
         return function(0)
-    with ThreadPoolExecutor(min(batch, _cores())) as pool:
+    with ThreadPoolExecutor(min(batch, cores())) as pool:
         return all(pool.map(function, range(batch)))
-
-
-def _cores() -> int:
-    try:
-        return len(os.sched_getaffinity(0))
-    except AttributeError:  # not on this system
-        return os.cpu_count() or 1
 
 
 def _above_base(block: Array) -> Rows[Array]:

@@ -1,7 +1,7 @@
 """Runs a plan: chooses nothing that the plan does not say, raises precision, keeps the books."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from time import perf_counter
@@ -10,11 +10,11 @@ from typing import Any
 from numeric import histogram
 from numeric.accuracy import Accuracy, of_balls, of_floats, strings
 from numeric.answers import GATHERERS, Table
-from numeric.budget import DEFAULT_BINS, MOST_BITS, chunk_size, initial_bits
+from numeric.budget import DEFAULT_BINS, MOST_BITS, initial_bits
 from numeric.cost.ways import solve_plainly
 from numeric.critical import critical_height
 from numeric.decimals import short
-from numeric.engine import Solved, solve
+from numeric.engine import Solved, batches, solve
 from numeric.estimate import edge_in_doubt, of_repeat
 from numeric.forces import NotStandingError
 from numeric.packing import UnbuildableError, UndecidedError
@@ -140,9 +140,8 @@ def _attempt(plan: Plan, system: NumberSystem, realisations: Sequence[int], work
     gatherer = GATHERERS[plan.scene.ask.quantity](plan, system)
     stopped = None
     solver = solve_plainly if plan.way.plain else solve
-    size = 1 if plan.route == "line sums" else chunk_size(plan.region, system, plan.scene)
     with system.active():
-        for chunk in _chunks(realisations, size):
+        for chunk in batches(plan, realisations, system):
             solved = solver(plan, chunk, system, work)
             if physical is not None and solved.packing is not None:
                 _check(physical, solved, len(chunk), work)
@@ -165,11 +164,6 @@ def _check(physical: Physicality, solved: Solved, realisations: int, work: Work)
             physical.look_at_forces(solved.forces)
     for layer in solved.packing.region.rows:
         work.did("checked", layer, realisations)
-
-
-def _chunks(realisations: Sequence[int], size: int) -> Iterator[Sequence[int]]:
-    for at in range(0, len(realisations), size):
-        yield realisations[at : at + size]
 
 
 def _estimate(plan: Plan, attempt: _Attempt, work: Work) -> Accuracy:

@@ -6,8 +6,7 @@ from typing import Any
 
 from numeric import plain
 from numeric.answers import GATHERERS, Table
-from numeric.budget import chunk_size
-from numeric.engine import Solved, solve
+from numeric.engine import Solved, batches, solve
 from numeric.forces import Forces
 from numeric.lattice import Array, Layer, Region, full_layer, pick, whole
 from numeric.packing import Packing
@@ -48,11 +47,9 @@ def answer(
 
     Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
-    size = 1 if plan.route == "line sums" else chunk_size(plan.region, system, plan.scene)
     with system.active():
         gatherer = GATHERERS[plan.scene.ask.quantity](plan, system)
-        for at in range(0, len(realisations), size):
-            chunk = realisations[at : at + size]
+        for chunk in batches(plan, realisations, system):
             gatherer.add(solver(plan, chunk, system, Work()), chunk)
         return gatherer.table()
 

@@ -14,8 +14,7 @@ from operator import add
 
 import numpy as np
 
-from numeric.budget import chunk_size
-from numeric.engine import solve
+from numeric.engine import batches, solve
 from numeric.ensemble.exact_sum import (
     ExactSum,
     digits,
@@ -115,11 +114,9 @@ def measured(m: Measurement, realisations: Sequence[int], work: Work | None = No
     """Solve realisations and sum them up; what the sweeps raise is passed on."""
     work = Work() if work is None else work
     plan = replace(m.plan, realisations=len(realisations))  # decides who sweeps, never the bits
-    size = 1 if plan.route == "line sums" else chunk_size(plan.region, FLOAT64, plan.scene)
     over_contacts = [none(m)]
     packings = []
-    for at in range(0, len(realisations), size):
-        chunk = realisations[at : at + size]
+    for chunk in batches(plan, realisations, FLOAT64):
         with FLOAT64.active():
             solved = solve(plan, chunk, FLOAT64, work)
         with work.timed("statistics"):

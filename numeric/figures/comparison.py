@@ -132,10 +132,11 @@ class Comparison:
     def lines(self) -> list[str]:
         """Say for each height whether theory holds."""
         said = []
-        for one, fact in zip(self.heights, self.facts()["heights"], strict=True):
+        facts = self.facts()
+        for one, fact in zip(self.heights, facts["heights"], strict=True):
             alone = fact["largest_deviation_in_half_widths"]
             words = f"M = {one.height}: exact finite-M curve {_inside(alone)}"
-            near = one.height / critical_height(Fraction(PAPER_STD))
+            near = one.height / facts["critical_height"]
             if near > NEAR:
                 words += f"; M = {near:.2g} M*"
             if alone > 1 or fact["largest_correction"] > NOTEWORTHY or near > NEAR:

@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 
 from numeric import engine
 from numeric.engine import solve
-from numeric.ensemble import sums
 from numeric.ensemble.asked import measurement
 from numeric.ensemble.estimates import Estimates
 from numeric.ensemble.measure import Measurement
@@ -45,7 +44,7 @@ def test_batches_and_single_packings_give_the_same_bytes(
     m = case(name, covariance=True)
     whole = measured(m, range(7)).to_bytes()
     assert reduce(add, (measured(m, [k]) for k in (3, 0, 6, 2, 5, 1, 4))).to_bytes() == whole
-    monkeypatch.setattr(sums, "chunk_size", lambda *_: 3)
+    monkeypatch.setattr(engine, "chunk_size", lambda *_: 3)
     assert measured(m, range(7)).to_bytes() == whole
 
 
