@@ -19,11 +19,10 @@ from statistics import median
 from time import perf_counter
 
 import numpy as np
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE
+from force_diffusion.numeric.lattice.layers import Array, full_layer
+from force_diffusion.numeric.mechanics import plain
 from peers import Problem, stacked
-
-from numeric import plain
-from numeric.lattice import Array, full_layer
-from numeric.systems import FLOAT64, LONGDOUBLE
 
 MISSING = 77
 PLACES = ("/usr/lib", "/usr/lib64", "/usr/local/lib", "/opt")
@@ -141,7 +140,7 @@ def witnessed(problem: Problem, stiffness: float, style: str, goal: float = 1e-1
 
 def sweep_seconds(problem: Problem, compiled: bool) -> float:
     """Median seconds of our own sweep."""
-    from numeric import fast
+    from force_diffusion.numeric.mechanics import compiled as fast
 
     solve = problem.solver(sweeps=fast if compiled else None)
     spent = []

@@ -20,12 +20,12 @@ from pathlib import Path
 from time import process_time
 from typing import Any
 
-from numeric.calibrating import calibrate
-from numeric.cost_model import Model
-from numeric.planner import plan
-from numeric.plans import Candidate, Plan
-from numeric.runner import Outcome, run
-from numeric.scene import parse_scene
+from force_diffusion.numeric.planning.cost_model import Model
+from force_diffusion.numeric.planning.plan import Candidate, Plan
+from force_diffusion.numeric.planning.planner import plan
+from force_diffusion.numeric.run import Outcome, run
+from force_diffusion.numeric.scene.sections import parse_scene
+from force_diffusion.numeric.studies.calibrating import calibrate
 
 RUNS, ALIKE = 2, 1.1
 EVERY = ("1e-3", "1e-10", "1e-13", "1e-16", "1e-30", "1e-100")

@@ -21,8 +21,8 @@ ROUNDS = 7
 PLAIN_LIMIT = 60.0  # seconds for each equation by the plain route
 
 PROOFS = """
-from derivations.catalogue import load, modules, with_premises
-from derivations.runner import proofs
+from force_diffusion.derivations.framework.catalogue import load, modules, with_premises
+from force_diffusion.derivations.framework.runner import proofs
 for derivation in with_premises(map(load, modules())):
     for check in proofs(derivation):
         assert check.verdict == "proved", (derivation.number, check)
@@ -30,14 +30,14 @@ for derivation in with_premises(map(load, modules())):
 PROOFS_OF_ONE = """
 import sys
 from time import perf_counter
-from derivations.catalogue import load
-from derivations.runner import proofs
+from force_diffusion.derivations.framework.catalogue import load
+from force_diffusion.derivations.framework.runner import proofs
 derivation = load(int(sys.argv[1]))
 start = perf_counter()
 assert all(check.verdict == "proved" for check in proofs(derivation))
 print(perf_counter() - start)
 """
-COMMAND = ("-m", "derivations")
+COMMAND = ("-m", "force_diffusion")
 
 
 @dataclass(frozen=True)

@@ -17,26 +17,24 @@ Work = Callable[[], Any]
 
 
 def _proofs() -> Work:
-    from derivations.catalogue import load
-    from derivations.runner import proofs
+    from force_diffusion.derivations.framework.catalogue import load
+    from force_diffusion.derivations.framework.runner import proofs
 
     derivations = [load(11), load(13)]
     return lambda: [list(proofs(derivation)) for derivation in derivations]
 
 
 def _sweep(height: int, width: int, bits: int | None = None) -> Work:
+    from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls
     from peers import Problem
-
-    from numeric.systems import FLOAT64, Balls
 
     return Problem(height, width).solver(FLOAT64 if bits is None else Balls(bits))
 
 
 def _plain_form() -> Work:
+    from force_diffusion.numeric.arithmetic.systems import FLOAT64
+    from force_diffusion.numeric.mechanics import plain
     from peers import Problem
-
-    from numeric import plain
-    from numeric.systems import FLOAT64
 
     problem = Problem(32, 66)
     rho = problem.radii()
@@ -45,9 +43,9 @@ def _plain_form() -> Work:
 
 def _answer(quantity: str, packing: str = "height = 16\nwidth = 34", more: str = "") -> Work:
     """Plan a scene and run it, as the command ``run`` does."""
-    from numeric.planner import plan
-    from numeric.runner import run
-    from numeric.scene import parse_scene
+    from force_diffusion.numeric.planning.planner import plan
+    from force_diffusion.numeric.run import run
+    from force_diffusion.numeric.scene.sections import parse_scene
 
     text = (
         f"[packing]\n{packing}\n[disorder]\nkind = 'uniform'\nrelative_std = 1e-6\n"
@@ -62,9 +60,9 @@ def _line_sums() -> Work:
 
 
 def _radii() -> Work:
-    from numeric.lattice import whole
-    from numeric.radii import DrawnRadii, rows_of
-    from numeric.systems import FLOAT64
+    from force_diffusion.numeric.arithmetic.systems import FLOAT64
+    from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
+    from force_diffusion.numeric.lattice.layers import whole
 
     rows = whole(256, 64).rows
     drawn = [DrawnRadii(kind, Fraction(1, 1000), 1, 256) for kind in ("uniform", "normal")]
@@ -72,7 +70,7 @@ def _radii() -> Work:
 
 
 def _closed_forms() -> Work:
-    from numeric import closed_forms
+    from force_diffusion.numeric import closed_forms
 
     phi, height = Fraction(-1, 8), 64
 
@@ -109,9 +107,8 @@ def fast_ratio(rounds: int = 101) -> float:
     median of the rounds' ratios is given. Raises ``ImportError`` without numba.
     """
     import numpy as np
+    from force_diffusion.numeric.mechanics import compiled as fast
     from peers import Problem
-
-    from numeric import fast
 
     height, width = 256, 512
     solve = Problem(height, width).solver(sweeps=fast)

@@ -13,14 +13,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-
-from numeric import plain
-from numeric.forces import Forces, Loads, sweep_down
-from numeric.lattice import Array, Region, whole
-from numeric.load_spec import LoadSpec
-from numeric.packing import Packing, deposit, metric
-from numeric.radii import DrawnRadii, rows_of
-from numeric.systems import FLOAT64, NumberSystem
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, NumberSystem
+from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
+from force_diffusion.numeric.lattice.layers import Array, Region, whole
+from force_diffusion.numeric.mechanics import plain
+from force_diffusion.numeric.mechanics.forces import Forces, Loads, sweep_down
+from force_diffusion.numeric.mechanics.load_spec import LoadSpec
+from force_diffusion.numeric.mechanics.packing import Packing, deposit, metric
 
 SEED = 1
 
@@ -54,7 +53,7 @@ class Problem:
     def solver(
         self, system: NumberSystem = FLOAT64, realisations: int = 1, sweeps: Any = None
     ) -> Callable[[], tuple[Packing, Forces]]:
-        """Give a function that solves it from the radii; ``sweeps`` may be ``numeric.fast``."""
+        """Give a function that solves it from the radii; ``sweeps`` may be the compiled ones."""
         place = deposit if sweeps is None else sweeps.deposit
         carry = sweep_down if sweeps is None else sweeps.sweep_down
         region, rho, loads = self.region, self.radii(system, realisations), self.loads(system)

@@ -209,7 +209,7 @@ def _program(names: Sequence[str]) -> dict[str, Measured]:
 def measure(names: Sequence[str]) -> Iterator[tuple[str, Measured]]:
     """Measure paths; counts in as many processes at once as there are processors."""
     groups = [[name for name in names if name in group] for group in (PROOFS, COUNTED)]
-    starts = {name: ["-m", "derivations", *STARTS[name]] for name in names if name in STARTS}
+    starts = {name: ["-m", "force_diffusion", *STARTS[name]] for name in names if name in STARTS}
     for arguments in starts.values():
         _run([sys.executable, *arguments])  # byte code is compiled, which would be counted
 

@@ -21,6 +21,10 @@ from typing import Any
 import numpy as np
 from derive_speed import COMMAND
 from derive_speed import in_turn as processes_in_turn
+from force_diffusion.numeric import closed_forms
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat
+from force_diffusion.numeric.mechanics import plain
+from force_diffusion.numeric.planning.budget import initial_bits
 from peers import (
     CSweep,
     Problem,
@@ -30,10 +34,6 @@ from peers import (
     plain_directions,
     stacked,
 )
-
-from numeric import closed_forms, plain
-from numeric.budget import initial_bits
-from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat
 
 HEIGHT, WIDTH, BATCHES = 256, 512, (8,)
 
@@ -78,10 +78,9 @@ def in_turn(tasks: dict[str, Callable[[], Any]], rounds: int) -> dict[str, float
 
 def forces() -> Iterator[Line]:
     """Exact forces of one packing, geometry included, against sparse solvers given the geometry."""
+    from force_diffusion.numeric.mechanics import compiled as fast
     from scipy.sparse import csc_matrix
     from scipy.sparse.linalg import spsolve
-
-    from numeric import fast
 
     problem = Problem(HEIGHT, WIDTH)
     numpy, compiled = problem.solver(), problem.solver(sweeps=fast)
@@ -144,7 +143,7 @@ SIZES = {
 
 def size() -> Iterator[Line]:
     """Time per bead from 1e4 to 1e7 beads, and memory."""
-    from numeric import fast
+    from force_diffusion.numeric.mechanics import compiled as fast
 
     for shape, sizes in SIZES.items():
         each = {}
@@ -172,7 +171,7 @@ def resident(name: str) -> int:
 
 def probe_memory() -> float:
     """Peak memory of one solution beyond what was there before, over the arrays that it gives."""
-    from numeric import fast
+    from force_diffusion.numeric.mechanics import compiled as fast
 
     Problem(3, 4).solver(sweeps=fast)()
     solve = Problem(1414, 2828).solver(sweeps=fast)
@@ -187,7 +186,7 @@ def probe_memory() -> float:
 
 def against_c() -> Iterator[Line]:
     """The fast sweep against the same arithmetic in C, and both against memory."""
-    from numeric import fast
+    from force_diffusion.numeric.mechanics import compiled as fast
 
     problem = Problem(HEIGHT, WIDTH)
     solve = problem.solver(sweeps=fast)
@@ -256,7 +255,7 @@ def digits() -> Iterator[Line]:
 
 def profile() -> Iterator[Line]:
     """The exact profile of σ_f in closed form against Monte Carlo, surface load."""
-    from numeric import fast
+    from force_diffusion.numeric.mechanics import compiled as fast
 
     problem, realisations = Problem(64, 130), 256
     phi, std = 1 - 2 * problem.n_x**2, problem.relative_std

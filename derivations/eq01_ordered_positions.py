@@ -3,15 +3,31 @@
 from collections.abc import Iterator
 
 import sympy
-
-from derivations.on_packings import about, compare, each_contact
-from derivations.record import Claim, Derivation, Step, Witness
-from derivations.runner import run_alone
-from symbolic.affine import Region
-from symbolic.as_printed import equation, terms, times
-from symbolic.kernel import Ruling, all_of, cartesian, decide_identity, decide_linear
-from symbolic.symbols import Position, i, j, n_minus, n_plus, n_x, n_y, phi, r, spacing
-from symbolic.vectors import CARTESIAN
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.witnesses.on_packings import about, compare, each_contact
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.as_printed import equation, terms, times
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    all_of,
+    cartesian,
+    decide_identity,
+    decide_linear,
+)
+from force_diffusion.symbolic.mechanics.vectors import CARTESIAN
+from force_diffusion.symbolic.symbols import (
+    Position,
+    i,
+    j,
+    n_minus,
+    n_plus,
+    n_x,
+    n_y,
+    phi,
+    r,
+    spacing,
+)
 
 PRINTED = equation(
     Position(i, j),

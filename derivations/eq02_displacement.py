@@ -3,16 +3,16 @@
 from collections.abc import Iterator
 
 import sympy
-
-from derivations import eq01_ordered_positions as eq01
-from derivations.on_packings import about, compare, each_bead
-from derivations.record import Claim, Derivation, Step, Witness
-from derivations.runner import run_alone
-from symbolic import contacts
-from symbolic.affine import Region
-from symbolic.as_printed import equation, minus, terms, times
-from symbolic.kernel import Ruling, all_of, decide_identity, decide_linear
-from symbolic.symbols import (
+from force_diffusion.derivations import eq01_ordered_positions as eq01
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.witnesses.on_packings import about, compare, each_bead
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.as_printed import equation, minus, terms, times
+from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, decide_linear
+from force_diffusion.symbolic.mechanics import contacts
+from force_diffusion.symbolic.mechanics.vectors import CARTESIAN
+from force_diffusion.symbolic.symbols import (
     DeltaR,
     DeltaX,
     Dot,
@@ -27,7 +27,6 @@ from symbolic.symbols import (
     n_y,
     r,
 )
-from symbolic.vectors import CARTESIAN
 
 LEFT, RIGHT = DeltaX(i - 1, j - 1), DeltaX(i + 1, j - 1)
 half = sympy.Rational(1, 2)

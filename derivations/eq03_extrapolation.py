@@ -3,16 +3,15 @@
 from collections.abc import Iterator
 
 import sympy
-
-from derivations import eq02_displacement as eq02
-from derivations import remainders
-from derivations.on_packings import about, compare, each_bead
-from derivations.record import Claim, Derivation, Step, Witness
-from derivations.runner import run_alone
-from symbolic.affine import Region
-from symbolic.as_printed import equation, terms, times
-from symbolic.kernel import Ruling, Verdict, all_of, decide_linear, proved
-from symbolic.symbols import DeltaR, DeltaX, b_minus, b_plus, i, j, m
+from force_diffusion.derivations import eq02_displacement as eq02
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.witnesses import remainders
+from force_diffusion.derivations.witnesses.on_packings import about, compare, each_bead
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.as_printed import equation, terms, times
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, decide_linear, proved
+from force_diffusion.symbolic.symbols import DeltaR, DeltaX, b_minus, b_plus, i, j, m
 
 PRINTED = equation(
     DeltaX(i, j),

@@ -3,22 +3,21 @@
 from collections.abc import Iterator
 
 import sympy
-
-from derivations import eq04_contact_plus as eq04
-from derivations import eq05_contact_minus as eq05
-from derivations.on_packings import compare, loaded_bead
-from derivations.record import Claim, Derivation, Step, Witness
-from derivations.runner import run_alone
-from symbolic.as_printed import equation, terms, times
-from symbolic.balance import Solved, solve
-from symbolic.kernel import (
+from force_diffusion.derivations import eq04_contact_plus as eq04
+from force_diffusion.derivations import eq05_contact_minus as eq05
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.witnesses.on_packings import compare, loaded_bead
+from force_diffusion.symbolic.as_printed import equation, terms, times
+from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     all_of,
     cartesian,
     decide_identity,
     decide_vector_identity,
 )
-from symbolic.symbols import (
+from force_diffusion.symbolic.mechanics.balance import Solved, solve
+from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
     ForceMinus,

@@ -4,17 +4,16 @@ from collections.abc import Iterator
 from functools import cache
 
 import sympy
-
-from derivations import eq06_force_balance as eq06
-from derivations.on_packings import about, compare, left_edge
-from derivations.record import Claim, Derivation, Step, Witness
-from derivations.runner import run_alone
-from symbolic import balance
-from symbolic.affine import Region
-from symbolic.as_printed import equation, minus, terms, times
-from symbolic.kernel import Ruling, all_of, decide_linear
-from symbolic.lattice import mirror
-from symbolic.symbols import (
+from force_diffusion.derivations import eq06_force_balance as eq06
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.witnesses.on_packings import about, compare, left_edge
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.as_printed import equation, minus, terms, times
+from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_linear
+from force_diffusion.symbolic.mechanics import balance
+from force_diffusion.symbolic.mechanics.lattice import mirror
+from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
     Dot,

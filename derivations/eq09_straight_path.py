@@ -3,16 +3,22 @@
 from collections.abc import Iterator
 
 import sympy
-
-from derivations import eq08_propagation as eq08
-from derivations.on_packings import about, compare, straight_below
-from derivations.record import Claim, Derivation, Step, Witness
-from derivations.runner import run_alone
-from symbolic.affine import Region
-from symbolic.as_printed import equation, minus, terms, times
-from symbolic.kernel import Ruling, Verdict, all_of, decide_identity, decide_linear, proved
-from symbolic.paths import ENTRY, straight_end
-from symbolic.symbols import (
+from force_diffusion.derivations import eq08_propagation as eq08
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.witnesses.on_packings import about, compare, straight_below
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.as_printed import equation, minus, terms, times
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    Verdict,
+    all_of,
+    decide_identity,
+    decide_linear,
+    proved,
+)
+from force_diffusion.symbolic.mechanics.paths import ENTRY, straight_end
+from force_diffusion.symbolic.symbols import (
     DeltaNPlus,
     Dot,
     ForcePlus,

@@ -3,18 +3,17 @@
 from collections.abc import Iterator
 
 import sympy
-
-from derivations import eq08_propagation as eq08
-from derivations import eq09_straight_path as eq09
-from derivations import witnesses
-from derivations.on_packings import about, compare, inside_cone
-from derivations.record import Claim, Derivation, Step, Witness
-from derivations.runner import run_alone
-from symbolic.affine import Region
-from symbolic.as_printed import equation, minus, terms, times
-from symbolic.kernel import Ruling, all_of, decide_identity, decide_linear
-from symbolic.lattice import mirror
-from symbolic.paths import (
+from force_diffusion.derivations import eq08_propagation as eq08
+from force_diffusion.derivations import eq09_straight_path as eq09
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
+from force_diffusion.derivations.witnesses.on_packings import about, compare, inside_cone
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.as_printed import equation, minus, terms, times
+from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, decide_linear
+from force_diffusion.symbolic.mechanics.lattice import mirror
+from force_diffusion.symbolic.mechanics.paths import (
     BRANCH_COUNT,
     BY_BRANCH,
     ENTRY,
@@ -22,7 +21,7 @@ from symbolic.paths import (
     solve_for_path,
     straight_end,
 )
-from symbolic.symbols import (
+from force_diffusion.symbolic.symbols import (
     DeltaNPlus,
     Dot,
     ForceMinus,

@@ -4,23 +4,28 @@ from collections.abc import Iterator
 from functools import cache
 
 import sympy
-
-from derivations import eq04_contact_plus as eq04
-from derivations import eq05_contact_minus as eq05
-from derivations import eq07_load_split as eq07
-from derivations import eq09_straight_path as eq09
-from derivations import eq10_branched_path as eq10
-from derivations import remainders
-from derivations.on_packings import about, compare, each_contact
-from derivations.record import Claim, Derivation, Step, Witness
-from derivations.runner import run_alone
-from symbolic.affine import Region
-from symbolic.as_printed import equation, minus, terms, times
-from symbolic.exact import FIELD
-from symbolic.kernel import Ruling, all_of, decide_identity, decide_linear, from_test
-from symbolic.linear_forms import CONSTANT
-from symbolic.reading import Reader
-from symbolic.symbols import (
+from force_diffusion.derivations import eq04_contact_plus as eq04
+from force_diffusion.derivations import eq05_contact_minus as eq05
+from force_diffusion.derivations import eq07_load_split as eq07
+from force_diffusion.derivations import eq09_straight_path as eq09
+from force_diffusion.derivations import eq10_branched_path as eq10
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.witnesses import remainders
+from force_diffusion.derivations.witnesses.on_packings import about, compare, each_contact
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.exact import FIELD
+from force_diffusion.symbolic.algebra.linear_forms import CONSTANT
+from force_diffusion.symbolic.algebra.reading import Reader
+from force_diffusion.symbolic.as_printed import equation, minus, terms, times
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    all_of,
+    decide_identity,
+    decide_linear,
+    from_test,
+)
+from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
     Dot,

@@ -4,15 +4,16 @@ from collections.abc import Iterator
 from functools import cache
 
 import sympy
-
-from derivations import eq11_total_force as eq11
-from derivations import witnesses
-from derivations.record import Claim, Derivation, Step, Witness
-from derivations.runner import run_alone
-from symbolic.affine import Region
-from symbolic.as_printed import equation, minus, terms, times
-from symbolic.exact import FIELD, NotExactError
-from symbolic.kernel import (
+from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError
+from force_diffusion.symbolic.algebra.linear_forms import NO_SITE, LinearForm
+from force_diffusion.symbolic.algebra.reading import Reader, VanishingDivisorError
+from force_diffusion.symbolic.as_printed import equation, minus, terms, times
+from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     all_of,
     decide_linear,
@@ -21,10 +22,8 @@ from symbolic.kernel import (
     refuted,
     undecided,
 )
-from symbolic.linear_forms import NO_SITE, LinearForm
-from symbolic.printing.text import text
-from symbolic.reading import Reader, VanishingDivisorError
-from symbolic.symbols import (
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.symbols import (
     Braces,
     DeltaNMinus,
     DeltaR,
@@ -43,8 +42,8 @@ from symbolic.symbols import (
     r,
     sigma,
 )
-from symbolic.variance import at_fixed_z, largest_weight, order, variance
-from symbolic.weights import UndeterminedError, take_apart
+from force_diffusion.symbolic.variances.variance import at_fixed_z, largest_weight, order, variance
+from force_diffusion.symbolic.variances.weights import UndeterminedError, take_apart
 
 ON_DIAGONAL = SecondDifference(i - (j - m), m)
 PREFACTOR = 1 / (r * (1 - phi**2))

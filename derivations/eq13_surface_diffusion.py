@@ -4,11 +4,9 @@ from collections.abc import Iterator
 from functools import cache
 
 import sympy
-
-from derivations import eq11_total_force as eq11
-from derivations import eq12_delta_weights as eq12
-from derivations import witnesses
-from derivations.asymptotics import (
+from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations import eq12_delta_weights as eq12
+from force_diffusion.derivations.framework.asymptotics import (
     compare_leading_order,
     edges_follow,
     exact_steps,
@@ -17,13 +15,14 @@ from derivations.asymptotics import (
     no_radius_dominates,
     weights_follow,
 )
-from derivations.record import Claim, Derivation, ExactView, Step, Witness
-from derivations.runner import run_alone
-from symbolic.as_printed import equation, power, terms, times
-from symbolic.certified_sums import certified_sum
-from symbolic.kernel import Ruling, all_of, decide_identity, undecided
-from symbolic.symbols import M, j, m, phi, r, sigma, z
-from symbolic.variance import (
+from force_diffusion.derivations.framework.record import Claim, Derivation, ExactView, Step, Witness
+from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
+from force_diffusion.symbolic.as_printed import equation, power, terms, times
+from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, undecided
+from force_diffusion.symbolic.symbols import M, j, m, phi, r, sigma, z
+from force_diffusion.symbolic.variances.certified_sums import certified_sum
+from force_diffusion.symbolic.variances.variance import (
     ExactForm,
     exact_variances,
 )

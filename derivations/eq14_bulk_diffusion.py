@@ -4,15 +4,13 @@ from collections.abc import Iterator
 from functools import cache
 
 import sympy
-
-from derivations import eq04_contact_plus as eq04
-from derivations import eq05_contact_minus as eq05
-from derivations import eq06_force_balance as eq06
-from derivations import eq11_total_force as eq11
-from derivations import eq12_delta_weights as eq12
-from derivations import eq13_surface_diffusion as eq13
-from derivations import witnesses
-from derivations.asymptotics import (
+from force_diffusion.derivations import eq04_contact_plus as eq04
+from force_diffusion.derivations import eq05_contact_minus as eq05
+from force_diffusion.derivations import eq06_force_balance as eq06
+from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations import eq12_delta_weights as eq12
+from force_diffusion.derivations import eq13_surface_diffusion as eq13
+from force_diffusion.derivations.framework.asymptotics import (
     compare_leading_order,
     edges_follow,
     exact_steps,
@@ -21,14 +19,15 @@ from derivations.asymptotics import (
     no_radius_dominates,
     weights_follow,
 )
-from derivations.record import Claim, Derivation, ExactView, Step, Witness
-from derivations.runner import run_alone
-from symbolic import affine
-from symbolic.affine import Region
-from symbolic.as_printed import equation, power, terms, times
-from symbolic.certified_sums import certified_sum
-from symbolic.exact import FIELD
-from symbolic.kernel import (
+from force_diffusion.derivations.framework.record import Claim, Derivation, ExactView, Step, Witness
+from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
+from force_diffusion.symbolic.algebra import affine
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.exact import FIELD
+from force_diffusion.symbolic.algebra.reading import Reader
+from force_diffusion.symbolic.as_printed import equation, power, terms, times
+from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     all_of,
     decide_identity,
@@ -37,8 +36,7 @@ from symbolic.kernel import (
     proved,
     undecided,
 )
-from symbolic.reading import Reader
-from symbolic.symbols import (
+from force_diffusion.symbolic.symbols import (
     ForceMinus,
     ForcePlus,
     Load,
@@ -55,8 +53,9 @@ from symbolic.symbols import (
     sigma,
     z,
 )
-from symbolic.variance import ExactForm, exact_variances, order
-from symbolic.weights import take_apart
+from force_diffusion.symbolic.variances.certified_sums import certified_sum
+from force_diffusion.symbolic.variances.variance import ExactForm, exact_variances, order
+from force_diffusion.symbolic.variances.weights import take_apart
 
 RELATIVE_VARIANCE = sympy.Symbol(r"\sigma_f^2(z)/\langle f\rangle_z^2")
 MEAN_FORCE = sympy.Symbol(r"\langle f\rangle_z")

@@ -4,22 +4,29 @@ from collections.abc import Iterator
 from functools import cache
 
 import sympy
-
-from derivations import eq03_extrapolation as eq03
-from derivations import eq13_surface_diffusion as eq13
-from derivations import eq14_bulk_diffusion as eq14
-from derivations import witnesses
-from derivations.record import Claim, Derivation, ExactView, Step, Witness
-from derivations.runner import run_alone
-from symbolic.affine import Region
-from symbolic.as_printed import equation, power, terms, times
-from symbolic.averages import LayerAverage, layer_average, uniform_order
-from symbolic.exact import FIELD, NotExactError, RationalFunction
-from symbolic.kernel import Ruling, all_of, decide_identity, from_test, proved, refuted, undecided
-from symbolic.printing.structure import rebuilt
-from symbolic.printing.text import text
-from symbolic.symbols import Dot, M, j, n_minus, n_plus, n_x, n_y, phi, r, sigma, z
-from symbolic.variance import leading, order, variance
+from force_diffusion.derivations import eq03_extrapolation as eq03
+from force_diffusion.derivations import eq13_surface_diffusion as eq13
+from force_diffusion.derivations import eq14_bulk_diffusion as eq14
+from force_diffusion.derivations.framework.record import Claim, Derivation, ExactView, Step, Witness
+from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
+from force_diffusion.symbolic.as_printed import equation, power, terms, times
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    all_of,
+    decide_identity,
+    from_test,
+    proved,
+    refuted,
+    undecided,
+)
+from force_diffusion.symbolic.printing.structure import rebuilt
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.symbols import Dot, M, j, n_minus, n_plus, n_x, n_y, phi, r, sigma, z
+from force_diffusion.symbolic.variances.averages import LayerAverage, layer_average, uniform_order
+from force_diffusion.symbolic.variances.variance import leading, order, variance
 
 DEVIATION = sympy.Symbol(r"\sigma_f/\langle f\rangle")
 HEIGHT = sympy.Symbol("M_star", positive=True)

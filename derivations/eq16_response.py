@@ -4,20 +4,26 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 
 import sympy
-
-from derivations import eq07_load_split as eq07
-from derivations import eq09_straight_path as eq09
-from derivations import eq10_branched_path as eq10
-from derivations import eq11_total_force as eq11
-from derivations import witnesses
-from derivations.cone_forms import BEAD, CONTACT, LEG, LEG_FORCE, covariance
-from derivations.record import Claim, Derivation, ExactView, Step, Witness
-from derivations.runner import run_alone
-from symbolic.affine import Region
-from symbolic.as_printed import equation, minus, power, terms, times
-from symbolic.cases import Case, Piece, first_difference, squares_by_case
-from symbolic.exact import FIELD, NotExactError, RationalFunction
-from symbolic.kernel import (
+from force_diffusion.derivations import eq07_load_split as eq07
+from force_diffusion.derivations import eq09_straight_path as eq09
+from force_diffusion.derivations import eq10_branched_path as eq10
+from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations.framework.cone_forms import (
+    BEAD,
+    CONTACT,
+    LEG,
+    LEG_FORCE,
+    covariance,
+)
+from force_diffusion.derivations.framework.record import Claim, Derivation, ExactView, Step, Witness
+from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
+from force_diffusion.symbolic.algebra.linear_forms import NO_SITE, LinearForm
+from force_diffusion.symbolic.algebra.reading import Reader
+from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
+from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
     all_of,
@@ -28,12 +34,10 @@ from symbolic.kernel import (
     refuted,
     undecided,
 )
-from symbolic.lattice import mirror
-from symbolic.linear_forms import NO_SITE, LinearForm
-from symbolic.paths import IN_CONE
-from symbolic.printing.text import text
-from symbolic.reading import Reader
-from symbolic.symbols import (
+from force_diffusion.symbolic.mechanics.lattice import mirror
+from force_diffusion.symbolic.mechanics.paths import IN_CONE
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
     Dot,
@@ -56,7 +60,8 @@ from symbolic.symbols import (
     r,
     sigma,
 )
-from symbolic.variance import leading, order, without_constant
+from force_diffusion.symbolic.variances.cases import Case, Piece, first_difference, squares_by_case
+from force_diffusion.symbolic.variances.variance import leading, order, without_constant
 
 RESPONSE = sympy.Symbol("response")
 ONE_CONTACT = sympy.Symbol("contact_response")

@@ -5,11 +5,11 @@ from dataclasses import asdict
 from fractions import Fraction
 from typing import Any
 
-from numeric.critical import critical_height
-from numeric.decimals import bound_string, short
-from numeric.physical import Physicality
-from numeric.plans import Candidate, Choice, Plan
-from numeric.runner import Outcome
+from force_diffusion.numeric.arithmetic.decimals import bound_string, short
+from force_diffusion.numeric.mechanics.physicality import Physicality
+from force_diffusion.numeric.planning.plan import Candidate, Choice, Plan
+from force_diffusion.numeric.run import Outcome
+from force_diffusion.numeric.theory.critical_height import critical_height
 
 
 def plan_data(plan: Plan) -> dict[str, Any]:

@@ -31,7 +31,7 @@ INDICES = (i, j, k, l, m, n, p, q, site_r, site_s, M)
 PARAMETERS = (phi, n_x, n_y, r, spacing, sigma, epsilon, f_load, m_g, z)
 """All continuous symbols, in the fixed order that exact domains use."""
 
-# base vectors and reciprocal vectors: linear symbols, read by ``symbolic.vectors``
+# base vectors and reciprocal vectors: linear symbols, read by ``symbolic.mechanics.vectors``
 n_plus = Symbol("n_plus")
 n_minus = Symbol("n_minus")
 b_plus = Symbol("b_plus")
@@ -116,7 +116,7 @@ class SecondDifference(SiteFunction):
 
 
 class Dot(Function):  # type: ignore[misc]
-    """u·v for vector expressions, kept whole; ``symbolic.vectors`` expands it."""
+    """u·v for vector expressions, kept whole; ``symbolic.mechanics.vectors`` expands it."""
 
     nargs = 2
 

@@ -39,7 +39,7 @@ def update_golden(request: pytest.FixtureRequest) -> bool:
 @pytest.fixture(scope="session", autouse=True)
 def cache_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """No test touches the user's own calibration, and none has to calibrate: the defaults hold."""
-    from numeric import cost_model, stored_costs
+    from force_diffusion.numeric.planning import cost_model, stored_costs
 
     patch = pytest.MonkeyPatch()
     folder = tmp_path_factory.mktemp("cache")

@@ -3,9 +3,9 @@
 from dataclasses import replace
 from fractions import Fraction
 
-from numeric.ensemble.measure import Measurement
-from numeric.planner import plan
-from numeric.scene import Scene, SceneError
+from force_diffusion.numeric.ensemble.measure import Measurement
+from force_diffusion.numeric.planning.planner import plan
+from force_diffusion.numeric.scene.sections import Scene, SceneError
 
 DEFAULT_BINS = 60
 # Outer edges of a histogram, in units of the largest theoretical σ_f.

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import distributed as untyped
-
-from numeric.ensemble.measure import Measurement
-from numeric.ensemble.scene_key import program_version
-from numeric.ensemble.sums import Sums, from_bytes
-from numeric.ensemble.workers import WorkersError, solve_block
+from force_diffusion.numeric.ensemble.measure import Measurement
+from force_diffusion.numeric.ensemble.scene_key import program_version
+from force_diffusion.numeric.ensemble.sums import Sums, from_bytes
+from force_diffusion.numeric.ensemble.workers import WorkersError, solve_block
 
 distributed: Any = untyped  # it has no types
 # Seconds until a scheduler has to answer, and until a worker has to be there.

@@ -6,10 +6,9 @@ from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
-
-from numeric.ensemble.measure import Measurement
-from numeric.ensemble.sums import Sums
-from numeric.lattice import Array
+from force_diffusion.numeric.ensemble.measure import Measurement
+from force_diffusion.numeric.ensemble.sums import Sums
+from force_diffusion.numeric.lattice.layers import Array
 
 
 @dataclass(frozen=True)

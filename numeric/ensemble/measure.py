@@ -11,14 +11,14 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-
-from numeric import closed_forms, plain
-from numeric.engine import Solved
-from numeric.lattice import Array, Layer, pick
-from numeric.moments import unit_near
-from numeric.planner import Plan
-from numeric.radii import DrawnRadii
-from numeric.systems import FLOAT64
+from force_diffusion.numeric import closed_forms
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.disorder.radii import DrawnRadii
+from force_diffusion.numeric.lattice.layers import Array, Layer, pick
+from force_diffusion.numeric.mechanics import plain
+from force_diffusion.numeric.mechanics.engine import Solved
+from force_diffusion.numeric.planning.planner import Plan
+from force_diffusion.numeric.statistics.moments import unit_near
 
 
 @dataclass(frozen=True)

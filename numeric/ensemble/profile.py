@@ -4,14 +4,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-
-from numeric.ensemble.asked import measurement
-from numeric.ensemble.run import Executor, run
-from numeric.ensemble.scene_key import ensemble_key
-from numeric.ensemble.store import open_store
-from numeric.ensemble.workers import InProcess, Pool
-from numeric.lattice import Array
-from numeric.scene import Scene, SceneError
+from force_diffusion.numeric.ensemble.asked import measurement
+from force_diffusion.numeric.ensemble.run import Executor, run
+from force_diffusion.numeric.ensemble.scene_key import ensemble_key
+from force_diffusion.numeric.ensemble.store import open_store
+from force_diffusion.numeric.ensemble.workers import InProcess, Pool
+from force_diffusion.numeric.lattice.layers import Array
+from force_diffusion.numeric.scene.sections import Scene, SceneError
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ import math
 from fractions import Fraction
 from typing import Any
 
-from numeric.ensemble.estimates import root
-from numeric.ensemble.run import Result
+from force_diffusion.numeric.ensemble.estimates import root
+from force_diffusion.numeric.ensemble.run import Result
 
 
 def result_data(result: Result) -> dict[str, Any]:

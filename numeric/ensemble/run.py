@@ -5,11 +5,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
-from numeric.ensemble.confidence import Rule, half_width, looks
-from numeric.ensemble.estimates import Estimates
-from numeric.ensemble.measure import Measurement
-from numeric.ensemble.store import Block, Store, StoreError
-from numeric.ensemble.sums import Sums, none
+from force_diffusion.numeric.ensemble.estimates import Estimates
+from force_diffusion.numeric.ensemble.measure import Measurement
+from force_diffusion.numeric.ensemble.store import Block, Store, StoreError
+from force_diffusion.numeric.ensemble.sums import Sums, none
+from force_diffusion.numeric.statistics.confidence import Rule, half_width, looks
 
 # Beads of a block, about: a second of work, of which a kill loses no more.
 BLOCK = 1_000_000

@@ -7,8 +7,8 @@ from fractions import Fraction
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from numeric.decimals import short
-from numeric.ensemble.measure import Measurement
+from force_diffusion.numeric.arithmetic.decimals import short
+from force_diffusion.numeric.ensemble.measure import Measurement
 
 # Keys of a scene that say how much is asked, not what.
 _NOT_IN_IT = {"ask": {"realisations", "tolerance", "bins"}}

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from numeric.ensemble.measure import Measurement
-from numeric.ensemble.scene_key import differences
-from numeric.ensemble.sums import Sums, from_bytes
+from force_diffusion.numeric.ensemble.measure import Measurement
+from force_diffusion.numeric.ensemble.scene_key import differences
+from force_diffusion.numeric.ensemble.sums import Sums, from_bytes
 
 APPLICATION, SCHEMA = 0x46444546, 1  # "FDEF"
 _MAGIC = b"SQLite format 3\x00"

@@ -13,9 +13,12 @@ from functools import reduce
 from operator import add
 
 import numpy as np
-
-from numeric.engine import batches, solve
-from numeric.ensemble.exact_sum import (
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.ensemble.measure import Measurement
+from force_diffusion.numeric.lattice.layers import Array
+from force_diffusion.numeric.mechanics.engine import batches, solve
+from force_diffusion.numeric.mechanics.work import Work
+from force_diffusion.numeric.statistics.exact_sum import (
     ExactSum,
     digits,
     rows_and_squares,
@@ -23,10 +26,6 @@ from numeric.ensemble.exact_sum import (
     total_matrix,
     total_products,
 )
-from numeric.ensemble.measure import Measurement
-from numeric.lattice import Array
-from numeric.systems import FLOAT64
-from numeric.work import Work
 
 _COUNT = struct.Struct("<q")
 

@@ -9,11 +9,11 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from multiprocessing import active_children, connection, get_context, parent_process
 
-from numeric.ensemble.measure import Measurement
-from numeric.ensemble.sums import Sums, from_bytes, measured
-from numeric.forces import NotStandingError
-from numeric.packing import UnbuildableError
-from numeric.radii import RadiusError
+from force_diffusion.numeric.disorder.radii import RadiusError
+from force_diffusion.numeric.ensemble.measure import Measurement
+from force_diffusion.numeric.ensemble.sums import Sums, from_bytes, measured
+from force_diffusion.numeric.mechanics.forces import NotStandingError
+from force_diffusion.numeric.mechanics.packing import UnbuildableError
 
 # Pools in a row that may die without finishing anything.
 PATIENCE = 3

@@ -9,10 +9,16 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-
-from numeric.figures.packings import Notice, Row, centres, forces_of, planned, solved
-from numeric.physical import Physicality
-from numeric.runner import critical_height
+from force_diffusion.numeric.figures.packings import (
+    Notice,
+    Row,
+    centres,
+    forces_of,
+    planned,
+    solved,
+)
+from force_diffusion.numeric.mechanics.physicality import Physicality
+from force_diffusion.numeric.run import critical_height
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -95,9 +101,8 @@ def contacts(seed: int, notice: Notice) -> Chains:
 
 def draw(data: Chains) -> "Figure":
     """Draw contacts as lines, pressing ones dark, pulling ones vermillion; widths in proportion."""
+    from force_diffusion.numeric.figures import style
     from matplotlib.collections import LineCollection
-
-    from numeric import style
 
     figure = style.figure(style.PAGE, 2.75)
     axes = figure.subplots()

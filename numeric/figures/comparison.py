@@ -13,10 +13,9 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-
-from numeric import closed_forms
-from numeric.figures.bands import Band, Estimate, averaged, log_relative_std, simultaneous
-from numeric.figures.packings import (
+from force_diffusion.numeric import closed_forms
+from force_diffusion.numeric.figures.models.q_model import weight_variance
+from force_diffusion.numeric.figures.packings import (
     PAPER_STD,
     PHI,
     Notice,
@@ -26,10 +25,16 @@ from numeric.figures.packings import (
     planned,
     solved,
 )
-from numeric.lattice import Array
-from numeric.models.q_model import weight_variance
-from numeric.planner import Plan
-from numeric.runner import critical_height
+from force_diffusion.numeric.lattice.layers import Array
+from force_diffusion.numeric.planning.planner import Plan
+from force_diffusion.numeric.run import critical_height
+from force_diffusion.numeric.statistics.bands import (
+    Band,
+    Estimate,
+    averaged,
+    log_relative_std,
+    simultaneous,
+)
 
 LEVEL = 0.99
 # Fewer realisations than this make no covariance worth the name.

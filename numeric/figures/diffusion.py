@@ -11,10 +11,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-
-from numeric.figures.comparison import curves
-from numeric.figures.packings import N_X, PAPER_STD, Notice, Row
-from numeric.lattice import Array
+from force_diffusion.numeric.figures.comparison import curves
+from force_diffusion.numeric.figures.packings import N_X, PAPER_STD, Notice, Row
+from force_diffusion.numeric.lattice.layers import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -87,7 +86,7 @@ def widths(height: int, notice: Notice) -> Diffusion:
 
 def draw(data: Diffusion) -> "Figure":
     """Draw both distributions as clouds, as wide at each height as they are there."""
-    from numeric import style
+    from force_diffusion.numeric.figures import style
 
     figure = style.figure(style.COLUMN, 2.75)
     left, right = figure.subplots(1, 2, sharey=True)

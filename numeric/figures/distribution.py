@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-
-from numeric import closed_forms
-from numeric.figures.packings import (
+from force_diffusion.numeric import closed_forms
+from force_diffusion.numeric.figures.packings import (
     PAPER_STD,
     PHI,
     Notice,
@@ -24,7 +23,7 @@ from numeric.figures.packings import (
     planned,
     solved,
 )
-from numeric.lattice import Array
+from force_diffusion.numeric.lattice.layers import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -145,7 +144,7 @@ def tests(deviates: Array, seed: int) -> tuple[float, float]:
 
 def draw(data: Distribution) -> "Figure":
     """Draw histograms of two samples with the Gaussian of theory."""
-    from numeric import style
+    from force_diffusion.numeric.figures import style
 
     figure = style.figure(style.PAGE, 2.6)
     panels = figure.subplots(1, 2)

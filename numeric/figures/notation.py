@@ -8,8 +8,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-
-from numeric.figures.packings import N_X, SPACING, Notice, Row, centres, planned, solved
+from force_diffusion.numeric.figures.packings import (
+    N_X,
+    SPACING,
+    Notice,
+    Row,
+    centres,
+    planned,
+    solved,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -56,9 +63,8 @@ def beads(seed: int, notice: Notice) -> Notation:
 
 def draw(data: Notation) -> "Figure":
     """Draw ordered beads black, the disordered ones grey, and name what the text names."""
+    from force_diffusion.numeric.figures import style
     from matplotlib.patches import Circle
-
-    from numeric import style
 
     figure = style.figure(style.COLUMN, 1.85)
     axes = figure.subplots()
@@ -77,7 +83,7 @@ def draw(data: Notation) -> "Figure":
 
 
 def _names(axes: "Axes") -> None:
-    from numeric import style
+    from force_diffusion.numeric.figures import style
 
     nx = float(N_X)
     ny = np.sqrt(1 - nx**2)

@@ -6,16 +6,15 @@ from math import sqrt
 from typing import Any
 
 import numpy as np
-
-from numeric.engine import Solved, solve
-from numeric.first_order import displace
-from numeric.forces import Forces, sweep_down
-from numeric.lattice import Array
-from numeric.packing import Packing
-from numeric.planner import Plan, plan
-from numeric.scene import parse_scene
-from numeric.systems import FLOAT64
-from numeric.work import Work
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.lattice.layers import Array
+from force_diffusion.numeric.mechanics.engine import Solved, solve
+from force_diffusion.numeric.mechanics.first_order import displace
+from force_diffusion.numeric.mechanics.forces import Forces, sweep_down
+from force_diffusion.numeric.mechanics.packing import Packing
+from force_diffusion.numeric.mechanics.work import Work
+from force_diffusion.numeric.planning.planner import Plan, plan
+from force_diffusion.numeric.scene.sections import parse_scene
 
 Notice = Callable[[str], None]
 """Told, now and then, what is being done."""

@@ -13,13 +13,20 @@ from math import asin, sqrt
 from typing import Any
 
 import numpy as np
-
-from numeric.closed_forms import bead_response, contact_response
-from numeric.engine import Solved
-from numeric.figures.bands import Band, averaged, simultaneous
-from numeric.figures.packings import N_X, PHI, Notice, Row, forces_of, planned, solved
-from numeric.lattice import Array
-from numeric.models.double_y import Profile, profiles
+from force_diffusion.numeric.closed_forms import bead_response, contact_response
+from force_diffusion.numeric.figures.models.double_y import Profile, profiles
+from force_diffusion.numeric.figures.packings import (
+    N_X,
+    PHI,
+    Notice,
+    Row,
+    forces_of,
+    planned,
+    solved,
+)
+from force_diffusion.numeric.lattice.layers import Array
+from force_diffusion.numeric.mechanics.engine import Solved
+from force_diffusion.numeric.statistics.bands import Band, averaged, simultaneous
 
 APEX = 24  # the loaded bead is (0, APEX)
 STD = 1e-4  # far below M*

@@ -1,17 +1,16 @@
 """Figure 4 drawn: maps of mean and fluctuation, cuts through the cone, the double Y."""
 
 import numpy as np
+from force_diffusion.numeric.figures import style
+from force_diffusion.numeric.figures.models.double_y import Profile
+from force_diffusion.numeric.figures.packings import N_X
+from force_diffusion.numeric.figures.response import CUTS, Response
+from force_diffusion.numeric.lattice.layers import Array
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
-
-from numeric import style
-from numeric.figures.packings import N_X
-from numeric.figures.response import CUTS, Response
-from numeric.lattice import Array
-from numeric.models.double_y import Profile
 
 
 def draw(data: Response) -> Figure:

@@ -1,10 +1,9 @@
 """Expressions as code: SymPy source in the names of ``symbolic.symbols``, and plain Python."""
 
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.printing.structure import rebuilt
 from sympy import Basic, Rational, Sum, Symbol
 from sympy.printing.str import StrPrinter
-
-from symbolic import symbols as sy
-from symbolic.printing.structure import rebuilt
 
 _NAMES = {symbol: name for name, symbol in vars(sy).items() if isinstance(symbol, Symbol)}
 

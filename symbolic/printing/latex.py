@@ -3,11 +3,10 @@
 import re
 from typing import Any
 
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.printing.structure import StructuredPrinter, ascending
 from sympy import Expr, Matrix, Sum
 from sympy.printing.latex import LatexPrinter
-
-from symbolic import symbols as sy
-from symbolic.printing.structure import StructuredPrinter, ascending
 
 _SYMBOLS = {
     sy.sigma: r"\sigma_{\delta r}",

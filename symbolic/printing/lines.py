@@ -8,12 +8,11 @@ that no line is overfull, which the compilation of the document checks.
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
+from force_diffusion.symbolic.printing.latex import PaperLatex
+from force_diffusion.symbolic.printing.structure import in_order, is_negative, without_sign
+from force_diffusion.symbolic.printing.text import PaperText
 from sympy import Add, Basic, Eq, Expr, Mul, Sum, Symbol, Tuple
 from sympy.core.relational import Relational
-
-from symbolic.printing.latex import PaperLatex
-from symbolic.printing.structure import in_order, is_negative, without_sign
-from symbolic.printing.text import PaperText
 
 LINE_WIDTH = 400.0
 """Points for one line of a displayed equation, number and margins taken off."""

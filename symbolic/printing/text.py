@@ -3,11 +3,10 @@
 import re
 from typing import Any
 
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.printing.structure import StructuredPrinter, ascending
 from sympy import Expr, Matrix, Sum, Symbol
 from sympy.printing.str import StrPrinter
-
-from symbolic import symbols as sy
-from symbolic.printing.structure import StructuredPrinter, ascending
 
 _SYMBOLS = {
     sy.phi: "φ",
@@ -150,7 +149,7 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
 def text(expr: Any) -> str:
     """One expression as a line of text.
 
-    >>> from symbolic.symbols import DeltaR, i, j, phi
+    >>> from force_diffusion.symbolic.symbols import DeltaR, i, j, phi
     >>> text(DeltaR(i, j) / (1 - phi**2) - DeltaR(i - 1, j))
     'δr_ij/(1 − φ²) − δr_(i−1,j)'
     """

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from derivations.__main__ import main
+from force_diffusion.__main__ import main
 
 REQUIRED = "FORCE_DIFFUSION_TEST_BROWSER"
 """Set to "required", a browser that is missing fails the tests rather than skipping them."""
@@ -54,12 +54,12 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
     given = pytestconfig.getoption("--report")
     if given:
         return Path(given).resolve()
-    from derivations.page import measured
-    from numeric.cost import rows
-    from numeric.figures import catalogue
-    from numeric.stability import data as tables
-    from numeric.stability import forms
-    from symbolic import mutants
+    from force_diffusion.derivations.export.page import measured
+    from force_diffusion.numeric.figures import catalogue
+    from force_diffusion.numeric.studies.cost import rows
+    from force_diffusion.numeric.studies.stability import data as tables
+    from force_diffusion.numeric.studies.stability import forms
+    from force_diffusion.symbolic.kernel import mutants
 
     folder = tmp_path_factory.mktemp("report")
     scene = folder / measured.SCENE.name

@@ -6,11 +6,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.planning import cost_model, stored_costs
+from force_diffusion.numeric.planning.cost_model import Model
+from force_diffusion.numeric.planning.stored_costs import StaleError
+from force_diffusion.numeric.studies import calibrating
 
-from derivations.__main__ import main
-from numeric import calibrating, cost_model, stored_costs
-from numeric.cost_model import Model
-from numeric.stored_costs import StaleError
+from force_diffusion.__main__ import main
 
 SCENES = Path(__file__).parents[2] / "scenes"
 

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.run import ToleranceError
+from force_diffusion.numeric.studies.cost import rows, study
 
-from derivations.__main__ import main
-from numeric.cost import rows, study
-from numeric.runner import ToleranceError
+from force_diffusion.__main__ import main
 
 SCENE = """
 [packing]
@@ -82,7 +82,7 @@ def test_the_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 def test_without_matplotlib_only_the_plot_is_missing(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.delitem(sys.modules, "numeric.cost.plot", raising=False)
+    monkeypatch.delitem(sys.modules, "force_diffusion.numeric.studies.cost.plot", raising=False)
     for name in [name for name in sys.modules if name.split(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "matplotlib", None)

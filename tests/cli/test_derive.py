@@ -12,14 +12,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.derivations.commands.folder import OutputFolder
+from force_diffusion.symbolic.kernel.decisions import Verdict
 
-from derivations.__main__ import main
-from derivations.folder import OutputFolder
-from symbolic.kernel import Verdict
+from force_diffusion.__main__ import main
 from tests.derivations import fakes
 
 ROOT = Path(__file__).parents[2]
-COMMAND = [sys.executable, "-m", "derivations"]
+COMMAND = [sys.executable, "-m", "force_diffusion"]
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "100"}
 
 
@@ -27,7 +27,7 @@ ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "100"}
 def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, object]:
     """Equations 1 and 2 are made-up ones; their verdicts can be chosen."""
     table: dict[int, object] = {1: fakes.PREMISE, 2: fakes.CONCLUSION}
-    monkeypatch.setattr("derivations.deriving.load", table.__getitem__)
+    monkeypatch.setattr("force_diffusion.derivations.commands.deriving.load", table.__getitem__)
     return table
 
 
@@ -125,7 +125,7 @@ def test_an_interrupt_in_this_process(made_up, tmp_path: Path, monkeypatch, caps
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("derivations.deriving.run", interrupted)
+    monkeypatch.setattr("force_diffusion.derivations.commands.deriving.run", interrupted)
     assert main(["derive", "1", "--out", str(tmp_path / "out")]) == 130
     assert "interrupted" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
@@ -136,9 +136,9 @@ def test_a_real_signal_leaves_nothing_half_written(tmp_path: Path) -> None:
         """
         import sys, time
         from dataclasses import replace
-        import derivations.deriving as deriving
-        from derivations.__main__ import main
-        from derivations.record import Witness
+        import force_diffusion.derivations.commands.deriving as deriving
+        from force_diffusion.__main__ import main
+        from force_diffusion.derivations.framework.record import Witness
         from tests.derivations import fakes
 
         def slow(seed):
@@ -182,7 +182,7 @@ def test_a_full_disk_under_standard_output(arguments: list[str]) -> None:
 
 
 def test_a_closed_pipe_is_no_traceback() -> None:
-    shell = f"{sys.executable} -m derivations derive 1 2 3 | head -c 1"
+    shell = f"{sys.executable} -m force_diffusion derive 1 2 3 | head -c 1"
     done = run("bash", "-c", shell + '; exit "${PIPESTATUS[0]}"')
     assert done.returncode == 3
     assert done.stderr == ""
@@ -213,6 +213,6 @@ def test_a_terminal_that_knows_only_ascii() -> None:
 
 
 def test_every_module_runs_alone() -> None:
-    done = run(sys.executable, "-m", "derivations.eq02_displacement")
+    done = run(sys.executable, "-m", "force_diffusion.derivations.eq02_displacement")
     assert done.returncode == 0
     assert "Eq. 2 is proved" in done.stdout

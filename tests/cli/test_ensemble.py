@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from derivations.__main__ import main
+from force_diffusion.__main__ import main
 from tests.cli.test_terminal import on_a_terminal, plain
 
 ROOT = Path(__file__).parents[2]
@@ -33,7 +33,7 @@ def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, s
 
 
 def program(*arguments: object) -> list[str]:
-    return [sys.executable, "-m", "derivations", "ensemble", *map(str, arguments)]
+    return [sys.executable, "-m", "force_diffusion", "ensemble", *map(str, arguments)]
 
 
 @pytest.fixture
@@ -157,7 +157,7 @@ def test_other_scenes_work(name: str, capsys: pytest.CaptureFixture[str]) -> Non
 def test_without_dask_it_says_what_to_install(
     small: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.delitem(sys.modules, "numeric.ensemble.cluster", raising=False)
+    monkeypatch.delitem(sys.modules, "force_diffusion.numeric.ensemble.cluster", raising=False)
     monkeypatch.setitem(sys.modules, "distributed", None)
     status, _, err = call(capsys, small, "--cluster", "local")
     assert status == 2

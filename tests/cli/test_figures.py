@@ -10,12 +10,12 @@ from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from force_diffusion.derivations.commands import figures as figures_command
+from force_diffusion.derivations.commands.folder import owned_files
+from force_diffusion.numeric.figures import catalogue, comparison
 from PIL import Image
 
-from derivations import figures_command
-from derivations.__main__ import main
-from derivations.folder import owned_files
-from numeric.figures import catalogue, comparison
+from force_diffusion.__main__ import main
 
 
 def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
@@ -127,7 +127,7 @@ def test_wrong_words(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("numeric.budget.memory_limit", lambda: 10**9)
+    monkeypatch.setattr("force_diffusion.numeric.planning.budget.memory_limit", lambda: 10**9)
     status, printed, err = call(capsys, *words)
     assert (status, printed) == (2, "")
     assert says in err.replace("\n", " ")

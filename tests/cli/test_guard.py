@@ -7,14 +7,14 @@ import sys
 from pathlib import Path
 
 import pytest
+from force_diffusion.derivations.framework.runner import run_alone
 
-from derivations.runner import run_alone
 from tests.derivations import fakes
 
 ROOT = Path(__file__).parents[2]
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "100"}
-PYTHON = f"{sys.executable} -m derivations"
-ALONE = f"{PYTHON}.eq02_displacement"
+PYTHON = f"{sys.executable} -m force_diffusion"
+ALONE = f"{PYTHON}.derivations.eq02_displacement"
 
 full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
 
@@ -71,7 +71,8 @@ def test_a_derivation_alone_takes_no_arguments(capsys: pytest.CaptureFixture[str
 
 
 @pytest.mark.parametrize(
-    ("module", "slow"), [("derivations", "typer"), ("derivations.eq02_displacement", "sympy")]
+    ("module", "slow"),
+    [("force_diffusion", "typer"), ("force_diffusion.derivations.eq02_displacement", "sympy")],
 )
 def test_an_interrupt_while_modules_load(module: str, slow: str, tmp_path: Path) -> None:
     (tmp_path / f"{slow}.py").write_text(

@@ -30,7 +30,7 @@ def test_its_commands_run_as_written(guide: Path, tmp_path: Path) -> None:
         program, *arguments = shlex.split(command)
         assert program == "force-diffusion", command
         done = subprocess.run(
-            [sys.executable, "-W", "error", "-m", "derivations", *arguments],
+            [sys.executable, "-W", "error", "-m", "force_diffusion", *arguments],
             cwd=tmp_path, env=environment, capture_output=True, text=True, check=False, timeout=120,
         )  # fmt: skip
         assert done.returncode == 0, f"{command}\n{done.stderr}"

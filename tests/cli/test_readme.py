@@ -5,8 +5,9 @@ import subprocess
 import tomllib
 from pathlib import Path
 
-from derivations.__main__ import main
-from derivations.cli import STATUSES
+from force_diffusion.derivations.commands.cli import STATUSES
+
+from force_diffusion.__main__ import main
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.derivations.export.page import measured
+from force_diffusion.symbolic.kernel.decisions import Verdict
 
-from derivations.__main__ import main
-from derivations.page import measured
-from symbolic.kernel import Verdict
+from force_diffusion.__main__ import main
 from tests.derivations import fakes
 from tests.derivations.test_page import PART
 
@@ -19,8 +19,8 @@ from tests.derivations.test_page import PART
 def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, Any]:
     """Equations 1 and 2 are made-up ones, and one part stands for all that is measured."""
     table: dict[int, Any] = {1: fakes.PREMISE, 2: fakes.CONCLUSION}
-    monkeypatch.setattr("derivations.deriving.load", table.__getitem__)
-    monkeypatch.setattr("derivations.deriving.modules", lambda: table)
+    monkeypatch.setattr("force_diffusion.derivations.commands.deriving.load", table.__getitem__)
+    monkeypatch.setattr("force_diffusion.derivations.commands.deriving.modules", lambda: table)
     monkeypatch.setattr(measured, "parts", lambda notice: [PART])
     return table
 
@@ -71,7 +71,7 @@ def test_a_used_folder_is_refused_before_any_proof(
         (out / "thesis.tex").write_text("mine")
     before = sorted(tmp_path.rglob("*"))
     capsys.readouterr()
-    monkeypatch.setattr("derivations.deriving.run", None)
+    monkeypatch.setattr("force_diffusion.derivations.commands.deriving.run", None)
     assert main(["report", "--out", str(out)]) == 2
     message = capsys.readouterr().err
     assert str(out) in message

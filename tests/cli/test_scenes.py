@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.numeric import run as runner
+from force_diffusion.numeric.run import ToleranceError
 
-from derivations.__main__ import main
-from numeric import runner
-from numeric.runner import ToleranceError
+from force_diffusion.__main__ import main
 
 SCENES = Path(__file__).parents[2] / "scenes"
 
@@ -180,7 +180,7 @@ def test_memory_stays_within_what_was_announced(tolerance: str, tmp_path: Path) 
         f"relative_std = 1e-5\n[ask]\nquantity = 'contact_forces'\n{tolerance}\n",
     )
     program = (
-        "import sys; from derivations.__main__ import main; "
+        "import sys; from force_diffusion.__main__ import main; "
         "status = main(['run', sys.argv[1], '--json']); "
         "lines = open('/proc/self/status').read().splitlines(); "
         "print(*[line.split()[1] for line in lines if line.startswith('VmHWM')], file=sys.stderr); "

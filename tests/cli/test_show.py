@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 import sympy
+from force_diffusion.derivations.export.show_data import shown_data
+from force_diffusion.derivations.export.shown import DATA, exact_numbers, exact_places
+from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.printing.structure import rebuilt
 
-from derivations.__main__ import main
-from derivations.catalogue import load, modules
-from derivations.show_data import shown_data
-from derivations.shown import DATA, exact_numbers, exact_places
-from symbolic import symbols as sy
-from symbolic.printing.structure import rebuilt
+from force_diffusion.__main__ import main
 
 ROOT = Path(__file__).parents[2]
 NUMBERS = list(modules())
@@ -43,7 +43,7 @@ def test_data_is_up_to_date(update_golden: bool) -> None:
 @pytest.mark.parametrize("arguments", [["--help"], ["show", "13"], ["list"], ["show", "99"]])
 def test_sympy_is_not_imported(arguments: list[str]) -> None:
     program = (
-        "import sys; from derivations.__main__ import main; "
+        "import sys; from force_diffusion.__main__ import main; "
         "main(sys.argv[1:]); sys.exit(any(m in sys.modules for m in ('sympy', 'numpy', 'flint')))"
     )
     subprocess.run(
@@ -95,7 +95,7 @@ def test_python_source_is_python(capsys: pytest.CaptureFixture[str], number: int
 
 @pytest.mark.parametrize(("number", "place"), EXACT)
 def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int, place: str) -> None:
-    form = import_module(f"derivations.{modules()[number]}").shown_forms()[place]
+    form = import_module(f"force_diffusion.derivations.{modules()[number]}").shown_forms()[place]
     arguments = [str(number), "--exact", "--at-j", place]
     source = shown(capsys, *arguments, "--as", "sympy")
     assert source.count("\n") == 1

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.studies.stability import data as tables
+from force_diffusion.numeric.studies.stability import forms
+from force_diffusion.numeric.studies.stability.enclosures import strips
+from force_diffusion.numeric.studies.stability.floats import cases
 
-from derivations.__main__ import main
-from numeric.stability import data as tables
-from numeric.stability import forms
-from numeric.stability.enclosures import strips
-from numeric.stability.floats import cases
+from force_diffusion.__main__ import main
 
 FILES = [
     "closed_forms.csv", "manifest.json", "stability.csv", "stability.json", "stability.pdf",
@@ -73,7 +73,10 @@ def test_without_matplotlib_only_the_figure_is_missing(
 ) -> None:
     for name in [name for name in sys.modules if name.split(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
-    for name in ("numeric.stability.plot", "numeric.style"):
+    for name in (
+        "force_diffusion.numeric.studies.stability.plot",
+        "force_diffusion.numeric.figures.style",
+    ):
         monkeypatch.delitem(sys.modules, name, raising=False)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     out = tmp_path / "out"

@@ -18,7 +18,7 @@ def on_a_terminal(*arguments: str, term: str = "xterm-256color") -> tuple[int, s
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "TERM": term, "COLUMNS": "100"}
     environment.pop("NO_COLOR", None)
     with subprocess.Popen(
-        [sys.executable, "-m", "derivations", *arguments],
+        [sys.executable, "-m", "force_diffusion", *arguments],
         env=environment,
         stdout=theirs,
         stderr=theirs,

@@ -5,9 +5,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from force_diffusion.derivations.commands.cli import COMMANDS
 
-from derivations.__main__ import main
-from derivations.cli import COMMANDS
+from force_diffusion.__main__ import main
 
 WRONG = [
     (["derive", "0"], "'0' is not an equation"),
@@ -72,7 +72,7 @@ def test_a_used_output_folder_is_refused_before_any_proof(
         out.mkdir()
         held = out / "thesis.tex"
         held.mkdir() if kind.endswith("folder") else held.write_text("mine")
-    monkeypatch.setattr("derivations.deriving.run", None)
+    monkeypatch.setattr("force_diffusion.derivations.commands.deriving.run", None)
     assert main(["derive", "1", "--out", str(out)]) == 2
     message = capsys.readouterr().err
     assert str(out) in message
@@ -101,8 +101,8 @@ def test_the_list_of_commands_says_what_they_say(
 
 def test_a_command_loads_no_other_command_s_module() -> None:
     program = (
-        "import sys; from derivations.__main__ import main; main(['list']); "
-        "sys.exit('derivations.scene_commands' in sys.modules)"
+        "import sys; from force_diffusion.__main__ import main; main(['list']); "
+        "sys.exit('force_diffusion.derivations.commands.scenes' in sys.modules)"
     )
     root = Path(__file__).parents[2]
     done = subprocess.run([sys.executable, "-c", program], cwd=root, check=False)

@@ -3,11 +3,10 @@
 from dataclasses import replace
 
 import sympy
-
-from derivations.record import Claim, Derivation, Step, Witness
-from symbolic.as_printed import equation, terms
-from symbolic.kernel import Ruling, Verdict
-from symbolic.symbols import DeltaR, DeltaX, i, j
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.symbolic.as_printed import equation, terms
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
+from force_diffusion.symbolic.symbols import DeltaR, DeltaX, i, j
 
 TRUE = equation(DeltaX(i, j), terms(DeltaR(i, j), DeltaR(i - 1, j)))
 

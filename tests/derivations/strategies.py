@@ -2,9 +2,8 @@
 
 from fractions import Fraction
 
+from force_diffusion.derivations.witnesses.small_packings import DIRECTIONS, SmallPacking
 from hypothesis import strategies as st
-
-from derivations.small_packings import DIRECTIONS, SmallPacking
 
 rationals = st.builds(Fraction, st.integers(-9, 9), st.integers(1, 9))
 

@@ -8,18 +8,17 @@ import flint
 import mpmath
 import numpy as np
 import pytest
+from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations import eq13_surface_diffusion as eq13
+from force_diffusion.derivations import eq14_bulk_diffusion as eq14
+from force_diffusion.derivations.export import closed_forms as generator
+from force_diffusion.derivations.witnesses.on_closed_forms import weights_of_forces
+from force_diffusion.derivations.witnesses.small_packings import DIRECTIONS
+from force_diffusion.numeric import closed_forms
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra import explicit
 from hypothesis import given
 from hypothesis import strategies as st
-
-from derivations import closed_forms as generator
-from derivations import eq11_total_force as eq11
-from derivations import eq13_surface_diffusion as eq13
-from derivations import eq14_bulk_diffusion as eq14
-from derivations.small_packings import DIRECTIONS
-from derivations.witnesses import weights_of_forces
-from numeric import closed_forms
-from symbolic import explicit
-from symbolic import symbols as sy
 
 EXACT = {"surface": closed_forms.surface_variance, "bulk": closed_forms.bulk_variance}
 EXPRESSIONS = {
@@ -30,7 +29,9 @@ EXPRESSIONS = {
 
 def test_the_file_is_what_the_derivations_generate() -> None:
     written = generator.TARGET.read_text(encoding="utf-8")
-    assert written == generator.source(), "run python -m derivations.closed_forms"
+    assert written == generator.source(), (
+        "run python -m force_diffusion.derivations.export.closed_forms"
+    )
 
 
 @pytest.mark.parametrize("load", EXACT)

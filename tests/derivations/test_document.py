@@ -5,13 +5,13 @@ import re
 from dataclasses import replace
 
 import pytest
+from force_diffusion.derivations.export.document import change_kind, output_files
+from force_diffusion.derivations.export.prose import prose_latex
+from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.derivations.framework.runner import run
+from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.kernel.mutants import mutants
 
-from derivations.catalogue import load, modules
-from derivations.document import change_kind, output_files
-from derivations.prose import prose_latex
-from derivations.runner import run
-from symbolic.kernel import Verdict
-from symbolic.mutants import mutants
 from tests.derivations import fakes
 
 

@@ -5,12 +5,10 @@ from pathlib import Path
 
 import pytest
 import sympy
-from hypothesis import given
-from hypothesis import strategies as st
-
-from derivations import eq06_force_balance, eq07_load_split, eq08_propagation
-from derivations.catalogue import load, modules
-from derivations.on_packings import (
+from force_diffusion.derivations import eq06_force_balance, eq07_load_split, eq08_propagation
+from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.derivations.framework.record import Derivation
+from force_diffusion.derivations.witnesses.on_packings import (
     each_bead,
     each_contact,
     inside_cone,
@@ -19,11 +17,13 @@ from derivations.on_packings import (
     refute,
     straight_below,
 )
-from derivations.record import Derivation
-from derivations.small_packings import SmallPacking, draw
-from symbolic import symbols as sy
-from symbolic.kernel import Verdict
-from symbolic.mutants import mutants
+from force_diffusion.derivations.witnesses.small_packings import SmallPacking, draw
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.kernel.mutants import mutants
+from hypothesis import given
+from hypothesis import strategies as st
+
 from tests.derivations.strategies import small_packings
 
 ALL = [load(number) for number in modules()]
@@ -174,7 +174,7 @@ def test_premises_are_the_imports() -> None:
         imported = {
             int(alias.name[2:4])
             for node in ast.walk(tree)
-            if isinstance(node, ast.ImportFrom) and node.module == "derivations"
+            if isinstance(node, ast.ImportFrom) and node.module == "force_diffusion.derivations"
             for alias in node.names
             if alias.name.startswith("eq")
         }

@@ -4,9 +4,8 @@ import re
 from pathlib import Path
 
 import pytest
-
-from derivations.catalogue import load
-from symbolic.kernel import Verdict
+from force_diffusion.derivations.framework.catalogue import load
+from force_diffusion.symbolic.kernel.decisions import Verdict
 
 ROOT = Path(__file__).parents[2]
 ERRATA = (ROOT / "ERRATA.md").read_text(encoding="utf-8")

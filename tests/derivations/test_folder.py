@@ -9,8 +9,7 @@ import textwrap
 from pathlib import Path
 
 import pytest
-
-from derivations.folder import NotOurFolderError, output_folder
+from force_diffusion.derivations.commands.folder import NotOurFolderError, output_folder
 
 OURS = {"eq01.tex": "one", "eq02.tex": "two", "equations.tex": "document"}
 

@@ -3,9 +3,8 @@
 from pathlib import Path
 
 import pytest
-
-from derivations.catalogue import load, modules
-from derivations.document import fragment_name, statement_latex
+from force_diffusion.derivations.export.document import fragment_name, statement_latex
+from force_diffusion.derivations.framework.catalogue import load, modules
 
 GOLDEN = Path(__file__).parents[1] / "golden"
 

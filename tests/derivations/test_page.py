@@ -9,14 +9,14 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
+from force_diffusion.derivations.export.page.graph import depths
+from force_diffusion.derivations.export.page.making import page
+from force_diffusion.derivations.export.page.parts import Data, Figure, Part, Table
+from force_diffusion.derivations.export.page.words import prose
+from force_diffusion.derivations.framework.record import Derivation
+from force_diffusion.derivations.framework.runner import run
+from force_diffusion.symbolic.kernel.decisions import Verdict
 
-from derivations.page.graph import depths
-from derivations.page.making import page
-from derivations.page.parts import Data, Figure, Part, Table
-from derivations.page.words import prose
-from derivations.record import Derivation
-from derivations.runner import run
-from symbolic.kernel import Verdict
 from tests.derivations import fakes
 
 ROOT = Path(__file__).parents[2]

@@ -6,20 +6,19 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
+from force_diffusion.derivations import eq10_branched_path as eq10
+from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations import eq16_response as eq16
+from force_diffusion.derivations.framework.cone_forms import BEAD, covariance
+from force_diffusion.derivations.witnesses.on_closed_forms import responses, weights_below_a_load
+from force_diffusion.derivations.witnesses.small_packings import DIRECTIONS, draw
+from force_diffusion.numeric import closed_forms
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.variances.cases import Piece, first_difference
 from hypothesis import given
 from hypothesis import strategies as st
-
-from derivations import eq10_branched_path as eq10
-from derivations import eq11_total_force as eq11
-from derivations import eq16_response as eq16
-from derivations.cone_forms import BEAD, covariance
-from derivations.small_packings import DIRECTIONS, draw
-from derivations.witnesses import responses, weights_below_a_load
-from numeric import closed_forms
-from symbolic import explicit
-from symbolic import symbols as sy
-from symbolic.cases import Piece, first_difference
-from symbolic.kernel import Verdict
 
 ONE = Fraction(1)
 cosines = st.fractions(Fraction(-49, 100), Fraction(49, 100), max_denominator=1000)

@@ -3,11 +3,16 @@
 from dataclasses import replace
 
 import pytest
+from force_diffusion.derivations.export.plain import (
+    mutant_counts,
+    outcome_text,
+    summary_line,
+    trouble_lines,
+)
+from force_diffusion.derivations.framework.catalogue import modules, with_premises
+from force_diffusion.derivations.framework.runner import run, run_alone
+from force_diffusion.symbolic.kernel.decisions import Verdict
 
-from derivations.catalogue import modules, with_premises
-from derivations.plain import mutant_counts, outcome_text, summary_line, trouble_lines
-from derivations.runner import run, run_alone
-from symbolic.kernel import Verdict
 from tests.derivations import fakes
 
 

@@ -3,18 +3,18 @@
 from fractions import Fraction
 from itertools import combinations
 
+from force_diffusion.derivations import eq03_extrapolation as eq03
+from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations.witnesses.on_packings import Truth, evaluate
+from force_diffusion.derivations.witnesses.small_packings import SmallPacking
+from force_diffusion.numeric.arithmetic.systems import BigFloat, array
+from force_diffusion.numeric.mechanics import plain
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.mechanics.lattice import mirror
 from hypothesis import given
 from hypothesis import strategies as st
 
-from derivations import eq03_extrapolation as eq03
-from derivations import eq11_total_force as eq11
-from derivations.on_packings import Truth, evaluate
-from derivations.small_packings import SmallPacking
-from numeric import plain
-from numeric.systems import BigFloat, array
-from symbolic import explicit
-from symbolic import symbols as sy
-from symbolic.lattice import mirror
 from tests.derivations.strategies import small_packings
 
 FORCE = eq11.in_radii(eq11.PRINTED.rhs)

@@ -4,11 +4,10 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from force_diffusion.numeric.planning.planner import Plan, plan
+from force_diffusion.numeric.run import Outcome, run
+from force_diffusion.numeric.scene.sections import Scene, parse_scene
 from hypothesis import strategies as st
-
-from numeric.planner import Plan, plan
-from numeric.runner import Outcome, run
-from numeric.scene import Scene, parse_scene
 
 
 def toml(sections: dict[str, dict[str, Any]]) -> str:

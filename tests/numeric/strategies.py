@@ -3,9 +3,8 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
+from force_diffusion.numeric.mechanics.loads import sites
 from hypothesis import strategies as st
-
-from numeric.loads import sites
 
 # Pythagorean directions with 1/2 < n_x < √3/2: the ordered packing is rational.
 DIRECTIONS = [

@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.mechanics.work import Work
+from force_diffusion.numeric.result import outcome_data
+from force_diffusion.numeric.run import Outcome, ToleranceError, _attempt
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from numeric.result import outcome_data
-from numeric.runner import Outcome, ToleranceError, _attempt
-from numeric.systems import FLOAT64
-from numeric.work import Work
 from tests.numeric.scenes import answer, basic, planned, scene, scenes, site
 
 SMALL = {
@@ -306,8 +306,8 @@ def test_responses_add_up(width: int) -> None:
 
 def test_measured_radii_are_read_exactly(tmp_path: Path) -> None:
     """The same radii, once drawn and once written to a file as exact decimals, in other units."""
-    from numeric.lattice import full_layer
-    from numeric.radii import DrawnRadii
+    from force_diffusion.numeric.disorder.radii import DrawnRadii
+    from force_diffusion.numeric.lattice.layers import full_layer
 
     drawn = DrawnRadii("two-point", Fraction(1, 10**4), 3, 9)
     lines = ["i,j,delta_r"]
@@ -364,7 +364,7 @@ def test_a_slab_carries_single_loads(tmp_path: Path) -> None:
 
 
 def test_a_tolerance_out_of_reach_says_why() -> None:
-    from numeric import runner
+    from force_diffusion.numeric import run as runner
 
     sections = basic(6, 14, tolerance="=1e-4000")
     with pytest.raises(runner.ToleranceError, match="bits"):

@@ -2,13 +2,17 @@
 
 import numpy as np
 import pytest
+from force_diffusion.numeric.figures.comparison import averages, curves
+from force_diffusion.numeric.statistics import bands
+from force_diffusion.numeric.statistics.bands import (
+    Estimate,
+    averaged,
+    critical_value,
+    log_relative_std,
+)
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
-
-from numeric.figures import bands
-from numeric.figures.bands import Estimate, averaged, critical_value, log_relative_std
-from numeric.figures.comparison import averages, curves
 
 
 def test_a_true_curve_falls_outside_as_often_as_it_should(monkeypatch: pytest.MonkeyPatch) -> None:

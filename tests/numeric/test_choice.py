@@ -7,15 +7,15 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Hardware, midpoint
+from force_diffusion.numeric.planning.plan import Candidate, Plan
+from force_diffusion.numeric.result import outcome_data
+from force_diffusion.numeric.run import Outcome, ToleranceError, run
+from force_diffusion.numeric.scene.sections import SceneError
+from force_diffusion.numeric.studies.cost import ways
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from numeric.cost import ways
-from numeric.plans import Candidate, Plan
-from numeric.result import outcome_data
-from numeric.runner import Outcome, ToleranceError, run
-from numeric.scene import SceneError
-from numeric.systems import FLOAT64, LONGDOUBLE, Hardware, midpoint
 from tests.numeric.scenes import basic, planned, scenes
 from tests.numeric.test_answers import numbers
 
@@ -229,7 +229,7 @@ def test_a_change_about_as_small_as_its_error_is_within_the_stated_bound() -> No
 def test_an_estimate_that_misses_gives_way(monkeypatch: pytest.MonkeyPatch) -> None:
     """The next way answers, and the outcome says why the first did not."""
     plan = planned(basic(tolerance="=1e-9"))
-    monkeypatch.setattr("numeric.estimate.SAFETY", 10**9)
+    monkeypatch.setattr("force_diffusion.numeric.accuracy.repeated.SAFETY", 10**9)
     assert plan.choice is not None
     (way,) = (c for c in plan.choice.candidates if c.arithmetic == "float64")
     outcome = run(only(plan, way))

@@ -7,18 +7,18 @@ from typing import Any
 
 import flint
 import pytest
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls
+from force_diffusion.numeric.planning.planner import plan
+from force_diffusion.numeric.scene.sections import SceneError
+from force_diffusion.numeric.studies.cost import rows as cost
+from force_diffusion.numeric.studies.cost.data import csv_rows, lines, study_data
+from force_diffusion.numeric.studies.cost.rows import Row, Study, marked, pareto
+from force_diffusion.numeric.studies.cost.study import study
+from force_diffusion.numeric.studies.cost.truth import BEYOND, decimal
+from force_diffusion.numeric.studies.cost.ways import answer, solve_plainly, systems, why_not_plain
 from hypothesis import given
 from hypothesis import strategies as st
 
-from numeric.cost import rows as cost
-from numeric.cost.data import csv_rows, lines, study_data
-from numeric.cost.rows import Row, Study, marked, pareto
-from numeric.cost.study import study
-from numeric.cost.truth import BEYOND, decimal
-from numeric.cost.ways import answer, solve_plainly, systems, why_not_plain
-from numeric.planner import plan
-from numeric.scene import SceneError
-from numeric.systems import FLOAT64, Balls
 from tests.numeric.scenes import basic, scene
 
 

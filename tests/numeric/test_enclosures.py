@@ -7,23 +7,30 @@ from typing import Any
 import flint
 import numpy as np
 import pytest
+from force_diffusion.numeric.arithmetic.systems import (
+    FLOAT64,
+    Balls,
+    BigFloat,
+    NumberSystem,
+    Series,
+    midpoint,
+)
+from force_diffusion.numeric.disorder.normal import cosine_of_turn, logarithm
+from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii
+from force_diffusion.numeric.lattice.layers import Layer, column, whole
+from force_diffusion.numeric.mechanics import first_order, packing, taylor
+from force_diffusion.numeric.mechanics.engine import Solved, solve
+from force_diffusion.numeric.mechanics.forces import Forces, sweep_down
+from force_diffusion.numeric.mechanics.load_spec import LoadSpec
+from force_diffusion.numeric.mechanics.loads import sites
+from force_diffusion.numeric.mechanics.small_packing import plain_form
+from force_diffusion.numeric.mechanics.work import Work
+from force_diffusion.numeric.planning.planner import Plan
+from force_diffusion.numeric.result import outcome_data
+from force_diffusion.numeric.run import ToleranceError, critical_height
 from hypothesis import given
 from hypothesis import strategies as st
 
-from numeric import first_order, packing, taylor
-from numeric.engine import Solved, solve
-from numeric.exact import plain_form
-from numeric.forces import Forces, sweep_down
-from numeric.lattice import Layer, column, whole
-from numeric.load_spec import LoadSpec
-from numeric.loads import sites
-from numeric.normal import cosine_of_turn, logarithm
-from numeric.planner import Plan
-from numeric.radii import DrawnRadii, MeasuredRadii
-from numeric.result import outcome_data
-from numeric.runner import ToleranceError, critical_height
-from numeric.systems import FLOAT64, Balls, BigFloat, NumberSystem, Series, midpoint
-from numeric.work import Work
 from tests.numeric.scenes import answer, basic, planned
 from tests.numeric.strategies import Case, cases
 
@@ -151,8 +158,8 @@ def fraction(value: Any) -> Fraction:
 
 
 def rational_strength(spec: LoadSpec, n: tuple[Fraction, Fraction], system: Series) -> Any:
-    from numeric.load_spec import Strength
-    from numeric.loads import components
+    from force_diffusion.numeric.mechanics.load_spec import Strength
+    from force_diffusion.numeric.mechanics.loads import components
 
     return Strength(
         (system.number(Fraction(0)), system.number(Fraction(0))),

@@ -4,13 +4,19 @@ from fractions import Fraction
 
 import mpmath
 import numpy as np
+from force_diffusion.numeric.arithmetic.systems import (
+    FLOAT64,
+    LONGDOUBLE,
+    Balls,
+    BigFloat,
+    NumberSystem,
+)
+from force_diffusion.numeric.mechanics import taylor
+from force_diffusion.numeric.mechanics.loads import sites
+from force_diffusion.numeric.mechanics.small_packing import Solution, deviation_form, plain_form
 from hypothesis import given
 from hypothesis import strategies as st
 
-from numeric import taylor
-from numeric.exact import Solution, deviation_form, plain_form
-from numeric.loads import sites
-from numeric.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
 from tests.numeric.strategies import Case, cases
 
 STRENGTH = Fraction(1, 10**6)  # far below M* of these heights: every packing can be built

@@ -6,20 +6,20 @@ from typing import Any
 
 import numpy as np
 import pytest
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE
+from force_diffusion.numeric.lattice.layers import Array, Region, whole
+from force_diffusion.numeric.mechanics import engine, forces, packing
+from force_diffusion.numeric.mechanics.forces import Forces, Loads, NotStandingError
+from force_diffusion.numeric.mechanics.packing import Packing, UnbuildableError
+from force_diffusion.numeric.mechanics.work import Work
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from numeric import engine, forces, packing
-from numeric.forces import Forces, Loads, NotStandingError
-from numeric.lattice import Array, Region, whole
-from numeric.packing import Packing, UnbuildableError
-from numeric.systems import FLOAT64, LONGDOUBLE
-from numeric.work import Work
 from tests.numeric.scenes import basic, planned
 
 pytest.importorskip("numba")
-from numeric import fast
+from force_diffusion.numeric.mechanics import compiled as fast
 
 SIZES = st.tuples(st.integers(1, 9), st.integers(1, 3), st.integers(1, 33))
 N_X = st.fractions(Fraction(51, 100), Fraction(86, 100), max_denominator=10**6)
@@ -160,8 +160,8 @@ def test_forces_go_straight_down_below_a_load(side: int) -> None:
 def test_without_numba_the_engine_takes_the_numpy_sweeps(monkeypatch: pytest.MonkeyPatch) -> None:
     plan = planned(basic(6, 14))
     monkeypatch.setattr(engine, "COMPILED_FROM", 1)
-    monkeypatch.delattr("numeric.fast")
-    monkeypatch.setitem(sys.modules, "numeric.fast", None)
+    monkeypatch.delattr("force_diffusion.numeric.mechanics.compiled")
+    monkeypatch.setitem(sys.modules, "force_diffusion.numeric.mechanics.compiled", None)
     with FLOAT64.active():
         assert type(engine.solve(plan, [0], FLOAT64, Work()).packing) is Packing
 

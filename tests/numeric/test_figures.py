@@ -8,9 +8,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-
-from numeric import closed_forms, first_order
-from numeric.figures import (
+from force_diffusion.numeric import closed_forms
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.figures import (
     chains,
     comparison,
     diffusion,
@@ -19,10 +19,17 @@ from numeric.figures import (
     packings,
     response,
 )
-from numeric.figures.catalogue import csv_file
-from numeric.figures.packings import N_X, PAPER_STD, PHI, forces_of, impulses, planned
-from numeric.load_spec import LoadSpec
-from numeric.systems import FLOAT64
+from force_diffusion.numeric.figures.catalogue import csv_file
+from force_diffusion.numeric.figures.packings import (
+    N_X,
+    PAPER_STD,
+    PHI,
+    forces_of,
+    impulses,
+    planned,
+)
+from force_diffusion.numeric.mechanics import first_order
+from force_diffusion.numeric.mechanics.load_spec import LoadSpec
 
 NY = math.sqrt(1 - N_X**2)
 

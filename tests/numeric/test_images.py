@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.arithmetic.systems import NumberSystem, array
+from force_diffusion.numeric.disorder.radii import DrawnRadii
+from force_diffusion.numeric.lattice.layers import Array, Layer
+from force_diffusion.numeric.mechanics.engine import solve
+from force_diffusion.numeric.mechanics.work import Work
+from force_diffusion.numeric.planning.planner import Plan
+from force_diffusion.numeric.run import run
 
-from numeric.engine import solve
-from numeric.lattice import Array, Layer
-from numeric.planner import Plan
-from numeric.radii import DrawnRadii
-from numeric.runner import run
-from numeric.systems import NumberSystem, array
-from numeric.work import Work
 from tests.numeric.scenes import basic, planned
 
 

@@ -4,9 +4,8 @@ from math import asin
 
 import numpy as np
 import pytest
-
-from numeric.figures.packings import N_X
-from numeric.models import double_y, q_model
+from force_diffusion.numeric.figures.models import double_y, q_model
+from force_diffusion.numeric.figures.packings import N_X
 
 TILT = asin(N_X)
 

@@ -4,13 +4,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-
-from numeric.forces import sweep_down
-from numeric.lattice import Array, whole
-from numeric.load_spec import LoadSpec
-from numeric.packing import deposit
-from numeric.radii import DrawnRadii, rows_of
-from numeric.systems import FLOAT64, LONGDOUBLE, Hardware
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Hardware
+from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
+from force_diffusion.numeric.lattice.layers import Array, whole
+from force_diffusion.numeric.mechanics.forces import sweep_down
+from force_diffusion.numeric.mechanics.load_spec import LoadSpec
+from force_diffusion.numeric.mechanics.packing import deposit
 
 N_X = Fraction(3, 4)
 

@@ -8,17 +8,17 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.disorder.radii import RadiusError
+from force_diffusion.numeric.mechanics.forces import NotStandingError
+from force_diffusion.numeric.mechanics.packing import UnbuildableError
+from force_diffusion.numeric.planning.planner import plan
+from force_diffusion.numeric.result import outcome_data, plan_data
+from force_diffusion.numeric.run import ToleranceError, run
+from force_diffusion.numeric.scene.sections import SceneError, parse_scene, read_scene
+from force_diffusion.numeric.scene.tables import TableError
 from hypothesis import given
 from hypothesis import strategies as st
 
-from numeric.forces import NotStandingError
-from numeric.packing import UnbuildableError
-from numeric.planner import plan
-from numeric.radii import RadiusError
-from numeric.result import outcome_data, plan_data
-from numeric.runner import ToleranceError, run
-from numeric.scene import SceneError, parse_scene, read_scene
-from numeric.tables import TableError
 from tests.numeric.scenes import answer, basic, planned, scene, scenes, toml
 
 WRONG: list[tuple[str, str, Any, str]] = [

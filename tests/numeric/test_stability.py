@@ -4,17 +4,28 @@ from fractions import Fraction
 from functools import cache
 
 import pytest
-
-from numeric.lattice import whole
-from numeric.packing import UndecidedError
-from numeric.radii import DrawnRadii, rows_of
-from numeric.runner import critical_height
-from numeric.stability import enclosures, forms
-from numeric.stability.closed import closed_form_rows
-from numeric.stability.enclosures import LINE_SUMS, POSITIONS, Enclosed, Strip, enclose, strips
-from numeric.stability.floats import Case, Row, cases, measure
-from numeric.stability.forms import changes, deviation_form, flat, plain_form
-from numeric.systems import Balls
+from force_diffusion.numeric.arithmetic.systems import Balls
+from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
+from force_diffusion.numeric.lattice.layers import whole
+from force_diffusion.numeric.mechanics.packing import UndecidedError
+from force_diffusion.numeric.run import critical_height
+from force_diffusion.numeric.studies.stability import enclosures, forms
+from force_diffusion.numeric.studies.stability.closed import closed_form_rows
+from force_diffusion.numeric.studies.stability.enclosures import (
+    LINE_SUMS,
+    POSITIONS,
+    Enclosed,
+    Strip,
+    enclose,
+    strips,
+)
+from force_diffusion.numeric.studies.stability.floats import Case, Row, cases, measure
+from force_diffusion.numeric.studies.stability.forms import (
+    changes,
+    deviation_form,
+    flat,
+    plain_form,
+)
 
 UNIT = 2.0**-53  # of float64: one unit in the last place is at most 2 of these
 

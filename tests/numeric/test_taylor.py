@@ -4,12 +4,12 @@ from fractions import Fraction
 
 import flint
 import pytest
+from force_diffusion.numeric.arithmetic.systems import Series, zeros
+from force_diffusion.numeric.lattice.layers import column
+from force_diffusion.numeric.mechanics import plain, taylor
+from force_diffusion.numeric.mechanics.loads import sites
 from hypothesis import given
 
-from numeric import plain, taylor
-from numeric.lattice import column
-from numeric.loads import sites
-from numeric.systems import Series, zeros
 from tests.numeric.strategies import Case, cases
 
 ORDER = 2

@@ -5,13 +5,17 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
+from force_diffusion.numeric import closed_forms
+from force_diffusion.numeric.figures.packings import PHI as PAPER_PHI
+from force_diffusion.numeric.figures.packings import forces_of, planned, solved
+from force_diffusion.numeric.theory.tension import (
+    LOADS,
+    critical_height,
+    limiting_fraction,
+    tensile_fraction,
+)
 from hypothesis import given
 from hypothesis import strategies as st
-
-from numeric import closed_forms
-from numeric.figures.packings import PHI as PAPER_PHI
-from numeric.figures.packings import forces_of, planned, solved
-from numeric.tension import LOADS, critical_height, limiting_fraction, tensile_fraction
 
 PHI = 0.125
 

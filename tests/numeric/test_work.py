@@ -5,18 +5,20 @@ from typing import Any
 
 import flint
 import pytest
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls
+from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii
+from force_diffusion.numeric.lattice import regions
+from force_diffusion.numeric.lattice.layers import Layer
+from force_diffusion.numeric.mechanics import first_order
+from force_diffusion.numeric.mechanics.engine import solve
+from force_diffusion.numeric.mechanics.work import Work
+from force_diffusion.numeric.planning import budget
+from force_diffusion.numeric.planning.planner import Plan
+from force_diffusion.numeric.result import outcome_data, plan_data
+from force_diffusion.numeric.run import run
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from numeric import budget, first_order, regions
-from numeric.engine import solve
-from numeric.lattice import Layer
-from numeric.planner import Plan
-from numeric.radii import DrawnRadii, MeasuredRadii
-from numeric.result import outcome_data, plan_data
-from numeric.runner import run
-from numeric.systems import FLOAT64, Balls
-from numeric.work import Work
 from tests.numeric.scenes import answer, basic, planned
 
 
@@ -137,8 +139,8 @@ def _weights(
     plan: Plan, contact: tuple[int, int, str], W: int, M: int
 ) -> dict[tuple[int, int], Fraction]:
     """d force / d radius of every bead at order ε, from the exact nonlinear solution."""
-    from numeric import taylor
-    from numeric.loads import sites
+    from force_diffusion.numeric.mechanics import taylor
+    from force_diffusion.numeric.mechanics.loads import sites
 
     n = (Fraction(3, 5), Fraction(4, 5))
     if plan.load.kind == "point":

@@ -1,10 +1,9 @@
 """Hypothesis strategies for expressions that the reader reads, and for points to look at them."""
 
 import sympy
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra.affine import Region
 from hypothesis import strategies as st
-
-from symbolic import symbols as sy
-from symbolic.affine import Region
 
 REGION = Region({sy.j: 2, sy.M: sy.j + 2})
 

@@ -1,11 +1,10 @@
 """Inequalities decided in a region, against its points."""
 
+from force_diffusion.symbolic.algebra import affine
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.symbols import M, j, n
 from hypothesis import given
 from hypothesis import strategies as st
-
-from symbolic import affine
-from symbolic.affine import Region
-from symbolic.symbols import M, j, n
 
 REGION = Region({j: 1, M: j + 2, n: 1})
 whole = st.integers(-3, 3)

@@ -4,13 +4,12 @@ from dataclasses import replace
 
 import pytest
 import sympy
-
-from derivations import eq13_surface_diffusion as eq13
-from derivations import eq14_bulk_diffusion as eq14
-from symbolic.averages import layer_average, uniform_order
-from symbolic.exact import FIELD
-from symbolic.symbols import phi, r, sigma
-from symbolic.variance import packings, value_at
+from force_diffusion.derivations import eq13_surface_diffusion as eq13
+from force_diffusion.derivations import eq14_bulk_diffusion as eq14
+from force_diffusion.symbolic.algebra.exact import FIELD
+from force_diffusion.symbolic.symbols import phi, r, sigma
+from force_diffusion.symbolic.variances.averages import layer_average, uniform_order
+from force_diffusion.symbolic.variances.variance import packings, value_at
 
 MODULES = pytest.mark.parametrize("module", [eq13, eq14], ids=["surface", "bulk"])
 

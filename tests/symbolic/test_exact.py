@@ -2,13 +2,17 @@
 
 import pytest
 import sympy
+from force_diffusion.symbolic.algebra.exact import (
+    FIELD,
+    NotExactError,
+    antidifference,
+    sum_polynomial,
+)
+from force_diffusion.symbolic.kernel.decisions import Verdict, decide_identity
+from force_diffusion.symbolic.symbols import M, j, m, n_x, n_y, phi, r
+from force_diffusion.symbolic.variances.certified_sums import SumRefusedError, certified_sum
 from hypothesis import given
 from hypothesis import strategies as st
-
-from symbolic.certified_sums import SumRefusedError, certified_sum
-from symbolic.exact import FIELD, NotExactError, antidifference, sum_polynomial
-from symbolic.kernel import Verdict, decide_identity
-from symbolic.symbols import M, j, m, n_x, n_y, phi, r
 
 small = st.integers(-5, 5)
 polynomials = st.builds(

@@ -4,16 +4,16 @@ from fractions import Fraction
 
 import pytest
 import sympy
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra import affine, explicit
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.exact import LAYER, RationalFunction
+from force_diffusion.symbolic.algebra.linear_forms import LinearForm
+from force_diffusion.symbolic.algebra.reading import Reader, UnsafeBoundsError
+from force_diffusion.symbolic.kernel.decisions import GEOMETRIES, Verdict, decide_linear
+from force_diffusion.symbolic.variances.weights import UndeterminedError, take_apart
 from hypothesis import given
 
-from symbolic import affine, explicit
-from symbolic import symbols as sy
-from symbolic.affine import Region
-from symbolic.exact import LAYER, RationalFunction
-from symbolic.kernel import GEOMETRIES, Verdict, decide_linear
-from symbolic.linear_forms import LinearForm
-from symbolic.reading import Reader, UnsafeBoundsError
-from symbolic.weights import UndeterminedError, take_apart
 from tests.symbolic.strategies import REGION, expressions, points
 
 VALUES = GEOMETRIES[0]

@@ -7,12 +7,11 @@ from collections.abc import Iterator
 from xml.etree import ElementTree
 
 import pytest
-
-from derivations.catalogue import load, modules
-from derivations.document import RELATIONS
-from symbolic.printing.latex import latex
-from symbolic.printing.lines import latex_body
-from symbolic.printing.mathml import UnknownLatexError, mathml
+from force_diffusion.derivations.export.document import RELATIONS
+from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.symbolic.printing.latex import latex
+from force_diffusion.symbolic.printing.lines import latex_body
+from force_diffusion.symbolic.printing.mathml import UnknownLatexError, mathml
 
 
 @pytest.mark.parametrize(

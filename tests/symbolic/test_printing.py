@@ -4,16 +4,34 @@ import re
 
 import pytest
 import sympy
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
+from force_diffusion.symbolic.printing.code import python_source, sympy_source
+from force_diffusion.symbolic.printing.latex import latex
+from force_diffusion.symbolic.printing.lines import (
+    LINE_WIDTH,
+    latex_body,
+    latex_lines,
+    text_lines,
+    width,
+)
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.symbols import (
+    DeltaNPlus,
+    DeltaR,
+    Dot,
+    ForcePlus,
+    M,
+    i,
+    j,
+    m,
+    phi,
+    r,
+    sigma,
+    z,
+)
 from hypothesis import given
 from hypothesis import strategies as st
-
-from symbolic import symbols as sy
-from symbolic.as_printed import equation, minus, power, terms, times
-from symbolic.printing.code import python_source, sympy_source
-from symbolic.printing.latex import latex
-from symbolic.printing.lines import LINE_WIDTH, latex_body, latex_lines, text_lines, width
-from symbolic.printing.text import text
-from symbolic.symbols import DeltaNPlus, DeltaR, Dot, ForcePlus, M, i, j, m, phi, r, sigma, z
 
 HALF = sympy.Rational(1, 2)
 

@@ -2,8 +2,9 @@
 
 from typing import Any
 
-from numeric.ensemble.asked import measurement
-from numeric.ensemble.measure import Measurement
+from force_diffusion.numeric.ensemble.asked import measurement
+from force_diffusion.numeric.ensemble.measure import Measurement
+
 from tests.numeric.scenes import scene
 
 PROFILE: dict[str, dict[str, Any]] = {

@@ -6,14 +6,14 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.ensemble import run
+from force_diffusion.numeric.ensemble.sums import measured
+from force_diffusion.numeric.ensemble.workers import RealisationError, WorkersError
 
-from numeric.ensemble import run
-from numeric.ensemble.sums import measured
-from numeric.ensemble.workers import RealisationError, WorkersError
 from tests.numeric.ensemble.cases import case
 
 distributed = pytest.importorskip("distributed")
-cluster_module = pytest.importorskip("numeric.ensemble.cluster")
+cluster_module = pytest.importorskip("force_diffusion.numeric.ensemble.cluster")
 Cluster = cluster_module.Cluster
 
 M = case("profile", covariance=True)

@@ -3,10 +3,10 @@
 import math
 
 import pytest
+from force_diffusion.numeric.ensemble.estimates import Estimates
+from force_diffusion.numeric.ensemble.sums import measured
+from force_diffusion.numeric.statistics.confidence import half_width, looks, student
 
-from numeric.ensemble.confidence import half_width, looks, student
-from numeric.ensemble.estimates import Estimates
-from numeric.ensemble.sums import measured
 from tests.numeric.ensemble.cases import case
 
 

@@ -5,10 +5,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-
-from numeric.ensemble.exact_sum import (
+from force_diffusion.numeric.lattice.layers import Array
+from force_diffusion.numeric.statistics.exact_sum import (
     ExactSum,
     digits,
     rows_and_squares,
@@ -16,7 +14,8 @@ from numeric.ensemble.exact_sum import (
     total_matrix,
     total_products,
 )
-from numeric.lattice import Array
+from hypothesis import given
+from hypothesis import strategies as st
 
 # Every double there is, with the exponents that cutting treats on their own made likely.
 NUMBERS = st.one_of(

@@ -6,18 +6,18 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.ensemble import profile, run, workers
+from force_diffusion.numeric.ensemble.measure import Measurement
+from force_diffusion.numeric.ensemble.run import Executor, Result
+from force_diffusion.numeric.ensemble.scene_key import ensemble_key
+from force_diffusion.numeric.ensemble.store import Block, Store, StoreError, open_store
+from force_diffusion.numeric.ensemble.sums import Sums, measured
+from force_diffusion.numeric.ensemble.workers import InProcess, Pool, RealisationError, WorkersError
+from force_diffusion.numeric.scene.sections import SceneError
+from force_diffusion.numeric.statistics.confidence import Rule
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from numeric.ensemble import profile, run, workers
-from numeric.ensemble.confidence import Rule
-from numeric.ensemble.measure import Measurement
-from numeric.ensemble.run import Executor, Result
-from numeric.ensemble.scene_key import ensemble_key
-from numeric.ensemble.store import Block, Store, StoreError, open_store
-from numeric.ensemble.sums import Sums, measured
-from numeric.ensemble.workers import InProcess, Pool, RealisationError, WorkersError
-from numeric.scene import SceneError
 from tests.numeric.ensemble.cases import CASES, PROFILE, case
 from tests.numeric.scenes import scene
 
@@ -229,8 +229,7 @@ def test_a_block_is_written_once() -> None:
 
 def test_the_profile_for_figures(tmp_path: Path) -> None:
     import numpy as np
-
-    from numeric.ensemble.estimates import Estimates
+    from force_diffusion.numeric.ensemble.estimates import Estimates
 
     read = scene(PROFILE)
     found = profile(read, 150, store=tmp_path / "ensemble.fd")

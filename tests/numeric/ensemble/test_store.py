@@ -8,14 +8,14 @@ import sys
 from pathlib import Path
 
 import pytest
+from force_diffusion.numeric.ensemble.run import run
+from force_diffusion.numeric.ensemble.scene_key import ensemble_key
+from force_diffusion.numeric.ensemble.store import StoreError, open_store
+from force_diffusion.numeric.ensemble.sums import measured
+from force_diffusion.numeric.ensemble.workers import InProcess
 from hypothesis import given
 from hypothesis import strategies as st
 
-from numeric.ensemble.run import run
-from numeric.ensemble.scene_key import ensemble_key
-from numeric.ensemble.store import StoreError, open_store
-from numeric.ensemble.sums import measured
-from numeric.ensemble.workers import InProcess
 from tests.numeric.ensemble.cases import case
 from tests.numeric.ensemble.test_run import on_file
 
@@ -148,13 +148,14 @@ def test_a_file_of_another_version(
 ) -> None:
     path = tmp_path / "ensemble.fd"
     path.write_bytes(sound)
-    monkeypatch.setattr("numeric.ensemble.scene_key.program_version", lambda: "9.9")
+    monkeypatch.setattr("force_diffusion.numeric.ensemble.scene_key.program_version", lambda: "9.9")
     with pytest.raises(StoreError, match=r"version.force-diffusion is .*, here 9.9"):
         open_store(path, ensemble_key(M))
 
 
 def test_the_same_scene_in_other_words_is_the_same_ensemble() -> None:
-    from numeric.ensemble.asked import measurement
+    from force_diffusion.numeric.ensemble.asked import measurement
+
     from tests.numeric.ensemble.cases import PROFILE
     from tests.numeric.scenes import scene
 
@@ -168,7 +169,8 @@ def test_a_second_process_is_refused_while_one_works(tmp_path: Path) -> None:
     mine = open_store(path, KEY)
     run(M, 5, InProcess(), store=mine)
     program = (
-        "import sys; from pathlib import Path; from numeric.ensemble.store import open_store\n"
+        "import sys; from pathlib import Path\n"
+        "from force_diffusion.numeric.ensemble.store import open_store\n"
         "open_store(Path(sys.argv[1]), None)"
     )
     done = subprocess.run(
@@ -204,9 +206,9 @@ def test_an_empty_file_is_a_new_one(tmp_path: Path) -> None:
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from numeric.ensemble import run, store
-from numeric.ensemble.workers import InProcess
-from numeric.ensemble.scene_key import ensemble_key
+from force_diffusion.numeric.ensemble import run, store
+from force_diffusion.numeric.ensemble.workers import InProcess
+from force_diffusion.numeric.ensemble.scene_key import ensemble_key
 from tests.numeric.ensemble.cases import case
 
 path, word, count = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])

@@ -9,21 +9,21 @@ from typing import Any
 
 import numpy as np
 import pytest
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.ensemble.asked import measurement
+from force_diffusion.numeric.ensemble.estimates import Estimates
+from force_diffusion.numeric.ensemble.measure import Measurement
+from force_diffusion.numeric.ensemble.sums import Sums, from_bytes, measured
+from force_diffusion.numeric.lattice.layers import Array
+from force_diffusion.numeric.mechanics import engine
+from force_diffusion.numeric.mechanics.engine import solve
+from force_diffusion.numeric.mechanics.packing import Packing
+from force_diffusion.numeric.mechanics.work import Work
+from force_diffusion.numeric.run import run
+from force_diffusion.numeric.scene.sections import SceneError
 from hypothesis import given
 from hypothesis import strategies as st
 
-from numeric import engine
-from numeric.engine import solve
-from numeric.ensemble.asked import measurement
-from numeric.ensemble.estimates import Estimates
-from numeric.ensemble.measure import Measurement
-from numeric.ensemble.sums import Sums, from_bytes, measured
-from numeric.lattice import Array
-from numeric.packing import Packing
-from numeric.runner import run
-from numeric.scene import SceneError
-from numeric.systems import FLOAT64
-from numeric.work import Work
 from tests.numeric.ensemble.cases import CASES, PROFILE, case
 from tests.numeric.scenes import planned, scene
 

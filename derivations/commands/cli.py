@@ -1,0 +1,114 @@
+"""The command line: which commands there are; each one's module is imported when it is asked for.
+
+A new command takes a module of ``derivations`` whose ``register(app)`` adds it to a Typer
+application, and a line in ``COMMANDS``.
+"""
+
+from importlib import import_module
+from typing import Any
+
+import typer
+from typer.core import TyperGroup
+
+# Name: (module, what --help says: the first paragraph of the command's docstring).
+COMMANDS = {
+    "derive": (
+        "equations",
+        "Prove equations, and the ones that they rest on, and check them.",
+    ),
+    "show": ("equations", "Print one equation, without deriving it."),
+    "list": ("equations", "List the equations."),
+    "run": ("scenes", "Answer a scene's question."),
+    "explain": ("scenes", "Say what 'run' would do, and why."),
+    "calibrate": (
+        "calibrate",
+        "Measure what this machine's arithmetic costs; a tolerance chooses the cheapest by it.",
+    ),
+    "cost": (
+        "scenes",
+        "Measure what accuracy costs: every way to answer a scene, its error beside its time.",
+    ),
+    "stability": (
+        "stability",
+        "Measure what stability costs: errors and lost bits of both forms, time beside them.",
+    ),
+    "ensemble": (
+        "ensemble",
+        "Statistics over many packings, on many cores, kept in a file as they come.",
+    ),
+    "ensemble-status": (
+        "ensemble",
+        "Say what the store of an ensemble holds, and check it.",
+    ),
+    "figures": ("figures", "Draw the paper's figures anew, from exact packings."),
+    "report": (
+        "report",
+        "Write all results as one HTML page: derivations, checks, figures, costs, stability.",
+    ),
+}
+STATUSES = (
+    "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
+    "3 the disk or a pipe failed, 130 interrupted."
+)
+
+
+def either(words: list[str]) -> str:
+    """Name alternatives: "a, b or c"."""
+    return ", ".join(words[:-1]) + f" or {words[-1]}" if len(words) > 1 else words[0]
+
+
+def _application(**options: Any) -> typer.Typer:
+    return typer.Typer(
+        add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False, **options
+    )
+
+
+class _Commands(TyperGroup):
+    """The commands of the table; ``--help`` builds none of them, and any other use the one."""
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Names, in the order of the table."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """Import and build one command."""
+        if cmd_name not in COMMANDS:
+            return None
+        app = _application()
+        import_module(f"force_diffusion.derivations.commands.{COMMANDS[cmd_name][0]}").register(app)
+        app.registered_commands = [
+            command
+            for command in app.registered_commands
+            if cmd_name == (command.name or getattr(command.callback, "__name__", None))
+        ]
+        return typer.main.get_command(app)
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write the list of commands."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, line) for name, (_, line) in COMMANDS.items()])
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """Find the command, or say which ones exist."""
+        if args and not args[0].startswith("-") and args[0] not in COMMANDS:
+            ctx.fail(f"There is no command '{args[0]}'. Use {either(list(COMMANDS))}.")
+        return super().resolve_command(ctx, args)
+
+
+app = _application(cls=_Commands, no_args_is_help=True)
+
+
+@app.callback(epilog=STATUSES)
+def _about() -> None:
+    """Derive, prove and export the equations of force diffusion in packings of discs."""
+
+
+def run(arguments: list[str] | None = None) -> int:
+    """Run the command line and return its exit status."""
+    try:
+        app(args=arguments, prog_name="force-diffusion")
+    except SystemExit as done:
+        if isinstance(done.__context__, OSError):  # a broken pipe, which typer calls status 1
+            raise done.__context__ from None
+        return done.code if isinstance(done.code, int) else 1
+    return 0

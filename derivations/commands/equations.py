@@ -1,0 +1,142 @@
+"""The commands for equations: a thin layer over ``deriving`` and ``shown``."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from force_diffusion.derivations.commands.cli import STATUSES, either
+from force_diffusion.derivations.commands.publishing import out_option
+from force_diffusion.derivations.framework.catalogue import modules
+
+
+class Form(StrEnum):
+    """How ``show`` prints an equation."""
+
+    TEXT = "text"
+    LATEX = "latex"
+    SYMPY = "sympy"
+    PYTHON = "python"
+    STEPS = "steps"
+
+
+class Place(StrEnum):
+    """What an exact form is for: layers (13, 14), a load (15), a place in the cone (16)."""
+
+    INTERIOR = "interior"
+    BASE = "base"
+    NEXT = "base+1"
+    SURFACE = "surface"
+    SURFACE_LOAD = "surface-load"
+    BULK_LOAD = "bulk-load"
+    BEAD = "bead"
+    CONTACT = "contact"
+    LEG = "leg"
+    LEG_FORCE = "leg-force"
+
+
+def _number(word: str) -> int:
+    """An equation's number from outside text, which is read and never evaluated."""
+    known = modules()
+    if word.isascii() and word.isdigit() and len(word) < 5 and int(word) in known:
+        return int(word)
+    raise typer.BadParameter(
+        f"'{word}' is not an equation of this package. Give a number from {min(known)} to "
+        f"{max(known)}; 'force-diffusion list' names them.",
+        param_hint="N",
+    )
+
+
+def derive(
+    numbers: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[N...]", help="Equations to derive; all of them by default."),
+    ] = None,
+    out: Annotated[Path | None, out_option("LaTeX and a manifest")] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the results as JSON and nothing else.")
+    ] = False,
+) -> None:
+    """Prove equations, and the ones that they rest on, and check them."""
+    from force_diffusion.derivations.commands.folder import NotOurFolderError
+
+    wanted = [_number(word) for word in numbers] if numbers else list(modules())
+    if out is not None and out.exists() and not out.is_dir():
+        raise typer.BadParameter(
+            f"'{out}' is a file. Give a new folder, an empty one, or one that an earlier "
+            "'derive --out' wrote.",
+            param_hint="--out",
+        )
+    try:
+        from force_diffusion.derivations.commands import deriving
+
+        status = deriving.derive(wanted, out, as_json)
+    except NotOurFolderError as foreign:
+        raise typer.BadParameter(
+            f"'{out}' holds files that this program did not write ({foreign}). Give a new "
+            "folder, an empty one, or one that an earlier 'derive --out' wrote.",
+            param_hint="--out",
+        ) from None
+    raise typer.Exit(status)
+
+
+def show(
+    number: Annotated[str, typer.Argument(metavar="N", help="Number of the equation.")],
+    form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
+    exact: Annotated[
+        bool, typer.Option("--exact", help="The exact form at finite size (Eqs. 13 to 16).")
+    ] = False,
+    at_j: Annotated[
+        Place | None,
+        typer.Option(
+            "--at-j",
+            "--case",
+            help="Which exact form. Eqs. 13 and 14: interior (2 ≤ j ≤ M − 2, the default), "
+            "base (j = 0), base+1 (j = 1) or surface (j = M − 1). Eq. 15: surface-load (the "
+            "default) or bulk-load. Eq. 16: bead (both upper contacts, the default), contact (one "
+            "of them), leg (the contact on a leg of the cone) or leg-force (its magnitude).",
+        ),
+    ] = None,
+) -> None:
+    """Print one equation, without deriving it."""
+    from force_diffusion.derivations.export import shown
+
+    equation = _number(number)
+    if not exact:
+        if at_j is not None:
+            raise typer.BadParameter("goes with --exact only; add it.", param_hint="--at-j")
+        print(shown.view(equation, form))
+        return
+    having = shown.exact_numbers()
+    if equation not in having:
+        raise typer.BadParameter(
+            f"Eq. {equation} has no exact form at finite size of its own; "
+            f"{either([str(one) for one in having])} has.",
+            param_hint="--exact",
+        )
+    if form is Form.STEPS:
+        raise typer.BadParameter(
+            "steps are not split by --exact; leave one of the two out.", param_hint="--as"
+        )
+    places = shown.exact_places(equation)
+    if at_j is not None and at_j not in places:
+        raise typer.BadParameter(
+            f"Eq. {equation} has no exact form for '{at_j}'. Use {either(places)}.",
+            param_hint="--at-j / --case",
+        )
+    print(shown.exact_view(equation, at_j or places[0], form))
+
+
+def list_equations() -> None:
+    """List the equations."""
+    from force_diffusion.derivations.export import shown
+
+    for number, (name, title) in shown.titles().items():
+        print(f"{number:3}  {name:<20}  {title}")
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands to the command line."""
+    app.command(epilog=STATUSES)(derive)
+    app.command()(show)
+    app.command("list")(list_equations)

@@ -1,0 +1,177 @@
+"""The command ``figures``: a thin layer over ``numeric.figures``."""
+
+import json
+import shlex
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from force_diffusion.derivations.commands.publishing import (
+    NOT_REACHED,
+    WRONG_INPUT,
+    fail,
+    noticing,
+    out_option,
+    published,
+)
+
+if TYPE_CHECKING:
+    from force_diffusion.numeric.figures.catalogue import Options
+
+NAMES = ("1", "2", "3", "4", "pf", "chains")
+MODELS = {"q-model": "3", "double-y": "4"}
+LEAST_REALISATIONS, MOST_REALISATIONS = 16, 1_000_000
+HIGHEST, MOST_HEIGHTS = 10_000, 6
+STATUSES = (
+    "Exit status: 0 made, 2 wrong usage, 3 matplotlib or SciPy is missing, or the disk or the "
+    "memory failed, 130 interrupted."
+)
+
+
+def _heights(text: str) -> tuple[int, ...]:
+    """Read heights from outside text: whole numbers between commas."""
+    words = [word.strip() for word in text.split(",")]
+    plain = all(word.isascii() and word.isdigit() and len(word) <= 5 for word in words)
+    heights = tuple(int(word) for word in words) if plain else ()
+    if (
+        not heights
+        or not all(1 <= M <= HIGHEST for M in heights)
+        or len(set(heights)) < len(heights)
+        or len(heights) > MOST_HEIGHTS
+    ):
+        raise typer.BadParameter(
+            f"'{text}' names no heights. Give up to {MOST_HEIGHTS} different whole numbers from 1 "
+            f"to {HIGHEST}, with commas between them, such as 32,128.",
+            param_hint="--heights",
+        )
+    return heights
+
+
+def figures(
+    which: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="WHICH", help="Figures: 1, 2, 3, 4, pf, chains; all of them by default."
+        ),
+    ] = None,
+    out: Annotated[Path, out_option("PNG, SVG, PDF and CSV")] = Path("figures"),
+    heights: Annotated[
+        str | None,
+        typer.Option(metavar="M,M...", help="Heights of figure 3; 8,32,128 by default."),
+    ] = None,
+    realisations: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            min=LEAST_REALISATIONS,
+            max=MOST_REALISATIONS,
+            help="Packings of each ensemble; by default 400 of each height in figure 3, "
+            "4000 in figure 4 and pf.",
+        ),
+    ] = None,
+    seed: Annotated[
+        int, typer.Option(metavar="N", min=0, max=2**63 - 1, help="Seed of all radii.")
+    ] = 1,
+    beside: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--with", metavar="MODEL", help="Draw q-model beside figure 3, double-y beside 4."
+        ),
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print what was found as JSON and nothing else.")
+    ] = False,
+) -> None:
+    """Draw the paper's figures anew, from exact packings."""
+    wanted = list(dict.fromkeys(which or NAMES))
+    for name in wanted:
+        if name not in NAMES:
+            raise typer.BadParameter(
+                f"There is no figure '{name}'. Give any of {', '.join(NAMES)}.", param_hint="WHICH"
+            )
+    chosen = None if heights is None else _heights(heights)
+    if chosen is not None and "3" not in wanted:
+        raise typer.BadParameter("goes with figure 3 only; add 3.", param_hint="--heights")
+    if realisations is not None and not {"3", "4", "pf"} & set(wanted):
+        raise typer.BadParameter(
+            "goes with figures 3, 4 and pf only; the others draw no ensemble.",
+            param_hint="--realisations",
+        )
+    for model in beside or []:
+        if model not in MODELS:
+            raise typer.BadParameter(
+                f"There is no model '{model}'. Give {' or '.join(MODELS)}.", param_hint="--with"
+            )
+        if MODELS[model] not in wanted:
+            raise typer.BadParameter(
+                f"{model} stands beside figure {MODELS[model]}; add {MODELS[model]}.",
+                param_hint="--with",
+            )
+    _refuse_without_libraries(scipy="pf" in wanted)
+
+    from force_diffusion.numeric.figures.catalogue import HEIGHTS, Options
+
+    words = ["force-diffusion", "figures", *wanted]
+    words += [] if heights is None else ["--heights", heights]
+    words += [] if realisations is None else ["--realisations", str(realisations)]
+    words += ["--seed", str(seed)]
+    words += [word for model in beside or [] for word in ("--with", model)]
+    command = shlex.join([*words, "--out", str(out)])
+    command = command if command.isprintable() else ascii(command)  # it stands in one line of CSV
+    with noticing() as notice:
+        options = Options(chosen or HEIGHTS, realisations, seed, frozenset(beside or []), notice)
+        data = published(out, lambda: _made(wanted, options, command))
+    if as_json:
+        print(json.dumps(data, indent=2))
+        return
+    for name, one in data["figures"].items():
+        print(f"{name}: {out / one['files'][0]}")
+        print("\n".join(f"  {line}" for line in one["says"]))
+
+
+def _refuse_without_libraries(*, scipy: bool) -> None:
+    """Leave before anything is solved where nothing could be drawn."""
+    for name in ("matplotlib", "scipy") if scipy else ("matplotlib",):
+        try:
+            __import__(name)
+        except ImportError:
+            fail(
+                f"figures need {name}, which is missing; pip install 'force-diffusion[plots]'",
+                NOT_REACHED,
+            )
+
+
+def _made(
+    wanted: list[str], options: "Options", command: str
+) -> tuple[dict[str, Any], dict[str, str | bytes]]:
+    """Make figures one after the other, or leave with a message."""
+    from force_diffusion.numeric.disorder.radii import RadiusError
+    from force_diffusion.numeric.figures.catalogue import make
+    from force_diffusion.numeric.mechanics.forces import NotStandingError
+    from force_diffusion.numeric.mechanics.packing import UnbuildableError
+    from force_diffusion.numeric.scene.sections import SceneError
+
+    data: dict[str, Any] = {"command": command, "figures": {}}
+    files: dict[str, str | bytes] = {}
+    name = ""
+    try:
+        for name in wanted:
+            made = make(name, options, command)
+            files |= made.files
+            data["figures"][name] = {
+                "title": made.title,
+                "files": list(made.files),
+                "says": made.lines,
+                **made.facts,
+            }
+    except (SceneError, UnbuildableError, NotStandingError, RadiusError) as error:
+        hint = "; ask for lower heights" if name == "3" else ""
+        fail(f"figure {name}: {error}{hint}", WRONG_INPUT)
+    except MemoryError:
+        fail(f"figure {name}: the memory is full; ask for less", NOT_REACHED)
+    return data, {**files, "figures.json": json.dumps(data, indent=2, allow_nan=False) + "\n"}
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command to the command line."""
+    app.command(epilog=STATUSES)(figures)

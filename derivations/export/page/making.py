@@ -1,0 +1,138 @@
+"""The page put together: what each equation shows, and the template that holds it all."""
+
+import os
+import platform
+from base64 import b64encode
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from force_diffusion.derivations.export.document import READING, sentence, statement_latex
+from force_diffusion.derivations.export.page.graph import proof_graph
+from force_diffusion.derivations.export.page.parts import Part
+from force_diffusion.derivations.export.page.words import display, prose, symbol
+from force_diffusion.derivations.export.plain import mutant_counts, relation_of
+from force_diffusion.derivations.framework.record import Derivation, Outcome
+from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.printing.mathml import ALIGNMENT
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+_HERE = Path(__file__).parent
+_SIZE = "0.00 MB"
+_PACKAGES = (
+    "force-diffusion", "sympy", "numpy", "mpmath", "python-flint", "gmpy2", "matplotlib", "Jinja2",
+    "numba",
+)  # fmt: skip
+_MARKS = {"proved": "✓", "agrees": "✓", "refuted": "✗", "disagrees": "✗", "undecided": "?",
+          "equivalent": "≡"}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Note:
+    """A verdict on something, and what it rests on."""
+
+    verdict: str
+    name: Markup
+    note: Markup
+
+
+def _noted(verdict: str, name: str, note: str) -> Note:
+    return Note(verdict, prose(sentence(name)), prose(sentence(note)) if note else Markup(""))
+
+
+def _steps(derivation: Derivation) -> Iterator[tuple[Markup, Markup]]:
+    for step in derivation.steps():
+        formula = Markup("")
+        if step.formula is not None:
+            formula = display([step.formula], relation_of(derivation, step))
+        yield prose(step.reason), formula
+
+
+def equation_view(outcome: Outcome, outcomes: Sequence[Outcome]) -> dict[str, Any]:
+    """All that the page shows of one equation."""
+    derivation = outcome.derivation
+    kinds = {kind: [c for c in outcome.checks if c.kind == kind] for kind in ("proof", "witness")}
+    return {
+        "number": derivation.number,
+        "title": prose(derivation.title),
+        "verdict": str(outcome.verdict),
+        "printed": display(derivation.printed, derivation.relation),
+        "symbols": [(symbol(one), prose(words)) for one, words in derivation.symbols],
+        "assumptions": [prose(sentence(words)) for words in derivation.assumptions],
+        "premises": [premise.number for premise in derivation.premises],
+        "used_by": [
+            other.derivation.number
+            for other in outcomes
+            if derivation.number in [premise.number for premise in other.derivation.premises]
+        ],
+        "steps": list(_steps(derivation)),
+        "proofs": [_noted(str(c.verdict), c.name, c.note) for c in kinds["proof"]],
+        "witnesses": [_noted(str(c.verdict), c.name, c.note) for c in kinds["witness"]],
+        "counts": mutant_counts(outcome),
+        "mutants": [
+            Note(
+                "equivalent" if mutant.equivalent else str(mutant.ruling.verdict),
+                prose(mutant.change),
+                prose(mutant.ruling.note),
+            )
+            for mutant in outcome.mutants
+        ],
+        "remarks": [prose(words) for words in derivation.remarks],
+        "latex": statement_latex(derivation).strip(),
+        "seconds": f"{outcome.seconds:.2f}",
+    }
+
+
+def versions() -> list[tuple[str, str]]:
+    """What made the page: Python, the system, and the packages that are installed."""
+    system = f"{platform.system()}, {platform.machine()}, {os.cpu_count()} cores"
+    found = [("Python", platform.python_version()), ("system", system)]
+    for name in _PACKAGES:
+        try:
+            found.append((name, version(name)))
+        except PackageNotFoundError:  # an extra that is not installed, or a checkout
+            continue
+    return found
+
+
+def page(outcomes: Sequence[Outcome], parts: Sequence[Part], command: str, made: str) -> str:
+    """The whole page, which states its own size.
+
+    ``made`` is the time at which it was made, in words; ``command`` is what makes it again.
+    """
+    style = (_HERE / "style.css").read_text(encoding="utf-8") + ALIGNMENT
+    environment = Environment(
+        loader=FileSystemLoader(_HERE),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    checks = [check for outcome in outcomes for check in outcome.checks]
+    counts = [mutant_counts(outcome) for outcome in outcomes]
+    text = environment.get_template("page.html").render(
+        style=Markup(style),
+        style_hash=b64encode(sha256(style.encode()).digest()).decode(),
+        equations=[equation_view(outcome, outcomes) for outcome in outcomes],
+        totals={
+            "proved": sum(outcome.verdict is Verdict.PROVED for outcome in outcomes),
+            "proofs": sum(check.kind == "proof" for check in checks),
+            "witnesses": sum(check.kind == "witness" for check in checks),
+            **{kind: sum(count[kind] for count in counts) for kind in counts[0]},
+            "seconds": f"{sum(outcome.seconds for outcome in outcomes):.1f}",
+        },
+        marks=_MARKS,
+        reading=READING,
+        graph=proof_graph(outcomes),
+        parts=parts,
+        versions=versions(),
+        command=command,
+        made=made,
+        size=_SIZE,
+        prose=prose,
+    )
+    return text.replace(_SIZE, f"{len(text.encode()) / 1e6:.2f} MB", 1)

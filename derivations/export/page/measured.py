@@ -1,0 +1,190 @@
+"""What the report draws and measures: the figures, what accuracy costs, and how stable it is."""
+
+from collections.abc import Callable, Sequence
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+from force_diffusion.derivations.export.page.figures import figures_part
+from force_diffusion.derivations.export.page.parts import Data, Figure, Part, Table, csv_data
+from force_diffusion.derivations.export.page.words import plain_number
+
+SCENE = Path(__file__).with_name("small.toml")
+Notice = Callable[[str], None]
+"""Told what is measured next."""
+
+
+def cost_part(notice: Notice) -> Part:
+    """Every way to answer the small scene, its error beside its time."""
+    from force_diffusion.numeric.scene.sections import read_scene
+    from force_diffusion.numeric.studies.cost.data import csv_rows, study_data
+    from force_diffusion.numeric.studies.cost.plot import plots
+    from force_diffusion.numeric.studies.cost.study import study
+
+    command = f"force-diffusion cost {SCENE.name} --out cost"
+    found = study(read_scene(SCENE), lambda way: notice(f"cost: {way}"))
+    data = study_data(found, command)
+    svg = plots(found, command, SCENE.stem)["cost.svg"]
+    reference = data["reference"]
+    ways = [row for row in data["rows"] if row["pareto"]]
+    least = min(ways, key=lambda row: Decimal(row["error"]))
+    return Part(
+        id="cost",
+        title="What accuracy costs",
+        words=(
+            "Every way to answer the question of one small scene: all contact forces of a packing "
+            "of 16 layers of 34 beads, σ/r = 10⁻⁶, under a surface load. Errors are measured, "
+            "relative to the largest change of a force, against a reference that is "
+            f"{reference['kind']} to {plain_number(Decimal(reference['radius']))}; times are "
+            "medians of the machine that made this page. A star marks the Pareto front: no other "
+            "way is both more accurate and faster.",
+        ),
+        command=command,
+        figures=(
+            Figure(
+                _bytes(svg),
+                alt=(
+                    "Error against time, both logarithmic, for each way to the answer. On the "
+                    f"Pareto front there are {len(ways)} ways; the most accurate of them is "
+                    f"“{least['way']}” with {least['arithmetic']}, error {least['error']} after "
+                    f"{least['seconds']:.2g} seconds."
+                ),
+                caption="Error beside time, for every way to the answer.",
+            ),
+        ),
+        tables=(
+            Table(
+                "Ways to the answer, from the largest error to the smallest",
+                ("", "way", "arithmetic", "error", "certified bound", "median ms", "peak kB"),
+                tuple(
+                    (
+                        "★" if row["pareto"] else "",
+                        row["way"],
+                        row["arithmetic"],
+                        Decimal(row["error"]),
+                        _decimal(row["certified_bound"]),
+                        1000 * row["seconds"],
+                        round(row["peak_bytes"] / 1000),
+                    )
+                    for row in data["rows"]
+                ),
+                csv_data("cost.csv", csv_rows(data)),
+            ),
+        ),
+        files=(Data(SCENE.name, SCENE.read_text(encoding="utf-8"), "text/plain"),),
+    )
+
+
+def _decimal(shown: str | None) -> Decimal | None:
+    return None if shown is None else Decimal(shown)
+
+
+def stability_part(notice: Notice) -> Part:
+    """How accurate the engine is where it is hard to be, and what that costs."""
+    from force_diffusion.numeric.studies.stability.data import (
+        CLOSED_FORMS,
+        ENCLOSURES,
+        FILES,
+        FLOATS,
+        csv_rows,
+        measurements,
+        stability_data,
+    )
+    from force_diffusion.numeric.studies.stability.plot import plots
+
+    command = "force-diffusion stability --out stability"
+    found = []
+    for name, row in measurements():
+        found.append((name, row))
+        notice(f"stability, {name}: row {len(found)}")
+    data = stability_data(found, command)
+    files = csv_rows(data)
+    floats, balls = data[FLOATS], data[ENCLOSURES]
+    worst = max(row["error"] for row in floats if row["error"] is not None)
+    return Part(
+        id="stability",
+        title="What stability costs",
+        words=(
+            "Contact forces in float64, in the deviation form that the engine uses and in the "
+            "plain form that subtracts ordered forces in the end, against balls, which enclose "
+            "the exact forces. Errors are measured, relative to the largest change of a force. "
+            f"The largest error of the deviation form in these tables is {plain_number(worst)}.",
+            "Beyond M* the packing itself is unstable: the bits that balls lose there measure it.",
+        ),
+        command=command,
+        figures=(
+            Figure(
+                _bytes(plots(data)["stability.svg"]),
+                alt=(
+                    "Four panels. Errors of both forms in float64 against the disorder: the "
+                    f"deviation form nowhere exceeds {plain_number(worst)}, the plain form loses "
+                    "digits as the disorder shrinks. Bits that balls lose against the height: "
+                    "in positions many at every layer, in line sums few up to M*. Below, "
+                    "the times."
+                ),
+                caption="Errors and lost bits, and the times that they cost.",
+            ),
+        ),
+        tables=(
+            Table(
+                "Both forms in float64; each packing is a periodic strip of its own",
+                (
+                    "group", "M", "W", "σ/r", "s/r", "deviation form", "plain form", "bits lost",
+                    "of", "pulling", "overlaps", "note",
+                ),
+                tuple(
+                    (
+                        row["group"], row["height"], row["width"], row["relative_std"],
+                        Decimal(row["spacing"]), row["error"], row["plain_error"],
+                        row["ball_bits_lost"], row["ball_bits"], row["tensile"],
+                        row["overlaps"], row["note"],
+                    )
+                    for row in floats
+                ),
+                csv_data(FILES[FLOATS], files[FILES[FLOATS]]),
+            ),
+            Table(
+                "Balls in positions and in line-sum coordinates, at the precision that leaves 50 "
+                "digits",
+                ("balls in", "M", "W", "σ/r", "M*", "bits lost", "of", "error", "ms", "note"),
+                tuple(
+                    (
+                        row["form"], row["height"], row["width"], row["relative_std"],
+                        row["critical_height"], row["bits_lost"], row["bits"], row["error"],
+                        None if row["seconds"] is None else 1000 * row["seconds"], row["note"],
+                    )
+                    for row in balls
+                ),
+                csv_data(FILES[ENCLOSURES], files[FILES[ENCLOSURES]]),
+            ),
+            Table(
+                "Closed forms of Eqs. 13 and 14 in float64, against exact rationals: the layer "
+                "with the largest error",
+                ("form", "M", "j", "relative error"),
+                tuple(
+                    (row["form"], row["height"], row["j"], row["relative_error"])
+                    for row in _largest(data[CLOSED_FORMS])
+                ),
+                csv_data(FILES[CLOSED_FORMS], files[FILES[CLOSED_FORMS]]),
+            ),
+        ),
+    )  # fmt: skip
+
+
+def _largest(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Of every form and height, the row with the largest error."""
+    found: dict[tuple[str, int], dict[str, Any]] = {}
+    for row in rows:
+        key = row["form"], row["height"]
+        if key not in found or row["relative_error"] > found[key]["relative_error"]:
+            found[key] = row
+    return list(found.values())
+
+
+def _bytes(content: str | bytes) -> bytes:
+    return content.encode() if isinstance(content, str) else content
+
+
+def parts(notice: Notice) -> list[Part]:
+    """All that is drawn and measured, in the order of the page."""
+    return [figures_part(notice), cost_part(notice), stability_part(notice)]

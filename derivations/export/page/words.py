@@ -1,0 +1,113 @@
+"""Sentences and formulas as HTML: words are escaped, what reads as mathematics becomes MathML."""
+
+from collections.abc import Iterator, Sequence
+from decimal import Decimal
+
+from force_diffusion.derivations.export.document import RELATIONS
+from force_diffusion.derivations.export.prose import formula_latex, pieces
+from force_diffusion.symbolic.printing.latex import latex
+from force_diffusion.symbolic.printing.lines import latex_body, width
+from force_diffusion.symbolic.printing.mathml import mathml
+from markupsafe import Markup, escape
+from sympy import Basic
+
+# A browser breaks no line within a formula: longer ones in a sentence are set in pieces.
+INLINE_POINTS = 110.0
+_SIGNS = frozenset("=<>≤≥≈∼≠≡→+−·/∈")
+
+
+def _groups(formula: Sequence[str]) -> Iterator[str]:
+    """A formula in pieces of LaTeX, cut before signs, that fit a line of a telephone."""
+    terms: list[list[str]] = []
+    for word in formula:
+        if not terms or word in _SIGNS:
+            terms.append([])
+        terms[-1].append(word)
+    group: list[str] = []
+    signed = ""  # an empty piece before a sign makes it stand between two things
+    for term in terms:
+        if group and width(formula_latex([*group, *term])) > INLINE_POINTS:
+            yield signed + formula_latex(group)
+            group, signed = [], "{}"
+        group += term
+    yield signed + formula_latex(group)
+
+
+def _piece(before: str, formula: Sequence[str], after: str) -> Markup:
+    """What stands between two spaces of a sentence; brackets and full stops stay at a formula."""
+    if not formula:
+        return escape(before)
+    if len(formula) == 1 and formula[0].isdecimal():
+        return escape(f"{before}{formula[0]}{after}")
+    groups = [Markup(mathml(group)) for group in _groups(formula)]
+    if before:
+        groups[0] = Markup('<span class="whole">{}{}</span>').format(before, groups[0])
+    if after:
+        groups[-1] = Markup('<span class="whole">{}{}</span>').format(groups[-1], after)
+    return Markup(" ").join(groups)
+
+
+def prose(words: str) -> Markup:
+    """A sentence; it never holds markup of its own."""
+    found = Markup("")
+    space = ""
+    for before, formula, after in pieces(words):
+        found += space + _piece(before, formula, after)
+        space = "\N{NO-BREAK SPACE}" if "(" in before and after == "," else " "  # (i, j)
+    return found
+
+
+def symbol(expression: Basic) -> Markup:
+    """One symbol, within a line."""
+    return Markup(mathml(latex(expression)))
+
+
+def display(formulas: Sequence[Basic], relation: str = "=") -> Markup:
+    """Formulas as one display, broken into lines as in the document."""
+    return Markup(mathml(latex_body(formulas, RELATIONS[relation]), display=True))
+
+
+def number(value: float | Decimal | None) -> Markup:
+    """A number for a table: powers of ten are written as such, nothing is a dash.
+
+    >>> print(number(1.5e-16), number(12), number(Decimal("-2.5")), number(1e-6), number(None))
+    1.50·10<sup>−16</sup> 12 −2.5 10<sup>−6</sup> –
+    """
+    if value is None:
+        return Markup("–")
+    digits, power = _in_tens(value)
+    if not power:
+        return escape(digits)
+    return Markup("{}10<sup>{}</sup>").format(_factor(digits), power)
+
+
+def plain_number(value: float | Decimal) -> str:
+    """The same within a sentence.
+
+    >>> plain_number(1.5e-16)
+    '1.50·10⁻¹⁶'
+    """
+    digits, power = _in_tens(value)
+    return f"{_factor(digits)}10{power.translate(_RAISED)}" if power else digits
+
+
+_RAISED = str.maketrans("0123456789−", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+
+
+def _factor(digits: str) -> str:
+    return "" if digits in ("1", "1.00") else f"{digits}·"
+
+
+def _in_tens(value: float | Decimal) -> tuple[str, str]:
+    """Digits, and a power of ten where it helps: three digits of a float, a decimal as it is."""
+    usual = value == 0 or 1e-3 <= abs(float(value)) < 1e6
+    if isinstance(value, int):
+        shown = str(value)
+    elif isinstance(value, Decimal):
+        shown = str(value) if usual else f"{value:e}"
+    else:
+        shown = f"{value:.3g}" if usual else f"{value:.2e}"
+    digits, e, power = shown.replace("-", "−").partition("e")
+    if not e:
+        return digits, ""
+    return digits, ("−" if power.startswith("−") else "") + power.lstrip("−+0")

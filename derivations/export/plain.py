@@ -1,0 +1,142 @@
+"""Derivations and their outcomes as plain text, for a terminal or a pipe."""
+
+import re
+from textwrap import fill
+
+from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome, Step
+from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
+from force_diffusion.symbolic.printing.text import text
+
+_PAIR = re.compile(r"\((\S+), (\S+)\)")
+
+
+def _paragraph(words: str, first: str = "  ", later: str | None = None) -> str:
+    kept = _PAIR.sub("(\\1,\N{NO-BREAK SPACE}\\2)", words)  # (i, j) stays on one line
+    filled = fill(
+        kept,
+        TEXT_WIDTH,
+        initial_indent=first,
+        subsequent_indent=first if later is None else later,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+    return filled.replace("\N{NO-BREAK SPACE}", " ")
+
+
+def printed_text(derivation: Derivation, indent: str = "  ") -> str:
+    """The printed equation or equations."""
+    lines = [
+        line
+        for equation in derivation.printed
+        for line in text_lines(equation, derivation.relation, TEXT_WIDTH - len(indent))
+    ]
+    return "\n".join(indent + line for line in lines)
+
+
+def heading(derivation: Derivation) -> str:
+    """Number and title."""
+    return f"Eq. {derivation.number}: {derivation.title}"
+
+
+def statement_text(derivation: Derivation) -> str:
+    """What the equation says, in what symbols, under which assumptions."""
+    parts = [heading(derivation), "", printed_text(derivation), "", "Symbols"]
+    for symbol, meaning in derivation.symbols:
+        parts.append(_paragraph(f"{text(symbol)}: {meaning}", later="      "))
+    parts += ["", "Assumptions"]
+    parts += [_paragraph(words, "  - ", "    ") for words in derivation.assumptions]
+    if derivation.premises:
+        numbers = ", ".join(str(premise.number) for premise in derivation.premises)
+        parts += ["", f"Rests on Eq{'s' * (len(derivation.premises) > 1)}. {numbers}"]
+    if derivation.remarks:
+        parts += ["", "Remarks"]
+        parts += [_paragraph(words, "  - ", "    ") for words in derivation.remarks]
+    return "\n".join(parts)
+
+
+def relation_of(derivation: Derivation, step: Step) -> str:
+    """A step that states the printed equation has its sign; every other one is an equality."""
+    return derivation.relation if step.formula in derivation.printed else "="
+
+
+def steps_text(derivation: Derivation) -> str:
+    """The steps, each with its reason and the formula that it gives."""
+    parts = []
+    for place, step in enumerate(derivation.steps(), start=1):
+        parts.append(_paragraph(step.reason, f"{place:3}. ", "     "))
+        if step.formula is not None:
+            relation = relation_of(derivation, step)
+            lines = text_lines(step.formula, relation, TEXT_WIDTH - 7)
+            parts += ["       " + line for line in lines]
+    return "\n".join(parts)
+
+
+def check_text(check: Check) -> str:
+    """One check: what was checked, what was found, what that rests on."""
+    head = f"{check.verdict}: {check.name} ({check.kind}, {check.seconds:.3f} s)"
+    return _paragraph(head + (f". {check.note}" if check.note else ""), "  - ", "    ")
+
+
+def mutant_text(mutant: Mutant) -> str:
+    """One changed equation that the checker did not refute."""
+    kind = "equivalent rewriting" if mutant.equivalent else str(mutant.ruling.verdict)
+    note = f". {mutant.ruling.note}" if mutant.ruling.note else ""
+    return _paragraph(f"{kind}: {mutant.change}{note}", "  - ", "    ")
+
+
+def mutant_counts(outcome: Outcome) -> dict[str, int]:
+    """How many changed equations were made, refuted, and proved to be equivalent."""
+    verdicts = [mutant.ruling.verdict for mutant in outcome.mutants]
+    return {
+        "made": len(verdicts),
+        "refuted": verdicts.count(Verdict.REFUTED),
+        "equivalent": sum(mutant.equivalent for mutant in outcome.mutants),
+    }
+
+
+def counts_text(outcome: Outcome) -> str:
+    """The same in words."""
+    counts = mutant_counts(outcome)
+    words = f"{counts['refuted']} of {counts['made']} mutants refuted"
+    if counts["equivalent"]:
+        words += f", {counts['equivalent']} equivalent"
+    return words
+
+
+def outcome_text(outcome: Outcome) -> str:
+    """A derivation from its title to its verdict."""
+    derivation = outcome.derivation
+    survivors = [m for m in outcome.mutants if m.ruling.verdict is not Verdict.REFUTED]
+    parts = [statement_text(derivation), "", "Steps", steps_text(derivation), "", "Checks"]
+    parts += map(check_text, outcome.checks)
+    parts += [f"  - {counts_text(outcome)}", *map(mutant_text, survivors), ""]
+    parts.append(f"Eq. {derivation.number} is {outcome.verdict} ({outcome.seconds:.2f} s)")
+    return "\n".join(parts)
+
+
+def _count(number: int, one: str, more: str) -> str:
+    return f"{number} {one if number == 1 else more}"
+
+
+def summary_line(outcome: Outcome) -> str:
+    """One line for one equation."""
+    kinds = [check.kind for check in outcome.checks]
+    proofs = _count(kinds.count("proof"), "proof", "proofs")
+    witnesses = _count(kinds.count("witness"), "witness", "witnesses")
+    return (
+        f"{outcome.derivation.number:3}  {outcome.verdict:<9}  {outcome.derivation.title}: "
+        f"{proofs}, {witnesses}, {counts_text(outcome)} ({outcome.seconds:.2f} s)"
+    )
+
+
+def trouble_lines(outcome: Outcome) -> list[str]:
+    """What kept an equation from being proved."""
+    fine = {Verdict.PROVED, Verdict.AGREES}
+    lines = [check_text(check) for check in outcome.checks if check.verdict not in fine]
+    lines += [
+        mutant_text(mutant)
+        for mutant in outcome.mutants
+        if mutant.ruling.verdict not in (Verdict.PROVED, Verdict.REFUTED)
+    ]
+    return lines

@@ -1,0 +1,100 @@
+"""What the derivations of variances share: leading orders compared, exact forms shown."""
+
+from collections.abc import Iterator
+
+import sympy
+from force_diffusion.derivations.framework.record import ExactView, Step
+from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
+from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.kernel.decisions import Ruling, from_test, proved, refuted, undecided
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.symbols import M, j, phi, r, sigma, z
+from force_diffusion.symbolic.variances.variance import (
+    CASES,
+    ExactForm,
+    at_fixed_z,
+    largest_weight,
+    leading,
+    order,
+)
+
+
+def compare_leading_order(exact: RationalFunction, candidate: sympy.Expr) -> Ruling:
+    """Rule on a candidate in M and z: exact − candidate must be of lower order than exact."""
+    try:
+        difference = exact - FIELD.from_sympy(candidate.xreplace({z: j / M}))
+    except NotExactError as reason:
+        return undecided(str(reason))
+    if difference.is_zero():
+        return proved("equal at every order")
+    power = order(difference)
+    shown = f"{text(at_fixed_z(difference))} · M^{power}"
+    if power < order(exact):
+        return proved(f"exact − printed is of order M^{power}: {shown}")
+    return refuted(f"exact − candidate is of the leading order M^{power} itself: {shown}")
+
+
+def weights_follow(sum_of_squares: sympy.Expr, printed: sympy.Expr, note: str) -> Ruling:
+    """A sum of squared weights in M and j has the leading order that is printed in M and z."""
+    total = FIELD.from_sympy(sum_of_squares)
+    in_layers = FIELD.from_sympy(printed.xreplace({z: j / M}))
+    return from_test((leading(total) - leading(in_layers)).is_zero(), note)
+
+
+def edges_follow(forms: dict[str, ExactForm], printed: sympy.Expr) -> Ruling:
+    """The exact forms of the base and of the layer below the surface, at leading order in M."""
+    at_zero = FIELD.from_sympy(printed.xreplace({z: sympy.Integer(0)}))
+    surface = FIELD.from_sympy(2 * M * (1 + phi**2) * (sigma / r) ** 2 / (1 - phi**2) ** 2)
+    return from_test(
+        (leading(forms["base"].value) - at_zero).is_zero()
+        and (leading(forms["surface"].value) - surface).is_zero(),
+        "at j = 0 the leading order is the printed form at z = 0; at j = M − 1 it is 2(1+φ²) M in "
+        "units of (σ/r)²/(1−φ²)²",
+    )
+
+
+def next_order_is(forms: dict[str, ExactForm], printed: sympy.Expr, stated: sympy.Expr) -> Ruling:
+    """Exact less printed form is ``stated`` at leading order, in units of (σ/r)²/(1−φ²)²."""
+    unit = (sigma / r) ** 2 / (1 - phi**2) ** 2
+    rest = forms["interior"].value - FIELD.from_sympy(printed.xreplace({z: j / M}))
+    expected = FIELD.from_sympy((stated * unit).xreplace({z: j / M}))
+    return from_test(
+        (leading(rest) - expected).is_zero(),
+        f"in units of (σ/r)²/(1−φ²)² the next order is {text(stated)}",
+    )
+
+
+def no_radius_dominates(force: sympy.Expr, forms: dict[str, ExactForm]) -> Ruling:
+    """The largest squared weight over the variance: what the central limit theorem needs."""
+    shares = [
+        2 * largest_weight(force.xreplace(at), region) - order(forms[case].value)
+        for case, (at, region, *_) in CASES.items()
+    ]
+    return from_test(
+        max(shares) == -1, "a radius has a share of order 1/M in the variance, in every layer"
+    )
+
+
+def exact_steps(variance: sympy.Expr, forms: dict[str, ExactForm]) -> Iterator[Step]:
+    """Show the exact form of every layer, and the small packings that have one of their own."""
+    where = "in the interior"
+    for form in forms.values():
+        reason = f"Exact {where}, {form.validity}: every radius with its weight squared."
+        yield Step(reason, equation(variance, form.expression))
+        where = "at the edge"
+    small = {(size, at): value for form in forms.values() for size, at, value in form.exceptions}
+    for (size, at), value in small.items():
+        yield Step(f"The packing M = {size}, j = {at} is none of these:", equation(variance, value))
+
+
+def exact_views(variance: sympy.Expr, forms: dict[str, ExactForm]) -> dict[str, ExactView]:
+    """The exact form of every layer as ``show --exact`` prints it."""
+    return {
+        place: ExactView(
+            variance,
+            form.validity,
+            form.expression,
+            tuple((f"M = {size}, j = {at}", value) for size, at, value in form.exceptions),
+        )
+        for place, form in forms.items()
+    }

@@ -1,0 +1,105 @@
+"""The shape of a derivation: what every ``eqNN_…`` module states, and what running it yields."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+import sympy
+from force_diffusion.derivations.witnesses.small_packings import SmallPacking
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
+
+
+@dataclass(frozen=True)
+class Step:
+    """One line of reasoning: a reason in plain words (Unicode) and the formula that it gives."""
+
+    reason: str
+    formula: sympy.Basic | None = None
+
+
+@dataclass(frozen=True)
+class Claim:
+    """Something that a decision procedure rules on."""
+
+    name: str
+    decide: Callable[[], Ruling]
+
+
+@dataclass(frozen=True)
+class Witness:
+    """A check of another kind: exact or high-precision numbers of a small packing."""
+
+    name: str
+    run: Callable[[SmallPacking], Ruling]
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """One numbered equation of the paper: what is printed, why it holds, and how it is checked.
+
+    ``steps`` and ``decide`` are functions so that importing a derivation proves nothing and
+    costs nothing. ``decide`` rules on a candidate for the printed equations, one by one in
+    ``printed``; it is the same procedure for the true equation and for its mutants.
+    """
+
+    number: int
+    name: str
+    title: str
+    symbols: tuple[tuple[sympy.Basic, str], ...]
+    assumptions: tuple[str, ...]
+    premises: tuple["Derivation", ...]
+    printed: tuple[sympy.Eq, ...]
+    steps: Callable[[], Iterable[Step]]
+    decide: Callable[[int, sympy.Eq], Ruling]
+    claims: tuple[Claim, ...] = ()
+    witnesses: tuple[Witness, ...] = ()
+    remarks: tuple[str, ...] = ()
+    relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
+
+
+@dataclass(frozen=True)
+class ExactView:
+    """An exact form as ``show --exact`` prints it.
+
+    Attributes:
+        quantity: what it is the value of.
+        validity: where it holds, in words.
+        expression: the closed form.
+        missed: cases of the same place that the form is not for, each with its own value.
+    """
+
+    quantity: sympy.Expr
+    validity: str
+    expression: sympy.Expr
+    missed: tuple[tuple[str, sympy.Expr], ...] = ()
+
+
+@dataclass(frozen=True)
+class Check:
+    """A claim or a witness that has been run."""
+
+    kind: str  # "proof" or "witness"
+    name: str
+    verdict: Verdict
+    seconds: float
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """A printed equation with one mechanical change, and what the checker said of it."""
+
+    change: str
+    equation: sympy.Eq
+    ruling: Ruling
+    equivalent: bool
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """All that running one derivation found."""
+
+    derivation: Derivation
+    verdict: Verdict
+    checks: tuple[Check, ...]
+    mutants: tuple[Mutant, ...] = field(default=())
+    seconds: float = 0.0

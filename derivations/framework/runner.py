@@ -1,0 +1,132 @@
+"""Runs a derivation: its proofs, its witnesses, and the mutants that must be refuted."""
+
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from time import perf_counter
+
+from force_diffusion.derivations.framework.guard import WRONG_USAGE, guarded
+from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome, Witness
+from force_diffusion.derivations.witnesses.small_packings import draw
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
+
+SEEDS = (20021, 20022, 20023)
+"""Seeds of the witnesses' draws, so that two runs check the same packings."""
+
+Watch = Callable[[Derivation, str], None]
+"""Told which check of which derivation comes next."""
+
+
+def _silent(_derivation: Derivation, _check: str) -> None:
+    """Watch nothing."""
+
+
+def _timed(kind: str, name: str, decide: Callable[[], Ruling]) -> Check:
+    start = perf_counter()
+    ruling = decide()
+    return Check(kind, name, ruling.verdict, perf_counter() - start, ruling.note)
+
+
+def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
+    """Rule on each printed equation, then on each further claim."""
+    several = len(derivation.printed) > 1
+    for place, equation in enumerate(derivation.printed):
+        name = f"printed equation, part {place + 1}" if several else "printed equation"
+        watch(derivation, name)
+        yield _timed("proof", name, lambda p=place, e=equation: derivation.decide(p, e))  # type: ignore[misc]
+    for claim in derivation.claims:
+        watch(derivation, claim.name)
+        yield _timed("proof", claim.name, claim.decide)
+
+
+def witnesses(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
+    """Compare with numbers of another kind, drawn with the fixed seed."""
+    for witness in derivation.witnesses:
+        watch(derivation, witness.name)
+        yield _timed("witness", witness.name, lambda w=witness: _on_all(w))  # type: ignore[misc]
+
+
+def _on_all(witness: Witness) -> Ruling:
+    """Ask a witness about every drawn packing; one that does not agree has the last word."""
+    for seed in SEEDS:
+        ruling = witness.run(draw(seed))
+        if ruling.verdict is not Verdict.AGREES:
+            return ruling
+    return Ruling(Verdict.AGREES, f"{len(SEEDS)} packings; the last: {ruling.note}")
+
+
+def judged_mutants(derivation: Derivation, watch: Watch = _silent) -> Iterator[Mutant]:
+    """Change each printed equation mechanically and let the same procedure rule on it."""
+    from force_diffusion.symbolic.kernel.mutants import mutants
+
+    watch(derivation, "mutants")
+    for place, equation in enumerate(derivation.printed):
+        for change, mutated in mutants(equation):
+            ruling = derivation.decide(place, mutated)
+            yield Mutant(change, mutated, ruling, ruling.verdict is Verdict.PROVED)
+
+
+def overall(checks: Iterable[Check], mutants: Iterable[Mutant] = ()) -> Verdict:
+    """Verdict on an equation from all that was found about it.
+
+    A mutant that is proved is an equivalent rewriting, with its proof, and speaks for nobody.
+    One that the checker neither refutes nor proves shows that the checker can't tell.
+    """
+    found = {check.verdict for check in checks}
+    if found & {Verdict.REFUTED, Verdict.DISAGREES}:
+        return Verdict.REFUTED
+    if Verdict.UNDECIDED in found or Verdict.PROVED not in found:
+        return Verdict.UNDECIDED
+    if any(mutant.ruling.verdict is Verdict.UNDECIDED for mutant in mutants):
+        return Verdict.UNDECIDED
+    return Verdict.PROVED
+
+
+def _open_premises(derivation: Derivation, known: Mapping[int, Verdict]) -> Iterator[Check]:
+    """What is derived from an equation is no better than that equation."""
+    for premise in derivation.premises:
+        verdict = known.get(premise.number, Verdict.PROVED)
+        if verdict is not Verdict.PROVED:
+            name = f"rests on Eq. {premise.number}"
+            yield Check("proof", name, Verdict.UNDECIDED, 0.0, f"Eq. {premise.number} is {verdict}")
+
+
+def run(
+    derivation: Derivation, watch: Watch = _silent, known: Mapping[int, Verdict] | None = None
+) -> Outcome:
+    """Everything about one equation.
+
+    Its premises are run apart: ``known`` holds the verdicts found, by number; a premise that is
+    not in it is taken as proved.
+    """
+    start = perf_counter()
+    checks = (
+        *proofs(derivation, watch),
+        *_open_premises(derivation, known or {}),
+        *witnesses(derivation, watch),
+    )
+    mutants = tuple(judged_mutants(derivation, watch))
+    verdict = overall(checks, mutants)
+    return Outcome(derivation, verdict, checks, mutants, perf_counter() - start)
+
+
+def run_alone(derivation: Derivation, arguments: Sequence[str] | None = None) -> int:
+    """Run one derivation as a program: print it in full; 0 if proved, else 1."""
+
+    def program() -> int:
+        from force_diffusion.derivations.export.plain import outcome_text
+
+        given = sys.argv[1:] if arguments is None else arguments
+        if given:
+            number = derivation.number
+            print(
+                f"force-diffusion: this program takes no arguments, but got '{given[0]}'. Leave "
+                f"it out, or use 'force-diffusion derive {number}' or 'show {number}'; "
+                "'force-diffusion --help' tells what they take.",
+                file=sys.stderr,
+            )
+            return WRONG_USAGE
+        outcome = run(derivation)
+        print(outcome_text(outcome))
+        return 0 if outcome.verdict is Verdict.PROVED else 1
+
+    return guarded(program)

@@ -1,0 +1,205 @@
+"""Witnesses of another kind than whole equations: zeros, weights and variances.
+
+What the nonlinear packing says at order ε¹ is compared, as fractions, with what the derivations
+state in closed form.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from fractions import Fraction
+
+import sympy
+from force_diffusion.derivations.witnesses.on_packings import Truth
+from force_diffusion.derivations.witnesses.small_packings import Site, SmallPacking
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, undecided
+from force_diffusion.symbolic.variances.variance import ExactForm, packings, value_at
+
+
+def compare(pairs: Iterator[tuple[str, Fraction, Fraction]]) -> Ruling:
+    """Agree when there are pairs of values and all are equal, as fractions."""
+    count = 0
+    for where, stated, true in pairs:
+        if stated != true:
+            return Ruling(Verdict.DISAGREES, f"{where}: stated {stated}, exact {true}")
+        count += 1
+    if not count:
+        return undecided("there was nothing to compare")
+    return Ruling(Verdict.AGREES, f"equal as fractions, {count} compared")
+
+
+def zero_outside(packing: SmallPacking) -> Ruling:
+    """No force of first order leaves the cone of a load, nor turns twice inside it."""
+    truth = Truth(packing, "single")
+    k, l = packing.loaded  # noqa: E741
+
+    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
+        for layer in range(l):
+            # f⁻ left of the cone, as far as no image of the cone is met; count is Eq. 10's n
+            for count in range(l - layer - packing.width + 1, 1):
+                force = truth.force(k - (l - layer) + 2 * count, layer, "-")
+                yield f"n = {count}, j = {layer}", Fraction(0), abs(force.value) + abs(force.slope)
+
+    return compare(pairs())
+
+
+def weights_of_forces(
+    height: int, n: tuple[Fraction, Fraction], load: str
+) -> list[dict[Site, Fraction]]:
+    """Exact first-order weights of f⁺_ij/⟨f⟩ for every layer j, from the exact packing.
+
+    One bead of each layer in turn is enlarged; by translation the response of every contact of a
+    layer is the weight of a bead at the opposite offset. ``load`` is "surface" or "bulk". Keys
+    are (offset i' − i, layer of the bead); the list is indexed by j.
+    """
+    from force_diffusion.numeric.mechanics import taylor
+
+    width = height + 2
+    carrying = range(1, height + 1) if load == "bulk" else (height,)
+    loads = {
+        (across, layer): (Fraction(0), -2 * n[1])  # each gives an ordered force of one
+        for layer in carrying
+        for across in range(layer % 2, 2 * width, 2)
+    }
+    weights: list[dict[Site, Fraction]] = [{} for _ in range(height)]
+    for source in range(height + 1):
+        rho = {(source % 2, source): Fraction(1)}
+        solved = taylor.solve(width, height, n=n, rho=rho, loads=loads, order=1)
+        for layer in range(height):
+            for across in range(layer % 2, 2 * width, 2):
+                ordered, slope = solved.force(across, layer, "+")
+                if slope:
+                    offset = (source % 2 - across + width) % (2 * width) - width
+                    weights[layer][offset, source] = slope / ordered
+    return weights
+
+
+def dropped_weights(
+    printed: sympy.Expr, variance_dropped: sympy.Expr, packing: SmallPacking
+) -> Ruling:
+    """Exact weights less those of Eq. 12, squared and summed: the stated polynomial in M and j."""
+    geometry = explicit.geometry(*packing.n, Fraction(1))
+
+    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
+        height = 12
+        weights = weights_of_forces(height, packing.n, "surface")
+        for layer in (6,):
+            at = {**geometry, sy.M: height, sy.j: layer, sy.i: layer}
+            exact_weights = dict(weights[layer])
+            for (family, across, source), weight in explicit.weights(printed, at).items():
+                if family:
+                    key = (across - layer, source)
+                    exact_weights[key] = exact_weights.get(key, Fraction(0)) - weight
+            total = sum((w**2 for w in exact_weights.values()), Fraction(0))
+            stated = explicit.number(variance_dropped, {**at, sy.sigma: 1})
+            yield f"M = {height}, j = {layer}", stated, total
+
+    return compare(pairs())
+
+
+def variances(
+    forms: dict[str, ExactForm], load: str, packing: SmallPacking, *, up_to: int = 4
+) -> Ruling:
+    """Exact closed forms against sums of squared weights of exact packings, all j < M ≤ up_to."""
+    values = {**explicit.geometry(*packing.n, Fraction(1)), sy.sigma: 1}
+
+    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
+        weights = {
+            height: weights_of_forces(height, packing.n, load) for height in range(1, up_to + 1)
+        }
+        for height, layer, case in packings(up_to):
+            closed = value_at(forms, height, layer, case)
+            total = sum((w**2 for w in weights[height][layer].values()), Fraction(0))
+            yield f"M = {height}, j = {layer}", explicit.number(closed, values), total
+
+    return compare(pairs())
+
+
+def averages(
+    stated: Mapping[str, Callable[[int], sympy.Expr]], packing: SmallPacking, *, up_to: int = 4
+) -> Ruling:
+    """Means over the layers, by load and M, against squared weights of exact packings."""
+    values = {**explicit.geometry(*packing.n, Fraction(1)), sy.sigma: 1}
+
+    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
+        for load, closed in stated.items():
+            for height in range(1, up_to + 1):
+                layers = weights_of_forces(height, packing.n, load)
+                total = sum((w**2 for layer in layers for w in layer.values()), Fraction(0))
+                mean = explicit.number(closed(height), values)
+                yield f"M = {height}, {load} load", mean, total / height
+
+    return compare(pairs())
+
+
+Offset = tuple[int, int]
+"""Columns i − k to the right of a loaded bead, and a layer."""
+
+
+def weights_below_a_load(
+    level: int, n: tuple[Fraction, Fraction]
+) -> tuple[dict[tuple[Offset, str], dict[Offset, Fraction]], ...]:
+    """Exact first-order weights of what a load on a bead of layer ``level`` does, f_load = 1.
+
+    Two mappings from ((i − k, j), branch) to weights of beads (i' − k, j'): the vertical component
+    of the contact's force, and its magnitude. Many equal loads share one packing, so far apart
+    that none feels the bead that is enlarged below another; below each, it is another bead.
+    """
+    from force_diffusion.numeric.mechanics import taylor
+
+    reach = level + 2
+    apart = 2 * reach + 2
+    vertical: dict[tuple[Offset, str], dict[Offset, Fraction]] = {}
+    magnitude: dict[tuple[Offset, str], dict[Offset, Fraction]] = {}
+    for source in range(level + 1):
+        offsets = [o for o in range(-reach, reach + 1) if (o + level - source) % 2 == 0]
+        tops = [level % 2 + apart * place for place in range(len(offsets))]
+        width = apart * len(offsets) // 2
+        solved = taylor.solve(
+            width,
+            level,
+            n=n,
+            rho={
+                ((top + o) % (2 * width), source): Fraction(1)
+                for top, o in zip(tops, offsets, strict=True)
+            },
+            loads={(top, level): (Fraction(0), Fraction(-1)) for top in tops},
+        )
+        for top, offset in zip(tops, offsets, strict=True):
+            for layer in range(level):
+                for across in range(-(level - layer), level - layer + 1, 2):
+                    for branch in "+-":
+                        force, slope = solved.force(top + across, layer, branch)
+                        tilt = solved.direction(top + across, layer, branch)[1][1]
+                        contact, bead = ((across, layer), branch), (offset, source)
+                        magnitude.setdefault(contact, {})[bead] = slope
+                        vertical.setdefault(contact, {})[bead] = slope * n[1] + force * tilt
+    return vertical, magnitude
+
+
+def responses(packing: SmallPacking, level: int) -> Ruling:
+    """Closed forms of the response against squared weights of an exact packing, every contact."""
+    from force_diffusion.numeric import closed_forms
+
+    phi, one = packing.n[1] ** 2 - packing.n[0] ** 2, Fraction(1)
+
+    def square(weights: Mapping[Offset, Fraction]) -> Fraction:
+        return sum((w**2 for w in weights.values()), Fraction(0))
+
+    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
+        vertical, magnitude = weights_below_a_load(level, packing.n)
+        for ((across, layer), branch), weights in vertical.items():
+            site = (across + level % 2, layer, level % 2, level)
+            where = f"l = {level}, i − k = {across}, j = {layer}"
+            stated = closed_forms.contact_response(*site, branch, phi, one, one)
+            yield f"{where}, f{branch}", stated, square(weights)
+            if branch == "+":
+                other = vertical[(across, layer), "-"]
+                both = {bead: weight + other[bead] for bead, weight in weights.items()}
+                yield where, closed_forms.bead_response(*site, phi, one, one), square(both)
+            if across == (layer - level if branch == "+" else level - layer):
+                ordered = 1 / (2 * packing.n[1])
+                relative = square(magnitude[(across, layer), branch]) / ordered**2
+                yield where, closed_forms.leg_variance(layer, level, phi, one, one), relative
+
+    return compare(pairs())

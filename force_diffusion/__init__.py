@@ -1,0 +1,1 @@
+"""Forces in nearly-ordered packings of frictionless discs."""

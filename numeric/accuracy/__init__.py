@@ -1,0 +1,1 @@
+"""How accurate an answer is: enclosed by balls, or estimated from a repeat."""

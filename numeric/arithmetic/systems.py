@@ -1,0 +1,363 @@
+"""Number systems: the one place that knows floats, balls, big floats and power series apart.
+
+Every formula of the packing is written once, on NumPy arrays. What differs between number
+systems is how a rational enters, how a square root is taken where the elements need help,
+what is certain about a sign, and which global precision must be set and put back.
+"""
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any, Protocol
+
+import flint
+import mpmath
+import numpy as np
+from force_diffusion.numeric.lattice.layers import Array
+
+
+class NumberSystem(Protocol):
+    """What the sweeps ask of numbers; see the four implementations below."""
+
+    @property
+    def name(self) -> str:
+        """How plans and results call this arithmetic."""
+
+    @property
+    def dtype(self) -> Any:
+        """NumPy's element type; ``object`` for everything but hardware floats."""
+
+    def number(self, value: Fraction) -> Any:
+        """Turn a rational into the nearest number (balls: into an enclosure)."""
+
+    def from_float(self, value: float) -> Any:
+        """Turn a float64 into a number, exactly."""
+
+    def from_ball(self, value: Any) -> Any:
+        """Turn an arb ball into a number: its midpoint, or the ball itself for balls."""
+
+    @property
+    def bits(self) -> int:
+        """Bits of working precision."""
+
+    def scalar(self, value: Fraction) -> Any:
+        """Turn a rational into a factor that arrays can be multiplied by."""
+
+    def sqrt(self, values: Array) -> Array:
+        """Square roots, element by element."""
+
+    def root(self, value: Fraction) -> Any:
+        """Give the square root of a rational, as a ``scalar``."""
+
+    def signs(self, values: Array) -> tuple[Array, Array]:
+        """Give two boolean arrays: surely positive, surely not (balls may be neither)."""
+
+    def active(self) -> AbstractContextManager[None]:
+        """Set the global precision, if any, and put it back at the end."""
+
+
+def array(system: NumberSystem, values: Iterable[Fraction]) -> Array:
+    """Turn rationals into a one-dimensional array of the number system."""
+    listed = [system.number(value) for value in values]
+    result = np.empty(len(listed), dtype=system.dtype)
+    for q, value in enumerate(listed):  # one by one: a power series looks like a sequence to NumPy
+        result[q] = value
+    return result
+
+
+def zeros(system: NumberSystem, *shape: int) -> Array:
+    """Give an array of exact zeros."""
+    result = np.empty(shape, dtype=system.dtype)
+    result.fill(system.number(Fraction(0)))
+    return result
+
+
+def from_floats(system: NumberSystem, values: Array) -> Array:
+    """Turn float64 values into the number system, exactly (balls: of radius zero)."""
+    if system.dtype is not object:
+        return values.astype(system.dtype)
+    result = np.empty(values.shape, dtype=object)
+    flat = result.reshape(-1)
+    for q, value in enumerate(values.reshape(-1).tolist()):
+        flat[q] = system.from_float(value)
+    return result
+
+
+@dataclass(frozen=True)
+class Hardware:
+    """float64, or the platform's long double (80 bits on x86, maybe no more than 64 elsewhere)."""
+
+    name: str
+    dtype: Any
+
+    @property
+    def bits(self) -> int:
+        """Bits of the significand."""
+        return int(np.finfo(self.dtype).nmant) + 1
+
+    def number(self, value: Fraction) -> Any:
+        """Round to nearest even (long double: within one unit in the last place)."""
+        if self.dtype is np.float64:
+            return np.float64(value.numerator / value.denominator)
+        return _longdouble(value)
+
+    def from_float(self, value: float) -> Any:
+        """Convert without loss."""
+        return self.dtype(value)
+
+    def from_ball(self, value: Any) -> Any:
+        """Round the midpoint."""
+        return self.number(midpoint(value))
+
+    def scalar(self, value: Fraction) -> Any:
+        """Give the same as ``number``."""
+        return self.number(value)
+
+    def sqrt(self, values: Array) -> Array:
+        """Square roots, correctly rounded."""
+        return np.asarray(np.sqrt(values))
+
+    def root(self, value: Fraction) -> Any:
+        """Round the rational, then its root."""
+        return np.sqrt(self.number(value))
+
+    def signs(self, values: Array) -> tuple[Array, Array]:
+        """Compare; what is no finite number is not positive."""
+        good = np.asarray((values > 0) & np.isfinite(values), dtype=bool)
+        return good, ~good
+
+    @contextmanager
+    def active(self) -> Iterator[None]:
+        """Silence floating-point warnings: the sweeps check for what is not finite themselves."""
+        with np.errstate(all="ignore"):
+            yield
+
+
+def _longdouble(value: Fraction) -> Any:
+    """Divide the 70 leading bits: exact scaling, so that no step overflows or loses digits."""
+    if not value:
+        return np.longdouble(0)
+    shift = 70 - (value.numerator.bit_length() - value.denominator.bit_length())
+    scaled = round(value * Fraction(2) ** shift)
+    high, low = divmod(abs(scaled), 1 << 40)
+    whole = np.ldexp(np.longdouble(high), 40) + np.longdouble(low)
+    return np.ldexp(whole if scaled > 0 else -whole, -shift)
+
+
+def midpoint(ball: Any) -> Fraction:
+    """Give the exact midpoint of an arb ball.
+
+    >>> midpoint(flint.arb(0.375))
+    Fraction(3, 8)
+    """
+    mantissa, exponent = ball.mid().man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+def as_ball(value: Any) -> Any:
+    """Give a number of any arithmetic as an exact arb (a ball, as it is).
+
+    Raises ``ValueError`` or ``OverflowError`` where it is not finite.
+    """
+    if isinstance(value, flint.arb):
+        return value
+    if hasattr(value, "_mpf_"):
+        if not mpmath.isfinite(value):
+            raise ValueError("not a finite number")
+        sign, mantissa, exponent, _ = value._mpf_
+        return flint.arb((int(-mantissa if sign else mantissa), int(exponent)))
+    numerator, denominator = value.as_integer_ratio()
+    return flint.arb((int(numerator), 1 - int(denominator).bit_length()))
+
+
+FLOAT64 = Hardware("float64", np.float64)
+LONGDOUBLE = Hardware("longdouble", np.longdouble)
+
+
+@dataclass(frozen=True)
+class BigFloat:
+    """mpmath floats of ``dps`` decimal digits, in a context of their own (no global state)."""
+
+    dps: int
+    context: Any = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        """Make the private mpmath context."""
+        context = mpmath.MPContext()
+        context.dps = self.dps
+        object.__setattr__(self, "context", context)
+
+    dtype: Any = field(default=object, init=False, repr=False)
+
+    @property
+    def name(self) -> str:
+        """Such as ``mpmath, 60 digits``."""
+        return f"mpmath, {self.dps} digits"
+
+    def number(self, value: Fraction) -> Any:
+        """Divide numerator by denominator, rounded once."""
+        return self.context.mpf(value.numerator) / value.denominator
+
+    @property
+    def bits(self) -> int:
+        """Bits of the significand."""
+        return int(self.context.prec)
+
+    def from_float(self, value: float) -> Any:
+        """Convert without loss."""
+        return self.context.mpf(value)
+
+    def from_ball(self, value: Any) -> Any:
+        """Round the midpoint."""
+        return self.number(midpoint(value))
+
+    def scalar(self, value: Fraction) -> Any:
+        """Give the same as ``number``."""
+        return self.number(value)
+
+    def sqrt(self, values: Array) -> Array:
+        """Square roots by mpmath."""
+        return np.asarray(np.sqrt(values))
+
+    def root(self, value: Fraction) -> Any:
+        """Round the rational, then its root."""
+        return self.context.sqrt(self.number(value))
+
+    def signs(self, values: Array) -> tuple[Array, Array]:
+        """Compare; what is not a number is not positive."""
+        good = np.asarray(values > 0, dtype=bool)
+        return good, ~good
+
+    @contextmanager
+    def active(self) -> Iterator[None]:
+        """Nothing to set: the precision lives in the context."""
+        yield
+
+
+@dataclass(frozen=True)
+class Balls:
+    """Arb balls: every operation gives a rigorous enclosure, at ``bits`` of working precision."""
+
+    bits: int
+    dtype: Any = field(default=object, init=False, repr=False)
+
+    @property
+    def name(self) -> str:
+        """Such as ``arb balls, 128 bits``."""
+        return f"arb balls, {self.bits} bits"
+
+    def number(self, value: Fraction) -> Any:
+        """Enclose a rational."""
+        return flint.arb(flint.fmpq(value.numerator, value.denominator))
+
+    def from_float(self, value: float) -> Any:
+        """Give a ball of radius zero."""
+        return flint.arb(value)
+
+    def from_ball(self, value: Any) -> Any:
+        """Keep the ball."""
+        return value
+
+    def scalar(self, value: Fraction) -> Any:
+        """Give the same as ``number``."""
+        return self.number(value)
+
+    def sqrt(self, values: Array) -> Array:
+        """Enclosures of the square roots."""
+        return np.asarray(np.sqrt(values))
+
+    def root(self, value: Fraction) -> Any:
+        """Enclose the root."""
+        return self.number(value).sqrt()
+
+    def signs(self, values: Array) -> tuple[Array, Array]:
+        """Decide where the ball lies on one side of zero; elsewhere both are False."""
+        return np.asarray(values > 0, dtype=bool), np.asarray(values <= 0, dtype=bool)
+
+    @contextmanager
+    def active(self) -> Iterator[None]:
+        """Set flint's global precision and put it back."""
+        before = flint.ctx.prec
+        flint.ctx.prec = self.bits
+        try:
+            yield
+        finally:
+            flint.ctx.prec = before
+
+
+@dataclass(frozen=True)
+class Series:
+    """Power series in ε with exact rational coefficients, up to and including ε^``order``."""
+
+    order: int
+    dtype: Any = field(default=object, init=False, repr=False)
+
+    @property
+    def name(self) -> str:
+        """Such as ``rational series to order 2``."""
+        return f"rational series to order {self.order}"
+
+    def number(self, value: Fraction) -> Any:
+        """Give the constant series."""
+        return self.series([value])
+
+    @property
+    def bits(self) -> int:
+        """Rationals are exact: 0 stands for no limit."""
+        return 0
+
+    def from_float(self, value: float) -> Any:
+        """Give the constant series."""
+        return self.number(Fraction(value))
+
+    def from_ball(self, value: Any) -> Any:
+        """Give the constant series of the midpoint."""
+        return self.number(midpoint(value))
+
+    def scalar(self, value: Fraction) -> Any:
+        """Give a plain rational: NumPy would take a series for a sequence of numbers."""
+        return flint.fmpq(value.numerator, value.denominator)
+
+    def series(self, coefficients: Sequence[Fraction]) -> Any:
+        """Give the series with these coefficients of ε⁰, ε¹, …"""
+        return flint.fmpq_series([flint.fmpq(c.numerator, c.denominator) for c in coefficients])
+
+    def sqrt(self, values: Array) -> Array:
+        """Square roots; the constant term must be the square of a rational.
+
+        Flint takes the root of a series with constant term 1, so the constant is divided out.
+        """
+        return np.asarray(np.frompyfunc(_series_sqrt, 1, 1)(values))
+
+    def root(self, value: Fraction) -> Any:
+        """Give the rational root; ``ValueError`` where there is none."""
+        return _rational_root(flint.fmpq(value.numerator, value.denominator))
+
+    def signs(self, values: Array) -> tuple[Array, Array]:
+        """Look at the constant term: the sign for small enough ε."""
+        good = np.asarray(np.frompyfunc(lambda value: value[0] > 0, 1, 1)(values), dtype=bool)
+        return good, ~good
+
+    @contextmanager
+    def active(self) -> Iterator[None]:
+        """Set flint's global truncation order and put it back."""
+        before = flint.ctx.cap
+        flint.ctx.cap = self.order + 1
+        try:
+            yield
+        finally:
+            flint.ctx.cap = before
+
+
+def _rational_root(value: Any) -> Any:
+    root = flint.fmpq(math.isqrt(int(value.p)), math.isqrt(int(value.q)))
+    if root * root != value:
+        raise ValueError(f"the square root of {value} is no rational number")
+    return root
+
+
+def _series_sqrt(value: Any) -> Any:
+    constant = value[0]
+    return (value / constant).sqrt() * _rational_root(constant)

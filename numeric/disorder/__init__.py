@@ -1,0 +1,1 @@
+"""Radii: drawn from a law by a counter-based generator, or measured."""

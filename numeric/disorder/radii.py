@@ -1,0 +1,236 @@
+"""Where radii come from: drawn from a counter-based generator, or measured and read from a file.
+
+A drawn radius is a pure function of (seed, realisation, i, j): the counter (column, layer) is put
+through Philox under the key (seed, realisation), so that any region can be asked for alone, in any
+order. A deviate is a double, and δr/r = relative_std × deviate is an exact rational: every number
+system solves the very same packing.
+"""
+
+import math
+import threading
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Protocol
+
+import numpy as np
+from force_diffusion.numeric.arithmetic.decimals import short
+from force_diffusion.numeric.arithmetic.systems import NumberSystem, array, from_floats, zeros
+from force_diffusion.numeric.disorder.normal import normal_deviates
+from force_diffusion.numeric.lattice.layers import Array, Layer, Stack
+from force_diffusion.numeric.mechanics.work import Work
+
+# Columns of a slab may be negative; counters must not be.
+_OFFSET = 2**62
+# Rows with a radius below r/1000 are looked through bead by bead.
+_NEARLY = Fraction(999, 1000)
+
+
+class RadiusError(ValueError):
+    """A radius is missing or not positive; ``site`` names the bead."""
+
+    def __init__(self, site: tuple[int, int], reason: str) -> None:
+        """Name the bead and what is wrong."""
+        super().__init__(f"bead {site}: {reason}")
+        self.site = site
+
+
+class Radii(Protocol):
+    """A source of δr/r for the beads of a row."""
+
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+        """Give δr/r; shape (count,) for one realisation, (realisations, count) for more."""
+
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+        """Give δr/r of single beads, the same as in their rows; shape (sites,)."""
+
+    def relative_std(self) -> Fraction:
+        """σ_δr/r: of the distribution, or as measured."""
+
+
+class _Streams(threading.local):
+    """A generator for each thread, which is set anew for each row: making one takes far longer."""
+
+    def __init__(self) -> None:
+        self._generator = np.random.Philox(key=0)
+        self._counter, self._key = np.zeros(4, np.uint64), np.zeros(2, np.uint64)
+        self._state = self._generator.state
+        self._state["state"] = {"counter": self._counter, "key": self._key}
+
+    def words(self, low: int, count: int, high: int, key: tuple[int, int]) -> Array:
+        """Give ``philox`` of the counters (low, high) … (low + count − 1, high); (2, count)."""
+        self._counter[:2] = low - 1, high  # NumPy steps it before each block of four words
+        self._key[:] = key
+        self._generator.state = self._state
+        return np.asarray(self._generator.random_raw(4 * count).reshape(count, 4)[:, :2].T)
+
+
+_streams = _Streams()
+
+
+@dataclass(frozen=True)
+class Monodisperse:
+    """No disorder: δr = 0 everywhere."""
+
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+        """Zeros."""
+        shape = (layer.count,) if len(realisations) == 1 else (len(realisations), layer.count)
+        return zeros(system, *shape)
+
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+        """Zeros."""
+        return zeros(system, len(sites))
+
+    def relative_std(self) -> Fraction:
+        """Zero."""
+        return Fraction(0)
+
+
+@dataclass(frozen=True)
+class DrawnRadii:
+    """Independent draws: ``kind`` "uniform", "normal" or "two-point", width of the packing."""
+
+    kind: str
+    std: Fraction
+    seed: int
+    width: int | None
+
+    def relative_std(self) -> Fraction:
+        """σ_δr/r of the distribution."""
+        return self.std
+
+    def deviates(self, layer: Layer, realisation: int) -> Array:
+        """Give deviates of zero mean and unit variance; shape (count,), float64."""
+        return np.asarray(self._drawn(layer, [realisation])[0])
+
+    def _drawn(self, layer: Layer, realisations: Sequence[int]) -> Array:
+        words = np.empty((2, len(realisations), layer.count), dtype=np.uint64)
+        column = (layer.first - layer.j % 2) // 2
+        at = 0
+        while at < layer.count:  # up to where a periodic packing begins anew
+            q = column + at if self.width is None else (column + at) % self.width
+            n = layer.count - at if self.width is None else min(layer.count - at, self.width - q)
+            for row, k in enumerate(realisations):
+                key = (self.seed, k)
+                words[:, row, at : at + n] = _streams.words(q + _OFFSET, n, layer.j, key)
+            at += n
+        return self._deviates(*words)
+
+    def _deviates(self, first: Array, second: Array) -> Array:
+        if self.kind == "two-point":
+            return np.asarray(np.where(first >> np.uint64(63), 1.0, -1.0))
+        if self.kind == "uniform":
+            odd = ((first >> np.uint64(11)) << np.uint64(1)).astype(np.int64) + 1 - 2**53
+            return np.asarray(odd.astype(np.float64) * 2.0**-53 * np.sqrt(3.0))
+        return normal_deviates(first, second)
+
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+        """Scale the deviates; a radius that is not positive raises ``RadiusError``."""
+        deviates = self._drawn(layer, realisations)
+        if deviates.size and self.std * Fraction(float(deviates.min())) < -_NEARLY:
+            for row in deviates:
+                self._check_sites(row, [(i, layer.j) for i in layer.sites()])
+        values = deviates[0] if len(deviates) == 1 else deviates
+        return np.asarray(from_floats(system, values) * system.scalar(self.std))
+
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+        """Put all counters through Philox at once: a generator for each bead would be slow."""
+        columns = ((i - j % 2) // 2 for i, j in sites)
+        if self.width is not None:
+            columns = (q % self.width for q in columns)
+        low = np.fromiter((q + _OFFSET for q in columns), np.uint64, len(sites))
+        high = np.fromiter((j for _, j in sites), np.uint64, len(sites))
+        deviates = self._deviates(*philox(low, high, (self.seed, realisation)))
+        if deviates.size and deviates.min() * float(self.std) < -0.999:
+            self._check_sites(deviates, sites)
+        return np.asarray(from_floats(system, deviates) * system.scalar(self.std))
+
+    def _check_sites(self, deviates: Array, sites: Sequence[tuple[int, int]]) -> None:
+        for site, u in zip(sites, deviates, strict=True):
+            if self.std * Fraction(float(u)) <= -1:
+                shown = short(1 + self.std * Fraction(float(u)))
+                raise RadiusError(site, f"the drawn radius is {shown} r, not positive")
+
+
+@dataclass(frozen=True)
+class MeasuredRadii:
+    """Radii read from a file: {(i, j): δr/r}, exact."""
+
+    rho: Mapping[tuple[int, int], Fraction]
+    width: int | None
+
+    def relative_std(self) -> Fraction:
+        """Give the root of the measured mean square of δr/r, to 15 digits; 0 only if all are 0."""
+        values = [v for v in self.rho.values() if v]
+        if not values:
+            return Fraction(0)
+        largest = max(map(abs, values))
+        square = math.fsum(float(v / largest) ** 2 for v in values) / len(self.rho)
+        return largest * Fraction(math.sqrt(square))
+
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+        """Look the radii up; a bead that the file lacks raises ``RadiusError``."""
+        one = self.at([(i, layer.j) for i in layer.sites()], 0, system)
+        return one if len(realisations) == 1 else np.stack([one] * len(realisations))
+
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+        """Look single beads up."""
+        values = []
+        for i, j in sites:
+            site = (i if self.width is None else i % (2 * self.width), j)
+            if site not in self.rho:
+                raise RadiusError(site, "the radii file has no line for it")
+            values.append(self.rho[site])
+        return array(system, values)
+
+
+def philox(low: Array, high: Array, key: tuple[int, int]) -> tuple[Array, Array]:
+    """Give the first two words of Philox4x64-10 for each counter (low, high, 0, 0).
+
+    The same words as NumPy's generator, which can only count upwards from one counter.
+    """
+    a, b = low, high
+    c = d = np.zeros(len(low), dtype=np.uint64)
+    for k in range(10):
+        first, second = (
+            np.uint64((word + k * weyl) % 2**64)
+            for word, weyl in zip(key, (0x9E3779B97F4A7C15, 0xBB67AE8584CAA73B), strict=True)
+        )
+        a_high, a_low = _product(0xD2E7470EE14C6C93, a)
+        c_high, c_low = _product(0xCA5A826395121157, c)
+        a, b, c, d = c_high ^ b ^ first, c_low, a_high ^ d ^ second, a_low
+    return a, b
+
+
+def _product(factor: int, values: Array) -> tuple[Array, Array]:
+    """Give the upper and lower 64 bits of products, from halves of 32 bits."""
+    half, mask = np.uint64(32), np.uint64(2**32 - 1)
+    f1, f0 = np.uint64(factor >> 32), np.uint64(factor & (2**32 - 1))
+    v1, v0 = values >> half, values & mask
+    middle = f1 * v0 + (f0 * v0 >> half)
+    cross = f0 * v1 + (middle & mask)
+    return f1 * v1 + (middle >> half) + (cross >> half), values * np.uint64(factor)
+
+
+def rows_of(
+    radii: Radii,
+    layers: Sequence[Layer],
+    realisations: Sequence[int],
+    system: NumberSystem,
+    work: Work | None = None,
+) -> Sequence[Any]:
+    """Give δr/r of several rows, one array a row; rows of equal length lie in one block."""
+    rows = []
+    block = None
+    if system.dtype is not object and len({layer.count for layer in layers}) == 1:
+        batch = (len(realisations),) if len(realisations) > 1 else ()
+        block = np.empty((*batch, len(layers), layers[0].count), dtype=system.dtype)
+    for n, layer in enumerate(layers):
+        row = radii.row(layer, realisations, system)
+        if block is None:
+            rows.append(row)
+        else:
+            block[..., n, :] = row
+        if work is not None:
+            work.did("radii", layer, len(realisations))
+    return tuple(rows) if block is None else Stack(block)

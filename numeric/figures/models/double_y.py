@@ -1,0 +1,121 @@
+"""The double Y: rays of force that run straight until a defect splits them in two.
+
+J.-P. Bouchaud, P. Claudin, D. Levine and M. Otto, Eur. Phys. J. E 4, 451 (2001). (We take this to
+be among the paper's references ``doubleY1`` to ``doubleY3``; its source has no bibliography.) Rays
+don't meet: their merging, the other half of the name, is left out, which makes the response linear
+in the load.
+
+A ray of strength f along n runs an exponentially distributed length of mean λ, then splits into two
+of directions n turned by ±θ. Force balance, f n = f' (n' + n''), gives each f' = f/(2 cos θ). The
+load starts as two rays along n^±, half of it in each. Rays end at the base and at the surface; what
+arrives at the surface would lift it, and the base bears that much more than the load. The mean
+response is that of a single walker: at each split it takes either ray and the strength of both,
+f/cos θ, which keeps ⟨f n_y⟩ exactly.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from force_diffusion.numeric.lattice.layers import Array
+
+SPLITTING_ANGLE = np.radians(20)
+RAYS = 200_000
+BINS = np.linspace(-4, 4, 101)
+
+
+@dataclass(frozen=True)
+class Profile:
+    """The mean response at depth H: density over x/H, for a splitting length λ.
+
+    ``base`` and ``surface`` are the vertical forces that arrive, in units of the load, ``balance``
+    their difference, which is 1; each with its standard error.
+    """
+
+    splits: float  # H/λ
+    edges: Array
+    density: Array
+    base: tuple[float, float]
+    surface: tuple[float, float]
+    balance: tuple[float, float]
+
+    @property
+    def name(self) -> str:
+        """What a legend calls it."""
+        return rf"$H={self.splits:g}\,\lambda$"
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Give one row a bin."""
+        return [
+            {"depth_over_splitting_length": self.splits, "x_low": low, "x_high": high, "density": p}
+            for low, high, p in zip(
+                self.edges[:-1].tolist(),
+                self.edges[1:].tolist(),
+                self.density.tolist(),
+                strict=True,
+            )
+        ]
+
+    def facts(self) -> dict[str, Any]:
+        """Where the vertical force went."""
+        return {
+            "depth_over_splitting_length": self.splits,
+            "at_base": self.base[0],
+            "at_surface": self.surface[0],
+            "base_minus_surface": self.balance[0],
+            "standard_error": self.balance[1],
+        }
+
+
+def walk(
+    splits: float, tilt: float, angle: float, rays: int, seed: int
+) -> tuple[Array, Array, Array]:
+    """Follow rays to the base (depth 1) or the surface (depth 0), with λ = 1/``splits``.
+
+    ``tilt`` is the angle of n^± from straight down, ``angle`` that of a split, both in radians.
+
+    Gives, per ray, where it ended (x), whether at the base, and its vertical force f |n_y| there,
+    in units of the load; shapes (rays,). The means over rays are what base and surface get.
+    """
+    generator = np.random.default_rng(seed)
+    direction = np.where(np.arange(rays) % 2, tilt, -tilt)
+    strength = np.full(rays, 1 / np.cos(tilt))
+    x, depth = np.zeros(rays), np.zeros(rays)
+    end, at_base, force = np.zeros(rays), np.zeros(rays, dtype=bool), np.zeros(rays)
+    here = np.arange(rays)
+    while here.size:
+        run = generator.exponential(size=here.size) / splits if splits else np.full(here.size, 1e9)
+        down = np.cos(direction[here])
+        to = depth[here] + run * down
+        leaves = (to >= 1) | (to <= 0)
+        gone = here[leaves]
+        wall = (to[leaves] >= 1).astype(float)
+        end[gone] = x[gone] + (wall - depth[gone]) / down[leaves] * np.sin(direction[gone])
+        at_base[gone] = wall > 0
+        force[gone] = strength[gone] * np.abs(down[leaves])
+        depth[here] = to
+        x[here] += run * np.sin(direction[here])
+        here = here[~leaves]
+        direction[here] += np.where(generator.random(here.size) < 0.5, angle, -angle)
+        strength[here] /= np.cos(angle)
+    return end, at_base, force
+
+
+def profile(splits: float, tilt: float, seed: int, rays: int = RAYS) -> Profile:
+    """Estimate the mean response at the base, depth H = ``splits`` λ."""
+    end, at_base, force = walk(splits, tilt, SPLITTING_ANGLE, rays, seed)
+
+    def mean(values: Array) -> tuple[float, float]:
+        return float(values.mean()), float(values.std() / np.sqrt(rays))
+
+    weight = np.where(at_base, force, 0.0)
+    density, _ = np.histogram(end, BINS, weights=weight)
+    up = np.where(at_base, 0.0, force)
+    return Profile(
+        splits, BINS, density / rays / np.diff(BINS), mean(weight), mean(up), mean(weight - up)
+    )
+
+
+def profiles(tilt: float, seed: int) -> tuple[Profile, ...]:
+    """Responses from shallow (two peaks, along the cone) to deep (one, broad)."""
+    return tuple(profile(splits, tilt, seed) for splits in (0.5, 2, 8))

@@ -1,0 +1,1 @@
+"""Sites and layers of the packing, and the beads on which an answer depends."""

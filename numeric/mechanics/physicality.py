@@ -1,0 +1,128 @@
+"""Is a solved packing physical? Gaps between beads that should not touch, and signs of forces.
+
+Gaps are measured in float64 from the deviations: (|d|² − D²)/(|d| + D) with D the sum of the radii,
+where the ordered part of the numerator is an exact rational, so that packings within 1e-12 of
+touching are told apart. Signs of forces are those of the arithmetic that solved them: with balls
+they are certified.
+"""
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import numpy as np
+from force_diffusion.numeric.lattice.layers import Array
+from force_diffusion.numeric.mechanics.forces import Forces, pulling
+from force_diffusion.numeric.mechanics.packing import Packing
+
+# Neighbours that don't touch in the ordered packing, to the right or above, nearest first.
+NEIGHBOURS = ((2, 0), (0, 2), (3, 1), (-3, 1), (1, 3), (-1, 3))
+# Gaps smaller than this, in units of r, are below the rounding of the float64 check.
+RESOLUTION = 1e-14
+
+
+@dataclass
+class Physicality:
+    """What was found, merged over layers and realisations."""
+
+    smallest_gap: float | None = None
+    between: tuple[tuple[int, int], tuple[int, int]] | None = None
+    overlaps: int = 0
+    undecided_gaps: int = 0
+    tensile: int = 0
+    undecided_signs: int = 0
+    contacts: int = 0
+    forces_known: bool = False
+    first_tensile: tuple[int, int, str] | None = field(default=None)
+
+    def look_at_gaps(self, packing: Packing) -> None:
+        """Measure the gaps of every pair of near neighbours within the region."""
+        c_plus = [_floats(c) for c in packing.c_plus]
+        c_minus = [_floats(c) for c in packing.c_minus]
+        rho = [_floats(r) for r in packing.rho]
+        for dj in (0, 1, 2, 3):
+            for j in range(packing.region.top + 1 - dj):
+                for di, dj_of in NEIGHBOURS:
+                    if dj_of == dj:
+                        self._pairs(packing, (c_plus, c_minus, rho), j, (di, dj))
+
+    def _pairs(
+        self,
+        packing: Packing,
+        values: tuple[list[Array], list[Array], list[Array]],
+        j: int,
+        offset: tuple[int, int],
+    ) -> None:
+        di, dj = offset
+        width = packing.region.width
+        here, there = packing.region.rows[j], packing.region.rows[j + dj]
+        index = np.arange(here.count) + (here.first + di - there.first) // 2
+        if width is not None:
+            index %= width
+        inside = (index >= 0) & (index < there.count)
+        if width == 1 and dj == 0:
+            return  # a bead beside its own image
+        if not inside.any():
+            return
+        c_plus, c_minus, rho = values
+        other = index[inside]
+        up = c_plus[j + dj][..., other] - c_plus[j][..., inside]
+        um = c_minus[j + dj][..., other] - c_minus[j][..., inside]
+        both = rho[j][..., inside] + rho[j + dj][..., other]
+        gap = _gaps(packing.n_x, offset, up, um, both)
+        self.overlaps += int(np.count_nonzero(gap < -RESOLUTION))
+        self.undecided_gaps += int(np.count_nonzero(np.abs(gap) <= RESOLUTION))
+        smallest = float(gap.min())
+        if self.smallest_gap is None or not smallest >= self.smallest_gap:
+            q = int(np.flatnonzero(inside)[np.argwhere(gap == gap.min())[0][-1]])
+            i = here.first + 2 * q
+            period = 2 * width if width is not None else None
+            self.smallest_gap = smallest
+            self.between = (
+                (_home(i, period), j),
+                (_home(i + di, period), j + dj),
+            )
+
+    def look_at_forces(self, forces: Forces) -> None:
+        """Count the contacts that surely pull and those whose sign stays open."""
+        self.forces_known = True
+        for layer, Fp, Fm, gp, gm in zip(
+            forces.rows,
+            forces.ordered_plus,
+            forces.ordered_minus,
+            forces.change_plus,
+            forces.change_minus,
+            strict=True,
+        ):
+            if not len(Fp):
+                continue
+            for F, g, branch, step in ((Fp, gp, "+", -1), (Fm, gm, "-", 1)):
+                f = F + g
+                pulls, undecided = pulling(f, g, forces.system)
+                self.contacts += f.size
+                self.tensile += int(np.count_nonzero(pulls))
+                self.undecided_signs += int(np.count_nonzero(undecided))
+                if pulls.any() and self.first_tensile is None:
+                    q = int(np.argwhere(pulls)[0][-1])
+                    self.first_tensile = (layer.first + 2 * q + step, layer.j - 1, branch)
+
+
+def _home(i: int, period: int | None) -> int:
+    return i if period is None else i % period
+
+
+def _floats(values: Array) -> Array:
+    if values.dtype != object:
+        return values.astype(np.float64)
+    return np.array([float(v) for v in values.reshape(-1)]).reshape(values.shape)
+
+
+def _gaps(n_x: Fraction, offset: tuple[int, int], up: Array, um: Array, both: Array) -> Array:
+    """Give the gaps of pairs at lattice distance ``offset``, in units of r."""
+    di, dj = offset
+    phi = 1 - 2 * n_x**2
+    square = 4 * (di**2 * n_x**2 + dj**2 * (1 - n_x**2))  # of the ordered distance, exact
+    size = (up * up + um * um - 2 * float(phi) * up * um) / float(1 - phi**2)
+    change = 2 * ((di + dj) * up + (dj - di) * um) + size
+    distance = np.sqrt(np.maximum(float(square) + change, 0))
+    excess = float(square - 4) + (change - 4 * both - both * both)
+    return np.asarray(excess / (distance + 2 + both))

@@ -1,0 +1,75 @@
+"""What a run really did: counters that the sweeps themselves advance, clocks, and progress."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from time import perf_counter
+
+from force_diffusion.numeric.lattice.layers import Layer
+
+Progress = Callable[[str, int], None]
+"""Called with the kind of work and the number of beads just done."""
+
+
+@dataclass
+class Work:
+    """Beads visited by each kind of work, and the seconds of each step, over all passes of a run.
+
+    ``again`` counts every visit of a pass that only repeats an earlier one, to estimate its error.
+    ``arithmetic`` names the number systems of the passes. With ``trace`` on, rows are kept too.
+    """
+
+    radii: int = 0
+    deposited: int = 0
+    balanced: int = 0
+    summed: int = 0
+    checked: int = 0
+    again: int = 0
+    seconds: dict[str, float] = field(default_factory=dict, compare=False)
+    arithmetic: list[str] = field(default_factory=list)
+    arithmetic_again: list[str] = field(default_factory=list)
+    progress: Progress | None = None
+    trace: bool = False
+    rows: dict[str, list[Layer]] = field(default_factory=dict)
+    repeating: bool = False
+
+    def did(self, kind: str, layer: Layer, times: int = 1) -> None:
+        """Count a row of beads: "radii", "deposited", "balanced", "summed" or "checked"."""
+        kind = "again" if self.repeating else kind
+        beads = layer.count * times
+        setattr(self, kind, getattr(self, kind) + beads)
+        if self.trace:
+            self.rows.setdefault(kind, []).append(layer)
+        if self.progress is not None:
+            self.progress(kind, beads)
+
+    def uses(self, name: str) -> None:
+        """Note the number system of a pass."""
+        names = self.arithmetic_again if self.repeating else self.arithmetic
+        if name not in names:
+            names.append(name)
+
+    @contextmanager
+    def timed(self, step: str) -> Iterator[None]:
+        """Add the time that a step takes, also where it fails; steps must not be nested.
+
+        What is repeated belongs to the one step that repeats it.
+        """
+        if self.repeating:
+            yield
+            return
+        start = perf_counter()
+        try:
+            yield
+        finally:
+            self.seconds[step] = self.seconds.get(step, 0.0) + perf_counter() - start
+
+    @contextmanager
+    def repeat(self, step: str) -> Iterator[None]:
+        """Count and time all that is done as repeating, as one step."""
+        with self.timed(step):
+            self.repeating = True
+            try:
+                yield
+            finally:
+                self.repeating = False

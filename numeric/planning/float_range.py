@@ -1,0 +1,57 @@
+"""What float64 can hold: scenes beyond it are refused, unless a tolerance asks for balls.
+
+A change is about δr/r times the load. Below 1e-308 hardware floats round it to zero without a
+word, which would then pass for an answer without error.
+"""
+
+from fractions import Fraction
+
+from force_diffusion.numeric.arithmetic.decimals import short
+from force_diffusion.numeric.disorder.radii import MeasuredRadii, Radii
+from force_diffusion.numeric.mechanics.load_spec import LoadSpec
+from force_diffusion.numeric.scene.sections import Scene, SceneError
+
+# δr/r may be as small as this; where it meets a load or a unit of length, their product a bit less.
+LEAST, LEAST_PRODUCT = Fraction(1, 10**300), Fraction(1, 10**305)
+# Sums over a packing (i up to 2^60) must stay below 1e308.
+MOST = Fraction(10**280)
+WAY_OUT = "give a tolerance: balls, its arithmetic, have no such limit"
+
+
+def check(scene: Scene, radii: Radii, load: LoadSpec) -> None:
+    """Raise ``SceneError`` where float64 would overflow, or round what is asked for to zero."""
+    disorder = radii.relative_std()
+    if isinstance(radii, MeasuredRadii):
+        assert scene.disorder is not None
+        disorder = min((abs(v) for v in radii.rho.values() if v), default=Fraction(0))
+        if disorder and disorder < LEAST:
+            raise SceneError(
+                "disorder.file",
+                scene.disorder.file,
+                f"a delta_r/r of {short(disorder)}; in float64 it must be zero or at least 1e-300: "
+                f"{WAY_OUT}",
+            )
+    elif disorder and disorder < LEAST:
+        raise SceneError(
+            "disorder.relative_std",
+            disorder,
+            f"in float64 it must be zero or at least 1e-300: {WAY_OUT}",
+        )
+    least = LEAST_PRODUCT / (disorder or 1)
+    allowed = (
+        f"must lie between {short(least)} and {short(MOST)} in float64 where delta_r/r is "
+        f"{short(disorder)}: choose another unit, or {WAY_OUT}"
+    )
+    r = scene.packing.radius
+    if scene.ask.quantity == "positions":
+        if not least <= r <= MOST:
+            raise SceneError("packing.radius", r, allowed)
+        return
+    for site, (fx, fy) in load.single.items():
+        size = max(abs(fx), abs(fy))
+        if size and not least <= size <= MOST:
+            raise SceneError(
+                "load.file",
+                scene.load.file,
+                f"the load on bead {site} is {short(size)} times load.magnitude, which {allowed}",
+            )

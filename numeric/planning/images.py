@@ -1,0 +1,129 @@
+"""Does the answer of a periodic packing differ from the infinite slab's?
+
+It does where a bead, or a load, is met twice on the way to one answer: as itself and as its image.
+What an answer depends on is unwrapped, as it would lie in the slab, and looked at for two sites of
+a layer that are the same modulo 2W. For exact forces it is enough to look at layer 0: two images
+stand on images. There the triangle below a loaded bead (k, l) ends at k − l and k + l.
+"""
+
+from collections.abc import Iterable
+from itertools import combinations, pairwise
+
+from force_diffusion.numeric.lattice import regions
+from force_diffusion.numeric.lattice.layers import full_layer
+from force_diffusion.numeric.mechanics import first_order
+from force_diffusion.numeric.mechanics.load_spec import LoadSpec
+from force_diffusion.numeric.planning import budget
+from force_diffusion.numeric.scene.sections import Scene
+
+Site = tuple[int, int]
+
+
+def sees_images(scene: Scene, load: LoadSpec, route: str) -> bool:
+    """Say whether any row of the answer differs, with radii in general, from the slab's."""
+    width = scene.packing.width
+    if width is None:
+        return False
+    if scene.ask.quantity == "positions":
+        tip = scene.packing.height if scene.ask.at is None else scene.site[1]
+        return route != "ordered" and tip >= width
+    reactions = scene.ask.quantity == "base_reactions"
+    if route == "ordered":  # both rays of a load may end on one base bead
+        return reactions and any(j and j % width == 0 for _, j in load.loaded or [])
+    one = budget.one_contact(scene)
+    if route == "exact":
+        if one:
+            return _exact([regions.upper_bead(*scene.contact)], load, width)
+        layer = 0 if reactions else 1
+        return _exact([(i, layer) for i in full_layer(layer, width).sites()], load, width)
+    if one:
+        return _first_order(regions.upper_bead(*scene.contact), [scene.contact], load, width)
+    highest = _highest(load)
+    if not reactions:  # the contact straight below the highest load is the first to see images
+        return width <= highest
+    beads = [0] if load.loaded is None else full_layer(0, width).sites()
+    return width <= highest + 1 and any(
+        _first_order((i, 0), [(i, 0, "+"), (i, 0, "-")], load, width) for i in beads
+    )
+
+
+def _highest(load: LoadSpec) -> int:
+    return load.height if load.loaded is None else max((j for _, j in load.loaded), default=0)
+
+
+def _above(apex: Site, load: LoadSpec, width: int) -> list[Site] | None:
+    """Give the loads in the upward cone of a bead, unwrapped; None if one is there twice."""
+    i, j = apex
+    found = []
+    for k, m in load.loaded or []:
+        if m < max(j, 1):
+            continue
+        first = i - (m - j) + (k - i + m - j) % (2 * width)
+        if first + 2 * width <= i + (m - j):
+            return None
+        if first <= i + (m - j):
+            found.append((first, m))
+    return found
+
+
+def _exact(apexes: list[Site], load: LoadSpec, width: int) -> bool:
+    """Look at the triangles below all loads that stand on one of the ``apexes`` (of one layer)."""
+    widest = 2 * _highest(load) - apexes[0][1] + 1
+    if load.loaded is None or widest <= width:
+        return widest > width
+    for apex in apexes:
+        above = _above(apex, load, width)
+        if above is None or _overlap(
+            _joined([((k - m) // 2, (k + m) // 2) for k, m in above]), width
+        ):
+            return True
+    return False
+
+
+def _joined(runs: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Join runs of columns that overlap.
+
+    >>> _joined([(4, 6), (0, 2), (2, 3)])
+    [(0, 3), (4, 6)]
+    """
+    joined: list[tuple[int, int]] = []
+    for first, last in sorted(runs):
+        if joined and first <= joined[-1][1]:
+            joined[-1] = (joined[-1][0], max(last, joined[-1][1]))
+        else:
+            joined.append((first, last))
+    return joined
+
+
+def _overlap(runs: list[tuple[int, int]], width: int) -> bool:
+    """Say whether runs of different columns overlap modulo W.
+
+    >>> _overlap([(0, 3), (4, 6)], 7), _overlap([(0, 3), (4, 6)], 6), _overlap([(-1, 1)], 2)
+    (False, True, True)
+    """
+    home = sorted((first % width, first % width + last - first) for first, last in runs)
+    if not home:
+        return False
+    around = (home[0][0] + width, 0)
+    return any(left[1] >= right[0] for left, right in pairwise([*home, around]))
+
+
+def _first_order(
+    apex: Site, contacts: Iterable[tuple[int, int, str]], load: LoadSpec, width: int
+) -> bool:
+    """Look at the diagonals that decide some contacts, and at the loads above their ``apex``."""
+    if _above(apex, load, width) is None:
+        return True
+    lines = [line for contact in contacts for line in first_order.lines_read(contact, load)]
+    return any(_coincide(a, b, 2 * width) for a, b in combinations(lines, 2))
+
+
+def _coincide(a: first_order.Line, b: first_order.Line, period: int) -> bool:
+    """Say whether two diagonals hold different sites of a layer that are images of each other."""
+    start, end = (a.at(m) - b.at(m) for m in (0, min(a.top, b.top)))
+    # The distance changes by 2 from layer to layer, or not at all: no multiple is jumped over.
+    least, most = min(start, end), max(start, end)
+    return any(
+        high >= period and high // period * period >= low
+        for low, high in ((least, most), (-most, -least))
+    )

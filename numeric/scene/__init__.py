@@ -1,0 +1,1 @@
+"""Scenes: what is asked, of which packing, under which load; read from TOML and checked."""

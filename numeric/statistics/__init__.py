@@ -1,0 +1,1 @@
+"""Moments, histograms, exact sums, confidence intervals and bands."""

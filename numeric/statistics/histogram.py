@@ -1,0 +1,93 @@
+"""Counting changes of forces into bins whose edges are exact decimals."""
+
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from force_diffusion.numeric.arithmetic.decimals import decimal_string
+from force_diffusion.numeric.arithmetic.systems import Balls, NumberSystem, midpoint
+from force_diffusion.numeric.lattice.layers import Array
+from force_diffusion.numeric.mechanics.packing import UndecidedError
+
+
+def histogram(
+    values: Array, bins: int, system: NumberSystem
+) -> list[tuple[Fraction, Fraction, int]]:
+    """Count ``values`` into equal bins: [(low edge, high edge, count)], low ≤ value < high.
+
+    The outer edges lie a little outside of the extreme values, by unequal shares of their distance:
+    symmetric values then have no edge at zero, which no ball around zero could be told from.
+    Values that are all alike make one bin. Every number system has the same bins. Raises
+    ``UndecidedError`` where a ball lies across an edge all the same.
+    """
+    if not len(values):
+        return []
+    unit = Fraction(1)
+    if isinstance(system, Balls):
+        unit, rough = _scaled(values)
+    else:
+        rough = np.array([float(v) for v in values])
+    least, most = Fraction(float(rough.min())), Fraction(float(rough.max()))
+    span = most - least
+    if not span:
+        one = float(rough[0])
+        ends = [Fraction(np.nextafter(one, to)) * unit for to in (-np.inf, np.inf)]
+        if isinstance(system, Balls):
+            _count(values, ends, system)
+        return [(ends[0], ends[1], len(values))]
+    low, high = float(least - span / 1009), float(most + span / 2003)
+    step = (Fraction(high) - Fraction(low)) / bins
+    edges = [Fraction(low) + step * k for k in range(bins + 1)]
+    counts = [0] * bins
+    if isinstance(system, Balls):
+        edges = [edge * unit for edge in edges]
+        counts = _count(values, edges, system)
+    else:
+        inner = np.array([float(e) for e in edges[1:-1]])
+        places = np.searchsorted(inner, rough, side="right")
+        counts = np.bincount(places, minlength=bins).tolist()
+    return list(zip(edges[:-1], edges[1:], counts, strict=True))
+
+
+def printed(bins: list[tuple[Fraction, Fraction, int]]) -> list[dict[str, Any]]:
+    """Print bins, edges as the decimals that they are; a bin begins where the last one ends."""
+    rows: list[dict[str, Any]] = []
+    for low, high, count in bins:
+        start = rows[-1]["high"] if rows else decimal_string(low, None)
+        rows.append({"low": start, "high": decimal_string(high, None), "count": count})
+    return rows
+
+
+def _scaled(values: Array) -> tuple[Fraction, Array]:
+    """Give midpoints as floats of order 1, and the power of two that they were divided by."""
+    if not all(value.is_finite() for value in values):
+        raise UndecidedError("a change has no finite enclosure")
+    exact = [midpoint(value) for value in values]
+    largest = max(abs(value) for value in exact)
+    shift = largest.numerator.bit_length() - largest.denominator.bit_length() if largest else 0
+    unit = Fraction(2) ** shift
+    return unit, np.array([float(value / unit) for value in exact])
+
+
+def _count(values: Array, edges: list[Fraction], system: Balls) -> list[int]:
+    bounds = [system.number(edge) for edge in edges]
+    counts = [0] * (len(edges) - 1)
+    for value in values:
+        if not bounds[0] <= value < bounds[-1]:
+            raise UndecidedError(f"the ball {value} lies across the edge of a bin")
+        counts[_place(value, bounds)] += 1
+    return counts
+
+
+def _place(value: Any, bounds: list[Any]) -> int:
+    """Find the bin of a ball by bisection; every comparison must be certain."""
+    low, high = 0, len(bounds) - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if value >= bounds[middle]:
+            low = middle
+        elif value < bounds[middle]:
+            high = middle
+        else:
+            raise UndecidedError(f"the ball {value} lies across the edge of a bin")
+    return low

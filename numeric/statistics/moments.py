@@ -1,0 +1,78 @@
+"""Mean and variance that merge exactly, in any number system."""
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import flint
+import numpy as np
+from force_diffusion.numeric.arithmetic.systems import NumberSystem
+from force_diffusion.numeric.lattice.layers import Array
+
+
+@dataclass
+class Moments:
+    """Count, mean and sum of squared deviations from it, elementwise over an array of variables.
+
+    Deviations from the ordered value come in, so nothing large is ever subtracted: the variance
+    stays accurate however small it is beside the mean force. ``unit``, a power of two of the size
+    of the deviations, keeps their squares within the range of hardware floats; the first samples
+    set it, unless they are all zero.
+    """
+
+    unit: float = 1
+    count: int = 0
+    mean: Any = None
+    square: Any = None
+
+    def add(self, samples: Array) -> None:
+        """Merge samples along the first axis (pairwise update of two groups)."""
+        n = len(samples)
+        if samples.dtype == object:
+            self.unit = 1  # exponents of balls and big floats have no end
+        elif not self.count and (largest := np.abs(samples).max(initial=0)) > 0:
+            self.unit = unit_near(Fraction(float(largest)))
+        samples = samples / self.unit
+        mean = samples.sum(axis=0) / n
+        deviation = samples - mean
+        square = (deviation * deviation).sum(axis=0)
+        if not self.count:
+            self.count, self.mean, self.square = n, mean, square
+            return
+        total = self.count + n
+        step = mean - self.mean
+        self.square = self.square + square + step * step * (self.count * n) / total
+        self.mean = self.mean + step * n / total
+        self.count = total
+
+    def average(self) -> Any:
+        """Give the mean."""
+        return np.asarray(self.mean * self.unit)
+
+    def std(self, system: NumberSystem) -> Any:
+        """Root of the mean squared deviation (divided by the count)."""
+        return np.asarray(root(np.asarray(self.square / self.count), system) * self.unit)
+
+
+def unit_near(size: Fraction) -> float:
+    """Give the power of two below a positive size, within the range where it can be squared.
+
+    >>> unit_near(Fraction(3, 10)), unit_near(Fraction(1, 10**300)) > 0
+    (0.125, True)
+    """
+    if not size:
+        return 1.0
+    exponent = size.numerator.bit_length() - size.denominator.bit_length() - 1
+    return math.ldexp(1.0, min(max(exponent, -1000), 1000))
+
+
+def root(values: Array, system: NumberSystem) -> Array:
+    """Take the root of what can't be negative: of a ball, only its non-negative part."""
+    if values.dtype != object:
+        return system.sqrt(values)
+
+    def one(value: Any) -> Any:
+        return value.nonnegative_part().sqrt() if isinstance(value, flint.arb) else value.sqrt()
+
+    return np.asarray(np.frompyfunc(one, 1, 1)(values))

@@ -1,0 +1,1 @@
+"""Studies: what accuracy costs, and what stability costs."""

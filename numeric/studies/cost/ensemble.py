@@ -1,0 +1,199 @@
+"""What accuracy costs where an ensemble is asked for: σ_f layer by layer.
+
+The reference is the exact first-order σ_f (Eqs. 13 and 14 at finite M) times an estimated nonlinear
+correction √(Σ s²_exact / Σ s²_first-order): both theories on the same realisations, which no Monte
+Carlo row uses. It is estimated and never certified; its radius is the standard error of the
+correction. A scene that asks for the first-order theory needs no correction.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from decimal import Decimal
+from fractions import Fraction
+from functools import partial
+from typing import Any
+
+import numpy as np
+from force_diffusion.numeric import closed_forms
+from force_diffusion.numeric.arithmetic.systems import (
+    FLOAT64,
+    LONGDOUBLE,
+    Balls,
+    BigFloat,
+    NumberSystem,
+    array,
+)
+from force_diffusion.numeric.lattice.layers import Array
+from force_diffusion.numeric.planning import planner
+from force_diffusion.numeric.planning.plan import Plan, Skipped
+from force_diffusion.numeric.quantities.answers import Table
+from force_diffusion.numeric.scene.sections import Scene
+from force_diffusion.numeric.studies.cost.rows import (
+    Notice,
+    Reference,
+    Row,
+    Study,
+    marked,
+    measured,
+    row,
+)
+from force_diffusion.numeric.studies.cost.truth import decimal, exactly
+from force_diffusion.numeric.studies.cost.ways import answer, systems, with_geometry
+
+# Realisations that the correction and the scatter are estimated from: at least, at most.
+LEAST, MOST = 8, 64
+# Precision of the closed forms that others are compared with: beyond that of every row.
+EXACT = Balls(1200)
+
+
+def study_ensemble(scene: Scene, notice: Notice) -> Study:
+    """Measure every way to σ_f. Raises ``SceneError`` and what the sweeps raise."""
+    truth = _Truth(scene, notice)
+    linear = truth.plans["first-order"]
+    rows: list[Row] = []
+    for way, printed in (("printed asymptotic formula", True), ("exact finite-M formula", False)):
+        meant = formula(linear, printed, EXACT)
+        model = truth.off(meant, truth.best)
+        for system in systems():
+            notice(f"{way}, {system.name}")
+            found, seconds, peak = measured(partial(formula, linear, printed, system))
+            error, rounding = truth.off(found, truth.best), truth.off(found, meant)
+            rows.append(row(way, system.name, seconds, peak, error, (model, rounding, None)))
+    for name in truth.plans if scene.effects.geometry == "exact" else ["first-order"]:
+        rounding = truth.rounding(name)
+        model = truth.off(truth.mean[name], truth.best)
+        for n in sizes(scene.ask.realisations):
+            way = f"Monte Carlo, {name}"
+            notice(f"{way}, {n} realisations")
+            plan = truth.plans[name]
+            table, seconds, peak = measured(partial(answer, plan, FLOAT64, range(n)))
+            std = _both_branches(table, "std")
+            parts = (model, rounding, truth.off(std, truth.mean[name]))
+            error = truth.off(std, truth.best)
+            rows.append(row(way, FLOAT64.name, seconds, peak, error, parts, None, n))
+    skipped = tuple(_skipped(scene))
+    return Study("profile", truth.reference, marked(rows), skipped, truth.floor)
+
+
+def sizes(realisations: int) -> list[int]:
+    """Give ensembles of a quarter each, the scene's own last.
+
+    >>> sizes(20), sizes(1)
+    ([1, 5, 20], [1])
+    """
+    found = [realisations]
+    while found[0] >= 4:
+        found.insert(0, found[0] // 4)
+    return found
+
+
+def _skipped(scene: Scene) -> Iterator[Skipped]:
+    sampled = "sampling errors lie far above what float64 rounds: see the rounding errors"
+    if scene.effects.geometry != "exact":
+        yield Skipped("Monte Carlo, exact", "the scene asks for the first-order theory")
+    yield Skipped("first-order line sums", "one packing has no σ_f: Monte Carlo averages over them")
+    yield Skipped("exact, deviation form", "one packing has no σ_f: Monte Carlo averages over them")
+    yield Skipped("exact, plain form", "it would sample the same packings and round more")
+    yield Skipped("Monte Carlo in longdouble, mpmath, balls", sampled)
+
+
+def formula(plan: Plan, printed: bool, system: NumberSystem) -> Array:
+    """Give σ_f of layers j = 0 … M − 1 by a closed form, in units of the load; shape (M,).
+
+    ``printed`` is the asymptotic form of the paper, the other is exact to first order at finite M.
+    """
+    bulk = plan.load.kind == "bulk"
+    asymptotic = closed_forms.bulk_diffusion if bulk else closed_forms.surface_diffusion
+    exact = closed_forms.bulk_variance if bulk else closed_forms.surface_variance
+    M = plan.scene.packing.height
+    with system.active():
+        one, phi = system.number(Fraction(1)), system.number(1 - 2 * plan.scene.n_x**2)
+        strength = plan.load.strength(plan.scene.n_x, system)
+        forces, squares = (array(system, [Fraction(0)] * M) for _ in range(2))
+        for j in range(M):
+            forces[j] = plan.load.ordered_force((j % 2, j, "+"), strength, system)
+            if printed:
+                squares[j] = asymptotic(M, system.number(Fraction(j, M)), phi, one, one)
+            else:
+                squares[j] = exact(M, j, phi, one, one)
+        scaled = system.sqrt(squares) * forces * system.scalar(plan.radii.relative_std())
+        return np.asarray(scaled)
+
+
+def _both_branches(table: Table, name: str) -> Array:
+    """Give a column of a profile by layer, the mean square over its two branches; shape (M,)."""
+    squares = np.asarray(table.numbers[name]) ** 2
+    return np.asarray(np.sqrt(squares.reshape(-1, 2).mean(axis=1)))
+
+
+class _Truth:
+    """The estimated reference; arrays have shape (M,), in units of the load.
+
+    ``mean`` holds what each Monte Carlo converges to, ``best`` what the scene asks for, ``floor``
+    the standard error of the scene's own ensemble, relative to the largest σ_f.
+    """
+
+    def __init__(self, scene: Scene, notice: Notice) -> None:
+        asked = scene.model_copy(
+            update={"ask": scene.ask.model_copy(update={"tolerance": None, "certified": False})}
+        )
+        self.plans = {
+            name: planner.plan(with_geometry(asked, name)) for name in ("first-order", "exact")
+        }
+        notice("reference")
+        first = formula(self.plans["first-order"], False, EXACT)
+        n = scene.ask.realisations
+        apart = range(n, n + min(max(n, LEAST), MOST))
+        linear = self._scatter("first-order", apart)
+        exact = self._scatter("exact", apart) if scene.effects.geometry == "exact" else linear
+        ratio = exact.mean(axis=0) / linear.mean(axis=0)
+        self.mean = {"first-order": first, "exact": array_of(first, np.sqrt(ratio))}
+        self.best = self.mean[scene.effects.geometry]
+        with EXACT.active():
+            self.largest = max((exactly(v) for v in self.best), key=float)
+        share = np.array([float(v) for v in self.best]) / float(self.largest)
+        root = math.sqrt(len(apart))
+        # Standard errors of √ratio and of the root of a mean square, each relative to σ_f.
+        residual = (exact - ratio * linear).std(axis=0, ddof=1) / linear.mean(axis=0) / ratio
+        radius = float((share * residual / 2).max()) / root
+        scatter = exact.std(axis=0, ddof=1) / exact.mean(axis=0)
+        self.floor = Decimal(f"{float((share * scatter / 2).max()) / math.sqrt(n):.4E}")
+        what = "exact first-order σ_f"
+        if scene.effects.geometry == "exact":
+            change = self.off(first, self.best)
+            what += f", nonlinear correction up to {change:.1E} from {len(apart)} realisations"
+        self.reference = Reference("estimated", what, EXACT.name, Decimal(f"{radius:.4E}"))
+
+    def _scatter(self, name: str, realisations: Sequence[int]) -> Array:
+        """Give the mean square of the change, by realisation and layer; shape (n, M)."""
+        squares = []
+        for k in realisations:
+            table = answer(self.plans[name], FLOAT64, [k])
+            std, mean = _both_branches(table, "std"), _both_branches(table, "mean_change")
+            squares.append(std**2 + mean**2)
+        return np.stack(squares)
+
+    def off(self, found: Array, meant: Array) -> Decimal:
+        """Give the largest |difference| over layers, relative to the largest σ_f."""
+        with EXACT.active():
+            apart = [abs(exactly(a) - exactly(b)) for a, b in zip(found, meant, strict=True)]
+            return decimal((max(apart, key=float) / self.largest).upper())
+
+    def rounding(self, name: str) -> Decimal:
+        """Estimate the rounding error of σ_f, from one realisation with a longer significand."""
+        longer: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
+        short, long = (answer(self.plans[name], s, [0]).numbers["std"] for s in (FLOAT64, longer))
+        with EXACT.active():
+            apart = [abs(exactly(a) - exactly(b)) for a, b in zip(short, long, strict=True)]
+            return decimal((max(apart, key=float) / self.largest).upper())
+
+
+def array_of(values: Array, factors: Array) -> Array:
+    """Multiply balls by float64 factors, each taken as exact; shape (M,)."""
+    with EXACT.active():
+        result: list[Any] = [
+            v * EXACT.from_float(float(f)) for v, f in zip(values, factors, strict=True)
+        ]
+    scaled = np.empty(len(result), dtype=object)
+    scaled[:] = result
+    return scaled

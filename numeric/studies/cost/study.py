@@ -1,0 +1,119 @@
+"""What accuracy costs: every way to answer a scene's question, its error beside its time.
+
+Errors are relative to the largest |change| of the answer, and are distances from a reference. For
+one packing the reference is certified: balls enclose it, and their radius is added to every error.
+For an ensemble (see ``ensemble``) it is estimated. Times and memory are measurements.
+"""
+
+from collections.abc import Callable, Iterator
+from decimal import Decimal
+from fractions import Fraction
+from functools import partial
+
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, NumberSystem
+from force_diffusion.numeric.disorder.radii import RadiusError
+from force_diffusion.numeric.mechanics.forces import NotStandingError
+from force_diffusion.numeric.mechanics.packing import UnbuildableError, UndecidedError
+from force_diffusion.numeric.planning import planner
+from force_diffusion.numeric.planning.plan import Skipped
+from force_diffusion.numeric.quantities.answers import Profile, Table
+from force_diffusion.numeric.scene.sections import Scene, SceneError
+from force_diffusion.numeric.studies.cost.ensemble import study_ensemble
+from force_diffusion.numeric.studies.cost.rows import (
+    Notice,
+    Reference,
+    Row,
+    Study,
+    marked,
+    measured,
+    row,
+)
+from force_diffusion.numeric.studies.cost.truth import BEYOND, IncomparableError, Truth
+from force_diffusion.numeric.studies.cost.ways import (
+    answer,
+    solve_plainly,
+    systems,
+    why_not_plain,
+    with_geometry,
+)
+
+_FAILURES = (UnbuildableError, UndecidedError, NotStandingError, RadiusError, IncomparableError)
+
+
+def study(scene: Scene, notice: Notice = lambda _: None) -> Study:
+    """Measure every way that applies to a scene's question.
+
+    Raises ``SceneError`` where nothing changes or the study is too large, ``TableError``,
+    ``ToleranceError`` where no reference is found, and what the sweeps raise.
+    """
+    plan = planner.plan(scene, Fraction(1, 10))
+    if plan.route == "ordered":
+        why = "every change is exactly zero here: there is nothing that errors could be relative to"
+        raise SceneError("ask.quantity", scene.ask.quantity, why)
+    if scene.ask.quantity == "profile" and Profile(plan, FLOAT64).theory_applies():
+        return study_ensemble(scene, notice)
+    return _study_one(scene, notice)
+
+
+def _study_one(scene: Scene, notice: Notice) -> Study:
+    """Measure the ways to the answer of one packing, the scene's first realisation."""
+    one = scene.model_copy(update={"ask": scene.ask.model_copy(update={"realisations": 1})})
+    plan = planner.plan(one, BEYOND)
+    notice("reference")
+    true = Truth(plan)
+    nothing = Decimal(0)
+    rows: list[Row] = []
+    skipped = list(_never(scene))
+
+    def measure(
+        way: str, system: NumberSystem, work: Callable[[], Table], model: Truth | None
+    ) -> None:
+        notice(f"{way}, {system.name}")
+        try:
+            table, seconds, peak = measured(work)
+            error, bound = true.error(table), true.bound(table)
+            rounding = error if model is None else model.error(table, true.largest)
+        except _FAILURES as failed:
+            skipped.append(Skipped(f"{way}, {system.name}", str(failed)))
+            return
+        wrong = nothing if model is None else true.error(model.table)
+        rows.append(row(way, system.name, seconds, peak, error, (wrong, rounding, None), bound))
+
+    if plan.route == "exact":
+        if scene.effects.stop_at_tension:
+            skipped.append(Skipped("first-order line sums", "they do not stop at tension"))
+        else:
+            linear = planner.plan(with_geometry(one, "first-order"), BEYOND)
+            model = Truth(linear)
+            name = "first-order line sums"
+            measure(name, FLOAT64, partial(answer, linear, FLOAT64, [0]), model)
+    else:
+        reason = "the scene asks for the first-order theory"
+        skipped.append(Skipped("exact, deviation form", reason))
+    own = "exact, deviation form" if plan.route == "exact" else "first-order line sums"
+    why = why_not_plain(plan)
+    if why is not None:
+        skipped.append(Skipped("exact, plain form", why))
+    for system in systems():
+        measure(own, system, partial(answer, plan, system, [0]), None)
+        if why is None:
+            work = partial(answer, plan, system, [0], solve_plainly)
+            measure("exact, plain form", system, work, None)
+    what = "the first realisation" if scene.ask.realisations > 1 else "the packing"
+    reference = Reference("certified", what, true.system.name, true.radius)
+    return Study(scene.ask.quantity, reference, marked(rows), tuple(skipped))
+
+
+def _never(scene: Scene) -> Iterator[Skipped]:
+    """List what answers for ensembles only."""
+    if scene.ask.quantity == "profile":
+        why = (
+            "an exact first-order σ_f is known for drawn radii, W > M and an upright surface or "
+            "bulk load only; the profile of one packing is studied"
+        )
+    else:
+        why = f"'{scene.ask.quantity}' is studied for one packing, and this is about an ensemble"
+    for way in ("printed asymptotic formula", "exact finite-M formula", "Monte Carlo"):
+        yield Skipped(way, why)
+    if LONGDOUBLE.bits <= FLOAT64.bits:
+        yield Skipped("longdouble", "on this machine it is no longer than float64")

@@ -1,0 +1,1 @@
+"""Where the theory holds: M* and the fraction of tensile contacts."""

@@ -1,0 +1,1 @@
+"""Example scenes, which `force-diffusion examples DIR` copies."""

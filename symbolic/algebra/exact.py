@@ -1,0 +1,308 @@
+"""The exact domain: rational functions over ℚ, in which zero is decided and never guessed.
+
+Polynomials are python-flint's ``fmpq_mpoly``; a quotient of two in lowest terms is all that is
+added here. The direction cosines obey n_x² + n_y² = 1 and φ = n_y² − n_x²: the numerator is
+reduced by these before it is compared with zero.
+"""
+
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from functools import cache
+from typing import Any, Self
+
+import sympy
+from flint import Ordering, fmpq, fmpq_mpoly_ctx
+from force_diffusion.symbolic.symbols import INDICES, PARAMETERS, M, n_x, n_y, phi
+
+Polynomial = Any  # flint's fmpq_mpoly, which ships no types
+
+
+class NotExactError(ValueError):
+    """The expression lies outside the domain in which equality is decided."""
+
+
+LAYER = sympy.Dummy("layer", integer=True)
+"""The layer of a site on a line sum; a generator of its own, never part of an equation."""
+
+
+class Domain:
+    """A field ℚ(generators) and the way into it from SymPy.
+
+    Args:
+        generators: SymPy symbols, or applied functions that stand for unknowns.
+    """
+
+    def __init__(self, generators: Iterable[sympy.Expr]):
+        self.generators = tuple(generators)
+        names = tuple(f"g{number}" for number in range(len(self.generators)))
+        self.context = fmpq_mpoly_ctx.get(names, Ordering.lex)
+        self.position = {g: number for number, g in enumerate(self.generators)}
+        self._gens = self.context.gens()
+        self.zero = self.constant(0)
+        self.one = self.constant(1)
+        self._relations: tuple[Polynomial, ...] | None = None
+
+    def constant(self, value: int | Fraction | sympy.Rational) -> "RationalFunction":
+        """A rational number as an element of the field."""
+        numerator, denominator = _ratio(value)
+        return RationalFunction(
+            self, self.context.constant(fmpq(numerator, denominator)), self.context.constant(1)
+        )
+
+    def generator(self, symbol: sympy.Expr) -> "RationalFunction":
+        """The generator that stands for ``symbol``."""
+        try:
+            gen = self._gens[self.position[symbol]]
+        except KeyError:
+            raise NotExactError(f"{symbol} is no symbol of the exact domain") from None
+        return RationalFunction(self, gen, self.context.constant(1))
+
+    def from_sympy(self, expression: sympy.Expr) -> "RationalFunction":
+        """Read a SymPy expression made of +, ·, integer powers, rationals and generators.
+
+        Raises:
+            NotExactError: for anything else, floats included.
+        """
+        if expression in self.position:
+            return self.generator(expression)
+        if isinstance(expression, sympy.Rational):
+            return self.constant(expression)
+        if isinstance(expression, sympy.Add):
+            total = self.zero
+            for term in expression.args:
+                total = total + self.from_sympy(term)
+            return total
+        if isinstance(expression, sympy.Mul):
+            product = self.one
+            for factor in expression.args:
+                product = product * self.from_sympy(factor)
+            return product
+        if isinstance(expression, sympy.Pow) and isinstance(expression.exp, sympy.Integer):
+            return self.from_sympy(expression.base) ** int(expression.exp)
+        raise NotExactError(f"{expression} is not a rational function of the symbols")
+
+    def vanishes(self, polynomial: Polynomial) -> bool:
+        """Decide whether a polynomial is zero where n_x² + n_y² = 1 and φ = n_y² − n_x²."""
+        if polynomial == 0:
+            return True
+        if n_x not in self.position or n_y not in self.position:
+            return False
+        if self._relations is None:
+            x, y = self._gens[self.position[n_x]], self._gens[self.position[n_y]]
+            self._relations = (y * y - x * x, x * x + y * y - 1)
+        cosine, circle = self._relations
+        degrees = polynomial.degrees()
+        if not (degrees[self.position[n_x]] or degrees[self.position[n_y]]):
+            return False
+        if phi in self.position:
+            images = list(self._gens)
+            images[self.position[phi]] = cosine
+            polynomial = polynomial.compose(*images)
+        # one polynomial is a Gröbner basis of its ideal: the remainder is a normal form
+        return bool(divmod(polynomial, circle)[1] == 0)
+
+
+class RationalFunction:
+    """An element of a :class:`Domain` in lowest terms."""
+
+    __slots__ = ("denominator", "domain", "numerator")
+
+    def __init__(self, domain: Domain, numerator: Polynomial, denominator: Polynomial):
+        self.domain = domain
+        if numerator == 0:
+            denominator = domain.context.constant(1)
+        elif not denominator.is_constant():
+            common = numerator.gcd(denominator)
+            if common != 1:
+                numerator, denominator = numerator / common, denominator / common
+        lead = denominator.leading_coefficient()
+        if lead != 1:
+            numerator, denominator = numerator / lead, denominator / lead
+        self.numerator = numerator
+        self.denominator = denominator
+
+    def _same(self, numerator: Polynomial, denominator: Polynomial) -> Self:
+        return type(self)(self.domain, numerator, denominator)
+
+    def __add__(self, other: Self) -> Self:
+        if self.numerator == 0:
+            return other
+        if other.numerator == 0:
+            return self
+        if self.denominator == other.denominator:
+            return self._same(self.numerator + other.numerator, self.denominator)
+        return self._same(
+            self.numerator * other.denominator + other.numerator * self.denominator,
+            self.denominator * other.denominator,
+        )
+
+    def __neg__(self) -> Self:
+        negative = object.__new__(type(self))  # in lowest terms already
+        negative.domain, negative.denominator = self.domain, self.denominator
+        negative.numerator = -self.numerator
+        return negative
+
+    def __sub__(self, other: Self) -> Self:
+        return self + (-other)
+
+    def __mul__(self, other: Self) -> Self:
+        for one, scale in ((self, other), (other, self)):
+            if scale.numerator == 1 and scale.denominator == 1:
+                return one
+        return self._same(self.numerator * other.numerator, self.denominator * other.denominator)
+
+    def __truediv__(self, other: Self) -> Self:
+        if other.is_zero():
+            raise NotExactError("division by zero")
+        return self._same(self.numerator * other.denominator, self.denominator * other.numerator)
+
+    def __pow__(self, exponent: int) -> Self:
+        if exponent < 0:
+            one = self._same(self.denominator, self.denominator)
+            return (one / self) ** -exponent
+        return self._same(self.numerator**exponent, self.denominator**exponent)
+
+    def is_zero(self) -> bool:
+        """Decide whether this is zero, given n_x² + n_y² = 1."""
+        return self.domain.vanishes(self.numerator)
+
+    def at(self, values: Mapping[sympy.Expr, Fraction]) -> Fraction:
+        """Value at a point; ``ZeroDivisionError`` where the denominator vanishes."""
+        return self._value(self.numerator, values) / self._value(self.denominator, values)
+
+    def _value(self, polynomial: Polynomial, values: Mapping[sympy.Expr, Fraction]) -> Fraction:
+        total = Fraction(0)
+        for exponents, c in polynomial.to_dict().items():
+            term = Fraction(int(c.p), int(c.q))
+            for generator, power in zip(self.domain.generators, exponents, strict=True):
+                if power:
+                    term *= values[generator] ** int(power)
+            total += term
+        return total
+
+    def holds(self, symbol: sympy.Expr) -> bool:
+        """Whether a generator occurs."""
+        place = self.domain.position[symbol]
+        return bool(self.numerator.degrees()[place] or self.denominator.degrees()[place])
+
+    def degree(self, symbol: sympy.Expr) -> int:
+        """Degree in ``symbol``, which the denominator must not hold."""
+        position = self.domain.position[symbol]
+        if self.denominator.degrees()[position]:
+            raise NotExactError(f"{symbol} stands in a denominator")
+        return int(self.numerator.degrees()[position])
+
+    def substitute(self, images: Mapping[sympy.Expr, "RationalFunction"]) -> "RationalFunction":
+        """Replace generators by polynomials (elements with denominator one)."""
+        if any(image.denominator != 1 for image in images.values()):
+            raise NotExactError("only a polynomial can be put in place of a symbol")
+        if not any(self.holds(symbol) for symbol in images):
+            return self
+        full = list(self.domain.context.gens())
+        for symbol, image in images.items():
+            full[self.domain.position[symbol]] = image.numerator
+        return self._same(self.numerator.compose(*full), self.denominator.compose(*full))
+
+    def coefficients(self, symbol: sympy.Expr) -> list["RationalFunction"]:
+        """Coefficients of powers 0, 1, … of ``symbol``."""
+        position = self.domain.position[symbol]
+        parts: list[dict[tuple[int, ...], Any]] = [{} for _ in range(self.degree(symbol) + 1)]
+        for exponents, coefficient in self.numerator.to_dict().items():
+            rest = list(exponents)
+            power, rest[position] = int(rest[position]), 0
+            parts[power][tuple(rest)] = coefficient
+        make = self.domain.context.from_dict
+        return [self._same(make(part), self.denominator) for part in parts]
+
+    def to_sympy(self) -> sympy.Expr:
+        """The same element as a SymPy quotient: factored, whole numbers within each factor."""
+        if self.numerator == 0:
+            return sympy.Integer(0)
+        number, powers = self._factors(self.numerator)
+        below, under = self._factors(self.denominator)
+        for factor, power in under.items():
+            powers[factor] = powers.get(factor, 0) - power
+        paired = min(-powers.get(1 - phi, 0), -powers.get(1 + phi, 0))
+        if paired > 0:
+            powers[1 - phi] += paired
+            powers[1 + phi] += paired
+            powers[1 - phi**2] = -paired
+        return sympy.Mul(number / below, *(factor**power for factor, power in powers.items()))
+
+    def _expanded(self, polynomial: Polynomial) -> sympy.Expr:
+        return sympy.Add(
+            *(
+                sympy.Rational(int(c.p), int(c.q))
+                * sympy.Mul(*(g ** int(e) for g, e in zip(self.domain.generators, x, strict=True)))
+                for x, c in polynomial.to_dict().items()
+            )
+        )
+
+    def _factors(self, polynomial: Polynomial) -> tuple[sympy.Rational, dict[sympy.Expr, int]]:
+        """A number, and factors with their powers, each in the sign that a person would write."""
+        content, factors = polynomial.factor()
+        number = sympy.Rational(int(content.p), int(content.q))
+        powers: dict[sympy.Expr, int] = {}
+        for factor, power in factors:
+            scale, primitive = self._expanded(factor).primitive()
+            if _reads_negative(primitive):
+                scale, primitive = -scale, -primitive
+            number *= scale ** int(power)
+            powers[primitive] = powers.get(primitive, 0) + int(power)
+        return number, powers
+
+
+def _reads_negative(factor: sympy.Expr) -> bool:
+    """Whether −factor reads better: M − j rather than j − M, 1 − z rather than z − 1."""
+    if M in factor.free_symbols:
+        return bool(sympy.Poly(factor, M).LC().could_extract_minus_sign())
+    constant = factor.as_coeff_Add()[0]
+    return bool(constant.is_negative or (constant == 0 and factor.could_extract_minus_sign()))
+
+
+def antidifference(f: RationalFunction, symbol: sympy.Expr) -> RationalFunction:
+    """F with F(n) − F(n−1) = f(n) and F(0) = 0, for f polynomial in ``symbol``."""
+    total = f.domain.zero
+    for power, coefficient in enumerate(f.coefficients(symbol)):
+        total = total + coefficient * _antidifference_of_power(f.domain, symbol, power)
+    return total
+
+
+@cache
+def _antidifference_of_power(domain: Domain, symbol: sympy.Expr, power: int) -> RationalFunction:
+    """The same for f(n) = n^power.
+
+    n^(k+1)/(k+1) has the difference n^k + lower powers, which are taken off in turn. The defining
+    equation is checked, so the result is its own telescoping certificate.
+    """
+    n = domain.generator(symbol)
+    before = {symbol: n - domain.one}
+    first = n ** (power + 1) / domain.constant(power + 1)
+    rest = first - first.substitute(before) - n**power
+    total = first - antidifference(rest, symbol) if power else first
+    if (total - total.substitute(before) - n**power).numerator != 0:  # pragma: no cover
+        raise AssertionError("the telescoping certificate fails")
+    return total
+
+
+def sum_polynomial(
+    f: RationalFunction, symbol: sympy.Expr, low: RationalFunction, high: RationalFunction
+) -> RationalFunction:
+    """Σ f(n) for low ≤ n ≤ high; zero when high = low − 1, Karr's convention below that."""
+    if not f.holds(symbol):
+        return f * (high - low + f.domain.one)
+    antiderivative = antidifference(f, symbol)
+    before_low = low - f.domain.one
+    return antiderivative.substitute({symbol: high}) - antiderivative.substitute(
+        {symbol: before_low}
+    )
+
+
+def _ratio(value: int | Fraction | sympy.Rational) -> tuple[int, int]:
+    if isinstance(value, sympy.Rational):
+        return int(value.p), int(value.q)
+    return int(value.numerator), int(value.denominator)
+
+
+FIELD = Domain((LAYER, *INDICES, *PARAMETERS))
+"""The field of all the paper's symbols, used by linear forms."""

@@ -1,0 +1,255 @@
+"""From a SymPy expression to its normal form: the only way in, for equations and mutants alike."""
+
+from dataclasses import dataclass
+
+import sympy
+from force_diffusion.symbolic.algebra import affine
+from force_diffusion.symbolic.algebra.affine import Affine, Region
+from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
+from force_diffusion.symbolic.algebra.linear_forms import LinearForm
+from force_diffusion.symbolic.mechanics.vectors import LINE_SUM, Basis
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.symbols import (
+    INDICES,
+    Braces,
+    DeltaNMinus,
+    DeltaNPlus,
+    Dot,
+    MatrixTimes,
+    SecondDifference,
+    SiteFunction,
+    phi,
+)
+
+Vector = tuple[LinearForm, LinearForm]
+
+
+_COSINES = (-sympy.Rational(1, 2), sympy.Rational(1, 2))  # φ lies between these, by Eq. 1
+
+
+class UnsafeDivisorError(NotExactError):
+    """A divisor is not shown to be different from zero everywhere in the region."""
+
+
+class VanishingDivisorError(UnsafeDivisorError):
+    """A divisor is zero for an admissible φ."""
+
+
+class UnsafeBoundsError(NotExactError):
+    """A sum's bounds are not shown to be in order everywhere in the region."""
+
+
+@dataclass(frozen=True)
+class Reader:
+    """Reads linear SymPy expressions; vectors become pairs of components in a basis.
+
+    δn^± are unit-vector changes, so that n^±·δn^± = 0 (Eqs. 4 and 5) and each is one number,
+    its component along the other direction.
+
+    Attributes:
+        region: where every sum must satisfy low ≤ high + 1; None reads formally (Karr).
+        basis: components of vectors.
+    """
+
+    region: Region | None
+    basis: Basis = LINE_SUM
+
+    def scalar(self, expression: sympy.Expr) -> LinearForm:
+        """Read a scalar.
+
+        Raises:
+            NotExactError: when the expression is not linear, or not in the decided class.
+        """
+        value = self.read(expression)
+        if isinstance(value, tuple):
+            if all(component.is_zero() for component in value):
+                return LinearForm()
+            raise NotExactError(f"{expression} is a vector")
+        return value
+
+    def vector(self, expression: sympy.Expr) -> Vector:
+        """Read a vector; the number 0 is the zero vector."""
+        value = self.read(expression)
+        if isinstance(value, tuple):
+            return value
+        if value.is_zero():
+            return LinearForm(), LinearForm()
+        raise NotExactError(f"{expression} is no vector")
+
+    def read(self, expression: sympy.Expr) -> LinearForm | Vector:
+        """Read a scalar or a vector."""
+        if expression in self.basis.vectors:
+            first, second = self.basis.vectors[expression]
+            return LinearForm.constant(first), LinearForm.constant(second)
+        if isinstance(expression, SecondDifference):
+            return self.read(expression.doit())
+        if isinstance(expression, SiteFunction):
+            return self._atom(expression)
+        if isinstance(expression, sympy.Add):
+            return self._sum_of(expression.args)
+        if isinstance(expression, sympy.Mul):
+            return self._product(expression.args)
+        if isinstance(expression, sympy.Sum):
+            return self._series(expression)
+        if isinstance(expression, Dot):
+            return self._dot(*expression.args)
+        if isinstance(expression, MatrixTimes):
+            return self._matrix(*expression.args)
+        return LinearForm.constant(self._coefficient(expression))
+
+    def _coefficient(self, expression: sympy.Expr) -> RationalFunction:
+        if self.region is not None:
+            for power in expression.atoms(sympy.Pow):
+                if power.exp.is_negative:
+                    self._assert_never_zero(power.base)
+        return FIELD.from_sympy(expression)
+
+    def _assert_never_zero(self, divisor: sympy.Expr) -> None:
+        """Accept positive symbols, polynomials in φ without root, index sums of one sign."""
+        if isinstance(divisor, sympy.Mul):
+            for factor in divisor.args:
+                self._assert_never_zero(factor)
+        elif isinstance(divisor, sympy.Pow) and divisor.exp.is_Integer:
+            self._assert_never_zero(divisor.base)
+        elif divisor.free_symbols == {phi}:
+            # the number of roots in an interval is decided exactly (Sturm)
+            if sympy.Poly(divisor, phi).count_roots(*_COSINES):
+                raise VanishingDivisorError(f"{text(divisor)} vanishes for a φ between −½ and ½")
+        elif not (divisor.is_positive or divisor == -1):
+            assert self.region is not None
+            if not self.region.differ(affine.from_sympy(divisor), affine.ZERO):
+                raise UnsafeDivisorError(f"{text(divisor)} may vanish for {self.region}")
+
+    def _atom(self, atom: SiteFunction) -> LinearForm | Vector:
+        i, j = (affine.from_sympy(index) for index in atom.args)
+        family = type(atom).__name__
+        if not atom.is_vector:
+            return LinearForm.at(family, i, j)
+        if isinstance(atom, DeltaNPlus | DeltaNMinus):
+            if self.basis is not LINE_SUM:
+                raise NotExactError("contact directions are read in line-sum components")
+            other = LinearForm.at(family, i, j)
+            zero = LinearForm()
+            return (zero, other) if isinstance(atom, DeltaNPlus) else (other, zero)
+        first, second = (LinearForm.at(family + axis, i, j) for axis in self.basis.axes)
+        return first, second
+
+    def _sum_of(self, terms: tuple[sympy.Expr, ...]) -> LinearForm | Vector:
+        values = [self.read(term) for term in terms]
+        if any(isinstance(value, tuple) for value in values):
+            total: Vector = (LinearForm(), LinearForm())
+            for value, term in zip(values, terms, strict=True):
+                if not isinstance(value, tuple):
+                    if value.is_zero():
+                        continue  # the number 0 stands for the zero vector as well
+                    raise NotExactError(f"{term} is a number, added to a vector")
+                total = (total[0] + value[0], total[1] + value[1])
+            return total
+        result = LinearForm()
+        for value in values:
+            assert isinstance(value, LinearForm)
+            result = result + value
+        return result
+
+    def _product(self, factors: tuple[sympy.Expr, ...]) -> LinearForm | Vector:
+        scale = FIELD.one
+        linear: LinearForm | None = None
+        vector: Vector | None = None
+        for factor in factors:
+            value = self.read(factor)
+            if isinstance(value, tuple):
+                if vector is not None:
+                    raise NotExactError("a product of two vectors")
+                vector = value
+                continue
+            constant = value.constant_part()
+            if constant is not None:
+                scale = scale * constant
+            elif linear is not None:
+                raise NotExactError("a product of two lattice quantities")
+            else:
+                linear = value
+        if vector is None:
+            return LinearForm.constant(scale) if linear is None else linear.scaled(scale)
+        if linear is None:
+            return vector[0].scaled(scale), vector[1].scaled(scale)
+        components = [component.constant_part() for component in vector]
+        if any(component is None for component in components):
+            raise NotExactError("a product of two lattice quantities")
+        first, second = (linear.scaled(scale * c) for c in components if c is not None)
+        return first, second
+
+    def _dot(self, u: sympy.Expr, v: sympy.Expr) -> LinearForm:
+        left, right = self.vector(u), self.vector(v)
+        if any(component.constant_part() is None for component in left):
+            left, right = right, left
+        fixed = [component.constant_part() for component in left]
+        if any(component is None for component in fixed):
+            raise NotExactError("a dot product of two lattice quantities")
+        one, zero = FIELD.one, FIELD.zero
+        pair = (fixed[0] or zero, fixed[1] or zero)
+        along = self.basis.dot(pair, (one, zero)), self.basis.dot(pair, (zero, one))
+        return right[0].scaled(along[0]) + right[1].scaled(along[1])
+
+    def _matrix(self, *entries: sympy.Expr) -> Vector:
+        if self.basis is LINE_SUM:
+            raise NotExactError("a matrix acts on Cartesian components")
+        a, b, c, d = (self._coefficient(entry) for entry in entries[:4])
+        x, y = self.vector(entries[4])
+        return x.scaled(a) + y.scaled(b), x.scaled(c) + y.scaled(d)
+
+    def _series(self, series: sympy.Sum) -> LinearForm | Vector:
+        index, low, high = series.limits[-1]
+        if index not in INDICES:
+            raise NotExactError(f"{index} is no index of the exact domain")
+        inner_limits = series.limits[:-1]
+        body = sympy.Sum(series.function, *inner_limits) if inner_limits else series.function
+        bounds = affine.from_sympy(low), affine.from_sympy(high)
+        if body.has(Braces):
+            total = LinearForm()
+            for part, first, last in split_by_cases(body, index, *bounds):
+                inner = self._within(index, affine.to_sympy(first))
+                total = total + self._summed(inner.scalar(part), index, first, last)
+            return total
+        value = self._within(index, low).read(body)
+        if isinstance(value, tuple):
+            one, other = (self._summed(part, index, *bounds) for part in value)
+            return one, other
+        return self._summed(value, index, *bounds)
+
+    def _within(self, index: sympy.Symbol, low: sympy.Expr) -> "Reader":
+        if self.region is None:
+            return self
+        return Reader(Region({**self.region.lower_bounds, index: low}), self.basis)
+
+    def _summed(
+        self, form: LinearForm, index: sympy.Symbol, low: Affine, high: Affine
+    ) -> LinearForm:
+        if self.region is not None:
+            if self.region.below(high, low):
+                return LinearForm()  # empty everywhere in the region
+            length = affine.shifted(affine.add(high, low, -1), 1)
+            if not self.region.nonnegative(length):
+                raise UnsafeBoundsError(
+                    f"the sum over {index} from {affine.to_sympy(low)} to "
+                    f"{affine.to_sympy(high)} is not shown to be in order for {self.region}"
+                )
+        return form.summed(index, low, high)
+
+
+def split_by_cases(
+    body: sympy.Expr, index: sympy.Symbol, low: Affine, high: Affine
+) -> list[tuple[sympy.Expr, Affine, Affine]]:
+    """Split Σ over braces {a : index ≤ e; b : index > e} into one sum for each case."""
+    found = body.atoms(Braces)
+    if len(found) != 1:
+        raise NotExactError("more than one pair of braces in a sum")
+    (braces,) = found
+    first, second, braced_index, last = braces.args
+    if braced_index != index:
+        raise NotExactError(f"braces over {braced_index} in a sum over {index}")
+    last_of_first = affine.from_sympy(last)
+    return [
+        (body.xreplace({braces: first}), low, last_of_first),
+        (body.xreplace({braces: second}), affine.shifted(last_of_first, 1), high),
+    ]

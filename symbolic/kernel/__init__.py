@@ -1,0 +1,1 @@
+"""The decisions: proved, refuted or undecided; and the mutants that must be refuted."""

@@ -1,0 +1,207 @@
+"""The checking kernel: *proved*, *refuted* or *undecided*, and on what it rests.
+
+A refutation is an explicit counterexample, found with Fractions on a small packing; a proof is
+a normal form that is zero. The two share no code, and what neither settles is undecided.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+from fractions import Fraction
+from functools import cache
+from itertools import islice, product
+
+import sympy
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.exact import Domain, NotExactError, RationalFunction
+from force_diffusion.symbolic.algebra.reading import Reader
+from force_diffusion.symbolic.mechanics.vectors import CARTESIAN, LINE_SUM, Basis
+
+
+class Verdict(StrEnum):
+    """What a decision procedure found; a witness agrees or disagrees, it never proves."""
+
+    PROVED = "proved"
+    REFUTED = "refuted"
+    UNDECIDED = "undecided"
+    AGREES = "agrees"
+    DISAGREES = "disagrees"
+
+
+@dataclass(frozen=True)
+class Ruling:
+    """A verdict and, in plain words, what it rests on (or the counterexample)."""
+
+    verdict: Verdict
+    note: str = ""
+
+
+def proved(note: str = "") -> Ruling:
+    """Return the ruling of a proof."""
+    return Ruling(Verdict.PROVED, note)
+
+
+def refuted(note: str) -> Ruling:
+    """Return the ruling of a counterexample."""
+    return Ruling(Verdict.REFUTED, note)
+
+
+def undecided(note: str) -> Ruling:
+    """Return the ruling that says why nothing was decided."""
+    return Ruling(Verdict.UNDECIDED, note)
+
+
+GEOMETRIES = (
+    explicit.geometry(Fraction(3, 5), Fraction(4, 5), Fraction(7, 3)),
+    explicit.geometry(Fraction(21, 29), Fraction(20, 29), Fraction(5, 11)),
+)
+"""Two rational lattices, with φ of either sign, on which counterexamples are looked for."""
+
+_OTHERS = {sy.sigma: Fraction(3, 7), sy.f_load: Fraction(11, 5), sy.m_g: Fraction(13, 9)}
+
+
+def _samples(
+    region: Region, free: tuple[sympy.Symbol, ...]
+) -> Iterator[dict[sympy.Symbol, Fraction | int]]:
+    """Yield a generic point of the region on either lattice, then corners on the first.
+
+    Indices that the region leaves free take any value.
+    """
+    anywhere = {symbol: 5 + 2 * a for a, symbol in enumerate(free)}
+    generic = tuple(3 + 2 * a for a in range(len(region)))
+    corners = islice(product((0, 1), repeat=len(region)), 4)
+    first, second = GEOMETRIES
+    for geometry, excess in ((first, generic), (second, generic), *((first, c) for c in corners)):
+        yield {**geometry, **_OTHERS, **anywhere, **region.sample(*excess)}
+
+
+def counterexample(
+    left: sympy.Expr, right: sympy.Expr, region: Region, *, is_vector: bool = False
+) -> str | None:
+    """Look for a small packing on which two linear expressions have different weights."""
+    free = tuple(
+        sorted(
+            (left.free_symbols | right.free_symbols) & set(sy.INDICES) - set(region.lower_bounds),
+            key=str,
+        )
+    )
+    for values in _samples(region, free):
+        if is_vector:
+            both = [explicit.vector_weights(side, values) for side in (left, right)]
+            pairs = list(zip(*both, strict=True))
+        else:
+            pairs = [(explicit.weights(left, values), explicit.weights(right, values))]
+        for one, other in pairs:
+            if one != other:
+                key = min(k for k in one.keys() | other.keys() if one.get(k) != other.get(k))
+                where = ", ".join(f"{s} = {values[s]}" for s in (*free, *region.lower_bounds))
+                name = f"{key[0]}({key[1]}, {key[2]})" if key[0] else "the constant term"
+                return (
+                    f"at {where or 'any site'}, φ = {values[sy.phi]}: {name} has the weight "
+                    f"{one.get(key, 0)} on the left and {other.get(key, 0)} on the right"
+                )
+    return None
+
+
+def decide_linear(
+    left: sympy.Expr,
+    right: sympy.Expr,
+    region: Region,
+    *,
+    is_vector: bool = False,
+    basis: Basis = LINE_SUM,
+) -> Ruling:
+    """Rule on left = right, both linear in lattice quantities, for all indices in the region."""
+    try:
+        found = counterexample(left, right, region, is_vector=is_vector)
+        if found:
+            return refuted(found)
+        reader = Reader(region, basis)
+        if is_vector:
+            forms = [a - b for a, b in zip(reader.vector(left), reader.vector(right), strict=True)]
+        else:
+            forms = [reader.scalar(left) - reader.scalar(right)]
+    except (NotExactError, explicit.AmbiguousError) as reason:
+        return undecided(str(reason))
+    if all(form.is_zero() for form in forms):
+        where = f" for {region}" if len(region) else ""
+        return proved(f"the normal forms are equal{where}")
+    return undecided("the normal forms differ, yet no counterexample was found")
+
+
+def decide_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
+    """Rule on left = right as rational functions, n_x² + n_y² = 1 and φ = n_y² − n_x² given.
+
+    All other symbols and lattice quantities are independent variables here; both sides may be
+    undefined where a denominator vanishes.
+    """
+    unknowns = sorted(
+        left.free_symbols
+        | right.free_symbols
+        | left.atoms(sy.SiteFunction)
+        | right.atoms(sy.SiteFunction),
+        key=str,
+    )
+    field = Domain(dict.fromkeys([*unknowns, sy.n_x, sy.n_y, sy.phi]))
+    try:
+        difference = field.from_sympy(left) - field.from_sympy(right)
+    except NotExactError as reason:
+        return undecided(str(reason))
+    if difference.is_zero():
+        return proved("the difference is the zero rational function")
+    return _apart(difference)
+
+
+def _apart(difference: RationalFunction) -> Ruling:
+    """Refute an identity by values of its symbols at which the two sides differ."""
+    generators = difference.domain.generators
+    for geometry in GEOMETRIES:
+        # distinct odd primes for what is free; n_x, n_y and φ as on one of the lattices
+        values = {g: Fraction(sympy.prime(place + 2)) for place, g in enumerate(generators)}
+        values |= {s: Fraction(geometry[s]) for s in (sy.n_x, sy.n_y, sy.phi)}
+        try:
+            found = difference.at(values)
+        except ZeroDivisionError:
+            continue
+        if found:
+            where = ", ".join(f"{g} = {values[g]}" for g in generators if difference.holds(g))
+            return refuted(f"left minus right is {found} at {where or 'any value'}")
+    return undecided("the difference is not the zero function, yet no values show it")
+
+
+@cache
+def _base_components(axis: int) -> dict[sympy.Basic, sympy.Expr]:
+    return {symbol: CARTESIAN.vectors[symbol][axis].to_sympy() for symbol in sy.VECTORS}
+
+
+def cartesian(vector: sympy.Expr, axis: int) -> sympy.Expr:
+    """One Cartesian component of a vector expression; unknown vectors get unknown components."""
+    image = dict(_base_components(axis))
+    for atom in vector.atoms(sy.SiteFunction):
+        if atom.is_vector:
+            image[atom] = sympy.Symbol(f"{atom}_{'xy'[axis]}")
+    return vector.xreplace(image)
+
+
+def decide_vector_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
+    """Rule on an equality of vectors that may be multiplied by unknown numbers, by components."""
+    return all_of(
+        *(decide_identity(cartesian(left, axis), cartesian(right, axis)) for axis in range(2))
+    )
+
+
+def all_of(*rulings: Ruling) -> Ruling:
+    """Return the worst of several rulings; all proved, their notes together."""
+    for verdict in (Verdict.REFUTED, Verdict.UNDECIDED):
+        for ruling in rulings:
+            if ruling.verdict is verdict:
+                return ruling
+    notes = dict.fromkeys(ruling.note for ruling in rulings)
+    return proved("; ".join(notes))
+
+
+def from_test(outcome: bool, note: str, otherwise: str = "") -> Ruling:
+    """Turn a decided yes or no into a ruling."""
+    return proved(note) if outcome else refuted(otherwise or f"not so: {note}")

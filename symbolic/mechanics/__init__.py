@@ -1,0 +1,1 @@
+"""Contacts, force balance and the paths of a force, linearised."""

@@ -1,0 +1,97 @@
+"""Force balance of one bead on its two supports: the 2×2 system, inverted, to first order.
+
+A balance is a vector equation, linear in the two supporting forces. Dotted with n⁺ and n⁻ it is
+a 2×2 system whose matrix holds φ and one number for each δn, its part along the other
+direction: n⁺·δn⁺ = n⁻·δn⁻ = 0 by Eqs. 4 and 5. The strength ε multiplies every δn.
+"""
+
+from dataclasses import dataclass
+
+import sympy
+from force_diffusion.symbolic.symbols import (
+    DeltaNMinus,
+    DeltaNPlus,
+    Dot,
+    SiteFunction,
+    epsilon,
+    n_minus,
+    n_plus,
+    phi,
+)
+
+tilt_plus = sympy.Symbol("nu_plus")  # n⁻·δn⁺ of the supporting contact along n⁺
+tilt_minus = sympy.Symbol("nu_minus")  # n⁺·δn⁻ of the supporting contact along n⁻
+tilt_incoming = sympy.Symbol("nu_in")  # the same of an incoming contact force
+
+
+def dotted(vector: sympy.Expr, tilts: dict[SiteFunction, sympy.Symbol]) -> sympy.ImmutableMatrix:
+    """(n⁺·v, n⁻·v) of a vector expression; ``tilts`` names the one number of each δn."""
+    rows = []
+    for axis in range(2):
+        image: dict[sympy.Basic, sympy.Expr] = {
+            n_plus: (sympy.Integer(1), phi)[axis],
+            n_minus: (phi, sympy.Integer(1))[axis],
+        }
+        for change, tilt in tilts.items():
+            own = 0 if isinstance(change, DeltaNPlus) else 1
+            image[change] = sympy.Integer(0) if axis == own else epsilon * tilt
+        rows.append(vector.xreplace(image))
+    return sympy.ImmutableMatrix(rows)
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A balance as a 2×2 system, and its solution to first order in ε.
+
+    Attributes:
+        matrix: columns for f⁺ and f⁻, rows dotted with n⁺ and n⁻.
+        right: what the supports have to carry.
+        at_zero: (f⁺, f⁻) at ε = 0.
+        slope: their derivatives with respect to ε there.
+        meaning: what the tilts ν stand for, as dot products.
+    """
+
+    matrix: sympy.ImmutableMatrix
+    right: sympy.ImmutableMatrix
+    at_zero: tuple[sympy.Expr, sympy.Expr]
+    slope: tuple[sympy.Expr, sympy.Expr]
+    meaning: dict[sympy.Symbol, sympy.Expr]
+
+    def first_order(self, branch: int) -> sympy.Expr:
+        """f⁺ (0) or f⁻ (1) to first order, in the symbols of the paper."""
+        return self.at_zero[branch] + self.slope[branch].xreplace(self.meaning)
+
+
+def solve(
+    balance: sympy.Expr,
+    forces: tuple[SiteFunction, SiteFunction],
+    load: SiteFunction,
+    carried: sympy.Expr,
+) -> Solved:
+    """Solve ``balance`` = 0 for the two forces, its load being −``carried``.
+
+    SymPy inverts the matrix and differentiates the solution.
+    """
+    supports = [atom for atom in balance.atoms(DeltaNPlus, DeltaNMinus) if not carried.has(atom)]
+    tilts = {atom: tilt_plus if isinstance(atom, DeltaNPlus) else tilt_minus for atom in supports}
+    tilts |= dict.fromkeys(carried.atoms(DeltaNPlus, DeltaNMinus), tilt_incoming)
+    unknowns = sympy.symbols("f_plus f_minus")
+    system = dotted(
+        balance.xreplace({load: -carried, **dict(zip(forces, unknowns, strict=True))}), tilts
+    )
+    matrix = sympy.ImmutableMatrix(system.jacobian(list(unknowns)))
+    right = dotted(carried, tilts)
+    # not matrix.inv(): it guesses by numbers whether the determinant is zero
+    solution = matrix.adjugate() / matrix.det() * right
+    at_zero, slope = solution.subs(epsilon, 0), sympy.diff(solution, epsilon).subs(epsilon, 0)
+    meaning = {
+        tilt: Dot(n_minus if isinstance(atom, DeltaNPlus) else n_plus, atom)
+        for atom, tilt in tilts.items()
+    }
+    return Solved(
+        matrix,
+        right,
+        tuple(map(sympy.cancel, at_zero)),
+        tuple(map(sympy.factor, slope)),
+        meaning,
+    )

@@ -1,0 +1,43 @@
+"""The ordered lattice: base vectors as Cartesian columns, and the mirror image of an equation."""
+
+import sympy
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.symbols import n_x, n_y
+
+N_PLUS = sympy.ImmutableMatrix([n_x, n_y])
+N_MINUS = sympy.ImmutableMatrix([-n_x, n_y])
+
+MIRRORED_SYMBOLS = {
+    sy.n_plus: sy.n_minus,
+    sy.n_minus: sy.n_plus,
+    sy.b_plus: sy.b_minus,
+    sy.b_minus: sy.b_plus,
+}
+MIRRORED_FUNCTIONS = {
+    sy.DeltaNPlus: sy.DeltaNMinus,
+    sy.DeltaNMinus: sy.DeltaNPlus,
+    sy.ForcePlus: sy.ForceMinus,
+    sy.ForceMinus: sy.ForcePlus,
+}
+
+_HORIZONTAL = (sy.i, sy.k, sy.site_r)
+
+
+def mirror(expression: sympy.Basic) -> sympy.Basic:
+    """The mirror image at a vertical line: i → −i at every site, n⁺ ↔ n⁻ and b⁺ ↔ b⁻.
+
+    Applied to an equation at (i, j), it gives the equation at (i, j) for the other branch.
+    """
+    if expression in MIRRORED_SYMBOLS:
+        return MIRRORED_SYMBOLS[expression]
+    if isinstance(expression, sy.SiteFunction):
+        across, layer = expression.args
+        reflected = -across.xreplace({symbol: -symbol for symbol in _HORIZONTAL})
+        kind = MIRRORED_FUNCTIONS.get(type(expression), type(expression))
+        return kind(reflected, layer)
+    if expression.is_Atom:
+        return expression
+    arguments = [mirror(argument) for argument in expression.args]
+    if isinstance(expression, sympy.Add | sympy.Mul | sympy.Eq):
+        return expression.func(*arguments, evaluate=False)
+    return expression.func(*arguments)

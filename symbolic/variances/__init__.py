@@ -1,0 +1,1 @@
+"""Sums of squared weights, in closed form."""

@@ -1,0 +1,106 @@
+"""Averages of a variance over the layers of a packing, in closed form at finite M."""
+
+from dataclasses import dataclass
+
+import sympy
+from force_diffusion.symbolic.algebra.exact import (
+    FIELD,
+    NotExactError,
+    RationalFunction,
+    sum_polynomial,
+)
+from force_diffusion.symbolic.symbols import M, j, k, z
+from force_diffusion.symbolic.variances.variance import ExactForm, leading, order, value_at
+
+
+@dataclass(frozen=True)
+class LayerAverage:
+    """(1/M) Σ over the layers 0 ≤ j < M, for M ≥ 3: ``rational`` + ``harmonic`` · Σ 1/k.
+
+    Attributes:
+        rational: the rational part.
+        harmonic: the factor of Σ 1/k over 2 ≤ k ≤ M − 2, a number that no rational function of M
+            gives and that lies between 0 and M; zero where no variance is divided by M − j.
+        exceptions: heights M below 3, with their own average.
+    """
+
+    rational: RationalFunction
+    harmonic: RationalFunction
+    exceptions: tuple[tuple[int, sympy.Expr], ...]
+
+    @property
+    def expression(self) -> sympy.Expr:
+        """The average as a SymPy expression in M, phi, sigma, r."""
+        if self.harmonic.is_zero():
+            return self.rational.to_sympy()
+        each = self.harmonic.to_sympy() / k
+        return self.rational.to_sympy() + sympy.Sum(each, (k, 2, M - 2))
+
+    def value_at(self, height: int) -> sympy.Expr:
+        """The average in a packing of a given height M ≥ 1."""
+        small = dict(self.exceptions)
+        if height in small:
+            return small[height]
+        return self.expression.xreplace({M: sympy.Integer(height)}).doit()
+
+    def leading_orders(self) -> tuple[RationalFunction, RationalFunction]:
+        """The two highest orders in M, the harmonic part being shown to lie below both."""
+        first = leading(self.rational)
+        second = leading(self.rational - first)
+        if not self.harmonic.is_zero() and order(self.harmonic) + 1 >= order(second):
+            raise NotExactError("the harmonic sum is not of lower order")
+        return first, second
+
+
+def layer_average(forms: dict[str, ExactForm]) -> LayerAverage:
+    """Average the closed forms of all layers 0 ≤ j < M, those at the edges included.
+
+    The interior, 2 ≤ j ≤ M − 2, is summed over k = M − j: powers of k by a telescoping
+    certificate (:func:`symbolic.algebra.exact.antidifference`), what stands over k by name.
+    """
+    height, above = FIELD.generator(M), FIELD.generator(k)
+    interior = forms["interior"].value.substitute({j: height - above})
+    over_k, *powers = (interior * above).coefficients(k)
+    polynomial = FIELD.zero
+    for power, coefficient in enumerate(powers):
+        polynomial = polynomial + coefficient * above**power
+    total = sum_polynomial(polynomial, k, FIELD.constant(2), height - FIELD.constant(2))
+    for edge in ("base", "base+1", "surface"):
+        total = total + forms[edge].value
+    lowest, upper = (FIELD.from_sympy(value_at(forms, 2, at, case)) for at, case in _HEIGHT_TWO)
+    two = (lowest + upper) / FIELD.constant(2)
+    return LayerAverage(
+        total / height,
+        over_k / height,
+        ((1, value_at(forms, 1, 0, "base")), (2, two.to_sympy())),
+    )
+
+
+_HEIGHT_TWO = ((0, "base"), (1, "surface"))
+
+
+def uniform_order(forms: dict[str, ExactForm], profile: sympy.Expr) -> int:
+    """A power p such that |variance − profile at z = j/M| ≤ C M^p in every layer, M ≥ 3.
+
+    C depends on φ, σ and r alone. In the interior a term j^a k^b/k^c with k = M − j ≥ 1 is at
+    most M^(a + max(b − c, 0)), which is what is counted.
+    """
+    in_layers = FIELD.from_sympy(profile.xreplace({z: j / M}))
+    height = FIELD.generator(j) + FIELD.generator(k)
+    inside = (forms["interior"].value - in_layers).substitute({M: height})
+    places = FIELD.position[j], FIELD.position[k]
+    below = [tuple(map(int, exponents)) for exponents in inside.denominator.to_dict()]
+    if any(exponents[places[0]] for exponents in below) or (
+        len({exponents[places[1]] for exponents in below}) > 1
+    ):
+        raise NotExactError("a denominator holds more than a power of M − j")
+    under = below[0][places[1]]
+    orders = [
+        int(exponents[places[0]]) + max(int(exponents[places[1]]) - under, 0)
+        for exponents in inside.numerator.to_dict()
+    ]
+    edges = {"base": sympy.Integer(0), "base+1": 1 / M, "surface": 1 - 1 / M}
+    for edge, at in edges.items():
+        printed = FIELD.from_sympy(profile.xreplace({z: at}))
+        orders.append(order(forms[edge].value - printed))
+    return max(orders)

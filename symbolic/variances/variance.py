@@ -1,0 +1,162 @@
+"""Variances of linear forms, and their order as the packing grows.
+
+The radii are independent with variance σ², so the variance of a form is σ² times the sum of its
+squared weights. Orders count M and j together, as at a fixed relative height z = j/M.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache, cached_property
+
+import sympy
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.exact import FIELD, LAYER, RationalFunction
+from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm
+from force_diffusion.symbolic.algebra.reading import Reader
+from force_diffusion.symbolic.symbols import M, j, sigma, z
+from force_diffusion.symbolic.variances.weights import Pieces, take_apart
+
+
+def fluctuation(expression: sympy.Expr, region: Region) -> LinearForm:
+    """The part of a linear expression that depends on the radii."""
+    return without_constant(Reader(region).scalar(expression))
+
+
+def without_constant(form: LinearForm) -> LinearForm:
+    """A form without its constant term, which is its mean."""
+    return LinearForm(
+        {site: weight for site, weight in form.sites.items() if site.family != CONSTANT},
+        dict(form.rays),
+    )
+
+
+@cache
+def _pieces(expression: sympy.Expr, region: Region) -> Pieces:
+    return take_apart(fluctuation(expression, region), region)
+
+
+def variance(expression: sympy.Expr, region: Region) -> RationalFunction:
+    """σ² Σ weight² of a linear expression in δr, in closed form, exact in the region."""
+    return _pieces(expression, region).sum_of_squares() * FIELD.from_sympy(sigma**2)
+
+
+def order(value: RationalFunction, *sizes: sympy.Expr) -> int:
+    """Power of M with which a rational function grows at fixed z (−1 less than any, for zero)."""
+    if value.is_zero():
+        return -(10**9)
+    return _degree(value.numerator, sizes or (M, j)) - _degree(value.denominator, sizes or (M, j))
+
+
+def leading(value: RationalFunction, *sizes: sympy.Expr) -> RationalFunction:
+    """The part of highest order: what is left of value / M^order as M → ∞ at fixed z.
+
+    Other indices that grow together may be given in place of M and j.
+    """
+    sizes = sizes or (M, j)
+    return _top(value.numerator, sizes) / _top(value.denominator, sizes)
+
+
+def largest_weight(expression: sympy.Expr, region: Region) -> int:
+    """The order of the largest weight of a linear expression in δr, over all sites."""
+    pieces = _pieces(expression, region)
+    sizes = (M, j, LAYER)
+    orders = [order(run.weight, *sizes) for run in pieces.runs]
+    orders += [order(full, *sizes) for full, _ in pieces.special.values()]
+    return max(orders, default=-(10**9))
+
+
+def at_fixed_z(value: RationalFunction) -> sympy.Expr:
+    """Leading part with j = zM and its power of M taken out, in the symbol z."""
+    image = FIELD.generator(z) * FIELD.generator(M)
+    power = FIELD.generator(M) ** order(value)
+    return (leading(value).substitute({j: image}) / power).to_sympy()
+
+
+@dataclass(frozen=True)
+class ExactForm:
+    """A variance in closed form, exact for every packing that ``validity`` names.
+
+    Attributes:
+        validity: the range of M and j, in words.
+        exceptions: packings (M, j) of this case that the form misses, with their own variance.
+        value: the variance as an element of the exact field.
+    """
+
+    validity: str
+    exceptions: tuple[tuple[int, int, sympy.Expr], ...]
+    value: RationalFunction
+
+    @cached_property
+    def expression(self) -> sympy.Expr:
+        """The variance as a SymPy expression in M, j, phi, sigma, r."""
+        return self.value.to_sympy()
+
+
+_ZERO, _ONE = sympy.Integer(0), sympy.Integer(1)
+
+CASES: dict[str, tuple[dict[sympy.Symbol, sympy.Expr], Region, str, tuple[int, ...]]] = {
+    "interior": ({}, Region({j: 2, M: j + 2}), "2 ≤ j ≤ M − 2", ()),
+    "base": ({j: _ZERO}, Region({M: 2}), "j = 0 and M ≥ 2", (1,)),
+    "base+1": ({j: _ONE}, Region({M: 3}), "j = 1 and M ≥ 3", (2,)),
+    "surface": ({j: M - 1}, Region({M: 3}), "j = M − 1 and M ≥ 3", (1, 2)),
+}
+"""Layers with a closed form of their own: substitution, region, its words, heights missed."""
+
+
+def exact_variances(expression: sympy.Expr) -> dict[str, ExactForm]:
+    """Closed forms of the variance at every 0 ≤ j < M: interior, both edges, small packings."""
+
+    def form(name: str) -> ExactForm:
+        at, region, validity, missed = CASES[name]
+        value = variance(expression.xreplace(at), region)
+        exceptions = []
+        for height in missed:
+            size = {M: sympy.Integer(height)}
+            layer = at[j].xreplace(size)
+            small = variance(expression.xreplace({**size, j: layer}), Region({}))
+            exceptions.append((height, int(layer), small.to_sympy()))
+        return ExactForm(validity, tuple(exceptions), value)
+
+    return {name: form(name) for name in CASES}
+
+
+def packings(up_to: int) -> Iterator[tuple[int, int, str]]:
+    """Every 0 ≤ j < M ≤ up_to with the name of the case that covers it."""
+    for height in range(1, up_to + 1):
+        for layer in range(height):
+            if 2 <= layer <= height - 2:
+                yield height, layer, "interior"
+            elif layer == 0:
+                yield height, layer, "base"
+            elif layer == height - 1:
+                yield height, layer, "surface"
+            else:
+                yield height, layer, "base+1"
+
+
+def value_at(forms: dict[str, ExactForm], height: int, layer: int, case: str) -> sympy.Expr:
+    """The exact variance of one packing, from its closed form or from the exceptions."""
+    form = forms[case]
+    for size, at, small in form.exceptions:
+        if (size, at) == (height, layer):
+            return small
+    return form.expression.xreplace({M: sympy.Integer(height), j: sympy.Integer(layer)})
+
+
+def _degree(polynomial: object, sizes: tuple[sympy.Expr, ...]) -> int:
+    positions = [FIELD.position[size] for size in sizes]
+    return max(
+        sum(int(exponents[p]) for p in positions)
+        for exponents in polynomial.to_dict()  # type: ignore[attr-defined]
+    )
+
+
+def _top(polynomial: object, sizes: tuple[sympy.Expr, ...]) -> RationalFunction:
+    positions = [FIELD.position[size] for size in sizes]
+    degree = _degree(polynomial, sizes)
+    kept = {
+        exponents: c
+        for exponents, c in polynomial.to_dict().items()  # type: ignore[attr-defined]
+        if sum(int(exponents[p]) for p in positions) == degree
+    }
+    return RationalFunction(FIELD, FIELD.context.from_dict(kept), FIELD.context.constant(1))

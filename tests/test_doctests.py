@@ -1,0 +1,29 @@
+"""Every example in a docstring is run, module by module, as it is installed."""
+
+import doctest
+import pkgutil
+from importlib import import_module
+
+import pytest
+
+# Modules that import these may lack them: extras.
+EXTRAS = {"distributed", "jinja2", "markupsafe", "matplotlib", "numba", "scipy"}
+MODULES = ["force_diffusion"] + [
+    module.name
+    for room in ("derivations", "numeric", "symbolic")
+    for module in pkgutil.walk_packages(
+        import_module(f"force_diffusion.{room}").__path__, f"force_diffusion.{room}."
+    )
+]
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_examples(name: str) -> None:
+    try:
+        module = import_module(name)
+    except ModuleNotFoundError as missing:
+        if missing.name not in EXTRAS:
+            raise
+        pytest.skip(f"{missing.name} is missing")
+    found = doctest.testmod(module)
+    assert not found.failed
