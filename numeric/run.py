@@ -10,6 +10,7 @@ from typing import Any
 from force_diffusion.numeric.accuracy.enclosed import Accuracy, of_balls, of_floats, strings
 from force_diffusion.numeric.accuracy.repeated import edge_in_doubt, of_repeat
 from force_diffusion.numeric.arithmetic.decimals import short
+from force_diffusion.numeric.arithmetic.errors import NOT_REACHED, ForceDiffusionError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, NumberSystem
 from force_diffusion.numeric.mechanics.engine import Solved, batches, solve
 from force_diffusion.numeric.mechanics.forces import NotStandingError
@@ -26,8 +27,10 @@ from force_diffusion.numeric.theory.critical_height import critical_height
 __all__ = ["MOST_BITS", "Missed", "Outcome", "ToleranceError", "critical_height", "run"]
 
 
-class ToleranceError(ArithmeticError):
+class ToleranceError(ForceDiffusionError, ArithmeticError):
     """The asked tolerance can't be reached; the message says why."""
+
+    exit_status = NOT_REACHED
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,8 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+
 MANIFEST = "manifest.json"
 DOCUMENT = "equations.tex"
 PROGRAM = "force-diffusion"
@@ -21,7 +23,7 @@ _LATEX_LEAVES = re.compile(r"equations\.(aux|log|out|pdf|synctex\.gz|fls|fdb_lat
 _ASIDE = ".force-diffusion-"
 
 
-class NotOurFolderError(Exception):
+class NotOurFolderError(ForceDiffusionError):
     """The folder holds files that this program did not write."""
 
 

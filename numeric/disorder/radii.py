@@ -15,6 +15,7 @@ from typing import Any, Protocol
 
 import numpy as np
 from force_diffusion.numeric.arithmetic.decimals import short
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.arithmetic.systems import NumberSystem, array, from_floats, zeros
 from force_diffusion.numeric.disorder.normal import normal_deviates
 from force_diffusion.numeric.lattice.layers import Array, Layer, Stack
@@ -26,7 +27,7 @@ _OFFSET = 2**62
 _NEARLY = Fraction(999, 1000)
 
 
-class RadiusError(ValueError):
+class RadiusError(ForceDiffusionError, ValueError):
     """A radius is missing or not positive; ``site`` names the bead."""
 
     def __init__(self, site: tuple[int, int], reason: str) -> None:

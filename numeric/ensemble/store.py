@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.ensemble.measure import Measurement
 from force_diffusion.numeric.ensemble.scene_key import differences
 from force_diffusion.numeric.ensemble.sums import Sums, from_bytes
@@ -27,7 +28,7 @@ _TABLES = (
 )
 
 
-class StoreError(ValueError):
+class StoreError(ForceDiffusionError, ValueError):
     """A file can't serve as the store of an ensemble: the message says why, and what to do."""
 
 

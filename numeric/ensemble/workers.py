@@ -9,6 +9,7 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from multiprocessing import active_children, connection, get_context, parent_process
 
+from force_diffusion.numeric.arithmetic.errors import NOT_REACHED, ForceDiffusionError
 from force_diffusion.numeric.disorder.radii import RadiusError
 from force_diffusion.numeric.ensemble.measure import Measurement
 from force_diffusion.numeric.ensemble.sums import Sums, from_bytes, measured
@@ -20,12 +21,14 @@ PATIENCE = 3
 _TROUBLE = (UnbuildableError, NotStandingError, RadiusError)
 
 
-class RealisationError(ValueError):
+class RealisationError(ForceDiffusionError, ValueError):
     """A realisation can't be solved; the message says which, and why."""
 
 
-class WorkersError(RuntimeError):
+class WorkersError(ForceDiffusionError, RuntimeError):
     """Those who should solve are missing or die; the message says what to do."""
+
+    exit_status = NOT_REACHED
 
 
 def solve_block(m: Measurement, first: int, stop: int) -> bytes:

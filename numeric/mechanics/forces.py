@@ -16,13 +16,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.arithmetic.systems import NumberSystem, zeros
 from force_diffusion.numeric.lattice.layers import Array, Layer, pick
 from force_diffusion.numeric.mechanics.packing import Packing, UndecidedError
 from force_diffusion.numeric.mechanics.work import Work
 
 
-class NotStandingError(ValueError):
+class NotStandingError(ForceDiffusionError, ValueError):
     """The two contacts below a bead are parallel: no forces can hold it up; ``site`` names it."""
 
     def __init__(self, site: tuple[int, int]) -> None:

@@ -17,6 +17,7 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
+from force_diffusion.numeric.arithmetic.errors import NOT_REACHED, ForceDiffusionError
 from force_diffusion.numeric.arithmetic.systems import NumberSystem, zeros
 from force_diffusion.numeric.lattice.layers import Array, Layer, Region, pick, shifted
 from force_diffusion.numeric.mechanics.work import Work
@@ -123,7 +124,7 @@ class Packing:
     minus: Sequence[tuple[Array, Array]]
 
 
-class UnbuildableError(ValueError):
+class UnbuildableError(ForceDiffusionError, ValueError):
     """A bead can't rest on its two supports; ``site`` names it."""
 
     def __init__(self, site: tuple[int, int], reason: str) -> None:
@@ -132,8 +133,10 @@ class UnbuildableError(ValueError):
         self.site = site
 
 
-class UndecidedError(ArithmeticError):
+class UndecidedError(ForceDiffusionError, ArithmeticError):
     """Balls have grown so wide that it is open whether a bead can rest: more bits are needed."""
+
+    exit_status = NOT_REACHED
 
 
 def deposit(

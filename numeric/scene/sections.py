@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from force_diffusion.numeric.arithmetic.decimals import decimal_string, exact, short
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 LARGEST_FILE = 64_000  # bytes of a scene file; far more than any scene needs
@@ -20,7 +21,7 @@ MOST_DOTS = 200
 Number = Annotated[Fraction, BeforeValidator(exact)]
 
 
-class SceneError(ValueError):
+class SceneError(ForceDiffusionError, ValueError):
     """Something in a scene is wrong: which key, what it says, and what is allowed."""
 
     def __init__(self, key: str, value: object, allowed: str) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TextIO
 
 from force_diffusion.numeric.arithmetic.decimals import parse, short
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
 Site = tuple[int, int]
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}", re.ASCII)
@@ -16,7 +17,7 @@ LONGEST_LINE = 20_000  # characters; a number has at most 5000
 MOST = 10**100  # of δr/r: gaps between beads are measured in float64, which holds their squares
 
 
-class TableError(ValueError):
+class TableError(ForceDiffusionError, ValueError):
     """A radii or loads file can't be used; the message names the file, line and bead."""
 
 

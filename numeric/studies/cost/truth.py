@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 import flint
+from force_diffusion.numeric.arithmetic.errors import NOT_REACHED, ForceDiffusionError
 from force_diffusion.numeric.arithmetic.systems import Balls, as_ball
 from force_diffusion.numeric.mechanics.forces import NotStandingError
 from force_diffusion.numeric.mechanics.packing import UndecidedError
@@ -20,8 +21,10 @@ from force_diffusion.numeric.studies.cost.ways import DIGITS, answer
 BEYOND = Fraction(1, 10 ** (max(DIGITS) + 20))
 
 
-class IncomparableError(ArithmeticError):
+class IncomparableError(ForceDiffusionError, ArithmeticError):
     """An answer has not the rows of the reference, or is not finite."""
+
+    exit_status = NOT_REACHED
 
 
 class Truth:
