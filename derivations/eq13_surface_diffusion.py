@@ -20,6 +20,7 @@ from force_diffusion.derivations.framework.runner import run_alone
 from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
 from force_diffusion.symbolic.as_printed import equation, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, undecided
+from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import M, j, m, phi, r, sigma, z
 from force_diffusion.symbolic.variances.certified_sums import certified_sum
 from force_diffusion.symbolic.variances.variance import (
@@ -27,7 +28,9 @@ from force_diffusion.symbolic.variances.variance import (
     exact_variances,
 )
 
-RELATIVE_VARIANCE = sympy.Symbol(r"\sigma_f^2(z)/\langle f\rangle^2")
+RELATIVE_VARIANCE = Symbol(
+    "relative_variance", r"\frac{\sigma_f^2(z)}{\langle f\rangle^2}", "σ_f²(z)/⟨f⟩²"
+)
 
 PRINTED = equation(
     RELATIVE_VARIANCE,

@@ -36,6 +36,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     proved,
     undecided,
 )
+from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     ForceMinus,
     ForcePlus,
@@ -57,8 +58,10 @@ from force_diffusion.symbolic.variances.certified_sums import certified_sum
 from force_diffusion.symbolic.variances.variance import ExactForm, exact_variances, order
 from force_diffusion.symbolic.variances.weights import take_apart
 
-RELATIVE_VARIANCE = sympy.Symbol(r"\sigma_f^2(z)/\langle f\rangle_z^2")
-MEAN_FORCE = sympy.Symbol(r"\langle f\rangle_z")
+RELATIVE_VARIANCE = Symbol(
+    "relative_variance", r"\frac{\sigma_f^2(z)}{\langle f\rangle_z^2}", "σ_f²(z)/⟨f⟩_z²"
+)
+MEAN_FORCE = Symbol("mean_force", r"\langle f\rangle_z", "⟨f⟩_z")
 
 PRINTED = equation(
     RELATIVE_VARIANCE,

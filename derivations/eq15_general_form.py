@@ -22,16 +22,19 @@ from force_diffusion.symbolic.kernel.decisions import (
     refuted,
     undecided,
 )
+from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.structure import rebuilt
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import Dot, M, j, n_minus, n_plus, n_x, n_y, phi, r, sigma, z
 from force_diffusion.symbolic.variances.averages import LayerAverage, layer_average, uniform_order
 from force_diffusion.symbolic.variances.variance import leading, order, variance
 
-DEVIATION = sympy.Symbol(r"\sigma_f/\langle f\rangle")
-HEIGHT = sympy.Symbol("M_star", positive=True)
-MEAN_SQUARE = sympy.Symbol("mean_square")
-TENSILE = sympy.Symbol("tensile")
+DEVIATION = Symbol("relative_deviation", r"\frac{\sigma_f}{\langle f\rangle}", "σ_f/⟨f⟩")
+HEIGHT = Symbol("M_star", "M^{*}", "M*", positive=True)
+MEAN_SQUARE = Symbol(
+    "mean_square", r"\overline{\sigma_f^2/\langle f\rangle^2}", "mean of σ_f²/⟨f⟩²"
+)
+TENSILE = Symbol("tensile", "P(f<0)", "P(f < 0)")
 
 PRINTED = equation(DEVIATION, times(power(M, sympy.Rational(3, 2)), sigma, 1 / r))
 PRINTED_HEIGHT = equation(HEIGHT, power(times(sigma, 1 / r), sympy.Rational(-2, 3)))
@@ -54,7 +57,7 @@ PROFILES = {
 }
 """σ_f²/⟨f⟩² at leading order in units of (M/M*)³: their mean over z is 1."""
 
-ROOTS = {
+ROOTS: dict[str, tuple[sympy.Expr, int, sympy.Expr]] = {
     "surface": (sympy.Integer(2), 2, (2 - z) / 5),
     "bulk": (sympy.Rational(3, 10), 4, (11 - 6 * z) / 60),
 }

@@ -36,6 +36,7 @@ from force_diffusion.symbolic.kernel.decisions import (
 )
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.mechanics.paths import IN_CONE
+from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
@@ -63,10 +64,26 @@ from force_diffusion.symbolic.symbols import (
 from force_diffusion.symbolic.variances.cases import Case, Piece, first_difference, squares_by_case
 from force_diffusion.symbolic.variances.variance import leading, order, without_constant
 
-RESPONSE = sympy.Symbol("response")
-ONE_CONTACT = sympy.Symbol("contact_response")
-ON_LEG = sympy.Symbol("leg_response")
-LEG_MAGNITUDE = sympy.Symbol("leg_force")
+RESPONSE = Symbol(
+    "response",
+    r"\frac{\sigma_{\rm ensemble}^{2}(p)}{(f^{\rm load})^{2}}",
+    "σ²(p)/f_load²",
+)
+ONE_CONTACT = Symbol(
+    "contact_response",
+    r"\frac{\sigma^{2}(n_{y} f_{ij}^{+})}{(f^{\rm load})^{2}}",
+    "σ²(n_y f⁺_ij)/f_load²",
+)
+ON_LEG = Symbol(
+    "leg_response",
+    r"\frac{\sigma_{\rm leg}^{2}(p)}{(f^{\rm load})^{2}}",
+    "σ²(p on a leg)/f_load²",
+)
+LEG_MAGNITUDE = Symbol(
+    "leg_force",
+    r"\frac{\sigma_{\rm leg}^{2}(f)}{\langle f\rangle^{2}}",
+    "σ²(f on a leg)/⟨f⟩²",
+)
 
 PRINTED = equation(
     RESPONSE,

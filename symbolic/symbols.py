@@ -6,23 +6,26 @@ the indices of a bead (r, s); here the bead's are ``site_r`` and ``site_s``.
 
 from typing import Any
 
-from sympy import Function, Piecewise, Symbol
+from force_diffusion.symbolic.notation import Symbol, raised
+from sympy import Function, Matrix, Piecewise
+from sympy.printing.precedence import PRECEDENCE
 
 # geometry: radius, horizontal spacing (a length), base vectors' components and mutual cosine
 r = Symbol("r", positive=True)
-spacing = Symbol("s", positive=True)
+spacing = Symbol("s", code="spacing", positive=True)
 n_x = Symbol("n_x", positive=True)
 n_y = Symbol("n_y", positive=True)
-phi = Symbol("phi", real=True)
-sigma = Symbol("sigma", positive=True)  # standard deviation σ_δr of the radii (a length)
-epsilon = Symbol("epsilon", real=True)  # strength of the disorder, for linearising
-f_load = Symbol("f_load", positive=True)  # magnitude of the load on a surface bead
-m_g = Symbol("m_g", positive=True)  # weight of a bead under a bulk load
+phi = Symbol("phi", r"\phi", "φ", real=True)
+# standard deviation of the radii (a length)
+sigma = Symbol("sigma", r"\sigma_{\delta r}", "σ_δr", positive=True)
+epsilon = Symbol("epsilon", r"\varepsilon", "ε", real=True)  # strength, for linearising
+f_load = Symbol("f_load", r"f^{\rm load}", positive=True)  # magnitude of the load on a surface bead
+m_g = Symbol("m_g", "mg", "mg", positive=True)  # weight of a bead under a bulk load
 z = Symbol("z", real=True)  # relative height j/M
 
 # indices: beads (i, j), (k, l), (r, s); height M; summation and path indices
 i, j, k, l, m, n, p, q = (Symbol(name, integer=True) for name in "ijklmnpq")  # noqa: E741
-site_r, site_s = (Symbol(name, integer=True) for name in "rs")
+site_r, site_s = (Symbol(name, code=f"site_{name}", integer=True) for name in "rs")
 M = Symbol("M", integer=True, positive=True)
 
 INDICES = (i, j, k, l, m, n, p, q, site_r, site_s, M)
@@ -31,12 +34,15 @@ INDICES = (i, j, k, l, m, n, p, q, site_r, site_s, M)
 PARAMETERS = (phi, n_x, n_y, r, spacing, sigma, epsilon, f_load, m_g, z)
 """All continuous symbols, in the fixed order that exact domains use."""
 
+SCALES = (r, spacing, f_load)
+"""What other quantities are measured in; written in front of other parameters."""
+
 # base vectors and reciprocal vectors: linear symbols, read by ``symbolic.mechanics.vectors``
-n_plus = Symbol("n_plus")
-n_minus = Symbol("n_minus")
-b_plus = Symbol("b_plus")
-b_minus = Symbol("b_minus")
-e_y = Symbol("e_y")  # the upward vertical unit vector
+n_plus = Symbol("n_plus", r"\hat{\bf n}^{+}", "n⁺")
+n_minus = Symbol("n_minus", r"\hat{\bf n}^{-}", "n⁻")
+b_plus = Symbol("b_plus", r"{\bf b}^{+}", "b⁺")
+b_minus = Symbol("b_minus", r"{\bf b}^{-}", "b⁻")
+e_y = Symbol("e_y", r"\hat{\bf e}_{y}")  # the upward vertical unit vector
 
 VECTORS = (n_plus, n_minus, b_plus, b_minus, e_y)
 
@@ -47,6 +53,7 @@ class SiteFunction(Function):  # type: ignore[misc]
     nargs = 2
     latex_head = ""
     text_head = ""
+    in_code = ""
     branch = ""  # "+" or "-" for a contact's quantity
     is_vector = False
 
@@ -55,59 +62,81 @@ class SiteFunction(Function):  # type: ignore[misc]
         """The indices (i, j)."""
         return self.args[0], self.args[1]
 
+    def _subscript(self, printer: Any) -> tuple[str, bool]:
+        """Indices side by side, and whether each is a single letter (then without commas)."""
+        set_tightly = getattr(printer, "index", printer._print)
+        letters = all(index.is_Symbol for index in self.args)
+        return ("" if letters else ",").join(map(set_tightly, self.args)), letters
+
+    def _latex(self, printer: Any, exp: str | None = None) -> str:
+        branch = f"^{{{self.branch}}}" if self.branch else ""
+        shown = f"{self.latex_head}{branch}_{{{self._subscript(printer)[0]}}}"
+        return shown if exp is None else rf"({shown})^{{{exp}}}"
+
+    def _text(self, printer: Any) -> str:
+        indices, letters = self._subscript(printer)
+        return f"{self.text_head}{raised(self.branch)}_{indices if letters else f'({indices})'}"
+
 
 class DeltaR(SiteFunction):
     """δr_ij: deviation of the radius of bead (i, j) from r (a length)."""
 
-    latex_head, text_head = r"\delta r", "δr"
+    latex_head, text_head, in_code = r"\delta r", "δr", "dr"
 
 
 class Position(SiteFunction):
     """x_ij: centre of bead (i, j) in the ordered packing (vector)."""
 
-    latex_head, text_head, is_vector = r"{\bf x}", "x", True
+    latex_head, text_head, in_code = r"{\bf x}", "x", "x"
+    is_vector = True
 
 
 class DeltaX(SiteFunction):
     """δx_ij: displacement of bead (i, j) to first order (vector)."""
 
-    latex_head, text_head, is_vector = r"\delta{\bf x}", "δx", True
+    latex_head, text_head, in_code = r"\delta{\bf x}", "δx", "dx"
+    is_vector = True
 
 
 class DeltaNPlus(SiteFunction):
     """δn⁺_ij: change of the direction from bead (i, j) to bead (i+1, j+1) (vector)."""
 
-    latex_head, text_head, branch, is_vector = r"\delta\hat{\bf n}", "δn", "+", True
+    latex_head, text_head, in_code = r"\delta\hat{\bf n}", "δn", "dn_plus"
+    branch, is_vector = "+", True
 
 
 class DeltaNMinus(SiteFunction):
     """δn⁻_ij: change of the direction from bead (i, j) to bead (i−1, j+1) (vector)."""
 
-    latex_head, text_head, branch, is_vector = r"\delta\hat{\bf n}", "δn", "-", True
+    latex_head, text_head, in_code = r"\delta\hat{\bf n}", "δn", "dn_minus"
+    branch, is_vector = "-", True
 
 
 class ForcePlus(SiteFunction):
     """f⁺_ij: force of the contact from (i, j) to (i+1, j+1), positive when compressive."""
 
-    latex_head, text_head, branch = "f", "f", "+"
+    latex_head, text_head, in_code = "f", "f", "f_plus"
+    branch = "+"
 
 
 class ForceMinus(SiteFunction):
     """f⁻_ij: force of the contact from (i, j) to (i−1, j+1), positive when compressive."""
 
-    latex_head, text_head, branch = "f", "f", "-"
+    latex_head, text_head, in_code = "f", "f", "f_minus"
+    branch = "-"
 
 
 class Load(SiteFunction):
     """F^load on bead (k, l) (vector)."""
 
-    latex_head, text_head, is_vector = r"{\bf F}^{\rm load}", "Fˡᵒᵃᵈ", True
+    latex_head, text_head, in_code = r"{\bf F}^{\rm load}", "Fˡᵒᵃᵈ", "load"
+    is_vector = True
 
 
 class SecondDifference(SiteFunction):
     """Δ_rs = 2δr_rs − δr_(r−2,s) − δr_(r+2,s), kept whole until ``doit``."""
 
-    latex_head, text_head = r"\Delta", "Δ"
+    latex_head, text_head, in_code = r"\Delta", "Δ", "second_difference"
 
     def doit(self, **hints: Any) -> Any:
         """Unfold into the three radii."""
@@ -119,12 +148,29 @@ class Dot(Function):  # type: ignore[misc]
     """u·v for vector expressions, kept whole; ``symbolic.mechanics.vectors`` expands it."""
 
     nargs = 2
+    in_code = "dot"
+
+    def _factors(self, printer: Any) -> list[str]:
+        return [printer.parenthesize(arg, PRECEDENCE["Mul"]) for arg in self.args]
+
+    def _latex(self, printer: Any) -> str:
+        return r" \cdot ".join(self._factors(printer))
+
+    def _text(self, printer: Any) -> str:
+        return "·".join(self._factors(printer))
 
 
 class MatrixTimes(Function):  # type: ignore[misc]
     """((a, b), (c, d)) v in Cartesian components, kept whole: arguments a, b, c, d, v."""
 
     nargs = 5
+    in_code = "matrix_times"
+
+    def _latex(self, printer: Any) -> str:
+        matrix = printer._print(Matrix(2, 2, self.args[:4]))
+        return f"{matrix} {printer.parenthesize(self.args[4], PRECEDENCE['Mul'])}"
+
+    _text = _latex
 
 
 class Braces(Function):  # type: ignore[misc]
@@ -139,3 +185,16 @@ class Braces(Function):  # type: ignore[misc]
         """Return the same as a Piecewise."""
         first, second, index, last = self.args
         return Piecewise((first, index <= last), (second, True))
+
+    def _latex(self, printer: Any) -> str:
+        first, second, index, last = map(printer._print, self.args)
+        cases = rf"{first} & {index} \leq {last} \\ {second} & {index} > {last}"
+        return rf"\left\{{ \begin{{array}}{{r@{{\;:\;}}l}} {cases} \end{{array}} \right\}}"
+
+    def _text(self, printer: Any) -> str:
+        first, second, index, last = map(printer._print, self.args)
+        return f"{{{first} if {index} ≤ {last}; {second} if {index} > {last}}}"
+
+    def _python(self, printer: Any) -> str:
+        first, second, index, last = map(printer._print, self.args)
+        return f"({first} if {index} <= {last} else {second})"

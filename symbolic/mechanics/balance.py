@@ -8,6 +8,7 @@ direction: n⁺·δn⁺ = n⁻·δn⁻ = 0 by Eqs. 4 and 5. The strength ε mult
 from dataclasses import dataclass
 
 import sympy
+from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
@@ -19,9 +20,9 @@ from force_diffusion.symbolic.symbols import (
     phi,
 )
 
-tilt_plus = sympy.Symbol("nu_plus")  # n⁻·δn⁺ of the supporting contact along n⁺
-tilt_minus = sympy.Symbol("nu_minus")  # n⁺·δn⁻ of the supporting contact along n⁻
-tilt_incoming = sympy.Symbol("nu_in")  # the same of an incoming contact force
+tilt_plus = Symbol("nu_plus", r"\nu^{+}", "ν⁺")  # n⁻·δn⁺ of the supporting contact along n⁺
+tilt_minus = Symbol("nu_minus", r"\nu^{-}", "ν⁻")  # n⁺·δn⁻ of the supporting contact along n⁻
+tilt_incoming = Symbol("nu_in", r"\nu_{\rm in}", "ν_in")  # the same of an incoming contact force
 
 
 def dotted(vector: sympy.Expr, tilts: dict[SiteFunction, sympy.Symbol]) -> sympy.ImmutableMatrix:

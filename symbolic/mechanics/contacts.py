@@ -8,10 +8,13 @@ from dataclasses import dataclass
 
 import sympy
 from force_diffusion.symbolic.mechanics.lattice import N_MINUS, N_PLUS
+from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import epsilon, r
 
-dx, dy = sympy.symbols("delta_x delta_y", real=True)  # δx of the bead less that of its support
-radii = sympy.Symbol("rho", real=True)  # δr of the bead plus that of its support
+# δx of the bead less that of its support, and δr of the bead plus that of its support
+dx = Symbol("delta_x", r"\Delta x", "Δx", real=True)
+dy = Symbol("delta_y", r"\Delta y", "Δy", real=True)
+radii = Symbol("rho", r"\rho", "ρ", real=True)
 
 
 def separation(ordered: sympy.Matrix) -> sympy.Matrix:

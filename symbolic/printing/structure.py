@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from force_diffusion.symbolic import symbols as sy
-from sympy import Add, Basic, Expr, Function, Integer, MatrixBase, Mul, Pow, Rational, Sum, Symbol
+from sympy import Add, Basic, Expr, Integer, MatrixBase, Mul, Pow, Rational, Sum, Symbol
 from sympy.core.relational import Relational
 from sympy.printing.printer import Printer
 
@@ -40,7 +40,7 @@ def positive_first(terms: list[Expr]) -> list[Expr]:
 
 
 def _factor_key(factor: Expr) -> tuple[int, int]:
-    """Numbers, then M and the indices, then sums of them, then lengths, then other parameters."""
+    """Numbers, then M and the indices, then sums of them, then scales, then other parameters."""
     base = factor.base if isinstance(factor, Pow) else factor
     if factor.is_number:
         return 0, 0
@@ -49,7 +49,7 @@ def _factor_key(factor: Expr) -> tuple[int, int]:
     if base in sy.INDICES:
         return 1, -1 if base == sy.M else sy.INDICES.index(base)
     if base in sy.PARAMETERS:
-        return 3, base not in (sy.r, sy.spacing, sy.f_load)
+        return 3, base not in sy.SCALES
     return (2 if base.free_symbols <= set(sy.INDICES) else 4), 0
 
 
@@ -198,16 +198,6 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
             texts.append(text)
         return self.juxtaposition.join(texts)
 
-    @abstractmethod
-    def _print_SiteFunction(self, expr: sy.SiteFunction, exp: str | None = None) -> str:
-        """A quantity at a site, perhaps raised to a power."""
-
-    def _print_Function(self, expr: Function, exp: str | None = None) -> str:
-        # SymPy's dispatch passes over the classes between a function's own and ``Function``
-        if isinstance(expr, sy.SiteFunction):
-            return self._print_SiteFunction(expr, exp)
-        return str(super()._print_Function(expr, exp) if exp else super()._print_Function(expr))
-
     def _print_Rational(self, expr: Rational) -> str:
         if expr.q == 1:
             return str(expr.p).replace("-", self.minus)
@@ -228,6 +218,11 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
         )
         return self.set_power(base if simple else self.set_brackets(base), expr.exp)
 
+    def parenthesize(self, item: Expr, level: int, *_: Any, **__: Any) -> str:
+        """What stands within a product: brackets around sums."""
+        text = str(self._print(item))
+        return self.set_brackets(text) if item.is_Add else text
+
     # indices
 
     def index(self, expr: Expr) -> str:
@@ -239,8 +234,3 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
             terms = positive_first(sorted(terms, key=_index_key))
         pieces = self.terms(Add(*terms, evaluate=False)) if len(terms) > 1 else []
         return "".join(sign + body for sign, body in pieces).replace(" ", "")
-
-    def subscript(self, indices: Sequence[Expr]) -> tuple[str, bool]:
-        """Indices side by side, and whether each is a single letter (then without commas)."""
-        letters = all(isinstance(index, Symbol) for index in indices)
-        return ("" if letters else ",").join(self.index(index) for index in indices), letters
