@@ -1,4 +1,4 @@
-"""The guides: every command in them does what a reader would see."""
+"""The documentation: every command and every line of Python in it does what a reader would see."""
 
 import os
 import re
@@ -11,33 +11,59 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-GUIDES = sorted((ROOT / "docs").glob("*.md"))
+PAGES = sorted((ROOT / "docs").rglob("*.md"))
 
 
-def _commands(guide: Path) -> list[str]:
-    blocks = re.findall(r"^```sh\n(.*?)\n```$", guide.read_text(encoding="utf-8"), re.M | re.S)
-    return [line for block in blocks for line in block.splitlines()]
+def _blocks(page: Path, language: str) -> list[str]:
+    """The fenced blocks of a page that a reader is meant to run."""
+    text = page.read_text(encoding="utf-8")
+    return re.findall(rf"^```{language}\n(.*?)\n```$", text, re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.parametrize("guide", GUIDES, ids=lambda guide: guide.stem)
-def test_its_commands_run_as_written(guide: Path, tmp_path: Path) -> None:
+def _name(page: Path) -> str:
+    return str(page.relative_to(ROOT / "docs").with_suffix(""))
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with nothing but the scenes, and a home of its own."""
     shutil.copytree(ROOT / "scenes", tmp_path / "scenes")
-    environment = {**os.environ, "HOME": str(tmp_path), "PYTHONPATH": str(ROOT)}
-    environment["XDG_CACHE_HOME"] = str(tmp_path / "cache")
-    commands = _commands(guide)
-    assert commands
-    for command in commands:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    return tmp_path
+
+
+def _python(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-W", "error", *arguments],
+        cwd=folder, env=os.environ, capture_output=True, text=True, check=False, timeout=120,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("page", [p for p in PAGES if _blocks(p, "sh")], ids=_name)
+def test_its_commands_run_as_written(page: Path, folder: Path) -> None:
+    for command in "\n".join(_blocks(page, "sh")).splitlines():
         program, *arguments = shlex.split(command)
         assert program == "force-diffusion", command
-        done = subprocess.run(
-            [sys.executable, "-W", "error", "-m", "force_diffusion", *arguments],
-            cwd=tmp_path, env=environment, capture_output=True, text=True, check=False, timeout=120,
-        )  # fmt: skip
+        done = _python(folder, "-m", "force_diffusion", *arguments)
         assert done.returncode == 0, f"{command}\n{done.stderr}"
         assert done.stdout, command
 
 
-@pytest.mark.parametrize("guide", GUIDES, ids=lambda guide: guide.stem)
-def test_its_links_lead_somewhere(guide: Path) -> None:
-    for target in re.findall(r"\]\(([^)#]+)", guide.read_text(encoding="utf-8")):
-        assert (guide.parent / target).exists(), target
+@pytest.mark.parametrize("page", [p for p in PAGES if _blocks(p, "python")], ids=_name)
+def test_its_python_runs_as_written(page: Path, folder: Path) -> None:
+    done = _python(folder, "-c", "\n".join(_blocks(page, "python")))
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_guides_have_commands_that_are_run() -> None:
+    guides = [page for page in PAGES if page.parent.name == "guides" and page.stem != "index"]
+    assert len(guides) >= 5
+    assert all(_blocks(guide, "sh") for guide in guides)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=_name)
+def test_its_links_lead_somewhere(page: Path) -> None:
+    for target in re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8")):
+        assert (page.parent / target).exists(), target

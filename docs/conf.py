@@ -1,0 +1,64 @@
+"""The documentation site: ``sphinx-build -W docs site``. It loads nothing from elsewhere."""
+
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+import math_core
+from docutils import nodes
+
+project = "force-diffusion"
+author = "the force-diffusion developers"
+copyright = f"2026, {author}"
+
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinxcontrib.programoutput",
+]
+exclude_patterns = ["_build"]
+
+html_theme = "furo"
+html_title = "force-diffusion"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_copy_source = False
+html_show_sourcelink = False
+
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+nb_execution_mode = "force"
+nb_execution_in_temp = True
+nb_execution_raise_on_error = True
+nb_execution_timeout = 120
+
+autodoc_member_order = "bysource"
+autodoc_typehints_format = "short"
+python_use_unqualified_type_names = True
+
+# The commands of the pages are those of the Python that builds them; their help has one width.
+os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+os.environ["COLUMNS"] = "88"
+programoutput_use_ansi = False
+
+_LATEX = math_core.LatexToMathML()
+
+
+def _formula(writer: Any, node: nodes.Element, display: bool) -> None:
+    """Write a formula as MathML, which browsers lay out without a script."""
+    writer.body.append(_LATEX.convert_with_local_state(node.astext(), displaystyle=display))
+    raise nodes.SkipNode
+
+
+def setup(app: Any) -> None:
+    """Make MathML of all formulas."""
+    app.add_html_math_renderer(
+        "mathml",
+        (lambda writer, node: _formula(writer, node, display=False), None),
+        (lambda writer, node: _formula(writer, node, display=True), None),
+    )
+
+
+html_math_renderer = "mathml"
