@@ -1,0 +1,112 @@
+"""The scene reference: every key that a scene takes, and every column that an answer has."""
+
+import csv
+import re
+from pathlib import Path
+
+import pytest
+
+from force_diffusion.__main__ import main
+
+REFERENCE = Path(__file__).parents[2] / "docs" / "reference"
+SECTIONS = ("packing", "disorder", "load", "effects", "ask")
+PACKING = "[packing]\nheight = 2\nwidth = 7\n[disorder]\nkind = 'uniform'\nrelative_std = 1e-3\n"
+POINT = "[load]\nkind = 'point'\nat = [0, 2]\n"
+ASKED = {
+    "contact": "quantity = 'contact'\nat = [0, 0, '+']\n",
+    "contact_forces": "quantity = 'contact_forces'\n",
+    "positions": "quantity = 'positions'\n",
+    "base_reactions": "quantity = 'base_reactions'\n",
+    "profile": "quantity = 'profile'\n",
+    "histogram": "quantity = 'histogram'\nbins = 2\n",
+    "response": "quantity = 'response'\n",
+}
+
+
+def _part(page: str, title: str) -> str:
+    """What stands below a heading, up to the next one."""
+    text = (REFERENCE / f"{page}.md").read_text(encoding="utf-8")
+    found = re.search(rf"^#+ {re.escape(title)}\n(.*?)(?=^#|\Z)", text, re.MULTILINE | re.DOTALL)
+    assert found, title
+    return found[1]
+
+
+def _first_cells(table: str) -> set[str]:
+    cells = re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
+    return {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
+
+
+def _scene(folder: Path, text: str) -> str:
+    path = folder / "scene.toml"
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+def test_a_section_has_the_keys_that_are_told(section, tmp_path, capsys) -> None:
+    whole = {
+        "packing": "height = 2",
+        "disorder": "kind = 'uniform'\nrelative_std = 1e-3",
+        "load": "",
+        "effects": "",
+        "ask": "quantity = 'profile'",
+    }
+    whole[section] += "\nnonsense = 1"
+    text = "\n".join(f"[{name}]\n{keys}" for name, keys in whole.items())
+    assert main(["explain", _scene(tmp_path, text)]) == 2
+    message = " ".join(capsys.readouterr().err.split())
+    found = re.search(rf"{section}\.nonsense.*allowed are ([\w, ]+)", message)
+    assert found, message
+    assert _first_cells(_part("scenes", f"`[{section}]`")) == set(found[1].strip().split(", "))
+
+
+def test_the_sections_are_told(tmp_path, capsys) -> None:
+    assert (
+        main(["explain", _scene(tmp_path, f"{PACKING}[nonsense]\n[ask]\n{ASKED['profile']}")]) == 2
+    )
+    message = " ".join(capsys.readouterr().err.split())
+    for section in SECTIONS:
+        assert section in message
+
+
+def test_the_quantities_are_told(tmp_path, capsys) -> None:
+    text = "[packing]\nheight = 2\n[ask]\nquantity = 'nonsense'\n"
+    assert main(["explain", _scene(tmp_path, text)]) == 2
+    message = " ".join(capsys.readouterr().err.split())
+    assert set(re.findall(r'"(\w+)"', message)) - {"nonsense"} == set(ASKED)
+    for quantity in ASKED:
+        assert f'`"{quantity}"`' in _part("scenes", "`[ask]`")
+
+
+@pytest.mark.parametrize("realisations", [1, 3])
+@pytest.mark.parametrize("quantity", list(ASKED))
+def test_an_answer_has_the_columns_that_are_told(quantity, realisations, tmp_path, capsys) -> None:
+    load = POINT if quantity == "response" else ""
+    text = f"{PACKING}{load}[ask]\nrealisations = {realisations}\n{ASKED[quantity]}"
+    assert main(["run", _scene(tmp_path, text)]) == 0
+    columns = capsys.readouterr().out.splitlines()[0].split(",")
+    part = _part("answers", f"`{quantity}`")
+    if quantity == "contact_forces":
+        part += _part("answers", "`contact`")
+    told = set(re.findall(r"`(\w+)`", part)) | {"realisation"}
+    assert set(columns) <= told
+    if realisations == 1 and quantity != "response":
+        assert _first_cells(part) == set(columns)
+
+
+def test_an_ensemble_has_the_columns_that_are_told(tmp_path, capsys) -> None:
+    told = set(re.findall(r"`(\w+)`", _part("answers", "The JSON of `ensemble`")))
+    for quantity in ("profile", "histogram", "response"):
+        load = POINT if quantity == "response" else ""
+        scene = _scene(tmp_path, f"{PACKING}{load}[ask]\nrealisations = 40\n{ASKED[quantity]}")
+        assert main(["ensemble", scene, "--workers", "1"]) == 0
+        columns = capsys.readouterr().out.splitlines()[0].split(",")
+        assert set(columns) <= told
+
+
+def test_a_study_of_costs_has_the_columns_that_are_told(tmp_path, capsys) -> None:
+    scene = _scene(tmp_path, f"{PACKING}[ask]\n{ASKED['contact']}")
+    assert main(["cost", scene, "--out", str(tmp_path / "cost")]) == 0
+    with (tmp_path / "cost" / "cost.csv").open(newline="", encoding="utf-8") as file:
+        columns = next(csv.reader(file))
+    assert _first_cells(_part("answers", "`cost.csv`")) == set(columns)
