@@ -16,7 +16,8 @@ def calibrate(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
 ) -> None:
     """Measure what this machine's arithmetic costs; a tolerance chooses the cheapest by it."""
-    from force_diffusion.derivations.commands.publishing import NOT_REACHED, fail, noticing
+    from force_diffusion.derivations.commands.shared import noticing
+    from force_diffusion.numeric.arithmetic.errors import NotReachedError
     from force_diffusion.numeric.planning import stored_costs
     from force_diffusion.numeric.studies.calibrating import calibrate as measure
 
@@ -26,7 +27,7 @@ def calibrate(
     try:
         path = stored_costs.store(model)
     except OSError as error:
-        fail(f"calibrated, but it can't be stored: {_why(error)}", NOT_REACHED)
+        raise NotReachedError(f"calibrated, but it can't be stored: {_why(error)}") from None
     if not as_json:
         print(f"Stored in {path}")
 

@@ -1,11 +1,16 @@
 """The command line: which commands there are; each one's module is imported when it is asked for.
 
-A new command takes a module of ``derivations`` whose ``register(app)`` adds it to a Typer
-application, and a line in ``COMMANDS``.
+A new command takes a module of ``derivations.commands`` whose ``register(app)`` adds it to a Typer
+application, and a line in ``COMMANDS``. It checks its words, calls what Python users call, and
+prints or writes the answer (``output``); errors it raises, and never catches: ``framework.guard``
+tells them.
 """
 
+import shlex
+import sys
+from contextvars import ContextVar
 from importlib import import_module
-from typing import Any
+from typing import Annotated, Any
 
 import typer
 from typer.core import TyperGroup
@@ -18,6 +23,7 @@ COMMANDS = {
     ),
     "show": ("equations", "Print one equation, without deriving it."),
     "list": ("equations", "List the equations."),
+    "examples": ("examples", "Copy the example scenes into a folder."),
     "run": ("scenes", "Answer a scene's question."),
     "explain": ("scenes", "Say what 'run' would do, and why."),
     "calibrate": (
@@ -57,10 +63,16 @@ def either(words: list[str]) -> str:
     return ", ".join(words[:-1]) + f" or {words[-1]}" if len(words) > 1 else words[0]
 
 
+_GIVEN: ContextVar[list[str]] = ContextVar("given")
+
+
+def command_line() -> str:
+    """What was typed, as one line for a shell."""
+    return shlex.join(["force-diffusion", *_GIVEN.get()])
+
+
 def _application(**options: Any) -> typer.Typer:
-    return typer.Typer(
-        add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False, **options
-    )
+    return typer.Typer(rich_markup_mode=None, pretty_exceptions_enable=False, **options)
 
 
 class _Commands(TyperGroup):
@@ -74,7 +86,7 @@ class _Commands(TyperGroup):
         """Import and build one command."""
         if cmd_name not in COMMANDS:
             return None
-        app = _application()
+        app = _application(add_completion=False)
         import_module(f"force_diffusion.derivations.commands.{COMMANDS[cmd_name][0]}").register(app)
         app.registered_commands = [
             command
@@ -90,7 +102,8 @@ class _Commands(TyperGroup):
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """Find the command, or say which ones exist."""
-        if args and not args[0].startswith("-") and args[0] not in COMMANDS:
+        unknown = args and not args[0].startswith("-") and args[0] not in COMMANDS
+        if unknown and not ctx.resilient_parsing:  # as a shell completes a line
             ctx.fail(f"There is no command '{args[0]}'. Use {either(list(COMMANDS))}.")
         return super().resolve_command(ctx, args)
 
@@ -98,15 +111,32 @@ class _Commands(TyperGroup):
 app = _application(cls=_Commands, no_args_is_help=True)
 
 
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        print(f"force-diffusion {version('force-diffusion')}")
+        raise typer.Exit
+
+
 @app.callback(epilog=STATUSES)
-def _about() -> None:
+def _about(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_print_version, is_eager=True, help="Print the version."
+        ),
+    ] = False,
+) -> None:
     """Derive, prove and export the equations of force diffusion in packings of discs."""
 
 
 def run(arguments: list[str] | None = None) -> int:
     """Run the command line and return its exit status."""
+    given = sys.argv[1:] if arguments is None else arguments
+    _GIVEN.set(given)
     try:
-        app(args=arguments, prog_name="force-diffusion")
+        app(args=given, prog_name="force-diffusion")
     except SystemExit as done:
         if isinstance(done.__context__, OSError):  # a broken pipe, which typer calls status 1
             raise done.__context__ from None

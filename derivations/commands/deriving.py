@@ -2,10 +2,9 @@
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from contextlib import ExitStack
 from pathlib import Path
 
-from force_diffusion.derivations.commands.folder import output_folder
+from force_diffusion.derivations.commands.output import output
 from force_diffusion.derivations.commands.progress import Silence, display
 from force_diffusion.derivations.framework.catalogue import load, modules, with_premises
 from force_diffusion.derivations.framework.record import Derivation, Outcome
@@ -40,20 +39,40 @@ def status_of(outcomes: Iterable[Outcome]) -> int:
     return 0 if all(outcome.verdict is Verdict.PROVED for outcome in outcomes) else 1
 
 
-def derive(numbers: Sequence[int], out: Path | None, as_json: bool) -> int:
+def derive(numbers: Sequence[int], out: Path | None, as_json: bool, overwrite: bool = False) -> int:
     """Derive these equations and their premises: 0 if all are proved, else 1.
 
-    The output folder is claimed before the first proof, so that a wrong one costs no time.
+    The output folder is looked at before the first proof, so that a wrong one costs no time. The
+    document in it is also about the equations that an earlier run has left there.
     """
-    with ExitStack() as stack:
-        folder = stack.enter_context(output_folder(out)) if out else None
-        derivations = with_premises(load(number) for number in numbers)
+    from force_diffusion.derivations.export.document import (
+        DOCUMENT,
+        document,
+        finding,
+        fragment_name,
+        statement_latex,
+    )
+
+    derivations = with_premises(load(number) for number in numbers)
+    names = [*map(fragment_name, derivations), DOCUMENT]
+    with output(out, "derive", names, overwrite) as folder:
         watch = display(len(derivations), as_json=as_json)
         outcomes = outcomes_of(derivations, watch)
-        if folder is not None:
-            from force_diffusion.derivations.export.document import output_files
-
-            folder.publish(output_files(outcomes))
+        if folder:
+            parts = {
+                found.number: (load(found.number), found)
+                for found in (folder.manifest.equations if folder.manifest else ())
+                if found.number in modules() and folder.holds(fragment_name(load(found.number)))
+            }
+            parts |= {one.derivation.number: (one.derivation, finding(one)) for one in outcomes}
+            about = [parts[number] for number in sorted(parts)]
+            folder.write(
+                {
+                    **{fragment_name(one): statement_latex(one) for one in derivations},
+                    DOCUMENT: document(about),
+                },
+                [found for _, found in about],
+            )
     watch.summary(f"{verdict_counts(outcomes)}." + (f" Written to {out}." if out else ""))
     if as_json:
         from force_diffusion.derivations.export.report import outcomes_json

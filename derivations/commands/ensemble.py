@@ -6,18 +6,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from force_diffusion.derivations.commands.ensemble_running import Where, executor_for, run_shown
-from force_diffusion.derivations.commands.publishing import (
-    NOT_REACHED,
-    WRONG_INPUT,
-    csv_text,
-    fail,
-    out_option,
-    published,
-)
+from force_diffusion.derivations.commands.output import Overwrite, out_option, output
+from force_diffusion.derivations.export.tables import csv_text
+from force_diffusion.derivations.framework.guard import about
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.ensemble.measure import Measurement
-    from force_diffusion.numeric.ensemble.run import Result
 
 MOST = 10**9
 STATUSES = (
@@ -63,73 +58,73 @@ def ensemble(
     ] = None,
     out: Annotated[Path | None, out_option("the result as JSON and CSV")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
+    overwrite: Overwrite = False,
 ) -> None:
     """Statistics over many packings, on many cores, kept in a file as they come."""
+    from force_diffusion.numeric.ensemble.result import result_data
+
     m, size = _measured(scene, realisations, covariance, reach)
     _check_numbers(until, confidence, workers)
     executor = executor_for(m, size, workers, scheduler, cluster)
-    found: list[Result] = []
-
-    def answer() -> tuple[dict[str, Any], dict[str, str | bytes]]:
-        from force_diffusion.numeric.ensemble.result import result_data
-
-        found.append(run_shown(scene.name, m, size, executor, store, until, confidence))
-        data = result_data(found[0])
-        files: dict[str, str | bytes] = {
-            "result.json": json.dumps(data, indent=2) + "\n",
-            f"{m.quantity}.csv": csv_text(data["results"][m.quantity]),
-        }
-        if "covariance" in data:
-            files["covariance.csv"] = _matrix_text(data["covariance"])
-        return data, files
-
-    data = published(out, answer)
+    names = ["result.json", f"{m.quantity}.csv", *(["covariance.csv"] if covariance else [])]
+    with output(out, f"ensemble {scene}", names, overwrite) as folder:
+        found = run_shown(scene.name, m, size, executor, store, until, confidence)
+        data = result_data(found)
+        if folder:
+            files = {
+                "result.json": json.dumps(data, indent=2) + "\n",
+                f"{m.quantity}.csv": csv_text(data["results"][m.quantity]),
+            }
+            if "covariance" in data:
+                files["covariance.csv"] = _matrix_text(data["covariance"])
+            folder.write(files)
     print(json.dumps(data, indent=2) if as_json else "\n".join(_lines(data, m.quantity)))
-    if found[0].reached is False:
+    if found.reached is False:
         assert until is not None
-        N, width = found[0].estimates.realisations, found[0].half_width
+        N, width = found.estimates.realisations, found.half_width
         more = f"about {N * (width / until) ** 2:.2g} realisations may do" if width < MOST else ""
-        fail(
+        raise NotReachedError(
             f"the asked confidence is not reached: σ_f is known to {width:.2g}, not {until:g}; "
-            f"{more or 'more realisations are needed'}",
-            NOT_REACHED,
+            f"{more or 'more realisations are needed'}"
         )
 
 
 def _measured(
     scene: Path, realisations: int | None, covariance: bool, reach: float | None
 ) -> tuple["Measurement", int]:
-    """Read the scene and say what is measured, or leave with a message."""
+    """Read the scene and say what is measured, over how many packings."""
     from force_diffusion.numeric.ensemble.asked import measurement
-    from force_diffusion.numeric.scene.sections import SceneError, read_scene
-    from force_diffusion.numeric.scene.tables import TableError
+    from force_diffusion.numeric.scene.sections import read_scene
 
     try:
-        read = read_scene(scene)
+        with about(scene.name):
+            read = read_scene(scene)
         size = read.ask.realisations if realisations is None else realisations
         if not 2 <= size <= MOST:
             given = f"--realisations = {size}" if realisations is not None else (
                 f"{scene.name}: ask.realisations = {size}"
             )  # fmt: skip
-            fail(
+            raise ForceDiffusionError(
                 f"{given}: an ensemble has from 2 to {MOST} packings; say how many with "
-                "--realisations N or in the scene",
-                WRONG_INPUT,
+                "--realisations N or in the scene"
             )
-        return measurement(read, covariance=covariance, reach=reach), size
-    except (SceneError, TableError) as error:
-        fail(f"{scene.name}: {error}", WRONG_INPUT)
+        with about(scene.name):
+            return measurement(read, covariance=covariance, reach=reach), size
     except MemoryError:
-        fail(f"{scene.name}: the memory is full; ask for a smaller packing", WRONG_INPUT)
+        raise ForceDiffusionError(
+            f"{scene.name}: the memory is full; ask for a smaller packing"
+        ) from None
 
 
 def _check_numbers(until: float | None, confidence: float, workers: int | None) -> None:
     if until is not None and not 0 < until < 1:
-        fail(f"--until = {until:g}: must lie between 0 and 1, such as 0.01", WRONG_INPUT)
+        raise ForceDiffusionError(f"--until = {until:g}: must lie between 0 and 1, such as 0.01")
     if not 0 < confidence < 1:
-        fail(f"--confidence = {confidence:g}: must lie between 0 and 1, such as 0.95", WRONG_INPUT)
+        raise ForceDiffusionError(
+            f"--confidence = {confidence:g}: must lie between 0 and 1, such as 0.95"
+        )
     if workers is not None and not 1 <= workers <= 1024:
-        fail(f"--workers = {workers}: must lie between 1 and 1024", WRONG_INPUT)
+        raise ForceDiffusionError(f"--workers = {workers}: must lie between 1 and 1024")
 
 
 def _matrix_text(covariance: dict[str, Any]) -> str:
@@ -159,16 +154,13 @@ def ensemble_status(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
 ) -> None:
     """Say what the store of an ensemble holds, and check it."""
-    from force_diffusion.numeric.ensemble.store import StoreError, open_store
+    from force_diffusion.numeric.ensemble.store import open_store
 
+    opened = open_store(store, None)
     try:
-        opened = open_store(store, None)
-        try:
-            ranges = opened.ranges()
-        finally:
-            opened.close()
-    except StoreError as error:
-        fail(str(error), WRONG_INPUT)
+        ranges = opened.ranges()
+    finally:
+        opened.close()
     data = {
         "realisations": sum(stop - first for first, stop in ranges),
         "ranges": [list(one) for one in ranges],

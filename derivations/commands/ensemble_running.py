@@ -7,7 +7,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from force_diffusion.derivations.commands.publishing import NOT_REACHED, WRONG_INPUT, fail
+from force_diffusion.derivations.framework.guard import in_range, tell
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.ensemble.measure import Measurement
@@ -33,17 +34,19 @@ def executor_for(
     scheduler: str | None,
     cluster: Where | None,
 ) -> "Executor":
-    """Choose who solves, or leave with a message."""
+    """Choose who solves."""
     from force_diffusion.numeric.ensemble.workers import InProcess, Pool
     from force_diffusion.numeric.planning.budget import cores, memory_limit
 
     if scheduler is not None and (cluster is not None or workers is not None):
         other = "--workers" if cluster is None else "--cluster"
-        fail(f"--scheduler and {other} exclude each other: leave one out", WRONG_INPUT)
+        raise ForceDiffusionError(f"--scheduler and {other} exclude each other: leave one out")
     room = max(1, memory_limit() // (m.plan.memory + BATCH))
     if scheduler is None:
         if workers is not None and workers > room:
-            fail(f"--workers = {workers}: the free memory is enough for {room}", WRONG_INPUT)
+            raise ForceDiffusionError(
+                f"--workers = {workers}: the free memory is enough for {room}"
+            )
         if workers is None:
             short = cluster is None and size * m.plan.estimated_seconds < WORTH_WORKERS
             workers = 1 if short else min(cores(), room)
@@ -52,10 +55,9 @@ def executor_for(
     try:
         from force_diffusion.numeric.ensemble.cluster import Cluster
     except ImportError:
-        fail(
-            "a cluster needs Dask, which is missing: pip install 'force-diffusion[cluster]'",
-            WRONG_INPUT,
-        )
+        raise ForceDiffusionError(
+            "a cluster needs Dask, which is missing: pip install 'force-diffusion[cluster]'"
+        ) from None
     return Cluster(scheduler, workers or 1)
 
 
@@ -68,11 +70,11 @@ def run_shown(
     until: float | None,
     confidence: float,
 ) -> "Result":
-    """Run under a progress bar; leave with a message where that fails."""
+    """Run under a progress bar; an error says what the store holds."""
     from force_diffusion.numeric.ensemble.run import run
     from force_diffusion.numeric.ensemble.scene_key import ensemble_key
     from force_diffusion.numeric.ensemble.store import StoreError, open_store
-    from force_diffusion.numeric.ensemble.workers import RealisationError, WorkersError
+    from force_diffusion.numeric.ensemble.workers import WorkersError
     from force_diffusion.numeric.statistics.confidence import Rule
 
     rule = None if until is None else Rule(until, confidence)
@@ -82,34 +84,35 @@ def run_shown(
             store = open_store(path, ensemble_key(m))
         with ExitStack() as stack:
             progress = _progress(stack, size, until)
-            return run(
-                m, size, executor,
-                store=store, rule=rule, confidence=confidence, progress=progress,
-            )  # fmt: skip
+            with in_range():
+                return run(
+                    m, size, executor,
+                    store=store, rule=rule, confidence=confidence, progress=progress,
+                )  # fmt: skip
     except StoreError as error:
-        fail(f"--store {error}", WRONG_INPUT)
-    except RealisationError as error:
-        fail(f"{name}: {error}", WRONG_INPUT)
+        raise StoreError(f"--store {error}") from None
     except WorkersError as error:
-        fail(f"{error}.{_kept(store)}", NOT_REACHED)
+        raise WorkersError(f"{error}.{_kept(store)}") from None
+    except ForceDiffusionError as error:
+        error.add_note(name)
+        raise
     except OSError as error:
         if path is None or error.filename != str(path):
             raise
-        fail(
+        raise NotReachedError(
             f"--store {path} can't be written to ({error.strerror}): make room, or move it to "
-            f"another place.{_kept(store)}",
-            NOT_REACHED,
-        )
-    except ArithmeticError as error:
-        fail(f"{name}: a number left the range of the arithmetic ({error})", NOT_REACHED)
+            f"another place.{_kept(store)}"
+        ) from None
     except MemoryError:
-        fail(f"{name}: the memory is full; use fewer workers.{_kept(store)}", NOT_REACHED)
+        raise NotReachedError(
+            f"{name}: the memory is full; use fewer workers.{_kept(store)}"
+        ) from None
     except KeyboardInterrupt:
         kept = _kept(store)
         if path is None:
             kept = " nothing was kept; with --store FILE it would have been."
         if kept:
-            print(f"force-diffusion:{kept}", file=sys.stderr)
+            tell(kept.strip())
         raise
     finally:
         if store is not None:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 from force_diffusion.derivations.commands.cli import STATUSES, either
-from force_diffusion.derivations.commands.publishing import out_option
+from force_diffusion.derivations.commands.output import Overwrite, out_option
 from force_diffusion.derivations.framework.catalogue import modules
 
 
@@ -56,28 +56,13 @@ def derive(
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the results as JSON and nothing else.")
     ] = False,
+    overwrite: Overwrite = False,
 ) -> None:
     """Prove equations, and the ones that they rest on, and check them."""
-    from force_diffusion.derivations.commands.folder import NotOurFolderError
+    from force_diffusion.derivations.commands import deriving
 
     wanted = [_number(word) for word in numbers] if numbers else list(modules())
-    if out is not None and out.exists() and not out.is_dir():
-        raise typer.BadParameter(
-            f"'{out}' is a file. Give a new folder, an empty one, or one that an earlier "
-            "'derive --out' wrote.",
-            param_hint="--out",
-        )
-    try:
-        from force_diffusion.derivations.commands import deriving
-
-        status = deriving.derive(wanted, out, as_json)
-    except NotOurFolderError as foreign:
-        raise typer.BadParameter(
-            f"'{out}' holds files that this program did not write ({foreign}). Give a new "
-            "folder, an empty one, or one that an earlier 'derive --out' wrote.",
-            param_hint="--out",
-        ) from None
-    raise typer.Exit(status)
+    raise typer.Exit(deriving.derive(wanted, out, as_json, overwrite))
 
 
 def show(

@@ -6,14 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.derivations.commands.publishing import (
-    NOT_REACHED,
-    WRONG_INPUT,
-    fail,
-    noticing,
-    out_option,
-    published,
-)
+from force_diffusion.derivations.commands.output import Overwrite, out_option, output
+from force_diffusion.derivations.commands.shared import images, noticing
+from force_diffusion.derivations.framework.guard import about
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.figures.catalogue import Options
@@ -81,6 +77,7 @@ def figures(
     as_json: Annotated[
         bool, typer.Option("--json", help="Print what was found as JSON and nothing else.")
     ] = False,
+    overwrite: Overwrite = False,
 ) -> None:
     """Draw the paper's figures anew, from exact packings."""
     wanted = list(dict.fromkeys(which or NAMES))
@@ -109,7 +106,7 @@ def figures(
             )
     _refuse_without_libraries(scipy="pf" in wanted)
 
-    from force_diffusion.numeric.figures.catalogue import HEIGHTS, Options
+    from force_diffusion.numeric.figures.catalogue import FIGURES, HEIGHTS, Options
 
     words = ["force-diffusion", "figures", *wanted]
     words += [] if heights is None else ["--heights", heights]
@@ -118,9 +115,13 @@ def figures(
     words += [word for model in beside or [] for word in ("--with", model)]
     command = shlex.join([*words, "--out", str(out)])
     command = command if command.isprintable() else ascii(command)  # it stands in one line of CSV
-    with noticing() as notice:
+    stems = [FIGURES[name].file for name in wanted]
+    names = [file for stem in stems for file in (*images(stem), f"{stem}.csv", f"{stem}.json")]
+    with noticing() as notice, output(out, "figures", names, overwrite) as folder:
         options = Options(chosen or HEIGHTS, realisations, seed, frozenset(beside or []), notice)
-        data = published(out, lambda: _made(wanted, options, command))
+        data, files = _made(wanted, options, command)
+        if folder:
+            folder.write(files)
     if as_json:
         print(json.dumps(data, indent=2))
         return
@@ -135,41 +136,37 @@ def _refuse_without_libraries(*, scipy: bool) -> None:
         try:
             __import__(name)
         except ImportError:
-            fail(
-                f"figures need {name}, which is missing; pip install 'force-diffusion[plots]'",
-                NOT_REACHED,
-            )
+            raise NotReachedError(
+                f"figures need {name}, which is missing; pip install 'force-diffusion[plots]'"
+            ) from None
 
 
 def _made(
     wanted: list[str], options: "Options", command: str
 ) -> tuple[dict[str, Any], dict[str, str | bytes]]:
-    """Make figures one after the other, or leave with a message."""
-    from force_diffusion.numeric.disorder.radii import RadiusError
-    from force_diffusion.numeric.figures.catalogue import make
-    from force_diffusion.numeric.mechanics.forces import NotStandingError
-    from force_diffusion.numeric.mechanics.packing import UnbuildableError
-    from force_diffusion.numeric.scene.sections import SceneError
+    """Make figures one after the other: what was found, and the files."""
+    from force_diffusion.numeric.figures.catalogue import FIGURES, make
 
     data: dict[str, Any] = {"command": command, "figures": {}}
     files: dict[str, str | bytes] = {}
-    name = ""
-    try:
-        for name in wanted:
-            made = make(name, options, command)
-            files |= made.files
-            data["figures"][name] = {
-                "title": made.title,
-                "files": list(made.files),
-                "says": made.lines,
-                **made.facts,
-            }
-    except (SceneError, UnbuildableError, NotStandingError, RadiusError) as error:
-        hint = "; ask for lower heights" if name == "3" else ""
-        fail(f"figure {name}: {error}{hint}", WRONG_INPUT)
-    except MemoryError:
-        fail(f"figure {name}: the memory is full; ask for less", NOT_REACHED)
-    return data, {**files, "figures.json": json.dumps(data, indent=2, allow_nan=False) + "\n"}
+    for name in wanted:
+        with about(f"figure {name}"):
+            try:
+                made = make(name, options, command)
+            except ForceDiffusionError as error:
+                if name != "3":
+                    raise
+                raise ForceDiffusionError(f"{error}; ask for lower heights") from error
+        found = {
+            "title": made.title,
+            "files": list(made.files),
+            "says": made.lines,
+            **made.facts,
+        }
+        data["figures"][name] = found
+        own = json.dumps({"command": command, **found}, indent=2, allow_nan=False)
+        files |= {**made.files, f"{FIGURES[name].file}.json": own + "\n"}
+    return data, files
 
 
 def register(app: typer.Typer) -> None:

@@ -1,17 +1,12 @@
 """The command ``report``: everything that the package finds, as one page."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from force_diffusion.derivations.commands.publishing import (
-    NOT_REACHED,
-    fail,
-    noticing,
-    out_option,
-    published,
-)
+from force_diffusion.derivations.commands.output import Overwrite, out_option, output
+from force_diffusion.derivations.commands.shared import noticing
+from force_diffusion.numeric.arithmetic.errors import NotReachedError
 
 if TYPE_CHECKING:
     from force_diffusion.derivations.framework.record import Outcome
@@ -25,6 +20,7 @@ STATUSES = (
 
 def report(
     out: Annotated[Path, out_option("the page")] = Path("report"),
+    overwrite: Overwrite = False,
 ) -> None:
     """Write all results as one HTML page: derivations, checks, figures, costs, stability."""
     import shlex
@@ -34,16 +30,22 @@ def report(
         import matplotlib  # noqa: F401
         import scipy  # noqa: F401
     except ImportError as missing:
-        fail(f"{missing.name} is missing; pip install 'force-diffusion[report]'", NOT_REACHED)
+        raise NotReachedError(
+            f"{missing.name} is missing; pip install 'force-diffusion[report]'"
+        ) from None
     from force_diffusion.derivations.commands.deriving import status_of, verdict_counts
 
     command = shlex.join(["force-diffusion", "report", "--out", str(out)])
-    outcomes, size = published(out, lambda: _made(command))
-    print(f"{verdict_counts(outcomes)}. Written to {out / PAGE}, {size / 1e6:.2f} MB.", flush=True)
+    with output(out, "report", [PAGE], overwrite) as folder:
+        outcomes, text = _made(command)
+        if folder:
+            folder.write({PAGE: text})
+    size = len(text.encode()) / 1e6
+    print(f"{verdict_counts(outcomes)}. Written to {out / PAGE}, {size:.2f} MB.", flush=True)
     raise typer.Exit(status_of(outcomes))
 
 
-def _made(command: str) -> "tuple[tuple[list[Outcome], int], Mapping[str, str | bytes]]":
+def _made(command: str) -> "tuple[list[Outcome], str]":
     """Derive, measure, draw, and put the page together."""
     from datetime import UTC, datetime
 
@@ -56,8 +58,7 @@ def _made(command: str) -> "tuple[tuple[list[Outcome], int], Mapping[str, str | 
     outcomes = outcomes_of(derivations, display(len(derivations), as_json=False))
     with noticing() as notice:
         measured = parts(notice)
-    text = page(outcomes, measured, command, f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC")
-    return (outcomes, len(text.encode())), {PAGE: text}
+    return outcomes, page(outcomes, measured, command, f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC")
 
 
 def register(app: typer.Typer) -> None:

@@ -9,20 +9,14 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.derivations.commands.publishing import (
-    NOT_REACHED,
-    WRONG_INPUT,
-    csv_text,
-    drawn,
-    fail,
-    noticing,
-    out_option,
-    published,
-)
+from force_diffusion.derivations.commands.output import Overwrite, out_option, output
+from force_diffusion.derivations.commands.shared import drawn, images, noticing
+from force_diffusion.derivations.export.tables import csv_text
+from force_diffusion.derivations.framework.guard import about, in_range
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.planning.plan import Plan
-    from force_diffusion.numeric.studies.cost.rows import Study
 
 # Seconds from which on progress is shown.
 MOMENT = 1.0
@@ -47,37 +41,36 @@ _Certified = Annotated[
 
 
 def _planned(scene: Path, tolerance: str | None, certified: bool) -> "Plan":
-    """Read and plan a scene, or leave with a message."""
+    """Read and plan a scene."""
     from force_diffusion.derivations.commands.calibrate import model_for
     from force_diffusion.numeric.arithmetic.decimals import parse
     from force_diffusion.numeric.planning.budget import memory_limit
     from force_diffusion.numeric.planning.planner import plan
-    from force_diffusion.numeric.scene.sections import SceneError, read_scene
-    from force_diffusion.numeric.scene.tables import TableError
+    from force_diffusion.numeric.scene.sections import read_scene
 
     asked = None
     if tolerance is not None:
         try:
             asked = parse(tolerance)
         except ValueError as error:
-            fail(f"--tolerance: {error}", WRONG_INPUT)
+            raise ForceDiffusionError(f"--tolerance: {error}") from None
         if not 0 < asked < 1:
-            fail(f"--tolerance = {tolerance}: must lie between 0 and 1", WRONG_INPUT)
+            raise ForceDiffusionError(f"--tolerance = {tolerance}: must lie between 0 and 1")
     try:
-        found = read_scene(scene)
+        with about(scene.name):
+            found = read_scene(scene)
         wanted = asked or found.ask.tolerance
         if certified and wanted is None:
-            fail("--certified needs a tolerance: give --tolerance T, such as 1e-30", WRONG_INPUT)
-        return plan(found, asked, certified=certified, model=model_for(wanted is not None))
-    except (SceneError, TableError) as error:
-        fail(f"{scene.name}: {error}", WRONG_INPUT)
+            raise ForceDiffusionError(
+                "--certified needs a tolerance: give --tolerance T, such as 1e-30"
+            )
+        with about(scene.name):
+            return plan(found, asked, certified=certified, model=model_for(wanted is not None))
     except MemoryError:
-        free = memory_limit() / 1e6
-        fail(
+        raise ForceDiffusionError(
             f"{scene.name}: reading and planning it takes more than the free memory, "
-            f"{free:.3g} MB: ask for a smaller packing or give smaller files",
-            WRONG_INPUT,
-        )
+            f"{memory_limit() / 1e6:.3g} MB: ask for a smaller packing or give smaller files"
+        ) from None
 
 
 def explain(
@@ -100,91 +93,63 @@ def run(
     as_json: _Json = False,
     tolerance: _Tolerance = None,
     certified: _Certified = False,
+    overwrite: Overwrite = False,
 ) -> None:
     """Answer a scene's question."""
     planned = _planned(scene, tolerance, certified)
     quantity = planned.scene.ask.quantity
-
-    def answer() -> tuple[dict[str, Any], dict[str, str | bytes]]:
+    table = f"{quantity}.csv"
+    with output(out, f"run {scene}", ["result.json", table], overwrite) as folder:
         data = _solved(planned, scene)
-        return data, {
-            "result.json": json.dumps(data, indent=2) + "\n",
-            f"{quantity}.csv": csv_text(data["results"][quantity]),
-        }
-
-    _show(published(out, answer), as_json)
+        if folder:
+            folder.write(
+                {
+                    "result.json": json.dumps(data, indent=2) + "\n",
+                    table: csv_text(data["results"][quantity]),
+                }
+            )
+    _show(data, as_json)
 
 
 def cost(
     scene: _Scene,
     out: Annotated[Path | None, out_option("the study as CSV, JSON and a plot")] = None,
     as_json: _Json = False,
+    overwrite: Overwrite = False,
 ) -> None:
     """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
     import shlex
 
+    from force_diffusion.numeric.scene.sections import read_scene
     from force_diffusion.numeric.studies.cost.data import csv_rows, lines, study_data
+    from force_diffusion.numeric.studies.cost.study import study
 
     command = shlex.join(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
-
-    def answer() -> tuple[dict[str, Any], dict[str, str | bytes]]:
-        found = _studied(scene)
+    names = ["cost.json", "cost.csv", *images("cost")]
+    with output(out, f"cost {scene}", names, overwrite) as folder:
+        with about(scene.name), noticing() as notice:
+            found = study(read_scene(scene), notice)
         data = study_data(found, command)
-        files: dict[str, str | bytes] = {
-            "cost.json": json.dumps(data, indent=2) + "\n",
-            "cost.csv": csv_text(csv_rows(data)),
-        }
-        if out is not None:
-            files |= drawn("force_diffusion.numeric.studies.cost.plot", found, command, scene.stem)
-        return data, files
-
-    data = published(out, answer)
+        if folder:
+            plot = "force_diffusion.numeric.studies.cost.plot"
+            folder.write(
+                {
+                    "cost.json": json.dumps(data, indent=2) + "\n",
+                    "cost.csv": csv_text(csv_rows(data)),
+                    **drawn(plot, found, command, scene.stem),
+                }
+            )
     print(json.dumps(data, indent=2) if as_json else "\n".join(lines(data)))
 
 
-def _studied(scene: Path) -> "Study":
-    """Study a scene, telling a terminal what is measured, or leave with a message."""
-    from force_diffusion.numeric.disorder.radii import RadiusError
-    from force_diffusion.numeric.mechanics.forces import NotStandingError
-    from force_diffusion.numeric.mechanics.packing import UnbuildableError, UndecidedError
-    from force_diffusion.numeric.run import ToleranceError
-    from force_diffusion.numeric.scene.sections import SceneError, read_scene
-    from force_diffusion.numeric.scene.tables import TableError
-    from force_diffusion.numeric.studies.cost.study import study
-
-    try:
-        with noticing() as notice:
-            return study(read_scene(scene), notice)
-    except (SceneError, TableError, UnbuildableError, NotStandingError, RadiusError) as error:
-        fail(f"{scene.name}: {error}", WRONG_INPUT)
-    except (ToleranceError, UndecidedError) as error:
-        fail(f"{scene.name}: {error}", NOT_REACHED)
-    except MemoryError:
-        fail(f"{scene.name}: the memory is full; ask for less", NOT_REACHED)
-
-
 def _solved(planned: "Plan", scene: Path) -> dict[str, Any]:
-    """Run a plan under a progress bar, or leave with a message."""
-    from force_diffusion.numeric.disorder.radii import RadiusError
-    from force_diffusion.numeric.mechanics.forces import NotStandingError
-    from force_diffusion.numeric.mechanics.packing import UnbuildableError
+    """Run a plan under a progress bar."""
     from force_diffusion.numeric.result import outcome_data
-    from force_diffusion.numeric.run import ToleranceError
     from force_diffusion.numeric.run import run as solve
 
     bar, progress = _progress(planned)
-    try:
-        with bar:
-            outcome = solve(planned, progress=progress)
-    except (UnbuildableError, NotStandingError, RadiusError) as error:
-        fail(f"{scene.name}: {error}", WRONG_INPUT)
-    except ToleranceError as error:
-        fail(f"{scene.name}: {error}", NOT_REACHED)
-    except ArithmeticError as error:
-        fail(f"{scene.name}: a number left the range of the arithmetic ({error})", NOT_REACHED)
-    except MemoryError:
-        fail(f"{scene.name}: the memory is full; ask for less", NOT_REACHED)
-    return outcome_data(outcome)
+    with about(scene.name), in_range(), bar:
+        return outcome_data(solve(planned, progress=progress))
 
 
 def _progress(

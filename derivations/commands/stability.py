@@ -5,13 +5,9 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from force_diffusion.derivations.commands.publishing import (
-    csv_text,
-    drawn,
-    noticing,
-    out_option,
-    published,
-)
+from force_diffusion.derivations.commands.output import Overwrite, out_option, output
+from force_diffusion.derivations.commands.shared import drawn, images, noticing
+from force_diffusion.derivations.export.tables import csv_text
 
 STATUSES = (
     "Takes about 40 s. Exit status: 0 measured, 2 wrong usage, 3 the disk or a pipe failed, "
@@ -22,25 +18,24 @@ STATUSES = (
 def stability(
     out: Annotated[Path | None, out_option("the tables as JSON and CSV, and a plot")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
+    overwrite: Overwrite = False,
 ) -> None:
     """Measure what stability costs: errors and lost bits of both forms, time beside them."""
     import shlex
 
-    from force_diffusion.numeric.studies.stability.data import csv_rows, stability_data
+    from force_diffusion.numeric.studies.stability.data import FILES, csv_rows, stability_data
 
     where = [] if out is None else ["--out", str(out)]
     command = shlex.join(["force-diffusion", "stability", *where])
 
-    def answer() -> tuple[dict[str, Any], dict[str, str | bytes]]:
+    names = ["stability.json", *FILES.values(), *images("stability")]
+    with output(out, "stability", names, overwrite) as folder:
         data = stability_data(_measured(quiet=as_json), command)
-        if out is None:
-            return data, {}
-        files: dict[str, str | bytes] = {"stability.json": json.dumps(data, indent=2) + "\n"}
-        files |= {name: csv_text(rows) for name, rows in csv_rows(data).items()}
-        files |= drawn("force_diffusion.numeric.studies.stability.plot", data)
-        return data, files
-
-    data = published(out, answer)
+        if folder:
+            files: dict[str, str | bytes] = {"stability.json": json.dumps(data, indent=2) + "\n"}
+            files |= {name: csv_text(rows) for name, rows in csv_rows(data).items()}
+            files |= drawn("force_diffusion.numeric.studies.stability.plot", data)
+            folder.write(files)
     if as_json:
         print(json.dumps(data, indent=2))
 

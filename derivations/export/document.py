@@ -1,17 +1,21 @@
-"""The LaTeX that ``derive --out`` writes: a fragment per equation, one document, a manifest."""
+"""The LaTeX that ``derive --out`` writes: a fragment per equation, and one document."""
 
-import json
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
-from force_diffusion.derivations.commands.folder import DOCUMENT, MANIFEST, PROGRAM
+from force_diffusion.derivations.export.manifest import (
+    MANIFEST,
+    FoundEquation,
+    FoundMutants,
+)
 from force_diffusion.derivations.export.plain import mutant_counts, relation_of
 from force_diffusion.derivations.export.prose import prose_latex
 from force_diffusion.derivations.framework.record import Derivation, Outcome
-from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.lines import latex_body
+
+DOCUMENT = "equations.tex"
 
 RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim", "∝": r"\propto"}
 """Signs of ``Derivation.relation`` in LaTeX."""
@@ -114,64 +118,58 @@ def change_kind(change: str) -> str:
     return next(kinds, "other change")
 
 
-def _mutants(outcome: Outcome) -> str:
-    if not outcome.mutants:
+def _mutants(found: FoundMutants) -> str:
+    if not found.changes:
         return ""
-    counts = mutant_counts(outcome)
-    kinds = Counter(change_kind(mutant.change) for mutant in outcome.mutants)
+    kinds = Counter(mutant.kind for mutant in found.changes)
     told = (
-        f"\\par {counts['made']} made, {counts['refuted']} refuted, "
-        f"{counts['equivalent']} equivalent rewritings. By kind: "
-        + "; ".join(f"{kind}: {count}" for kind, count in kinds.most_common())
+        f"\\par {found.made} made, {found.refuted} refuted, "
+        f"{found.equivalent} equivalent rewritings. By kind: "
+        + "; ".join(f"{prose_latex(kind)}: {count}" for kind, count in kinds.most_common())
         + f". \\texttt{{{MANIFEST}}} lists each of them.\n"
     )
-    survivors = [m for m in outcome.mutants if m.ruling.verdict is not Verdict.REFUTED]
     return told + _list(
         "itemize",
         (
-            _noted(
-                "equivalent" if mutant.equivalent else mutant.ruling.verdict,
-                mutant.change,
-                mutant.ruling.note,
-            )
-            for mutant in survivors
+            _noted(mutant.verdict, mutant.change, mutant.note)
+            for mutant in found.changes
+            if mutant.verdict != "refuted"
         ),
     )
 
 
-def section_latex(outcome: Outcome) -> str:
+def section_latex(derivation: Derivation, found: FoundEquation) -> str:
     """All about one equation; the statement itself is read from its fragment."""
-    derivation = outcome.derivation
     symbols = [f"${latex(symbol)}$: {prose_latex(words)}" for symbol, words in derivation.symbols]
     rests = ", ".join(f"({premise.number})" for premise in derivation.premises)
     plural = "s" if len(derivation.premises) > 1 else ""
-    checks = [_noted(check.verdict, check.name, check.note) for check in outcome.checks]
+    checks = [_noted(check.verdict, check.name, check.note) for check in found.checks]
     return "".join(
         [
             f"\\section*{{Eq.\\ ({derivation.number}): {prose_latex(derivation.title)}}}\n",
             f"\\setcounter{{equation}}{{{derivation.number - 1}}}\n",
             f"\\input{{{fragment_name(derivation).removesuffix('.tex')}}}%\n",
-            f"Verdict: \\textbf{{{outcome.verdict}}}."
+            f"Verdict: \\textbf{{{found.verdict}}}."
             + (f" Rests on Eq{plural}.\\ {rests}.\n" if rests else "\n"),
             _part("Symbols", _list("itemize", symbols)),
             _part("Assumptions", _list("itemize", map(prose_latex, derivation.assumptions))),
             _part("Steps", _steps(derivation)),
             _part("Checks", _list("itemize", checks)),
-            _part("Mutants", _mutants(outcome)),
+            _part("Mutants", _mutants(found.mutants)),
             _part("Remarks", _list("itemize", map(prose_latex, derivation.remarks))),
         ]
     )
 
 
-def _overview(outcomes: Sequence[Outcome]) -> str:
+def _overview(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
     rows = []
-    for outcome in outcomes:
-        kinds = [check.kind for check in outcome.checks]
-        counts = mutant_counts(outcome)
+    for derivation, found in parts:
+        kinds = [check.kind for check in found.checks]
+        mutants = found.mutants
         rows.append(
-            f"({outcome.derivation.number}) & {prose_latex(outcome.derivation.title)} & "
-            f"{outcome.verdict} & {kinds.count('proof')} & {kinds.count('witness')} & "
-            f"{counts['made']} & {counts['refuted']} & {counts['equivalent']} \\\\\n"
+            f"({derivation.number}) & {prose_latex(derivation.title)} & "
+            f"{found.verdict} & {kinds.count('proof')} & {kinds.count('witness')} & "
+            f"{mutants.made} & {mutants.refuted} & {mutants.equivalent} \\\\\n"
         )
     return (
         "\\begin{center}\\small\n\\begin{tabular}{r>{\\raggedright}p{46mm}lrrrrr}\n\\hline\n"
@@ -182,16 +180,16 @@ def _overview(outcomes: Sequence[Outcome]) -> str:
     )
 
 
-def manifest(outcomes: Sequence[Outcome]) -> str:
-    """What was written and what was found, for machines; the same on every run."""
-    files = [*(fragment_name(outcome.derivation) for outcome in outcomes), DOCUMENT, MANIFEST]
-    equations = [
+def finding(outcome: Outcome) -> FoundEquation:
+    """What was found about an equation, for the manifest; the same on every run."""
+    derivation = outcome.derivation
+    return FoundEquation.model_validate(
         {
-            "number": outcome.derivation.number,
-            "name": outcome.derivation.name,
-            "title": outcome.derivation.title,
-            "fragment": fragment_name(outcome.derivation),
-            "premises": [premise.number for premise in outcome.derivation.premises],
+            "number": derivation.number,
+            "name": derivation.name,
+            "title": derivation.title,
+            "fragment": fragment_name(derivation),
+            "premises": [premise.number for premise in derivation.premises],
             "verdict": str(outcome.verdict),
             "checks": [
                 {
@@ -208,27 +206,20 @@ def manifest(outcomes: Sequence[Outcome]) -> str:
                     {
                         "change": mutant.change,
                         "kind": change_kind(mutant.change),
-                        "verdict": "equivalent" if mutant.equivalent else mutant.ruling.verdict,
+                        "verdict": "equivalent"
+                        if mutant.equivalent
+                        else str(mutant.ruling.verdict),
                         "note": mutant.ruling.note,
                     }
                     for mutant in outcome.mutants
                 ],
             },
         }
-        for outcome in outcomes
-    ]
-    content = {"program": PROGRAM, "document": DOCUMENT, "files": files, "equations": equations}
-    return json.dumps(content, indent=2, ensure_ascii=False) + "\n"
+    )
 
 
-def output_files(outcomes: Sequence[Outcome]) -> dict[str, str]:
-    """Every file of the output folder, by name."""
-    files = {
-        fragment_name(outcome.derivation): statement_latex(outcome.derivation)
-        for outcome in outcomes
-    }
-    body = "\n".join(section_latex(outcome) for outcome in outcomes)
+def document(parts: Sequence[tuple[Derivation, FoundEquation]]) -> str:
+    """The document about these equations; it reads the fragments beside it."""
+    body = "\n".join(section_latex(derivation, found) for derivation, found in parts)
     reading = f"{prose_latex(READING)}\n"
-    files[DOCUMENT] = f"{_HEAD}{reading}{_overview(outcomes)}\n{body}\n\\end{{document}}\n"
-    files[MANIFEST] = manifest(outcomes)
-    return files
+    return f"{_HEAD}{reading}{_overview(parts)}\n{body}\n\\end{{document}}\n"

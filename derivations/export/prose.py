@@ -82,7 +82,8 @@ def _power_of_ten(found: re.Match[str]) -> str:
 
 
 def _set_mathematics(word: str) -> str:
-    for special in "%#&{}":
+    word = word.replace("\\", r"\backslash ").replace("^^", r"\wedge \wedge ")
+    for special in "%#&{}$":
         word = word.replace(special, f"\\{special}")
     word = _STAR.sub("^{*}", _POWER.sub(lambda found: f"^{{{found[1] or found[2]}}}", word))
     for raised, source in _WORDS.items():

@@ -1,18 +1,97 @@
-"""How every program of this package ends: with a status, and a message in place of a traceback."""
+"""How every program of this package ends: with a status, and a message in place of a traceback.
+
+A command raises, and catches nothing. What a user can mend derives from ``ForceDiffusionError``; it
+carries its exit status, and is told here, and only here, as ``force-diffusion: message``. A command
+that knows better than the numerics what an error is about says so around the call::
+
+    with about(scene.name):
+        outcome = run(plan)  # force-diffusion: scene.toml: no bead rests ...
+
+Told here as well: an interrupt (130), a full memory, and a file or a stream that can't be written
+(3). Everything else is a mistake in the program, and its traceback is shown.
+"""
 
 import errno
 import io
 import os
 import sys
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from types import TracebackType
 
-WRONG_USAGE = 2
-FAILED_OUTSIDE = 3
+from force_diffusion.numeric.arithmetic.errors import (
+    NOT_REACHED,
+    WRONG_INPUT,
+    ForceDiffusionError,
+    NotReachedError,
+)
+
+WRONG_USAGE = WRONG_INPUT
+FAILED_OUTSIDE = NOT_REACHED
 INTERRUPTED = 130
 
-_INTERRUPTED = "force-diffusion: interrupted; no half-written file is left."
+_INTERRUPTED = "interrupted; no half-written file is left."
+
+
+@contextmanager
+def about(name: str) -> Iterator[None]:
+    """Put a name before the message of an error that leaves the block."""
+    try:
+        yield
+    except (ForceDiffusionError, MemoryError) as error:
+        error.add_note(name)
+        raise
+
+
+@contextmanager
+def in_range() -> Iterator[None]:
+    """Turn an overflow or a division by zero of the arithmetic into an error for users."""
+    try:
+        yield
+    except ForceDiffusionError:
+        raise
+    except ArithmeticError as error:
+        raise NotReachedError(f"a number left the range of the arithmetic ({error})") from error
+
+
+def printable(text: str) -> str:
+    """Text from outside without what a terminal would obey: escapes, controls, broken UTF-8."""
+    return "".join(
+        c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text
+    )
+
+
+def tell(message: str) -> None:
+    """Say something on standard error, in the program's name."""
+    print(f"force-diffusion: {printable(message)}", file=sys.stderr, flush=True)
+
+
+def guarded(program: Callable[[], int]) -> int:
+    """Run a program; return its exit status, which is that of a failure if there was one."""
+    _prepare_streams()
+    try:
+        status = program()
+    except KeyboardInterrupt:
+        status = INTERRUPTED
+    except ForceDiffusionError as error:
+        status = _failed(error, str(error), error.exit_status)
+    except MemoryError as error:
+        status = _failed(error, "the memory is full; ask for less", FAILED_OUTSIDE)
+    except OSError as failure:
+        status = _outside(failure)
+    if status == INTERRUPTED:
+        tell(_INTERRUPTED)
+    try:
+        sys.stdout.flush()
+    except OSError as failure:
+        status = _outside(failure)
+    return status
+
+
+def _failed(error: Exception, message: str, status: int) -> int:
+    names = reversed(getattr(error, "__notes__", []))  # the outermost was added last
+    tell(": ".join([*names, message]))
+    return status
 
 
 class _Heedless(io.FileIO):
@@ -23,24 +102,6 @@ class _Heedless(io.FileIO):
         with suppress(OSError):
             return super().write(message) or 0
         return len(message)
-
-
-def guarded(program: Callable[[], int]) -> int:
-    """Run a program; return its exit status, which is that of a failure if there was one."""
-    _prepare_streams()
-    try:
-        status = program()
-    except KeyboardInterrupt:
-        status = INTERRUPTED
-    except OSError as failure:
-        status = _outside(failure)
-    if status == INTERRUPTED:
-        print(_INTERRUPTED, file=sys.stderr)
-    try:
-        sys.stdout.flush()
-    except OSError as failure:
-        status = _outside(failure)
-    return status
 
 
 def _prepare_streams() -> None:
@@ -73,7 +134,7 @@ def _outside(failure: OSError) -> int:
             errno.EDQUOT: "Free some space, or write to another place.",
         }.get(failure.errno or 0, "Choose a place that can be written to.")
         reason = failure.strerror or str(failure)
-        print(f"force-diffusion: writing to {where} failed: {reason}. {remedy}", file=sys.stderr)
+        tell(f"writing to {where} failed: {reason}. {remedy}")
     return FAILED_OUTSIDE
 
 
@@ -84,7 +145,7 @@ def end_interrupts_quietly() -> None:
     def hook(kind: type[BaseException], error: BaseException, where: TracebackType | None) -> None:
         if issubclass(kind, KeyboardInterrupt):
             with suppress(OSError):
-                print(_INTERRUPTED, file=sys.stderr)
+                tell(_INTERRUPTED)
             raise SystemExit(INTERRUPTED)
         usual(kind, error, where)
 

@@ -16,3 +16,9 @@ class ForceDiffusionError(Exception):
     """
 
     exit_status: ClassVar[int] = WRONG_INPUT
+
+
+class NotReachedError(ForceDiffusionError):
+    """What was asked for can't be reached with the memory, the range or the libraries at hand."""
+
+    exit_status = NOT_REACHED

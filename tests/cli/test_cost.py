@@ -123,10 +123,10 @@ def test_a_missing_scene_and_a_foreign_folder(
     assert status == 2
     assert "none.toml" in err
     (tmp_path / "mine").mkdir()
-    (tmp_path / "mine" / "notes").write_text("mine")
+    (tmp_path / "mine" / "cost.csv").write_text("mine")
     status, _, err = call(capsys, "cost", written(tmp_path), "--out", tmp_path / "mine")
     assert status == 2
-    assert "other files" in err
+    assert "cost.csv' is there" in err
 
 
 @pytest.mark.parametrize(

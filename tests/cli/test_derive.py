@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.derivations.commands.folder import OutputFolder
+from force_diffusion.derivations.commands.output import Folder
+from force_diffusion.derivations.export.manifest import read_manifest
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
 from force_diffusion.__main__ import main
@@ -80,8 +81,54 @@ def test_the_output_folder_twice(made_up, tmp_path: Path, capsys) -> None:
     assert main(["derive", "--out", str(out), "2"]) == 0
     first = {path.name: path.read_bytes() for path in out.iterdir()}
     assert set(first) == {"eq01.tex", "eq02.tex", "equations.tex", "manifest.json"}
+    assert [name for name in first if rb"\documentclass" in first[name]] == ["equations.tex"]
+    manifest = json.loads(first["manifest.json"])
+    assert set(manifest["files"]) == set(first) - {"manifest.json"}
+    assert [entry["verdict"] for entry in manifest["equations"]] == ["proved", "proved"]
+    assert manifest["equations"][1]["premises"] == [1]
+    assert manifest["equations"][0]["mutants"]["changes"]
     assert main(["derive", "--out", str(out), "2"]) == 0
     assert {path.name: path.read_bytes() for path in out.iterdir()} == first
+
+
+def test_a_part_of_them_again_loses_nothing(made_up, tmp_path: Path, capsys) -> None:
+    out = tmp_path / "out"
+    assert main(["derive", "--out", str(out), "2"]) == 0
+    whole = {path.name: path.read_bytes() for path in out.iterdir()}
+    assert main(["derive", "--out", str(out), "1"]) == 0
+    assert "1 proved." in capsys.readouterr().out
+    again = {path.name: path.read_bytes() for path in out.iterdir()}
+    commands = {name: made.command for name, made in read_manifest(out).files.items()}  # type: ignore[union-attr]
+    assert {name for name, command in commands.items() if command.endswith(" 1")} == {
+        "eq01.tex", "equations.tex"
+    }  # fmt: skip
+    del whole["manifest.json"], again["manifest.json"]
+    assert again == whole  # the document too: it is still about both
+    (out / "eq02.tex").unlink()
+    assert main(["derive", "--out", str(out), "1"]) == 0
+    assert r"\input{eq02}" not in (out / "equations.tex").read_text()
+    manifest = read_manifest(out)
+    assert manifest is not None
+    assert [found.number for found in manifest.equations] == [1]
+
+
+def test_what_a_manifest_says_is_no_latex(made_up, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    assert main(["derive", "--out", str(out), "2"]) == 0
+    path = out / "manifest.json"
+    evil = r"\input{/etc/passwd} \x_1^^5c \(δ$\write18{ls}$ %"
+    data = json.loads(path.read_text())
+    for check in data["equations"][1]["checks"]:
+        check["name"] = check["note"] = evil
+    for mutant in data["equations"][1]["mutants"]["changes"]:
+        mutant |= {"change": evil, "kind": evil, "note": evil, "verdict": "undecided"}
+    data["equations"].append({**data["equations"][1], "number": 99})
+    path.write_text(json.dumps(data))
+    assert main(["derive", "--out", str(out), "1"]) == 0
+    document = (out / "equations.tex").read_text()
+    assert "etc/passwd" in document
+    for source in (r"\input{/", r"\x", "^^", r"\write", r"\("):
+        assert source not in document
 
 
 @pytest.mark.parametrize(
@@ -95,10 +142,10 @@ def test_the_output_folder_twice(made_up, tmp_path: Path, capsys) -> None:
 def test_a_disk_that_fails(made_up, tmp_path: Path, monkeypatch, capsys, number, says) -> None:
     out = tmp_path / "out"
 
-    def failing(self: OutputFolder, files: object) -> None:
+    def failing(self: Folder, files: object, equations: object) -> None:
         raise OSError(number, os.strerror(number), str(out / "eq01.tex"))
 
-    monkeypatch.setattr(OutputFolder, "publish", failing)
+    monkeypatch.setattr(Folder, "write", failing)
     assert main(["derive", "1", "--out", str(out)]) == 3
     message = capsys.readouterr().err
     assert "eq01.tex" in message

@@ -110,7 +110,7 @@ WRONG: list[tuple[list[Any], str]] = [
     (["--reach", 2], "histogram"),
     (["--store", "."], "no ordinary file"),
     (["--store", SCENE], "not the store of an ensemble"),
-    (["--out", SCENE], "this is a file"),
+    (["--out", SCENE], "is a file"),
 ]
 
 

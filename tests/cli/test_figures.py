@@ -11,11 +11,17 @@ from xml.etree import ElementTree
 
 import pytest
 from force_diffusion.derivations.commands import figures as figures_command
-from force_diffusion.derivations.commands.folder import owned_files
+from force_diffusion.derivations.export.manifest import read_manifest
 from force_diffusion.numeric.figures import catalogue, comparison
 from PIL import Image
 
 from force_diffusion.__main__ import main
+
+
+def listed(folder: Path) -> set[str]:
+    manifest = read_manifest(folder)
+    assert manifest is not None
+    return set(manifest.files)
 
 
 def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
@@ -54,21 +60,23 @@ def test_figures_are_files_that_say_what_made_them_and_come_again_byte_for_byte(
         status, printed, err = call(capsys, *words)
         assert (status, err) == (0, "")
         contents.append({path.name: path.read_bytes() for path in out.iterdir()})
-        words = shlex.split(json.loads((out / "figures.json").read_text())["command"])[2:]
+        words = shlex.split(json.loads((out / "figure1.json").read_text())["command"])[2:]
+    assert listed(out) == set(contents[0]) - {"manifest.json"}
+    for content in contents:
+        del content["manifest.json"]  # it holds the command as it was typed
     assert contents[0] == contents[1]  # the second time by the command that the first one noted
     assert "inside the simultaneous 99% band" in printed or "outside" in printed
-    data = json.loads((out / "figures.json").read_text())
-    assert shlex.split(data["command"])[:5] == ["force-diffusion", "figures", "1", "2", "3"]
-    assert owned_files(out) == set(contents[0])
-    for name, one in data["figures"].items():
-        check_images(out, f"figure{name}", data["command"])
+    for name in ("1", "2", "3"):
+        one = json.loads((out / f"figure{name}.json").read_text())
+        assert shlex.split(one["command"])[:5] == ["force-diffusion", "figures", "1", "2", "3"]
+        check_images(out, f"figure{name}", one["command"])
         for file in one["files"]:
             assert file in contents[0]
             if file.endswith(".csv"):
                 lines = (out / file).read_text().splitlines()
-                assert lines[:2] == [f"# {one['title']}", f"# {data['command']}"]
+                assert lines[:2] == [f"# {one['title']}", f"# {one['command']}"]
                 assert len(list(csv.DictReader(lines[2:]))) > 1
-    assert [one["height"] for one in data["figures"]["3"]["heights"]] == [2, 4]
+    assert [height["height"] for height in one["heights"]] == [2, 4]
 
 
 def test_the_other_figures_and_the_simpler_models(
@@ -81,21 +89,24 @@ def test_the_other_figures_and_the_simpler_models(
     )  # fmt: skip
     assert (status, err) == (0, "")
     data = json.loads(printed)
-    assert data == json.loads((out / "figures.json").read_text())
-    for name in ("figure3", "figure4", "pf", "chains"):
-        check_images(out, name, data["command"])
+    for name, file in {"3": "figure3", "4": "figure4", "pf": "pf", "chains": "chains"}.items():
+        check_images(out, file, data["command"])
+        own = json.loads((out / f"{file}.json").read_text())
+        assert own == {"command": data["command"], **data["figures"][name]}
     assert data["figures"]["4"]["double_y"]
-    assert {"figure3_q_model.csv", "figure4_double_y.csv", "pf_tests.csv"} <= owned_files(out)
+    assert {"figure3_q_model.csv", "figure4_double_y.csv", "pf_tests.csv"} <= listed(out)
     text = (out / "pf_tests.csv").read_text()
     rows = list(csv.DictReader(io.StringIO(text.split("\n", 2)[2])))
     assert [float(row["p_kolmogorov_smirnov"]) for row in rows] == [
         one["p_kolmogorov_smirnov"] for one in data["figures"]["pf"]["samples"]
     ]
-    # a later run takes away what it does not write
-    assert call(capsys, 1, "--out", out)[0] == 0
-    assert sorted(path.name for path in out.iterdir()) == [
-        "figure1.csv", "figure1.pdf", "figure1.png", "figure1.svg", "figures.json", "manifest.json"
-    ]  # fmt: skip
+    before = {path.name: path.read_bytes() for path in out.iterdir()}
+    assert call(capsys, 1, "--out", out)[0] == 0  # beside what is there
+    after = {path.name: path.read_bytes() for path in out.iterdir()}
+    assert set(after) - set(before) == {
+        "figure1.csv", "figure1.json", "figure1.pdf", "figure1.png", "figure1.svg"
+    }  # fmt: skip
+    assert [name for name in before if before[name] != after[name]] == ["manifest.json"]
 
 
 @pytest.mark.parametrize(
@@ -159,7 +170,7 @@ def test_a_folder_of_others_is_left_alone(
     (tmp_path / "figure1.png").write_text("mine")
     status, _, err = call(capsys, 1, "--out", tmp_path)
     assert status == 2
-    assert "other files" in err
+    assert "figure1.png' is there" in err
     assert (tmp_path / "figure1.png").read_text() == "mine"
 
 

@@ -7,7 +7,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from force_diffusion.derivations.framework.guard import about, guarded, in_range
 from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
 from tests.derivations import fakes
 
@@ -91,3 +93,47 @@ def test_an_interrupt_while_modules_load(module: str, slow: str, tmp_path: Path)
         _, errors = process.communicate(timeout=20)
     assert process.returncode == 130
     assert errors == "force-diffusion: interrupted; no half-written file is left.\n"
+
+
+class UnreachableError(ForceDiffusionError):
+    exit_status = 3
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "says"),
+    [
+        (ForceDiffusionError("no such thing"), 2, "file: part: no such thing"),
+        (UnreachableError("too far"), 3, "file: part: too far"),
+        (MemoryError("Unable to allocate"), 3, "file: part: the memory is full; ask for less"),
+        (ForceDiffusionError("\x1b[2J\u2028\udcff é"), 2, r"file: part: \x1b[2J\u2028\udcff é"),
+    ],
+)
+def test_an_error_is_told_once_with_what_it_is_about(
+    error: Exception, status: int, says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def program() -> int:
+        with about("file"), about("part"):
+            raise error
+
+    assert guarded(program) == status
+    printed = capsys.readouterr()
+    assert (printed.out, printed.err) == ("", f"force-diffusion: {says}\n")
+
+
+@pytest.mark.parametrize("error", [OverflowError("too large"), ZeroDivisionError("by zero")])
+def test_numbers_out_of_range(error: Exception, capsys: pytest.CaptureFixture[str]) -> None:
+    def program() -> int:
+        with about("scene.toml"), in_range():
+            raise error
+
+    assert guarded(program) == 3
+    said = f"scene.toml: a number left the range of the arithmetic ({error})"
+    assert capsys.readouterr().err == f"force-diffusion: {said}\n"
+
+
+def test_a_mistake_in_the_program_keeps_its_traceback() -> None:
+    def program() -> int:
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        guarded(program)

@@ -130,11 +130,11 @@ def test_out_writes_whole_files_and_spares_others(
     lines = (out / "contact_forces.csv").read_text().splitlines()
     assert lines[0] == "i,j,branch,force,change"
     assert len(lines) == 1 + 2 * 6 * 4
-    (out / "mine.txt").write_text("keep")
+    (out / "result.json").write_text("mine")
     status, _, err = call(capsys, "run", SCENES / "measured.toml", "--out", out)
     assert status == 2
-    assert "--out" in err
-    assert (out / "mine.txt").read_text() == "keep"
+    assert "result.json' was changed" in err
+    assert (out / "result.json").read_text() == "mine"
 
 
 def test_out_must_not_be_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -142,7 +142,7 @@ def test_out_must_not_be_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[st
     file.write_text("keep")
     status, _, err = call(capsys, "run", SCENES / "measured.toml", "--out", file)
     assert status == 2
-    assert "this is a file" in err
+    assert "is a file" in err
 
 
 def test_out_of_reach_is_status_three(

@@ -96,15 +96,15 @@ def test_without_matplotlib_only_the_figure_is_missing(
         (["--out"], "requires an argument"),
         (["scene.toml"], "scene.toml"),
         (["--markdown"], "--markdown"),
-        (["--out", "FILE"], "this is a file"),
-        (["--out", "FOREIGN"], "other files"),
+        (["--out", "FILE"], "is a file"),
+        (["--out", "FOREIGN"], "stability.csv' is there"),
     ],
 )
 def test_wrong_usage(
     arguments: list[str], says: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "FOREIGN").mkdir()
-    (tmp_path / "FOREIGN" / "notes").write_text("mine")
+    (tmp_path / "FOREIGN" / "stability.csv").write_text("mine")
     (tmp_path / "FILE").write_text("mine")
     real = [str(tmp_path / a) if a in {"FILE", "FOREIGN"} else a for a in arguments]
     status, out, err = call(capsys, "stability", *real)

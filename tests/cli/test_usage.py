@@ -40,8 +40,8 @@ WRONG = [
     (["list", "13"], "13"),
     (
         ["prove", "13"],
-        "no command 'prove'. Use derive, show, list, run, explain, calibrate, cost, stability, "
-        "ensemble, ensemble-status, figures or report",
+        "no command 'prove'. Use derive, show, list, examples, run, explain, calibrate, cost, "
+        "stability, ensemble, ensemble-status, figures or report",
     ),
 ]
 
@@ -59,25 +59,6 @@ def test_wrong_usage(
     assert "--help" in printed.err or "requires an argument" in printed.err  # what to do
     assert "Traceback" not in printed.err
     assert not out.exists()
-
-
-@pytest.mark.parametrize("kind", ["file", "folder with a file", "folder with a folder"])
-def test_a_used_output_folder_is_refused_before_any_proof(
-    kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    out = tmp_path / "out"
-    if kind == "file":
-        out.write_text("mine")
-    else:
-        out.mkdir()
-        held = out / "thesis.tex"
-        held.mkdir() if kind.endswith("folder") else held.write_text("mine")
-    monkeypatch.setattr("force_diffusion.derivations.commands.deriving.run", None)
-    assert main(["derive", "1", "--out", str(out)]) == 2
-    message = capsys.readouterr().err
-    assert str(out) in message
-    assert ("is a file" if kind == "file" else "thesis.tex") in message
-    assert "Give a new folder" in message
 
 
 def test_help_and_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:

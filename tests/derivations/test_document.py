@@ -1,11 +1,15 @@
 """The LaTeX: one document, paste-ready fragments, a manifest that tells what is there."""
 
-import json
 import re
 from dataclasses import replace
 
 import pytest
-from force_diffusion.derivations.export.document import change_kind, output_files
+from force_diffusion.derivations.export.document import (
+    change_kind,
+    document,
+    finding,
+    statement_latex,
+)
 from force_diffusion.derivations.export.prose import prose_latex
 from force_diffusion.derivations.framework.catalogue import load, modules
 from force_diffusion.derivations.framework.runner import run
@@ -15,36 +19,31 @@ from force_diffusion.symbolic.kernel.mutants import mutants
 from tests.derivations import fakes
 
 
-def written() -> dict[str, str]:
-    return output_files([run(fakes.PREMISE), run(fakes.with_claim(Verdict.UNDECIDED))])
-
-
-def test_exactly_one_file_is_a_document() -> None:
-    files = written()
-    assert set(files) == {"eq01.tex", "eq02.tex", "equations.tex", "manifest.json"}
-    assert [n for n, text in files.items() if r"\documentclass" in text] == ["equations.tex"]
+def written() -> str:
+    outcomes = [run(fakes.PREMISE), run(fakes.with_claim(Verdict.UNDECIDED))]
+    return document([(outcome.derivation, finding(outcome)) for outcome in outcomes])
 
 
 def test_a_fragment_is_the_statement_alone() -> None:
-    fragment = written()["eq01.tex"]
+    fragment = statement_latex(fakes.PREMISE)
     assert fragment.startswith(r"\begin{equation}")
     assert fragment.rstrip().endswith(r"\end{equation}")
     assert r"\delta{\bf x}_{ij} = \delta r_{ij} + \delta r_{i-1,j}" in fragment
 
 
 def test_the_document_is_ascii_and_balanced_and_the_same_every_time() -> None:
-    document = written()["equations.tex"]
-    assert document.isascii()
-    assert document == written()["equations.tex"]
-    opened = re.findall(r"\\begin\{(\w+)\}", document)
-    closed = re.findall(r"\\end\{(\w+)\}", document)
+    text = written()
+    assert text.isascii()
+    assert text == written()
+    opened = re.findall(r"\\begin\{(\w+)\}", text)
+    closed = re.findall(r"\\end\{(\w+)\}", text)
     assert sorted(opened) == sorted(closed)
-    assert "undecided" in document
-    assert r"100 \% made up \& simple" in document
+    assert "undecided" in text
+    assert r"100 \% made up \& simple" in text
 
 
 def test_only_packages_of_the_recommended_set() -> None:
-    packages = re.findall(r"\\usepackage(?:\[[^]]*\])?\{([^}]*)\}", written()["equations.tex"])
+    packages = re.findall(r"\\usepackage(?:\[[^]]*\])?\{([^}]*)\}", written())
     assert {name for group in packages for name in group.split(",")} <= {
         "amsmath",
         "array",
@@ -52,38 +51,29 @@ def test_only_packages_of_the_recommended_set() -> None:
     }
 
 
-def test_the_manifest_lists_every_file_and_verdict() -> None:
-    files = written()
-    manifest = json.loads(files["manifest.json"])
-    assert set(manifest["files"]) == set(files)
-    assert [entry["verdict"] for entry in manifest["equations"]] == ["proved", "undecided"]
-    assert manifest["equations"][1]["premises"] == [1]
-
-
 def test_a_step_that_gives_the_printed_equation_refers_to_it() -> None:
-    document = written()["equations.tex"]
-    assert r"\item Add the two radii: Eq.~(1)." in document
-    assert r"\delta{\bf x}_{ij} = " not in document  # the fragment alone displays it
+    text = written()
+    assert r"\item Add the two radii: Eq.~(1)." in text
+    assert r"\delta{\bf x}_{ij} = " not in text  # the fragment alone displays it
 
 
 def test_mutants_are_counted_in_the_document_and_listed_in_the_manifest() -> None:
     lenient = replace(fakes.PREMISE, decide=lambda *_: fakes.always(Verdict.PROVED))
     outcomes = [run(fakes.PREMISE), run(replace(lenient, number=2))]
-    files = output_files(outcomes)
-    first, second = files["equations.tex"].split(r"\section*")[1:]
+    found = [finding(outcome) for outcome in outcomes]
+    parts = [(outcome.derivation, one) for outcome, one in zip(outcomes, found, strict=True)]
+    first, second = document(parts).split(r"\section*")[1:]
     made = len(outcomes[0].mutants)
     assert f"{made} made, {made} refuted, 0 equivalent rewritings. By kind: " in first
     assert "index shifted: 12; sign flipped: 2; term dropped: 2." in first
     assert "flipped. " not in first
     assert second.count(r"\item \emph{equivalent}: ") == made  # each with its proof
-    for entry, outcome in zip(
-        json.loads(files["manifest.json"])["equations"], outcomes, strict=True
-    ):
-        listed = entry["mutants"]["changes"]
-        assert [one["change"] for one in listed] == [m.change for m in outcome.mutants]
+    for entry, outcome in zip(found, outcomes, strict=True):
+        listed = entry.mutants.changes
+        assert [one.change for one in listed] == [m.change for m in outcome.mutants]
         verdict = "refuted" if outcome is outcomes[0] else "equivalent"
-        assert {one["verdict"] for one in listed} == {verdict}
-        assert {one["note"] for one in listed} == {outcome.mutants[0].ruling.note}
+        assert {one.verdict for one in listed} == {verdict}
+        assert {one.note for one in listed} == {outcome.mutants[0].ruling.note}
 
 
 @pytest.mark.parametrize("number", list(modules()))

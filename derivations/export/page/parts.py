@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any
 
-from force_diffusion.derivations.commands.publishing import csv_text
 from force_diffusion.derivations.export.page.words import number, prose
+from force_diffusion.derivations.export.tables import csv_text
 from markupsafe import Markup
 
 ONE_COLUMN = 360.0
@@ -97,7 +97,7 @@ def data_url(content: bytes, kind: str) -> str:
 
 def csv_data(name: str, rows: Sequence[Mapping[str, Any]]) -> Data:
     """Rows as a CSV file."""
-    return Data(name, csv_text([dict(row) for row in rows]))
+    return Data(name, csv_text(rows))
 
 
 def _cell(value: Any) -> tuple[bool, Markup]:

@@ -1,0 +1,34 @@
+"""The command ``examples``."""
+
+from importlib.resources import files
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from force_diffusion.derivations.commands.output import Overwrite, copied, folder_of
+
+STATUSES = "Exit status: 0 copied, 2 a file there differs, 3 the disk failed, 130 interrupted."
+
+
+def examples(
+    folder: Annotated[
+        Path, typer.Argument(metavar="DIR", help="Where to copy them.", parser=folder_of)
+    ],
+    overwrite: Overwrite = False,
+) -> None:
+    """Copy the example scenes into a folder."""
+    scenes = {
+        file.name: file.read_bytes()
+        for file in files("force_diffusion.scenes").iterdir()
+        if file.is_file() and not file.name.endswith(".py")
+    }
+    new = copied(scenes, folder, overwrite)
+    for name in new:
+        print(folder / name)
+    if not new:
+        print(f"All {len(scenes)} files are in {folder} already.")
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command to the command line."""
+    app.command(epilog=STATUSES)(examples)

@@ -1,0 +1,241 @@
+"""The folder that a command writes its results into.
+
+    with output(out, "run scene.toml", ["result.json", "profile.csv"], overwrite) as folder:
+        answer = solve()  # a folder that can't be used has been refused before
+        if folder:  # None without --out
+            folder.write({"result.json": ..., "profile.csv": ...})
+
+A command replaces the files that it has written before, adds others beside whatever is there, and
+deletes nothing. It refuses to replace a file that this program did not write, one that was changed
+since, and the answer to another question, unless ``--overwrite`` is given. ``manifest.json`` of the
+folder knows which is which. Each file is written aside and renamed, the manifest last, so that none
+is ever half-written.
+"""
+
+import hashlib
+import os
+import secrets
+import stat
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from importlib.metadata import version
+from pathlib import Path
+from tempfile import TemporaryFile
+from typing import Annotated, Any
+
+import typer
+from force_diffusion.derivations.commands.cli import command_line
+from force_diffusion.derivations.export.manifest import (
+    LARGEST,
+    MANIFEST,
+    PROGRAM,
+    FoundEquation,
+    Made,
+    Manifest,
+    read_manifest,
+)
+from force_diffusion.derivations.framework.guard import printable
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+
+
+class OutputError(ForceDiffusionError):
+    """Files can't go there; the message names what is in the way."""
+
+
+def folder_of(word: str) -> Path:
+    """Read the name of a folder."""
+    if not word:  # a path would take it for the current folder
+        raise typer.BadParameter("'' names no folder. Give one; '.' is the current folder.")
+    return Path(word)
+
+
+def out_option(what: str) -> Any:
+    """The option ``--out DIR``, which says what is written there."""
+    return typer.Option(metavar="DIR", help=f"Write {what} into this folder.", parser=folder_of)
+
+
+Overwrite = Annotated[
+    bool,
+    typer.Option("--overwrite", help="Replace files of the same name there, whoever wrote them."),
+]
+
+
+_IS_FOLDER = "is a folder"
+
+
+def _in_the_way(path: Path, reason: str) -> OutputError:
+    remedy = "." if reason == _IS_FOLDER else ", or --overwrite to replace it."
+    return OutputError(f"'{path}' {reason}. Give another folder{remedy}")
+
+
+class Folder:
+    """A folder that can be written to; ``manifest`` is what it held before, if it is ours."""
+
+    def __init__(self, path: Path, result_of: str, overwrite: bool) -> None:
+        self.path = path
+        self.manifest = read_manifest(path)
+        self._result_of = printable(result_of)
+        self._overwrite = overwrite
+
+    def check(self, names: Iterable[str]) -> None:
+        """Raise ``OutputError`` if a file of these names must not be replaced, and name it."""
+        for name in (*names, MANIFEST):
+            reason = self._reason_to_keep(name)
+            if reason:
+                raise _in_the_way(self.path / name, reason)
+
+    def _reason_to_keep(self, name: str) -> str:
+        path = self.path / name
+        try:
+            mode = path.lstat().st_mode
+        except FileNotFoundError:
+            return ""
+        if stat.S_ISDIR(mode):
+            return _IS_FOLDER
+        if self._overwrite:
+            return ""
+        if name == MANIFEST:
+            return "" if self.manifest else "was not written by this program"
+        made = self.manifest.files.get(name) if self.manifest else None
+        if made is None or not stat.S_ISREG(mode):
+            return f"is there, and no {MANIFEST} says that this program wrote it"
+        if made.result_of != self._result_of:
+            return f"is the result of '{made.result_of}'"
+        with path.open("rb") as file:
+            same = hashlib.file_digest(file, "sha256").hexdigest() == made.sha256
+        return "" if same else "was changed after this program wrote it"
+
+    def holds(self, name: str) -> bool:
+        """Say whether a file that this program wrote before is still there."""
+        listed = self.manifest is not None and name in self.manifest.files
+        return listed and (self.path / name).is_file()
+
+    def write(
+        self,
+        files: Mapping[str, str | bytes],
+        equations: Sequence[FoundEquation] | None = None,
+    ) -> None:
+        """Write all files aside, then rename them into place, the manifest last.
+
+        ``equations`` take the place of those in the manifest. Raises ``OutputError`` as ``check``
+        does, and ``OSError`` that names the file where one can't be written.
+        """
+        self.manifest = read_manifest(self.path)  # another command may have written meanwhile
+        self.check(files)
+        contents = {
+            name: content if isinstance(content, bytes) else content.encode()
+            for name, content in files.items()
+        }
+        before = self.manifest or Manifest(program=PROGRAM, files={})
+        kept = {name: made for name, made in before.files.items() if self.holds(name)}
+        made = {name: self._made(content) for name, content in contents.items()}
+        contents[MANIFEST] = (
+            Manifest(
+                program=PROGRAM,
+                files=dict(sorted((kept | made).items())),
+                equations=before.equations if equations is None else tuple(equations),
+            )
+            .text()
+            .encode()
+        )
+        if len(contents[MANIFEST]) > LARGEST:
+            raise OutputError(
+                f"'{self.path}' holds too many results: its {MANIFEST} would grow beyond "
+                f"{LARGEST} bytes. Give another folder."
+            )
+        write_whole(self.path, contents)
+
+    def _made(self, content: bytes) -> Made:
+        return Made(
+            result_of=self._result_of,
+            command=printable(command_line()),
+            version=version(PROGRAM),
+            sha256=hashlib.sha256(content).hexdigest(),
+        )
+
+
+def write_whole(folder: Path, contents: Mapping[str, bytes]) -> None:
+    """Write files aside in their folder; when all are there, rename them, in their order.
+
+    Raises ``OSError`` that names the file which can't be written; nothing is left aside then.
+    """
+    suffix = f".{secrets.token_hex(4)}.part"
+    aside = {name: folder / f".{name}{suffix}" for name in contents}
+    try:
+        for name, content in contents.items():
+            try:
+                with aside[name].open("xb") as file:
+                    file.write(content)
+            except OSError as failure:  # a write that fails half-way names no file
+                failure.filename = str(folder / name)
+                raise
+        for name, path in aside.items():
+            os.replace(path, folder / name)
+    finally:
+        for path in aside.values():
+            path.unlink(missing_ok=True)
+
+
+@contextmanager
+def output(
+    out: Path | None, result_of: str, names: Iterable[str], overwrite: bool = False
+) -> Iterator[Folder | None]:
+    """Give the folder to write into, or None without ``--out``; it is made if it is not there.
+
+    ``names`` are the files that will be written, as far as they are known: whether they may be is
+    found out now. ``result_of`` is the question that they answer, such as "run scene.toml". Raises
+    ``OutputError`` where ``out`` can't be used, and ``OSError`` where it can't be written to.
+    """
+    if out is None:
+        yield None
+        return
+    with _standing(out):
+        folder = Folder(out, result_of, overwrite)
+        folder.check(names)
+        yield folder
+
+
+def copied(contents: Mapping[str, bytes], folder: Path, overwrite: bool) -> list[str]:
+    """Write files that are no results; return the names of those that were not there already.
+
+    Raises ``OutputError`` where another file of that name is there, before anything is written.
+    """
+    with _standing(folder):
+        new = {}
+        for name, content in sorted(contents.items()):
+            path = folder / name
+            if path.is_dir():
+                raise _in_the_way(path, _IS_FOLDER)
+            size = path.stat().st_size if path.is_file() else None
+            if size == len(content) and path.read_bytes() == content:
+                continue
+            if os.path.lexists(path) and not overwrite:
+                raise _in_the_way(path, "is there, and differs from the one to be written")
+            new[name] = content
+        write_whole(folder, new)
+    return list(new)
+
+
+@contextmanager
+def _standing(folder: Path) -> Iterator[None]:
+    """See to it that a folder is there and can be written to; one that stays empty goes again."""
+    missing = []
+    for one in (folder, *folder.parents):
+        if one.is_dir():
+            break
+        if one.is_symlink() and not one.exists():
+            raise OutputError(
+                f"'{one}' is a link to '{os.readlink(one)}', which is not there. Give a folder."
+            )
+        if one.exists():
+            raise OutputError(f"'{one}' is a file. Give a folder.")
+        missing.append(one)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=folder):  # whether it can be written to
+            pass
+        yield
+    finally:
+        for one in missing:
+            with suppress(OSError):  # not empty, or never made
+                one.rmdir()

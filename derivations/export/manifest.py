@@ -1,0 +1,99 @@
+"""``manifest.json`` of a folder of results: which files this program wrote, what ``derive`` found.
+
+It is outside text: read within limits, and checked against the models below.
+"""
+
+import os
+import stat
+from pathlib import Path
+from typing import Final, Literal
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+MANIFEST = "manifest.json"
+PROGRAM: Final = "force-diffusion"
+LARGEST = 1_000_000
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(frozen=True)
+
+
+class Made(_Part):
+    """How a file came to be; ``result_of`` is what it answers, such as "run scene.toml"."""
+
+    result_of: str
+    command: str
+    version: str
+    sha256: str
+
+
+class FoundCheck(_Part):
+    """A proof or a witness, and its verdict."""
+
+    kind: Literal["proof", "witness"]
+    name: str
+    verdict: Literal["proved", "refuted", "undecided", "agrees", "disagrees"]
+    note: str
+
+
+class FoundMutant(_Part):
+    """A mechanical change of the printed equation, and its verdict."""
+
+    change: str
+    kind: str
+    verdict: Literal["refuted", "undecided", "equivalent"]
+    note: str
+
+
+class FoundMutants(_Part):
+    """How many mutants there were, and each of them."""
+
+    made: int
+    refuted: int
+    equivalent: int
+    changes: tuple[FoundMutant, ...]
+
+
+class FoundEquation(_Part):
+    """What ``derive`` found about one equation; the same on every run."""
+
+    number: int
+    name: str
+    title: str
+    fragment: str
+    premises: tuple[int, ...]
+    verdict: Literal["proved", "refuted", "undecided"]
+    checks: tuple[FoundCheck, ...]
+    mutants: FoundMutants
+
+
+class Manifest(_Part):
+    """All that a folder's manifest says."""
+
+    program: Literal["force-diffusion"]
+    files: dict[str, Made]
+    equations: tuple[FoundEquation, ...] = ()
+
+    def text(self) -> str:
+        """Give it as JSON."""
+        return self.model_dump_json(indent=2, exclude_defaults=True) + "\n"
+
+
+def read_manifest(folder: Path) -> Manifest | None:
+    """Read a folder's manifest; None where there is none that this program could have written.
+
+    Only a regular file of at most ``LARGEST`` bytes is read. Raises ``OSError`` where it is there
+    and can't be read.
+    """
+    path = folder / MANIFEST
+    try:
+        found = path.lstat()
+        if not stat.S_ISREG(found.st_mode) or found.st_size > LARGEST:
+            return None
+        # whatever takes its place meanwhile: no link is followed, no pipe waited for
+        flags = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+        with open(os.open(path, os.O_RDONLY | flags), "rb") as file:
+            return Manifest.model_validate_json(file.read(LARGEST), strict=True)
+    except (FileNotFoundError, ValidationError):
+        return None
