@@ -9,13 +9,13 @@ from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.framework.asymptotics import (
     compare_leading_order,
     edges_follow,
+    exact_cases,
     exact_steps,
-    exact_views,
     next_order_is,
     no_radius_dominates,
     weights_follow,
 )
-from force_diffusion.derivations.framework.record import Claim, Derivation, ExactView, Step, Witness
+from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step, Witness
 from force_diffusion.derivations.framework.runner import run_alone
 from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
 from force_diffusion.symbolic.as_printed import equation, power, terms, times
@@ -24,7 +24,7 @@ from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import M, j, m, phi, r, sigma, z
 from force_diffusion.symbolic.variances.certified_sums import certified_sum
 from force_diffusion.symbolic.variances.variance import (
-    ExactForm,
+    ClosedForm,
     exact_variances,
 )
 
@@ -44,14 +44,14 @@ PRINTED = equation(
 
 
 @cache
-def exact_forms() -> dict[str, ExactForm]:
+def exact_forms() -> dict[str, ClosedForm]:
     """Exact σ_f²/⟨f⟩² under a surface load at every layer, from Eq. 11 site by site."""
     return exact_variances(eq11.in_radii(eq11.PRINTED.rhs))
 
 
-def shown_forms() -> dict[str, ExactView]:
-    """What ``show --exact`` prints."""
-    return exact_views(RELATIVE_VARIANCE, exact_forms())
+def at_finite_size() -> dict[str, ExactCase]:
+    """The exact forms, case by case."""
+    return exact_cases(RELATIVE_VARIANCE, exact_forms())
 
 
 def sum_of_weights() -> sympy.Expr:
@@ -128,6 +128,7 @@ DERIVATION = Derivation(
     premises=(eq11.DERIVATION, eq12.DERIVATION),
     printed=(PRINTED,),
     relation="∼",
+    exact=at_finite_size,
     steps=steps,
     decide=decide,
     claims=(

@@ -13,13 +13,13 @@ from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations.framework.asymptotics import (
     compare_leading_order,
     edges_follow,
+    exact_cases,
     exact_steps,
-    exact_views,
     next_order_is,
     no_radius_dominates,
     weights_follow,
 )
-from force_diffusion.derivations.framework.record import Claim, Derivation, ExactView, Step, Witness
+from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step, Witness
 from force_diffusion.derivations.framework.runner import run_alone
 from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
 from force_diffusion.symbolic.algebra import affine
@@ -55,7 +55,7 @@ from force_diffusion.symbolic.symbols import (
     z,
 )
 from force_diffusion.symbolic.variances.certified_sums import certified_sum
-from force_diffusion.symbolic.variances.variance import ExactForm, exact_variances, order
+from force_diffusion.symbolic.variances.variance import ClosedForm, exact_variances, order
 from force_diffusion.symbolic.variances.weights import take_apart
 
 RELATIVE_VARIANCE = Symbol(
@@ -84,14 +84,14 @@ def bulk_force() -> sympy.Expr:
 
 
 @cache
-def exact_forms() -> dict[str, ExactForm]:
+def exact_forms() -> dict[str, ClosedForm]:
     """Exact σ_f²/⟨f⟩_z² under a bulk load at every layer, from Eq. 11 site by site."""
     return exact_variances(eq11.in_radii(bulk_force()))
 
 
-def shown_forms() -> dict[str, ExactView]:
-    """What ``show --exact`` prints."""
-    return exact_views(RELATIVE_VARIANCE, exact_forms())
+def at_finite_size() -> dict[str, ExactCase]:
+    """The exact forms, case by case."""
+    return exact_cases(RELATIVE_VARIANCE, exact_forms())
 
 
 def bulk_weights() -> tuple[sympy.Expr, sympy.Expr]:
@@ -266,6 +266,7 @@ DERIVATION = Derivation(
     ),
     printed=(PRINTED,),
     relation="∼",
+    exact=at_finite_size,
     steps=steps,
     decide=decide,
     claims=(

@@ -7,7 +7,14 @@ import sympy
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.derivations.framework.record import Claim, Derivation, ExactView, Step, Witness
+from force_diffusion.derivations.framework.record import (
+    Claim,
+    Derivation,
+    ExactCase,
+    Missed,
+    Step,
+    Witness,
+)
 from force_diffusion.derivations.framework.runner import run_alone
 from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
@@ -76,14 +83,17 @@ def averages() -> dict[str, LayerAverage]:
     return {load: layer_average(module.exact_forms()) for load, module in LOADS.items()}
 
 
-def shown_forms() -> dict[str, ExactView]:
-    """What ``show --exact`` prints."""
+def at_finite_size() -> dict[str, ExactCase]:
+    """The exact averages, load by load."""
     return {
-        f"{load}-load": ExactView(
+        f"{load}-load": ExactCase(
             MEAN_SQUARE,
             f"mean over all layers 0 ≤ j < M under a {load} load, M ≥ 3",
             average.expression,
-            tuple((f"M = {height}", value) for height, value in average.exceptions),
+            missed=tuple(
+                Missed(f"M = {height}", (sympy.Eq(M, height),), value)
+                for height, value in average.exceptions
+            ),
         )
         for load, average in averages().items()
     }
@@ -313,6 +323,7 @@ DERIVATION = Derivation(
     premises=(eq03.DERIVATION, eq13.DERIVATION, eq14.DERIVATION),
     printed=(PRINTED, PRINTED_HEIGHT),
     relation="∝",
+    exact=at_finite_size,
     steps=steps,
     decide=decide,
     claims=(

@@ -15,7 +15,14 @@ from force_diffusion.derivations.framework.cone_forms import (
     LEG_FORCE,
     covariance,
 )
-from force_diffusion.derivations.framework.record import Claim, Derivation, ExactView, Step, Witness
+from force_diffusion.derivations.framework.record import (
+    Claim,
+    Derivation,
+    ExactCase,
+    Missed,
+    Step,
+    Witness,
+)
 from force_diffusion.derivations.framework.runner import run_alone
 from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
@@ -35,7 +42,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.mechanics.lattice import mirror
-from force_diffusion.symbolic.mechanics.paths import IN_CONE
+from force_diffusion.symbolic.mechanics.paths import IN_CONE, STEPS_BELOW
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import (
@@ -140,20 +147,32 @@ def interior() -> RationalFunction:
     return deep * FIELD.from_sympy(sigma**2)
 
 
-def shown_forms() -> dict[str, ExactView]:
-    """What ``show --exact`` prints."""
+def at_finite_size() -> dict[str, ExactCase]:
+    """The exact forms, for a bead, one contact, and a leg of the cone."""
 
-    def view(quantity: sympy.Expr, pieces: tuple[Piece, ...], unit: sympy.Expr) -> ExactView:
+    def case(
+        quantity: sympy.Expr,
+        pieces: tuple[Piece, ...],
+        unit: sympy.Expr,
+        steps_below: dict[sympy.Symbol, sympy.Expr],
+    ) -> ExactCase:
         *edges, main = (
-            (piece.where, piece.expression.xreplace(_numbers(piece.at)) * unit) for piece in pieces
+            Missed(
+                piece.where,
+                tuple(sympy.Eq(s.xreplace(steps_below), value) for s, value in piece.at.items()),
+                piece.expression.xreplace(_numbers(piece.at)) * unit,
+            )
+            for piece in pieces
         )
-        return ExactView(quantity, *main, tuple(edges))
+        inside = tuple(sympy.Ge(steps, 1) for steps in steps_below.values())
+        return ExactCase(quantity, main.where, main.expression, inside, tuple(edges))
 
+    in_cone, on_leg = STEPS_BELOW, {p: l - j}
     return {
-        "bead": view(RESPONSE, BEAD, UNIT / 4),
-        "contact": view(ONE_CONTACT, CONTACT, UNIT / 4),
-        "leg": view(ON_LEG, LEG, UNIT / 4),
-        "leg-force": view(LEG_MAGNITUDE, LEG_FORCE, UNIT),
+        "bead": case(RESPONSE, BEAD, UNIT / 4, in_cone),
+        "contact": case(ONE_CONTACT, CONTACT, UNIT / 4, in_cone),
+        "leg": case(ON_LEG, LEG, UNIT / 4, on_leg),
+        "leg-force": case(LEG_MAGNITUDE, LEG_FORCE, UNIT, on_leg),
     }
 
 
@@ -181,7 +200,7 @@ def steps() -> Iterator[Step]:
         "They turn in the layers j + p and j + q; the two add up to l + j wherever the bead is.",
         equation(terms(j + p, j + q), l + j),
     )
-    exact = shown_forms()
+    exact = at_finite_size()
     yield Step(
         "In the radii (Eqs. 4 and 5) f⁺_ij is a sum of second differences up to the layer below "
         "its turn, as in Eq. 12, and four radii. Exact variance of its vertical component:",
@@ -386,6 +405,7 @@ DERIVATION = Derivation(
     ),
     printed=(PRINTED,),
     relation="∼",
+    exact=at_finite_size,
     steps=steps,
     decide=decide,
     claims=(

@@ -1,2 +1,2 @@
-from .derivations.framework.equation import Equation as Equation
-from .derivations.framework.equation import equation as equation
+from .derivations.api.equation import Equation as Equation
+from .derivations.api.equation import equation as equation

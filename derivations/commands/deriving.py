@@ -8,7 +8,7 @@ from force_diffusion.derivations.commands.output import output
 from force_diffusion.derivations.commands.progress import Silence, display
 from force_diffusion.derivations.framework.catalogue import load, modules, with_premises
 from force_diffusion.derivations.framework.record import Derivation, Outcome
-from force_diffusion.derivations.framework.runner import run
+from force_diffusion.derivations.framework.runner import run_all
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
 
@@ -21,10 +21,9 @@ def outcomes_of(derivations: Iterable[Derivation], watch: Silence) -> list[Outco
     """Derive these in their order, premises first, and tell ``watch`` of each."""
     outcomes: list[Outcome] = []
     with watch.showing():
-        for derivation in derivations:
-            known = {done.derivation.number: done.verdict for done in outcomes}
-            outcomes.append(run(derivation, watch.checking, known))
-            watch.finished(outcomes[-1])
+        for outcome in run_all(derivations, watch.checking):
+            outcomes.append(outcome)
+            watch.finished(outcome)
     return outcomes
 
 

@@ -1,13 +1,19 @@
-"""The commands for equations: a thin layer over ``deriving`` and ``shown``."""
+"""The commands for equations: a thin layer over ``deriving`` and ``Equation``."""
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-from force_diffusion.derivations.commands.cli import STATUSES, either
+from force_diffusion.derivations.commands.cli import STATUSES
 from force_diffusion.derivations.commands.output import Overwrite, out_option
 from force_diffusion.derivations.framework.catalogue import modules
+
+import force_diffusion as fd
+
+if TYPE_CHECKING:
+    from force_diffusion.derivations.api.equation import Equation
+    from force_diffusion.derivations.api.formula import Formula
 
 
 class Form(StrEnum):
@@ -84,40 +90,41 @@ def show(
     ] = None,
 ) -> None:
     """Print one equation, without deriving it."""
-    from force_diffusion.derivations.export import shown
+    place = _number(number)
+    if at_j is not None and not exact:
+        raise typer.BadParameter("goes with --exact only; add it.", param_hint="--at-j")
+    from force_diffusion.derivations.api.equation import NoSuchFormError
 
-    equation = _number(number)
-    if not exact:
-        if at_j is not None:
-            raise typer.BadParameter("goes with --exact only; add it.", param_hint="--at-j")
-        print(shown.view(equation, form))
-        return
-    having = shown.exact_numbers()
-    if equation not in having:
-        raise typer.BadParameter(
-            f"Eq. {equation} has no exact form at finite size of its own; "
-            f"{either([str(one) for one in having])} has.",
-            param_hint="--exact",
-        )
-    if form is Form.STEPS:
+    wanted = fd.equation(place)
+    try:
+        shown = wanted.exact(at_j) if exact else wanted
+    except NoSuchFormError as unknown:
+        hint = "--exact" if unknown.hint == "exact" else "--at-j / --case"
+        raise typer.BadParameter(str(unknown), param_hint=hint) from None
+    if exact and form is Form.STEPS:
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
-    places = shown.exact_places(equation)
-    if at_j is not None and at_j not in places:
-        raise typer.BadParameter(
-            f"Eq. {equation} has no exact form for '{at_j}'. Use {either(places)}.",
-            param_hint="--at-j / --case",
-        )
-    print(shown.exact_view(equation, at_j or places[0], form))
+    print(_written(shown, wanted, form))
+
+
+def _written(shown: "Formula", wanted: "Equation", form: Form) -> str:
+    match form:
+        case Form.LATEX:
+            return f"\\begin{{equation}}\n{shown.latex()}\n\\end{{equation}}"
+        case Form.SYMPY:
+            return shown.sympy_code()
+        case Form.PYTHON:
+            return shown.python_code()
+        case Form.STEPS:
+            return str(wanted.steps())
+    return str(shown)
 
 
 def list_equations() -> None:
     """List the equations."""
-    from force_diffusion.derivations.export import shown
-
-    for number, (name, title) in shown.titles().items():
-        print(f"{number:3}  {name:<20}  {title}")
+    for one in map(fd.equation, modules()):
+        print(f"{one.number:3}  {one.name:<20}  {one.title}")
 
 
 def register(app: typer.Typer) -> None:

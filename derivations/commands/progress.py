@@ -4,7 +4,7 @@ import sys
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, TextIO
 
-from force_diffusion.derivations.export.plain import summary_line, trouble_lines
+from force_diffusion.derivations.export.terminal import summary_line, trouble_lines
 from force_diffusion.derivations.framework.record import Derivation, Outcome
 from force_diffusion.symbolic.kernel.decisions import Verdict
 

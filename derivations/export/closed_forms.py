@@ -17,7 +17,7 @@ from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.framework.cone_forms import BEAD, CONTACT, LEG, LEG_FORCE
 from force_diffusion.symbolic.symbols import M, i, j, k, l, phi, r, sigma
 from force_diffusion.symbolic.variances.cases import Piece
-from force_diffusion.symbolic.variances.variance import ExactForm
+from force_diffusion.symbolic.variances.variance import ClosedForm
 
 TARGET = Path(__file__).parents[2] / "numeric" / "closed_forms.py"
 
@@ -246,7 +246,7 @@ def _code(expression: sympy.Expr, *inner: sympy.Symbol) -> str:
     return f"({polynomial}) / ({' * '.join(written)})"
 
 
-def _exact(name: str, load: str, number: int, forms: dict[str, ExactForm]) -> str:
+def _exact(name: str, load: str, number: int, forms: dict[str, ClosedForm]) -> str:
     branches = []
     for case, test in (("base", "j == 0"), ("base+1", "j == 1"), ("surface", "k == 1")):
         for height, layer, value in forms[case].exceptions:

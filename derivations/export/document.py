@@ -9,16 +9,13 @@ from force_diffusion.derivations.export.manifest import (
     FoundEquation,
     FoundMutants,
 )
-from force_diffusion.derivations.export.plain import mutant_counts, relation_of
 from force_diffusion.derivations.export.prose import prose_latex
+from force_diffusion.derivations.export.terminal import mutant_counts, relation_of
 from force_diffusion.derivations.framework.record import Derivation, Outcome
-from force_diffusion.symbolic.printing.latex import latex
+from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import latex_body
 
 DOCUMENT = "equations.tex"
-
-RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim", "∝": r"\propto"}
-"""Signs of ``Derivation.relation`` in LaTeX."""
 
 _HEAD = r"""\documentclass[10pt]{article}
 \usepackage[a4paper,margin=27mm]{geometry}

@@ -47,6 +47,16 @@ _SYMBOLIC = re.compile(
 )
 
 
+def either(words: Sequence[str]) -> str:
+    """Alternatives in words.
+
+    >>> either(["a", "b", "c"])
+    'a, b or c'
+    """
+    *others, last = words
+    return f"{', '.join(others)} or {last}" if others else last
+
+
 def _is_mathematics(word: str) -> bool:
     """Whether a word is a symbol or a formula rather than English."""
     if re.fullmatch(r"[b-zB-HJ-Z]", word):

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Iterable
 
-from force_diffusion.derivations.export.plain import mutant_counts
+from force_diffusion.derivations.export.terminal import mutant_counts
 from force_diffusion.derivations.framework.record import Outcome
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 import sympy
-from force_diffusion.derivations.framework.record import ExactView, Step
+from force_diffusion.derivations.framework.record import ExactCase, Missed, Step
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.decisions import Ruling, from_test, proved, refuted, undecided
@@ -11,7 +11,7 @@ from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import M, j, phi, r, sigma, z
 from force_diffusion.symbolic.variances.variance import (
     CASES,
-    ExactForm,
+    ClosedForm,
     at_fixed_z,
     largest_weight,
     leading,
@@ -41,7 +41,7 @@ def weights_follow(sum_of_squares: sympy.Expr, printed: sympy.Expr, note: str) -
     return from_test((leading(total) - leading(in_layers)).is_zero(), note)
 
 
-def edges_follow(forms: dict[str, ExactForm], printed: sympy.Expr) -> Ruling:
+def edges_follow(forms: dict[str, ClosedForm], printed: sympy.Expr) -> Ruling:
     """The exact forms of the base and of the layer below the surface, at leading order in M."""
     at_zero = FIELD.from_sympy(printed.xreplace({z: sympy.Integer(0)}))
     surface = FIELD.from_sympy(2 * M * (1 + phi**2) * (sigma / r) ** 2 / (1 - phi**2) ** 2)
@@ -53,7 +53,7 @@ def edges_follow(forms: dict[str, ExactForm], printed: sympy.Expr) -> Ruling:
     )
 
 
-def next_order_is(forms: dict[str, ExactForm], printed: sympy.Expr, stated: sympy.Expr) -> Ruling:
+def next_order_is(forms: dict[str, ClosedForm], printed: sympy.Expr, stated: sympy.Expr) -> Ruling:
     """Exact less printed form is ``stated`` at leading order, in units of (σ/r)²/(1−φ²)²."""
     unit = (sigma / r) ** 2 / (1 - phi**2) ** 2
     rest = forms["interior"].value - FIELD.from_sympy(printed.xreplace({z: j / M}))
@@ -64,7 +64,7 @@ def next_order_is(forms: dict[str, ExactForm], printed: sympy.Expr, stated: symp
     )
 
 
-def no_radius_dominates(force: sympy.Expr, forms: dict[str, ExactForm]) -> Ruling:
+def no_radius_dominates(force: sympy.Expr, forms: dict[str, ClosedForm]) -> Ruling:
     """The largest squared weight over the variance: what the central limit theorem needs."""
     shares = [
         2 * largest_weight(force.xreplace(at), region) - order(forms[case].value)
@@ -75,7 +75,7 @@ def no_radius_dominates(force: sympy.Expr, forms: dict[str, ExactForm]) -> Rulin
     )
 
 
-def exact_steps(variance: sympy.Expr, forms: dict[str, ExactForm]) -> Iterator[Step]:
+def exact_steps(variance: sympy.Expr, forms: dict[str, ClosedForm]) -> Iterator[Step]:
     """Show the exact form of every layer, and the small packings that have one of their own."""
     where = "in the interior"
     for form in forms.values():
@@ -87,14 +87,22 @@ def exact_steps(variance: sympy.Expr, forms: dict[str, ExactForm]) -> Iterator[S
         yield Step(f"The packing M = {size}, j = {at} is none of these:", equation(variance, value))
 
 
-def exact_views(variance: sympy.Expr, forms: dict[str, ExactForm]) -> dict[str, ExactView]:
-    """The exact form of every layer as ``show --exact`` prints it."""
-    return {
-        place: ExactView(
+def exact_cases(variance: sympy.Expr, forms: dict[str, ClosedForm]) -> dict[str, ExactCase]:
+    """The exact form of every layer, with the layers and heights that it is for."""
+
+    def case(place: str, form: ClosedForm) -> ExactCase:
+        at, region, *_ = CASES[place]
+        inside = [sympy.Ge(index, bound) for index, bound in region.lower_bounds.items()]
+        missed = [
+            Missed(f"M = {size}, j = {layer}", (sympy.Eq(M, size), sympy.Eq(j, layer)), value)
+            for size, layer, value in form.exceptions
+        ]
+        return ExactCase(
             variance,
             form.validity,
             form.expression,
-            tuple((f"M = {size}, j = {at}", value) for size, at, value in form.exceptions),
+            domain=(sympy.Eq(j, at[j]),) if at else tuple(inside),
+            missed=tuple(missed),
         )
-        for place, form in forms.items()
-    }
+
+    return {place: case(place, form) for place, form in forms.items()}

@@ -54,23 +54,35 @@ class Derivation:
     witnesses: tuple[Witness, ...] = ()
     remarks: tuple[str, ...] = ()
     relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
+    exact: Callable[[], dict[str, "ExactCase"]] | None = None  # forms at finite size, by case
 
 
 @dataclass(frozen=True)
-class ExactView:
-    """An exact form as ``show --exact`` prints it.
+class Missed:
+    """Packings or sites of an exact case that its form is not for, with their own value."""
+
+    where: str
+    when: tuple[sympy.Basic, ...]  # relations between whole numbers; all of them hold there
+    expression: sympy.Expr
+
+
+@dataclass(frozen=True)
+class ExactCase:
+    """An exact form at finite size, for some layers, loads or sites.
 
     Attributes:
         quantity: what it is the value of.
         validity: where it holds, in words.
         expression: the closed form.
-        missed: cases of the same place that the form is not for, each with its own value.
+        domain: relations between whole numbers, all of which hold for form and ``missed`` together.
+        missed: what of the domain the form is not for; the first that fits holds.
     """
 
     quantity: sympy.Expr
     validity: str
     expression: sympy.Expr
-    missed: tuple[tuple[str, sympy.Expr], ...] = ()
+    domain: tuple[sympy.Basic, ...] = ()
+    missed: tuple[Missed, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -109,11 +109,20 @@ def run(
     return Outcome(derivation, verdict, checks, mutants, perf_counter() - start)
 
 
+def run_all(derivations: Iterable[Derivation], watch: Watch = _silent) -> Iterator[Outcome]:
+    """Run derivations in their order, premises first, each with the verdicts found before."""
+    known: dict[int, Verdict] = {}
+    for derivation in derivations:
+        outcome = run(derivation, watch, known)
+        known[derivation.number] = outcome.verdict
+        yield outcome
+
+
 def run_alone(derivation: Derivation, arguments: Sequence[str] | None = None) -> int:
     """Run one derivation as a program: print it in full; 0 if proved, else 1."""
 
     def program() -> int:
-        from force_diffusion.derivations.export.plain import outcome_text
+        from force_diffusion.derivations.export.terminal import outcome_text
 
         given = sys.argv[1:] if arguments is None else arguments
         if given:

@@ -13,7 +13,7 @@ from force_diffusion.derivations.witnesses.small_packings import Site, SmallPack
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, undecided
-from force_diffusion.symbolic.variances.variance import ExactForm, packings, value_at
+from force_diffusion.symbolic.variances.variance import ClosedForm, packings, value_at
 
 
 def compare(pairs: Iterator[tuple[str, Fraction, Fraction]]) -> Ruling:
@@ -98,7 +98,7 @@ def dropped_weights(
 
 
 def variances(
-    forms: dict[str, ExactForm], load: str, packing: SmallPacking, *, up_to: int = 4
+    forms: dict[str, ClosedForm], load: str, packing: SmallPacking, *, up_to: int = 4
 ) -> Ruling:
     """Exact closed forms against sums of squared weights of exact packings, all j < M ≤ up_to."""
     values = {**explicit.geometry(*packing.n, Fraction(1)), sy.sigma: 1}

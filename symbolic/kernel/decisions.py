@@ -37,6 +37,9 @@ class Ruling:
     verdict: Verdict
     note: str = ""
 
+    def __str__(self) -> str:
+        return f"{self.verdict}: {self.note}" if self.note else str(self.verdict)
+
 
 def proved(note: str = "") -> Ruling:
     """Return the ruling of a proof."""

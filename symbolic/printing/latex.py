@@ -7,6 +7,9 @@ from force_diffusion.symbolic.printing.structure import StructuredPrinter, ascen
 from sympy import Expr, Sum
 from sympy.printing.latex import LatexPrinter
 
+RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim", "∝": r"\propto"}
+"""LaTeX of the signs between the two sides of a printed equation."""
+
 _SIGNS = {"==": "=", "<=": r"\leq", "!=": r"\neq"}
 _TALL = re.compile(r"\\frac|\\sum|\\begin|\\left")
 _SUBSCRIPT = re.compile(r"_\{[^{}]*\}")

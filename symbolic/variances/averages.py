@@ -10,7 +10,7 @@ from force_diffusion.symbolic.algebra.exact import (
     sum_polynomial,
 )
 from force_diffusion.symbolic.symbols import M, j, k, z
-from force_diffusion.symbolic.variances.variance import ExactForm, leading, order, value_at
+from force_diffusion.symbolic.variances.variance import ClosedForm, leading, order, value_at
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class LayerAverage:
         return first, second
 
 
-def layer_average(forms: dict[str, ExactForm]) -> LayerAverage:
+def layer_average(forms: dict[str, ClosedForm]) -> LayerAverage:
     """Average the closed forms of all layers 0 ≤ j < M, those at the edges included.
 
     The interior, 2 ≤ j ≤ M − 2, is summed over k = M − j: powers of k by a telescoping
@@ -79,7 +79,7 @@ def layer_average(forms: dict[str, ExactForm]) -> LayerAverage:
 _HEIGHT_TWO = ((0, "base"), (1, "surface"))
 
 
-def uniform_order(forms: dict[str, ExactForm], profile: sympy.Expr) -> int:
+def uniform_order(forms: dict[str, ClosedForm], profile: sympy.Expr) -> int:
     """A power p such that |variance − profile at z = j/M| ≤ C M^p in every layer, M ≥ 3.
 
     C depends on φ, σ and r alone. In the interior a term j^a k^b/k^c with k = M − j ≥ 1 is at

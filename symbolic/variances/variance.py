@@ -73,7 +73,7 @@ def at_fixed_z(value: RationalFunction) -> sympy.Expr:
 
 
 @dataclass(frozen=True)
-class ExactForm:
+class ClosedForm:
     """A variance in closed form, exact for every packing that ``validity`` names.
 
     Attributes:
@@ -103,10 +103,10 @@ CASES: dict[str, tuple[dict[sympy.Symbol, sympy.Expr], Region, str, tuple[int, .
 """Layers with a closed form of their own: substitution, region, its words, heights missed."""
 
 
-def exact_variances(expression: sympy.Expr) -> dict[str, ExactForm]:
+def exact_variances(expression: sympy.Expr) -> dict[str, ClosedForm]:
     """Closed forms of the variance at every 0 ≤ j < M: interior, both edges, small packings."""
 
-    def form(name: str) -> ExactForm:
+    def form(name: str) -> ClosedForm:
         at, region, validity, missed = CASES[name]
         value = variance(expression.xreplace(at), region)
         exceptions = []
@@ -115,7 +115,7 @@ def exact_variances(expression: sympy.Expr) -> dict[str, ExactForm]:
             layer = at[j].xreplace(size)
             small = variance(expression.xreplace({**size, j: layer}), Region({}))
             exceptions.append((height, int(layer), small.to_sympy()))
-        return ExactForm(validity, tuple(exceptions), value)
+        return ClosedForm(validity, tuple(exceptions), value)
 
     return {name: form(name) for name in CASES}
 
@@ -134,7 +134,7 @@ def packings(up_to: int) -> Iterator[tuple[int, int, str]]:
                 yield height, layer, "base+1"
 
 
-def value_at(forms: dict[str, ExactForm], height: int, layer: int, case: str) -> sympy.Expr:
+def value_at(forms: dict[str, ClosedForm], height: int, layer: int, case: str) -> sympy.Expr:
     """The exact variance of one packing, from its closed form or from the exceptions."""
     form = forms[case]
     for size, at, small in form.exceptions:

@@ -172,7 +172,7 @@ def test_an_interrupt_in_this_process(made_up, tmp_path: Path, monkeypatch, caps
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("force_diffusion.derivations.commands.deriving.run", interrupted)
+    monkeypatch.setattr("force_diffusion.derivations.framework.runner.run", interrupted)
     assert main(["derive", "1", "--out", str(tmp_path / "out")]) == 130
     assert "interrupted" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()

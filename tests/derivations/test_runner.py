@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from force_diffusion.derivations.export.plain import (
+from force_diffusion.derivations.export.terminal import (
     mutant_counts,
     outcome_text,
     summary_line,

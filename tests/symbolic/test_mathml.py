@@ -7,9 +7,8 @@ from collections.abc import Iterator
 from xml.etree import ElementTree
 
 import pytest
-from force_diffusion.derivations.export.document import RELATIONS
 from force_diffusion.derivations.framework.catalogue import load, modules
-from force_diffusion.symbolic.printing.latex import latex
+from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import latex_body
 from force_diffusion.symbolic.printing.mathml import UnknownLatexError, mathml
 

@@ -14,7 +14,7 @@ from force_diffusion.derivations.export.document import READING, sentence, state
 from force_diffusion.derivations.export.page.graph import proof_graph
 from force_diffusion.derivations.export.page.parts import Part
 from force_diffusion.derivations.export.page.words import display, prose, symbol
-from force_diffusion.derivations.export.plain import mutant_counts, relation_of
+from force_diffusion.derivations.export.terminal import mutant_counts, relation_of
 from force_diffusion.derivations.framework.record import Derivation, Outcome
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.printing.mathml import ALIGNMENT

@@ -3,9 +3,8 @@
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
 
-from force_diffusion.derivations.export.document import RELATIONS
 from force_diffusion.derivations.export.prose import formula_latex, pieces
-from force_diffusion.symbolic.printing.latex import latex
+from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import latex_body, width
 from force_diffusion.symbolic.printing.mathml import mathml
 from markupsafe import Markup, escape

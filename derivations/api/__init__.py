@@ -1,0 +1,1 @@
+"""Equations as a Python user holds them."""

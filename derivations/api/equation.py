@@ -1,0 +1,436 @@
+"""One equation of the paper as a Python user holds it: SymPy objects, numbers, and its proof."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Self
+
+import sympy
+from force_diffusion.derivations.api.evaluation import (
+    ArgumentError,
+    Number,
+    read_arguments,
+    value_of,
+)
+from force_diffusion.derivations.api.exact import ExactForm
+from force_diffusion.derivations.api.formula import Formula, vocabulary
+from force_diffusion.derivations.export.prose import either
+from force_diffusion.derivations.export.terminal import (
+    check_text,
+    counts_text,
+    heading,
+    relation_of,
+    statement_text,
+    steps_text,
+    summary_line,
+)
+from force_diffusion.derivations.framework.catalogue import load, modules, with_premises
+from force_diffusion.derivations.framework.record import (
+    Check,
+    Derivation,
+    ExactCase,
+    Mutant,
+    Outcome,
+    Step,
+)
+from force_diffusion.derivations.framework.runner import run, run_all
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, undecided
+from force_diffusion.symbolic.printing.latex import RELATIONS
+from force_diffusion.symbolic.printing.lines import latex_body
+from force_diffusion.symbolic.printing.text import text
+
+
+class NoSuchFormError(ForceDiffusionError, ValueError):
+    """There is no such equation, or it has no such exact form; the message names those there are.
+
+    ``hint``: "number", "exact" or "case", for what of the request is wrong.
+    """
+
+    def __init__(self, message: str, hint: str) -> None:
+        super().__init__(message)
+        self.hint = hint
+
+
+@dataclass(frozen=True)
+class Proof:
+    """What :meth:`Equation.prove` found.
+
+    Attributes:
+        outcomes: all that has been run, premises first; the last is the equation's own.
+        premises_run: whether the premises have been proved too, or are taken as proved.
+    """
+
+    outcomes: tuple[Outcome, ...]
+    premises_run: bool
+
+    @property
+    def verdict(self) -> Verdict:
+        """``proved``, ``refuted`` or ``undecided``: of the equation, given its premises."""
+        return self.outcomes[-1].verdict
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """The equation's own proofs and witnesses, each with its verdict and note."""
+        return self.outcomes[-1].checks
+
+    @property
+    def mutants(self) -> tuple[Mutant, ...]:
+        """The printed equation with one mechanical change each, and what the checker said."""
+        return self.outcomes[-1].mutants
+
+    def _premises(self) -> str:
+        numbers = [str(one.number) for one in self.outcomes[-1].derivation.premises]
+        if not numbers:
+            return "It rests on no other equation."
+        plural = "s" if len(numbers) > 1 else ""
+        state = "run too" if self.premises_run else "taken as proved, not run"
+        return f"Its premise{plural}, Eq{plural}. {', '.join(numbers)}: {state}."
+
+    def __str__(self) -> str:
+        outcome = self.outcomes[-1]
+        return "\n".join(
+            [
+                f"Eq. {outcome.derivation.number} is {self.verdict}. {self._premises()}",
+                *map(summary_line, self.outcomes[:-1]),
+                *map(check_text, self.checks),
+                f"  - {counts_text(outcome)}",
+            ]
+        )
+
+    __repr__ = __str__
+
+    def _repr_markdown_(self) -> str:
+        def row(*cells: str) -> str:
+            return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
+
+        outcome = self.outcomes[-1]
+        rows = [row(one.kind, str(one.verdict), one.name, one.note) for one in self.checks]
+        return "\n".join(
+            [
+                f"**Eq. {outcome.derivation.number} is {self.verdict}.** {self._premises()}",
+                "",
+                row("kind", "verdict", "check", "note"),
+                row("---", "---", "---", "---"),
+                *rows,
+                row("mutants", "", counts_text(outcome), ""),
+            ]
+        )
+
+
+class Steps(tuple[Step, ...]):
+    """The steps of a derivation, which print as a numbered list."""
+
+    _derivation: Derivation
+
+    @classmethod
+    def of(cls, derivation: Derivation) -> Self:
+        """The steps of one derivation."""
+        made = cls(derivation.steps())
+        made._derivation = derivation
+        return made
+
+    def __str__(self) -> str:
+        return f"{heading(self._derivation)}\n\n{steps_text(self._derivation)}"
+
+    __repr__ = __str__
+
+    def _repr_markdown_(self) -> str:
+        lines = []
+        for place, step in enumerate(self, start=1):
+            lines.append(f"{place}. {step.reason}")
+            if step.formula is not None:
+                relation = RELATIONS[relation_of(self._derivation, step)]
+                lines.append(f"$$\n{latex_body([step.formula], relation)}\n$$")
+        return "\n\n".join(lines)
+
+
+class Equation(Formula):
+    """An equation of the paper; :func:`equation` gives it by its number.
+
+    Most of the paper's equations are one printed line. Eqs. 7, 8 and 15 are two: ``expr`` and
+    ``rhs`` are then a SymPy ``Tuple``, and :meth:`at` gives a tuple.
+
+    >>> import force_diffusion as fd
+    >>> fd.equation(13)
+    <Eq. 13: Variance of the forces under a surface load>
+    >>> print(fd.equation(9))  # doctest: +ELLIPSIS
+    Eq. 9: Straight path without a branch
+    <BLANKLINE>
+      f⁺_ij/f⁺_(k−1,l−1) = 1 + (φ/(1 − φ²)) n⁻·(δn⁺_ij − δn⁺_(k−1,l−1))
+    ...
+    """
+
+    def __init__(self, derivation: Derivation) -> None:
+        heading = f"Eq. {derivation.number}"
+        super().__init__(derivation.name, heading, derivation.printed, derivation.relation)
+        self._derivation = derivation
+
+    @property
+    def number(self) -> int:
+        """Its number in the paper.
+
+        >>> import force_diffusion as fd
+        >>> fd.equation(13).number
+        13
+        """
+        return self._derivation.number
+
+    @property
+    def name(self) -> str:
+        """Its name in this package.
+
+        >>> import force_diffusion as fd
+        >>> fd.equation(13).name
+        'surface_diffusion'
+        """
+        return self._derivation.name
+
+    @property
+    def title(self) -> str:
+        """Its title.
+
+        >>> import force_diffusion as fd
+        >>> fd.equation(13).title
+        'Variance of the forces under a surface load'
+        """
+        return self._derivation.title
+
+    @property
+    def relation(self) -> str:
+        """The printed sign: ``=``, ``≈``, ``∼`` (leading order) or ``∝``.
+
+        >>> import force_diffusion as fd
+        >>> fd.equation(13).relation
+        '∼'
+        """
+        return self._derivation.relation
+
+    @property
+    def assumptions(self) -> tuple[str, ...]:
+        """What is assumed, in words.
+
+        >>> import force_diffusion as fd
+        >>> fd.equation(13).assumptions[0]
+        'the radii are independent, of zero mean and variance σ²'
+        """
+        return self._derivation.assumptions
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What the paper leaves out, or what differs from it.
+
+        >>> import force_diffusion as fd
+        >>> fd.equation(13).remarks[0][:36]
+        'The limit is taken at fixed z. A fix'
+        """
+        return self._derivation.remarks
+
+    @property
+    def premises(self) -> tuple["Equation", ...]:
+        """The equations that it is derived from.
+
+        >>> import force_diffusion as fd
+        >>> [premise.number for premise in fd.equation(13).premises]
+        [11, 12]
+        """
+        return tuple(map(Equation, self._derivation.premises))
+
+    @cached_property
+    def _vocabulary(self) -> dict[str, Any]:
+        named = [symbol for symbol, _ in self._derivation.symbols]
+        by_layer = [sy.j] if sy.z in self._lines[0].free_symbols else []
+        exact = [form.expression for form in self._exact.values()]
+        return vocabulary([*named, *self._lines, *by_layer, *exact])
+
+    @cached_property
+    def _exact(self) -> dict[str, ExactCase]:
+        return self._derivation.exact() if self._derivation.exact else {}
+
+    @property
+    def cases(self) -> tuple[str, ...]:
+        """The names of its exact forms at finite size, the usual one first; none for most.
+
+        >>> import force_diffusion as fd
+        >>> fd.equation(13).cases
+        ('interior', 'base', 'base+1', 'surface')
+        """
+        return tuple(self._exact)
+
+    def exact(self, case: str | None = None) -> ExactForm:
+        """The exact form at finite size; by default the first of :attr:`cases`.
+
+        >>> import force_diffusion as fd
+        >>> fd.equation(13).exact("surface")
+        <Eq. 13, exact form 'surface': j = M − 1 and M ≥ 3>
+        >>> fd.equation(13).exact("leg")  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+        ...
+        force_diffusion...NoSuchFormError: Eq. 13 has no exact form for 'leg'. Use interior, base, \
+base+1 or surface.
+
+        Raises:
+            NoSuchFormError: there is none, or none of that name.
+        """
+        if not self._exact:
+            having = [str(number) for number in modules() if load(number).exact]
+            raise NoSuchFormError(
+                f"Eq. {self.number} has no exact form at finite size of its own; "
+                f"{either(having)} has.",
+                "exact",
+            )
+        wanted = self.cases[0] if case is None else case
+        if wanted not in self._exact:
+            raise NoSuchFormError(
+                f"Eq. {self.number} has no exact form for '{wanted}'. Use {either(self.cases)}.",
+                "case",
+            )
+        return ExactForm(self._derivation, wanted, self._exact[wanted])
+
+    def at(self, **arguments: Number) -> Any:
+        """The right-hand side for given numbers: exact for exact ones, else a float.
+
+        For Eqs. 13 to 16, whose right-hand side is a number; ``j`` may be given in place of z.
+        int, Fraction and SymPy's Rational are exact. A float is the exact value for the floats that
+        were given, rounded once.
+
+        >>> from fractions import Fraction
+        >>> import force_diffusion as fd
+        >>> fd.equation(13).at(M=10, j=3, phi=Fraction(-1, 8), sigma=Fraction(1, 100), r=1)
+        8192/50625
+        >>> fd.equation(13).at(M=10, z=0.3, phi=-0.125, sigma=0.01, r=1)
+        0.16181728395061729
+        >>> fd.equation(15).at(M=4, sigma=Fraction(1, 8), r=1)
+        (1, 4)
+        >>> fd.equation(13).at(M=10, z=0.3)  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+        ...
+        force_diffusion...ArgumentError: phi, sigma, r missing: Eq. 13 takes M, z (or j), ...
+
+        Raises:
+            ArgumentError: a name is unknown or missing, or a value is not allowed.
+        """
+        sides = [line.rhs for line in self._lines]
+        if any(side.has(sy.SiteFunction, *sy.VECTORS) or side == 0 for side in sides):
+            raise ArgumentError(
+                f"the right-hand side of Eq. {self.number} is no number: it holds what belongs to "
+                "single beads. equation(…).python_code() is a function of these."
+            )
+        needed = set().union(*(side.free_symbols for side in sides))
+        values, exact = read_arguments(self._heading, needed, arguments)
+        found = [value_of(side, values, exact=exact) for side in sides]
+        return found[0] if len(found) == 1 else tuple(found)
+
+    def steps(self) -> Steps:
+        """The derivation: each step has a ``reason`` in words and the ``formula`` that it gives.
+
+        >>> import force_diffusion as fd
+        >>> step = fd.equation(13).steps()[0]
+        >>> step.reason.startswith("Each Δ holds one radius with the weight 2")
+        True
+        >>> step.formula
+        6*Sum((M - j)**2, (m, 1, j)) + 6*Sum((M - m)**2, (m, j + 1, M))
+        """
+        return Steps.of(self._derivation)
+
+    def prove(self, *, premises: bool = True) -> Proof:
+        """Run its proofs, its witnesses and its mutants, and those of all that it rests on.
+
+        This takes seconds. With ``premises=False`` the equations that it rests on are taken as
+        proved, and the result says so.
+
+        >>> import force_diffusion as fd
+        >>> proof = fd.equation(9).prove(premises=False)
+        >>> str(proof.verdict)
+        'proved'
+        >>> print(str(proof).splitlines()[0])
+        Eq. 9 is proved. Its premise, Eq. 8: taken as proved, not run.
+        >>> [check.kind for check in proof.checks]
+        ['proof', 'proof', 'witness']
+        """
+        if premises:
+            return Proof(tuple(run_all(with_premises([self._derivation]))), premises_run=True)
+        return Proof((run(self._derivation),), premises_run=False)
+
+    def decide(self, candidate: sympy.Basic) -> Ruling:
+        """Rule on a formula of your own, with the procedure that proves the printed equation.
+
+        What can't be read is undecided, with the reason; no error is raised.
+
+        >>> import force_diffusion as fd
+        >>> eq = fd.equation(13)
+        >>> M, z, phi, sigma, r = (eq.symbols[name] for name in ("M", "z", "phi", "sigma", "r"))
+        >>> unit = (sigma / r) ** 2 / (1 - phi**2) ** 2
+        >>> print(eq.decide(2 * M**3 * (1 - 3 * z**2 + 2 * z**3) * unit))  # doctest: +ELLIPSIS
+        proved: exact − printed is of order M^2: ...
+        >>> print(eq.decide(2 * M**3 * (1 - z) ** 2 * unit))  # doctest: +ELLIPSIS
+        refuted: exact − candidate is of the leading order M^3 itself: ...
+
+        Args:
+            candidate: a SymPy ``Eq`` in the symbols of :attr:`symbols`, or, where one line is
+                printed, an expression for the right-hand side.
+        """
+        if not isinstance(candidate, sympy.Eq):
+            if not isinstance(candidate, sympy.Expr):
+                return undecided(
+                    f"a SymPy Eq or expression is needed, and this is {type(candidate).__name__}; "
+                    "Eq(…, evaluate=False) is not turned into true or false"
+                )
+            if len(self._lines) > 1:
+                sides = either([text(line.lhs) for line in self._lines])
+                return undecided(f"which line is meant? Give an Eq whose left-hand side is {sides}")
+            candidate = sympy.Eq(self._lines[0].lhs, candidate, evaluate=False)
+        if strangers := self._namesakes(candidate):
+            return undecided(
+                f"{', '.join(strangers)}: not this equation's symbol, but another of the same "
+                "name; take it from .symbols"
+            )
+        parts = [n for n, line in enumerate(self._lines) if line.lhs == candidate.lhs]
+        rulings = [self._ruled(part, candidate) for part in parts or range(len(self._lines))]
+        ranked = {ruling.verdict: ruling for ruling in reversed(rulings)}
+        return next(ranked[one] for one in Verdict if one in ranked)
+
+    def _namesakes(self, candidate: sympy.Basic) -> list[str]:
+        own = {symbol.name: symbol for symbol in (*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS)}
+        own |= {one.name: one for one in self._vocabulary.values() if isinstance(one, sympy.Symbol)}
+        mine = set(own.values()) | {sy.site_r, sy.site_s, sy.r, sy.spacing}
+        return sorted(
+            symbol.name
+            for symbol in candidate.free_symbols
+            if symbol.name in own and symbol not in mine
+        )
+
+    def _ruled(self, part: int, candidate: sympy.Eq) -> Ruling:
+        try:
+            return self._derivation.decide(part, candidate)
+        except Exception as failure:  # a foreign formula may be anything; no verdict is lost by it
+            return undecided(f"it could not be read: {failure or type(failure).__name__}")
+
+    def __repr__(self) -> str:
+        return f"<{self._heading}: {self.title}>"
+
+    def __str__(self) -> str:
+        return statement_text(self._derivation)
+
+
+def equation(number: int) -> Equation:
+    """The equation of the paper with this number.
+
+    >>> import force_diffusion as fd
+    >>> fd.equation(13).title
+    'Variance of the forces under a surface load'
+    >>> fd.equation(99)  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    ...
+    force_diffusion...NoSuchFormError: there is no equation 99: give a number from 1 to 16
+
+    Raises:
+        NoSuchFormError: there is none.
+    """
+    known = modules()
+    if number not in known:
+        raise NoSuchFormError(
+            f"there is no equation {number!r}: give a number from {min(known)} to {max(known)}",
+            "number",
+        )
+    return Equation(load(number))

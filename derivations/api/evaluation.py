@@ -1,0 +1,133 @@
+"""Numbers put into formulas: exact for exact arguments, and only where the formula is meant."""
+
+import math
+import numbers
+from collections.abc import Callable, Iterable, Mapping
+from fractions import Fraction
+from typing import Any, TypeAlias
+
+import sympy
+from force_diffusion.derivations.export.prose import either
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.printing.text import text
+
+Number: TypeAlias = int | float | Fraction
+"""What is put in: int, Fraction and, at run time, SymPy's Rational are exact; floats are not."""
+
+_HALF = sympy.Rational(1, 2)
+_ORDER = "M l j z i k phi sigma r"
+_ALLOWED: dict[sympy.Symbol, tuple[str, Callable[[Any], bool]]] = {
+    sy.phi: ("−1/2 < φ < 1/2", lambda value: -_HALF < value < _HALF),
+    sy.z: ("0 ≤ z ≤ 1", lambda value: 0 <= value <= 1),
+    sy.sigma: ("a number from 0 on", lambda value: value >= 0),
+    sy.M: ("a whole number from 1 on", lambda value: value >= 1),
+    sy.j: ("a whole number from 0 on", lambda value: value >= 0),
+    sy.l: ("a whole number from 0 on", lambda value: value >= 0),
+}
+_TOGETHER: dict[tuple[sympy.Symbol, ...], tuple[str, Callable[[Any, Any], bool]]] = {
+    (sy.j, sy.M): ("0 ≤ j < M", lambda j, height: j < height),
+    (sy.j, sy.l): ("0 ≤ j ≤ l", lambda j, level: j <= level),
+    (sy.i, sy.j): ("an even sum i + j", lambda i, j: (i + j) % 2 == 0),
+    (sy.k, sy.l): ("an even sum k + l", lambda k, level: (k + level) % 2 == 0),
+}
+
+
+class ArgumentError(ForceDiffusionError, ValueError):
+    """A formula can't be evaluated with these arguments; the message says what is allowed."""
+
+
+def read_arguments(
+    about: str, needed: Iterable[sympy.Symbol], given: Mapping[str, Number]
+) -> tuple[dict[sympy.Symbol, sympy.Rational], bool]:
+    """Values of the symbols that a formula needs, and whether all of them are exact.
+
+    In place of z, ``j`` may be given: z = j/M.
+
+    Args:
+        about: what is evaluated, for messages.
+        needed: symbols of the formula.
+        given: values by name.
+
+    Raises:
+        ArgumentError: a name is unknown or missing, or a value is not allowed.
+    """
+    by_name = {symbol.in_code: symbol for symbol in needed if isinstance(symbol, Symbol)}
+    by_layer = "z" in by_name and "j" in given
+    if by_layer:
+        if "z" in given:
+            raise ArgumentError("z and j are given, and z is j/M: leave one of them out")
+        del by_name["z"]
+        by_name |= {"M": sy.M, "j": sy.j}
+    _compare_names(about, by_name, given)
+    values = {by_name[name]: _exactly(name, value) for name, value in given.items()}
+    for symbol, value in values.items():
+        _assert_allowed(symbol, value, given[symbol.in_code])
+    for pair, (words, allowed) in _TOGETHER.items():
+        if set(pair) <= set(values) and not allowed(*(values[symbol] for symbol in pair)):
+            raise ArgumentError(f"{told(pair, values)}: {words} is allowed")
+    if by_layer:
+        values[sy.z] = values[sy.j] / values[sy.M]
+    return values, all(isinstance(value, numbers.Rational) for value in given.values())
+
+
+def _compare_names(about: str, known: Mapping[str, Symbol], given: Mapping[str, Number]) -> None:
+    names = sorted(known, key=lambda name: (_ORDER.find(name) if name in _ORDER else 99, name))
+    takes = f"{about} takes " + ", ".join("z (or j)" if name == "z" else name for name in names)
+    if unknown := [name for name in given if name not in known]:
+        raise ArgumentError(f"{about} holds no {either(unknown)}: {takes}")
+    if missing := [name for name in names if name not in given]:
+        raise ArgumentError(f"{', '.join(missing)} missing: {takes}")
+
+
+def _exactly(name: str, value: Number) -> sympy.Rational:
+    if isinstance(value, numbers.Rational):
+        return sympy.Rational(int(value.numerator), int(value.denominator))
+    if isinstance(value, numbers.Real) and math.isfinite(value):
+        return sympy.Rational(*float(value).as_integer_ratio())
+    raise ArgumentError(
+        f"{name} = {value!r}: one int, Fraction, SymPy Rational or finite float is allowed"
+    )
+
+
+def _assert_allowed(symbol: sympy.Symbol, value: sympy.Rational, given: Number) -> None:
+    words, allowed = _ALLOWED.get(
+        symbol,
+        ("a whole number", lambda _: True)
+        if symbol.is_integer
+        else ("a number above 0", lambda value: value > 0),
+    )
+    if not allowed(value) or (symbol.is_integer and not value.is_integer):
+        raise ArgumentError(f"{symbol.in_code} = {given}: {words} is allowed")
+
+
+def told(symbols: Iterable[sympy.Symbol], values: Mapping[sympy.Symbol, sympy.Rational]) -> str:
+    """Values in words."""
+    return ", ".join(f"{text(symbol)} = {values[symbol]}" for symbol in symbols)
+
+
+def holds(relation: sympy.Basic, values: Mapping[sympy.Symbol, sympy.Rational]) -> bool:
+    """Whether a relation between whole numbers holds."""
+    return relation.xreplace(values) is sympy.true
+
+
+def value_of(
+    expression: sympy.Expr, values: Mapping[sympy.Symbol, sympy.Rational], *, exact: bool
+) -> sympy.Expr | float:
+    """The value of a formula; a float is the exact value of the given floats, rounded once.
+
+    Raises:
+        ArgumentError: the value is beyond the range of floats.
+    """
+    value = expression.xreplace(values).doit()
+    if exact:
+        return value
+    try:
+        if isinstance(value, sympy.Rational):
+            return int(value.p) / int(value.q)
+        return float(value.evalf(30))
+    except OverflowError:
+        raise ArgumentError(
+            "the value is beyond the range of floats: give exact arguments"
+        ) from None

@@ -1,0 +1,125 @@
+"""An exact form at finite size as a Python user holds it."""
+
+from force_diffusion.derivations.api.evaluation import (
+    ArgumentError,
+    Number,
+    holds,
+    read_arguments,
+    told,
+    value_of,
+)
+from force_diffusion.derivations.api.formula import Formula
+from force_diffusion.derivations.framework.record import Derivation, ExactCase
+from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
+from force_diffusion.symbolic.printing.text import text
+from sympy import Eq, Expr
+
+
+class ExactForm(Formula):
+    """The exact form of an equation for some layers, loads or sites: ``Equation.exact``.
+
+    It is exact to first order in δr, in packings of any height and not only in high ones.
+
+    >>> import force_diffusion as fd
+    >>> print(fd.equation(13).exact("base"))
+    Eq. 13, exact at finite size: j = 0 and M ≥ 2
+    <BLANKLINE>
+      σ_f²(z)/⟨f⟩²
+          = σ_δr² (4 M³ − 3 M² + 7 M φ² − 2 M φ − 3 M + φ⁴ − φ³ − 3 φ² + φ + 3)/[2 r² (1 − φ²)²]
+    <BLANKLINE>
+    Not covered by this form:
+      M = 1, j = 0: σ_δr² (φ⁴ − 2 φ³ + 6 φ² − 2 φ + 1)/[2 r² (1 − φ²)²]
+    """
+
+    def __init__(self, derivation: Derivation, case: str, form: ExactCase) -> None:
+        name = f"{derivation.name}_{case.replace('+', '_plus_').replace('-', '_')}"
+        line = Eq(form.quantity, form.expression, evaluate=False)
+        super().__init__(name, f"Eq. {derivation.number}", (line,))
+        self._case, self._form, self._number = case, form, derivation.number
+
+    @property
+    def case(self) -> str:
+        """Its name, as in ``show --case``.
+
+        >>> import force_diffusion as fd
+        >>> fd.equation(16).exact().case
+        'bead'
+        """
+        return self._case
+
+    @property
+    def validity(self) -> str:
+        """Where it holds, in words.
+
+        >>> import force_diffusion as fd
+        >>> fd.equation(13).exact("interior").validity
+        '2 ≤ j ≤ M − 2'
+        """
+        return self._form.validity
+
+    @property
+    def missed(self) -> dict[str, Expr]:
+        """Packings or sites beside it that have a value of their own, which :meth:`at` knows.
+
+        >>> import force_diffusion as fd
+        >>> list(fd.equation(13).exact("surface").missed)
+        ['M = 1, j = 0', 'M = 2, j = 1']
+        """
+        return {missed.where: missed.expression for missed in self._form.missed}
+
+    def at(self, **arguments: Number) -> Expr | float:
+        """The value for given numbers: exact for exact ones, a float where one is a float.
+
+        A layer that the case fixes may be left out.
+
+        >>> from fractions import Fraction
+        >>> import force_diffusion as fd
+        >>> form = fd.equation(13).exact("interior")
+        >>> form.at(M=10, j=3, phi=Fraction(-1, 8), sigma=Fraction(1, 100), r=1)
+        247909/1764000
+        >>> form.at(M=10, j=3, phi=-0.125, sigma=0.01, r=1)
+        0.14053798185941044
+        >>> form.at(M=10, j=0, phi=0, sigma=0.01, r=1)  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+        ...
+        force_diffusion...ArgumentError: Eq. 13, ... is for 2 ≤ j ≤ M − 2, not for j = 0
+
+        Raises:
+            ArgumentError: a name is unknown or missing, or a value is not allowed.
+        """
+        form = self._form
+        fixed = {one.lhs: one.rhs for one in form.domain if isinstance(one, Eq)}
+        conditions = [*form.domain, *(one for missed in form.missed for one in missed.when)]
+        expressions = [form.expression, *(missed.expression for missed in form.missed)]
+        needed = set().union(*(one.free_symbols for one in (*expressions, *conditions)))
+        about = f"Eq. {self._number}, exact form '{self._case}',"
+        left_out = {symbol for symbol in fixed if symbol.in_code not in arguments}
+        values, exact = read_arguments(about, needed - left_out, arguments)
+        for symbol in left_out:
+            values[symbol] = fixed[symbol].xreplace(values)
+        for relation in form.domain:
+            if not holds(relation, values):
+                at = sorted(relation.free_symbols, key=str)
+                raise ArgumentError(f"{about} is for {form.validity}, not for {told(at, values)}")
+        fitting = (m.expression for m in form.missed if all(holds(one, values) for one in m.when))
+        return value_of(next(fitting, form.expression), values, exact=exact)
+
+    def _told(self, line: Eq) -> str:
+        note = f"{text(line.lhs)}, exact to first order: {self.validity}"
+        return f"{note}; not for {'; '.join(self._edges())}" if self.missed else note
+
+    def _edges(self) -> list[str]:
+        return [f"{where}: {text(value)}" for where, value in self.missed.items()]
+
+    def __repr__(self) -> str:
+        return f"<{self._heading}, exact form '{self._case}': {self.validity}>"
+
+    def __str__(self) -> str:
+        lines = [
+            f"{self._heading}, exact at finite size: {self.validity}",
+            "",
+            *("  " + line for line in text_lines(self._lines[0], room=TEXT_WIDTH - 2)),
+        ]
+        if self.missed:
+            lines += ["", "Not covered by this form:", *("  " + line for line in self._edges())]
+        return "\n".join(lines)

@@ -1,0 +1,142 @@
+"""What an equation and its exact forms have in common: SymPy objects, names, numbers, code."""
+
+from collections.abc import Iterable
+from functools import cached_property
+from typing import Any
+
+import sympy
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.printing.code import python_source, sympy_source
+from force_diffusion.symbolic.printing.latex import RELATIONS
+from force_diffusion.symbolic.printing.lines import latex_body
+from force_diffusion.symbolic.printing.text import text
+
+
+class Formula:
+    """One or more printed lines, each a SymPy ``Eq``."""
+
+    def __init__(
+        self, name: str, heading: str, lines: tuple[sympy.Eq, ...], relation: str = "="
+    ) -> None:
+        self._name, self._heading, self._lines, self._relation = name, heading, lines, relation
+
+    @property
+    def expr(self) -> sympy.Basic:
+        """The formula as a SymPy ``Eq``, or a ``Tuple`` of them where several lines are printed.
+
+        ``Eq`` stands for the printed sign too where that is ≈, ∼ or ∝.
+
+        >>> import force_diffusion as fd
+        >>> type(fd.equation(13).expr).__name__
+        'Equality'
+        >>> [type(line).__name__ for line in fd.equation(7).expr]
+        ['Equality', 'Equality']
+        """
+        return _one_or_tuple(self._lines)
+
+    @property
+    def rhs(self) -> sympy.Basic:
+        """The right-hand side, or a ``Tuple`` of them where several lines are printed.
+
+        A string is no symbol of it: take symbols from :attr:`symbols`, or use :meth:`at`.
+
+        >>> import force_diffusion as fd
+        >>> eq = fd.equation(13)
+        >>> M, z = eq.symbols["M"], eq.symbols["z"]
+        >>> eq.rhs.subs({M: 10, z: 0})
+        2000*sigma**2/(r**2*(1 - phi**2)**2)
+        """
+        return _one_or_tuple(line.rhs for line in self._lines)
+
+    @property
+    def symbols(self) -> dict[str, Any]:
+        """The symbols, and the functions of a bead, by the names that code and messages use.
+
+        They carry assumptions (M is a positive whole number), so that ``sympy.Symbol("M")`` is
+        another symbol.
+
+        >>> import force_diffusion as fd
+        >>> list(fd.equation(13).symbols)
+        ['sigma', 'r', 'M', 'z', 'phi', 'relative_variance', 'j']
+        >>> list(fd.equation(3).symbols)
+        ['DeltaX', 'i', 'j', 'DeltaR', 'm', 'b_plus', 'b_minus']
+        """
+        return dict(self._vocabulary)
+
+    @cached_property
+    def _vocabulary(self) -> dict[str, Any]:
+        return vocabulary(self._lines)
+
+    def latex(self) -> str:
+        r"""LaTeX for mathematics mode, which needs amsmath alone; long formulas in several lines.
+
+        >>> import force_diffusion as fd
+        >>> print(fd.equation(15).latex())
+        \begin{aligned}
+        \frac{\sigma_f}{\langle f\rangle} &\propto \frac{M^{3/2} \sigma_{\delta r}}{r} \\
+        M^{*} &\propto \left( \frac{\sigma_{\delta r}}{r} \right)^{-2/3}
+        \end{aligned}
+        """
+        return latex_body(self._lines, RELATIONS[self._relation])
+
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle {self.latex()}$"
+
+    def sympy_code(self) -> str:
+        """SymPy source of the right-hand side, in the names of :attr:`symbols`; a line for each.
+
+        >>> import force_diffusion as fd
+        >>> fd.equation(13).sympy_code()
+        '2*M**3*sigma**2*(1 - z)**2*(2*z + 1)/(r**2*(1 - phi**2)**2)'
+        """
+        return "\n".join(sympy_source(_value_side(line)) for line in self._lines)
+
+    def python_code(self) -> str:
+        """Python source of the right-hand side: a function for each, which needs no import.
+
+        >>> import force_diffusion as fd
+        >>> print(fd.equation(15).python_code())
+        def general_form_1(M, r, sigma):
+            \"""Eq. 15: σ_f/⟨f⟩.\"""
+            return M**(3/2)*sigma/r
+        <BLANKLINE>
+        <BLANKLINE>
+        def general_form_2(r, sigma):
+            \"""Eq. 15: M*.\"""
+            return r**(2/3)/sigma**(2/3)
+        """
+        several = len(self._lines) > 1
+        return "\n\n\n".join(
+            python_source(
+                f"{self._name}_{place}" if several else self._name,
+                f"{self._heading}: {self._told(line)}.",
+                _value_side(line),
+            )
+            for place, line in enumerate(self._lines, start=1)
+        )
+
+    def _told(self, line: sympy.Eq) -> str:
+        return "what must vanish" if line.rhs == 0 else text(line.lhs)
+
+
+def _one_or_tuple(parts: Iterable[sympy.Basic]) -> sympy.Basic:
+    first, *others = parts
+    return sympy.Tuple(first, *others) if others else first
+
+
+def _value_side(line: Any) -> sympy.Expr:
+    """The side that says what the other one is; of a balance, the side that must vanish."""
+    return line.lhs if line.rhs == 0 else line.rhs
+
+
+def vocabulary(expressions: Iterable[sympy.Basic]) -> dict[str, Any]:
+    """Symbols and functions by the names that they have in code, in their order of appearance."""
+    found: dict[str, Any] = {}
+    for expression in expressions:
+        for node in sympy.preorder_traversal(expression):
+            if isinstance(node, Symbol):
+                found.setdefault(node.in_code, node)
+            elif isinstance(node, sy.SiteFunction | sy.Dot | sy.MatrixTimes | sy.Braces):
+                found.setdefault(type(node).__name__, type(node))
+    return found
