@@ -323,7 +323,7 @@ def scene(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def _unsolved(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("commands.deriving.run", "commands.scenes._solved", "commands.figures._made",
+    for name in ("framework.runner.run", "commands.scenes._solved", "commands.figures._made",
                  "commands.stability._measured", "commands.report._made",
                  "commands.ensemble.run_shown"):  # fmt: skip
         monkeypatch.setattr(f"force_diffusion.derivations.{name}", None)
