@@ -1,6 +1,7 @@
 """The documentation site: ``sphinx-build -W docs site``. It loads nothing from elsewhere."""
 
 import os
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -33,6 +34,7 @@ nb_execution_mode = "force"
 nb_execution_in_temp = True
 nb_execution_raise_on_error = True
 nb_execution_timeout = 120
+nb_render_markdown_format = "myst"
 
 autodoc_member_order = "bysource"
 autodoc_typehints_format = "short"
@@ -44,11 +46,15 @@ os.environ["COLUMNS"] = "88"
 programoutput_use_ansi = False
 
 _LATEX = math_core.LatexToMathML()
+# Finer spacing than MathML has: between the columns of an array, and after a line of it.
+_SPACING = re.compile(r"@\{[^}]*\}|(?<=\\\\)\[\d+pt\]")
 
 
 def _formula(writer: Any, node: nodes.Element, display: bool) -> None:
     """Write a formula as MathML, which browsers lay out without a script."""
-    writer.body.append(_LATEX.convert_with_local_state(node.astext(), displaystyle=display))
+    latex = _SPACING.sub("", node.astext())
+    mathml = _LATEX.convert_with_local_state(latex, displaystyle=display)
+    writer.body.append(f'<div class="formula">{mathml}</div>' if display else mathml)
     raise nodes.SkipNode
 
 

@@ -198,7 +198,7 @@ class Equation(Formula):
 
     @property
     def relation(self) -> str:
-        """The printed sign: ``=``, ``≈``, ``∼`` (leading order) or ``∝``.
+        """The printed sign, one of ``=``, ``≈``, ``∼`` (leading order) and ``∝``.
 
         >>> import force_diffusion as fd
         >>> fd.equation(13).relation

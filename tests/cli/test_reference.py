@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+import force_diffusion as fd
 from force_diffusion.__main__ import main
 
 REFERENCE = Path(__file__).parents[2] / "docs" / "reference"
@@ -110,3 +111,17 @@ def test_a_study_of_costs_has_the_columns_that_are_told(tmp_path, capsys) -> Non
     with (tmp_path / "cost" / "cost.csv").open(newline="", encoding="utf-8") as file:
         columns = next(csv.reader(file))
     assert _first_cells(_part("answers", "`cost.csv`")) == set(columns)
+
+
+def test_every_equation_stands_on_its_page_under_its_title() -> None:
+    page = (REFERENCE / "equations.md").read_text(encoding="utf-8")
+    titles = re.findall(r"^## (.*)\n\n```.*\n:tags:.*\n\nshow\((\d+)\)$", page, re.MULTILINE)
+    assert titles == [(f"Eq. {n}: {fd.equation(n).title}", str(n)) for n in range(1, 17)]
+
+
+def test_every_command_is_told(capsys) -> None:
+    assert main(["--help"]) == 0
+    listed = capsys.readouterr().out.partition("Commands:\n")[2].partition("\n\n")[0]
+    commands = set(re.findall(r"^  ([\w-]+) ", listed, re.MULTILINE)) - {"calibrate"}
+    page = (REFERENCE / "commands.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"^### `([\w-]+)`$", page, re.MULTILINE)) == commands
