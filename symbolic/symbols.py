@@ -188,8 +188,8 @@ class Braces(Function):  # type: ignore[misc]
 
     def _latex(self, printer: Any) -> str:
         first, second, index, last = map(printer._print, self.args)
-        cases = rf"{first} & {index} \leq {last} \\ {second} & {index} > {last}"
-        return rf"\left\{{ \begin{{array}}{{r@{{\;:\;}}l}} {cases} \end{{array}} \right\}}"
+        cases = rf"{first} & : & {index} \leq {last} \\ {second} & : & {index} > {last}"
+        return rf"\left\{{ \begin{{array}}{{rcl}} {cases} \end{{array}} \right\}}"
 
     def _text(self, printer: Any) -> str:
         first, second, index, last = map(printer._print, self.args)

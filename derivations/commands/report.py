@@ -27,8 +27,8 @@ def report(
 
     try:
         import jinja2  # noqa: F401
+        import math_core  # noqa: F401
         import matplotlib  # noqa: F401
-        import scipy  # noqa: F401
     except ImportError as missing:
         raise NotReachedError(
             f"{missing.name} is missing; pip install 'force-diffusion[report]'"

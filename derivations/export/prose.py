@@ -82,7 +82,7 @@ def _run(found: re.Match[str]) -> str:
 def _character(character: str) -> str:
     if character.isascii():
         return character
-    unknown = rf"\mbox{{[{unicodedata.name(character, 'unnamed character').lower()}]}}"
+    unknown = rf"\text{{[{unicodedata.name(character, 'unnamed character').lower()}]}}"
     return _MATHS.get(character, unknown)
 
 

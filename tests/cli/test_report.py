@@ -74,7 +74,7 @@ def test_wrong_usage(made_up, arguments: list[str], tmp_path: Path, monkeypatch,
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("missing", ["jinja2", "matplotlib", "scipy"])
+@pytest.mark.parametrize("missing", ["jinja2", "matplotlib", "math_core"])
 def test_what_it_needs_is_named(made_up, missing: str, tmp_path: Path, monkeypatch, capsys) -> None:
     for name in [name for name in sys.modules if name.split(".")[0] == missing]:
         monkeypatch.delitem(sys.modules, name)

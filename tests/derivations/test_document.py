@@ -94,7 +94,7 @@ def test_prose_is_escaped_and_set_as_mathematics() -> None:
     assert prose_latex("at M* ∝ (σ/r)^(−2/3),") == r"at $M^{*} \propto  (\sigma /r)^{-2/3}$,"
     assert prose_latex("r = 2^-498") == "$r = 2^{-498}$"
     assert prose_latex("f_load") == r"$f^{\rm load}$"
-    assert prose_latex("unknown ☃").endswith(r"\mbox{[snowman]}$")
+    assert prose_latex("unknown ☃").endswith(r"\text{[snowman]}$")
 
 
 def test_powers_of_ten_are_set_as_such() -> None:

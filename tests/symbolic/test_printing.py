@@ -64,7 +64,7 @@ HALF = sympy.Rational(1, 2)
         ),
         (
             sy.Braces(M - j, M - m, m, j),
-            r"\left\{ \begin{array}{r@{\;:\;}l} M - j & m \leq j \\ M - m & m > j \end{array} "
+            r"\left\{ \begin{array}{rcl} M - j & : & m \leq j \\ M - m & : & m > j \end{array} "
             r"\right\}",
             "{M − j if m ≤ j; M − m if m > j}",
         ),

@@ -6,12 +6,13 @@ from decimal import Decimal
 from force_diffusion.derivations.export.prose import formula_latex, pieces
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import latex_body, width
-from force_diffusion.symbolic.printing.mathml import mathml
 from markupsafe import Markup, escape
+from math_core import LatexToMathML
 from sympy import Basic
 
 # A browser breaks no line within a formula: longer ones in a sentence are set in pieces.
 INLINE_POINTS = 110.0
+_READER = LatexToMathML(fancy_error=False)
 _SIGNS = frozenset("=<>≤≥≈∼≠≡→+−·/∈")
 
 
@@ -38,12 +39,22 @@ def _piece(before: str, formula: Sequence[str], after: str) -> Markup:
         return escape(before)
     if len(formula) == 1 and formula[0].isdecimal():
         return escape(f"{before}{formula[0]}{after}")
-    groups = [Markup(mathml(group)) for group in _groups(formula)]
+    groups = [mathml(group) for group in _groups(formula)]
     if before:
         groups[0] = Markup('<span class="whole">{}{}</span>').format(before, groups[0])
     if after:
         groups[-1] = Markup('<span class="whole">{}{}</span>').format(groups[-1], after)
     return Markup(" ").join(groups)
+
+
+def mathml(source: str, *, display: bool = False) -> Markup:
+    r"""LaTeX as MathML Core; what the library does not know is an error, so nothing is lost.
+
+    >>> mathml(r"\frac{a}{2}")
+    Markup('<math><mfrac><mi>a</mi><mn>2</mn></mfrac></math>')
+    """
+    source = source.replace(r"\\[2pt]", r"\\")  # it reads no distances between rows
+    return Markup(_READER.convert_with_local_state(source, displaystyle=display))
 
 
 def prose(words: str) -> Markup:
@@ -58,12 +69,12 @@ def prose(words: str) -> Markup:
 
 def symbol(expression: Basic) -> Markup:
     """One symbol, within a line."""
-    return Markup(mathml(latex(expression)))
+    return mathml(latex(expression))
 
 
 def display(formulas: Sequence[Basic], relation: str = "=") -> Markup:
     """Formulas as one display, broken into lines as in the document."""
-    return Markup(mathml(latex_body(formulas, RELATIONS[relation]), display=True))
+    return mathml(latex_body(formulas, RELATIONS[relation]), display=True)
 
 
 def number(value: float | Decimal | None) -> Markup:
