@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import sympy
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.framework.runner import run_alone
-from force_diffusion.derivations.witnesses.on_packings import about, compare, each_contact
+from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact
 from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.bases import CARTESIAN
 from force_diffusion.symbolic.as_printed import equation, terms, times
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
@@ -15,7 +15,6 @@ from force_diffusion.symbolic.kernel.decisions import (
     decide_identity,
     decide_linear,
 )
-from force_diffusion.symbolic.mechanics.vectors import CARTESIAN
 from force_diffusion.symbolic.symbols import (
     Position,
     i,
@@ -190,4 +189,6 @@ DERIVATION = Derivation(
 )
 
 if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
     raise SystemExit(run_alone(DERIVATION))

@@ -5,9 +5,8 @@ from collections.abc import Iterator
 import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.framework.runner import run_alone
 from force_diffusion.derivations.witnesses import remainders
-from force_diffusion.derivations.witnesses.on_packings import about, compare, each_bead
+from force_diffusion.derivations.witnesses.both_sides import about, compare, each_bead
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, decide_linear, proved
@@ -144,4 +143,6 @@ DERIVATION = Derivation(
 )
 
 if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
     raise SystemExit(run_alone(DERIVATION))

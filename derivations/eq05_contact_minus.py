@@ -7,8 +7,7 @@ from force_diffusion.derivations import eq01_ordered_positions as eq01
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.framework.runner import run_alone
-from force_diffusion.derivations.witnesses.on_packings import about, compare, each_contact
+from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, decide_linear
@@ -128,4 +127,6 @@ DERIVATION = Derivation(
 )
 
 if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
     raise SystemExit(run_alone(DERIVATION))

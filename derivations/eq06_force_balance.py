@@ -6,8 +6,7 @@ import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.framework.runner import run_alone
-from force_diffusion.derivations.witnesses.on_packings import compare, loaded_bead
+from force_diffusion.derivations.witnesses.both_sides import compare, loaded_bead
 from force_diffusion.symbolic.as_printed import equation, terms, times
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
@@ -158,4 +157,6 @@ DERIVATION = Derivation(
 )
 
 if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
     raise SystemExit(run_alone(DERIVATION))

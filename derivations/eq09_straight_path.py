@@ -5,8 +5,7 @@ from collections.abc import Iterator
 import sympy
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.framework.runner import run_alone
-from force_diffusion.derivations.witnesses.on_packings import about, compare, straight_below
+from force_diffusion.derivations.witnesses.both_sides import about, compare, straight_below
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.decisions import (
@@ -118,4 +117,6 @@ DERIVATION = Derivation(
 )
 
 if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
     raise SystemExit(run_alone(DERIVATION))

@@ -6,9 +6,8 @@ import sympy
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.framework.runner import run_alone
-from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
-from force_diffusion.derivations.witnesses.on_packings import about, compare, inside_cone
+from force_diffusion.derivations.witnesses import squared_weights as witnesses
+from force_diffusion.derivations.witnesses.both_sides import about, compare, inside_cone
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, decide_linear
@@ -195,4 +194,6 @@ DERIVATION = Derivation(
 )
 
 if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
     raise SystemExit(run_alone(DERIVATION))

@@ -10,9 +10,8 @@ from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.framework.runner import run_alone
 from force_diffusion.derivations.witnesses import remainders
-from force_diffusion.derivations.witnesses.on_packings import about, compare, each_contact
+from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.algebra.linear_forms import CONSTANT
@@ -207,4 +206,6 @@ DERIVATION = Derivation(
 )
 
 if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
     raise SystemExit(run_alone(DERIVATION))

@@ -6,8 +6,7 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.framework.runner import run_alone
-from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
+from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError
 from force_diffusion.symbolic.algebra.linear_forms import NO_SITE, LinearForm
@@ -279,4 +278,6 @@ DERIVATION = Derivation(
 )
 
 if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
     raise SystemExit(run_alone(DERIVATION))

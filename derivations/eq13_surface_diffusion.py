@@ -6,23 +6,21 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
-from force_diffusion.derivations.framework.asymptotics import (
-    compare_leading_order,
-    edges_follow,
-    exact_cases,
-    exact_steps,
-    next_order_is,
-    no_radius_dominates,
-    weights_follow,
-)
+from force_diffusion.derivations.framework.exact_cases import exact_cases, exact_steps
 from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step, Witness
-from force_diffusion.derivations.framework.runner import run_alone
-from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
+from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.as_printed import equation, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, undecided
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import M, j, m, phi, r, sigma, z
 from force_diffusion.symbolic.variances.certified_sums import certified_sum
+from force_diffusion.symbolic.variances.orders import (
+    compare_leading_order,
+    edges_follow,
+    next_order_is,
+    no_radius_dominates,
+    weights_follow,
+)
 from force_diffusion.symbolic.variances.variance import (
     ClosedForm,
     exact_variances,
@@ -160,4 +158,6 @@ DERIVATION = Derivation(
 )
 
 if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
     raise SystemExit(run_alone(DERIVATION))

@@ -10,18 +10,9 @@ from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
-from force_diffusion.derivations.framework.asymptotics import (
-    compare_leading_order,
-    edges_follow,
-    exact_cases,
-    exact_steps,
-    next_order_is,
-    no_radius_dominates,
-    weights_follow,
-)
+from force_diffusion.derivations.framework.exact_cases import exact_cases, exact_steps
 from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step, Witness
-from force_diffusion.derivations.framework.runner import run_alone
-from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
+from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD
@@ -55,6 +46,13 @@ from force_diffusion.symbolic.symbols import (
     z,
 )
 from force_diffusion.symbolic.variances.certified_sums import certified_sum
+from force_diffusion.symbolic.variances.orders import (
+    compare_leading_order,
+    edges_follow,
+    next_order_is,
+    no_radius_dominates,
+    weights_follow,
+)
 from force_diffusion.symbolic.variances.variance import ClosedForm, exact_variances, order
 from force_diffusion.symbolic.variances.weights import take_apart
 
@@ -302,4 +300,6 @@ DERIVATION = Derivation(
 )
 
 if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
     raise SystemExit(run_alone(DERIVATION))

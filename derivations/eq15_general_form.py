@@ -15,8 +15,7 @@ from force_diffusion.derivations.framework.record import (
     Step,
     Witness,
 )
-from force_diffusion.derivations.framework.runner import run_alone
-from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
+from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
 from force_diffusion.symbolic.as_printed import equation, power, terms, times
@@ -370,4 +369,6 @@ DERIVATION = Derivation(
 )
 
 if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
     raise SystemExit(run_alone(DERIVATION))

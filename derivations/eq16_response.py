@@ -8,13 +8,6 @@ from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.framework.cone_forms import (
-    BEAD,
-    CONTACT,
-    LEG,
-    LEG_FORCE,
-    covariance,
-)
 from force_diffusion.derivations.framework.record import (
     Claim,
     Derivation,
@@ -23,8 +16,7 @@ from force_diffusion.derivations.framework.record import (
     Step,
     Witness,
 )
-from force_diffusion.derivations.framework.runner import run_alone
-from force_diffusion.derivations.witnesses import on_closed_forms as witnesses
+from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import NO_SITE, LinearForm
@@ -70,6 +62,7 @@ from force_diffusion.symbolic.symbols import (
 )
 from force_diffusion.symbolic.variances.cases import Case, Piece, first_difference, squares_by_case
 from force_diffusion.symbolic.variances.variance import leading, order, without_constant
+from sympy import Rational
 
 RESPONSE = Symbol(
     "response",
@@ -100,6 +93,63 @@ PRINTED = equation(
 UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
 SIZES = (j, p, q)
 """What grows in the limit: l = j + p + q → ∞ at fixed j/l and (i − k)/l inside of the cone."""
+
+# The closed forms, all proved below. The bead (i, j) lies p steps along n⁺ and q steps along n⁻
+# below the loaded bead (k, l): inside of the cone for p, q ≥ 1, on its left leg for q = 0. They are
+# written for the left half where that matters; the right half is its mirror image. Variances over
+# f_load² are in units of UNIT/4, those over a mean force squared in units of UNIT.
+_HALF = Rational(1, 2)
+_INSIDE = 6 * l + 6 * j - 6 + phi**2
+_BELOW_LOAD = _HALF * (1 + phi) ** 2
+_TOP = _HALF * (1 - phi) ** 2
+
+BEAD = (
+    Piece(
+        "j = 0, l = 2",
+        {j: 0, p: 1, q: 1},
+        Rational(11, 2) - phi + Rational(3, 2) * phi**2,
+    ),
+    Piece("j = 0, beside the left leg", {j: 0, q: 1}, 6 * l - 8 - phi + phi**2),
+    Piece("j = 0, beside the right leg", {j: 0, p: 1}, 6 * l - 8 - phi + phi**2),
+    Piece("j = 0, further inside", {j: 0}, 6 * l - 9 + phi**2),
+    Piece("j = 1, l = 3", {j: 1, p: 1, q: 1}, 6 * l + 4 + phi**2 + _BELOW_LOAD),
+    Piece("j = 1, l > 3", {j: 1}, 6 * l + 4 + phi**2),
+    Piece("j = 2, l = 4", {j: 2, p: 1, q: 1}, 6 * l + Rational(9, 2) + phi**2 + _BELOW_LOAD),
+    Piece("j = 2, l > 4", {j: 2}, 6 * l + Rational(9, 2) + phi**2),
+    Piece("i = k, j = l − 2 ≥ 3", {p: 1, q: 1}, _INSIDE + _BELOW_LOAD),
+    Piece("j ≥ 3, every other bead inside of the cone", {}, _INSIDE),
+)
+"""Variance of the vertical force that a bead gets from both upper contacts, over f_load²."""
+
+CONTACT = (
+    Piece("j = 0, k − i = 2 − l", {j: 0, p: 1}, Rational(7, 2) - _HALF * phi + _HALF * phi**2),
+    Piece("inside of the cone", {}, 3 * (l + j + k - i) - 3 + _HALF * phi**2),
+)
+"""Variance of the vertical component of f⁺_ij inside of the cone, over f_load²."""
+
+_LEG = 2 * l + 2 * j - 2 + 2 * phi + phi**2
+
+LEG = (
+    Piece("j = 0, l = 1", {j: 0, p: 1}, _HALF * (1 + phi) ** 2),
+    Piece("j = 0, l > 1", {j: 0}, _LEG - phi),
+    Piece("j = 1, l = 2", {j: 1, p: 1}, _LEG + Rational(3, 2) - _TOP),
+    Piece("j = 1, l > 2", {j: 1}, _LEG + Rational(3, 2)),
+    Piece("j = l − 1 ≥ 2", {p: 1}, _LEG - _TOP),
+    Piece("2 ≤ j ≤ l − 2, on a leg", {}, _LEG),
+)
+"""Variance of the vertical component of the contact force on a leg of the cone, over f_load²."""
+
+_LEG_FORCE = 2 * (l - 1) + 2 * phi**2 * j + Rational(5, 2) * phi**2 + _HALF * phi**4
+
+LEG_FORCE = (
+    Piece("j = 0, l = 1", {j: 0, p: 1}, _HALF * (1 - 2 * phi + 6 * phi**2 - 2 * phi**3 + phi**4)),
+    Piece("j = 0, l > 1", {j: 0}, _LEG_FORCE - _HALF * phi * (1 + phi**2)),
+    Piece("j = 1, l = 2", {j: 1, p: 1}, _LEG_FORCE + Rational(3, 2) * phi - phi * _TOP),
+    Piece("j = 1, l > 2", {j: 1}, _LEG_FORCE + Rational(3, 2) * phi),
+    Piece("j = l − 1 ≥ 2", {p: 1}, _LEG_FORCE - phi * _TOP),
+    Piece("2 ≤ j ≤ l − 2, on a leg", {}, _LEG_FORCE),
+)
+"""Variance of the magnitude of the contact force on a leg, over its mean squared."""
 
 INSIDE = {j: 0, p: 1, q: 1}
 BELOW = {j: 0, p: 1}
@@ -178,6 +228,25 @@ def at_finite_size() -> dict[str, ExactCase]:
 
 def _numbers(at: dict[sympy.Symbol, int]) -> dict[sympy.Symbol, sympy.Integer]:
     return {symbol: sympy.Integer(value) for symbol, value in at.items()}
+
+
+def covariance(piece: Piece) -> RationalFunction:
+    """Twice the covariance of a bead's two contacts, for one piece of ``BEAD``.
+
+    It is what the variances of the contacts leave of the bead's.
+    """
+
+    def put_in(other: Piece, coordinates: dict[sympy.Symbol, sympy.Expr]) -> RationalFunction:
+        value = FIELD.from_sympy(other.expression.xreplace(IN_CONE).xreplace(coordinates))
+        return value.substitute({s: FIELD.constant(at) for s, at in piece.at.items()})
+
+    def contact(at: dict[sympy.Symbol, int]) -> Piece:
+        return next(found for found in CONTACT if found.at.items() <= at.items())
+
+    swapped = {p: q, q: p}  # f⁻ is the mirror image of f⁺
+    mirrored = {swapped.get(symbol, symbol): value for symbol, value in piece.at.items()}
+    left, right = put_in(contact(mirrored), swapped), put_in(contact(piece.at), {})
+    return put_in(piece, {}) - left - right
 
 
 def steps() -> Iterator[Step]:
@@ -452,4 +521,6 @@ DERIVATION = Derivation(
 )
 
 if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
     raise SystemExit(run_alone(DERIVATION))

@@ -1,6 +1,6 @@
 """Where the program starts; the command line is loaded inside of the guard."""
 
-from force_diffusion.derivations.framework.guard import end_interrupts_quietly, guarded
+from force_diffusion.derivations.commands.guard import end_interrupts_quietly, guarded
 
 end_interrupts_quietly()
 

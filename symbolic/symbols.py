@@ -37,7 +37,7 @@ PARAMETERS = (phi, n_x, n_y, r, spacing, sigma, epsilon, f_load, m_g, z)
 SCALES = (r, spacing, f_load)
 """What other quantities are measured in; written in front of other parameters."""
 
-# base vectors and reciprocal vectors: linear symbols, read by ``symbolic.mechanics.vectors``
+# base vectors and reciprocal vectors: linear symbols, read by ``symbolic.algebra.bases``
 n_plus = Symbol("n_plus", r"\hat{\bf n}^{+}", "n⁺")
 n_minus = Symbol("n_minus", r"\hat{\bf n}^{-}", "n⁻")
 b_plus = Symbol("b_plus", r"{\bf b}^{+}", "b⁺")
@@ -145,7 +145,7 @@ class SecondDifference(SiteFunction):
 
 
 class Dot(Function):  # type: ignore[misc]
-    """u·v for vector expressions, kept whole; ``symbolic.mechanics.vectors`` expands it."""
+    """u·v for vector expressions, kept whole; ``symbolic.algebra.bases`` expands it."""
 
     nargs = 2
     in_code = "dot"

@@ -2,7 +2,7 @@
 
 A new command takes a module of ``derivations.commands`` whose ``register(app)`` adds it to a Typer
 application, and a line in ``COMMANDS``. It checks its words, calls what Python users call, and
-prints or writes the answer (``output``); errors it raises, and never catches: ``framework.guard``
+prints or writes the answer (``output``); errors it raises, and never catches: ``guard``
 tells them.
 """
 

@@ -74,7 +74,7 @@ def derive(numbers: Sequence[int], out: Path | None, as_json: bool, overwrite: b
             )
     watch.summary(f"{verdict_counts(outcomes)}." + (f" Written to {out}." if out else ""))
     if as_json:
-        from force_diffusion.derivations.export.report import outcomes_json
+        from force_diffusion.derivations.export.terminal import outcomes_json
 
         print(outcomes_json(outcomes), flush=True)
     return status_of(outcomes)

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from force_diffusion.derivations.commands.ensemble_running import Where, executor_for, run_shown
+from force_diffusion.derivations.commands.guard import about
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.export.tables import csv_text
-from force_diffusion.derivations.framework.guard import about
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
 
 if TYPE_CHECKING:

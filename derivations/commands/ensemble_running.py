@@ -7,7 +7,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from force_diffusion.derivations.framework.guard import in_range, tell
+from force_diffusion.derivations.commands.guard import in_range, tell
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
 
 if TYPE_CHECKING:

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from force_diffusion.derivations.commands.guard import about
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import images, noticing
-from force_diffusion.derivations.framework.guard import about
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
 
 if TYPE_CHECKING:

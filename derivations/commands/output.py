@@ -25,6 +25,7 @@ from typing import Annotated, Any
 
 import typer
 from force_diffusion.derivations.commands.cli import command_line
+from force_diffusion.derivations.commands.guard import printable
 from force_diffusion.derivations.export.manifest import (
     LARGEST,
     MANIFEST,
@@ -34,7 +35,6 @@ from force_diffusion.derivations.export.manifest import (
     Manifest,
     read_manifest,
 )
-from force_diffusion.derivations.framework.guard import printable
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
 

@@ -51,8 +51,8 @@ def _made(command: str) -> "tuple[list[Outcome], str]":
 
     from force_diffusion.derivations.commands.deriving import everything, outcomes_of
     from force_diffusion.derivations.commands.progress import display
-    from force_diffusion.derivations.export.page.making import page
-    from force_diffusion.derivations.export.page.measured import parts
+    from force_diffusion.derivations.export.page.page import page
+    from force_diffusion.derivations.export.page.sections import parts
 
     derivations = everything()
     outcomes = outcomes_of(derivations, display(len(derivations), as_json=False))

@@ -9,10 +9,10 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from force_diffusion.derivations.commands.guard import about, in_range
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import drawn, images, noticing
 from force_diffusion.derivations.export.tables import csv_text
-from force_diffusion.derivations.framework.guard import about, in_range
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
-from force_diffusion.derivations.framework.guard import tell
+from force_diffusion.derivations.commands.guard import tell
 
 
 @contextmanager

@@ -1,6 +1,5 @@
 """The LaTeX that ``derive --out`` writes: a fragment per equation, and one document."""
 
-import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
@@ -97,24 +96,6 @@ def _steps(derivation: Derivation) -> str:
     return _list("enumerate", items)
 
 
-_KINDS = {
-    "sign flipped": r"sign of .* flipped",
-    "term dropped": r".* dropped",
-    "number changed": r".* changed to .*",
-    "bound or case shifted": r"(lower bound|upper bound|case) .* shifted to .*",
-    "index shifted": r".* shifted to .*",
-    "symbol swapped": r".* replaced by .*",
-}
-"""Kinds of mechanical change, and how ``symbolic.kernel.mutants`` describes one of each."""
-
-
-def change_kind(change: str) -> str:
-    """Kind of a change, from its description; on which side it is does not matter."""
-    words = change.removeprefix("left: ")
-    kinds = (kind for kind, form in _KINDS.items() if re.fullmatch(form, words, re.DOTALL))
-    return next(kinds, "other change")
-
-
 def _mutants(found: FoundMutants) -> str:
     if not found.changes:
         return ""
@@ -202,10 +183,8 @@ def finding(outcome: Outcome) -> FoundEquation:
                 "changes": [
                     {
                         "change": mutant.change,
-                        "kind": change_kind(mutant.change),
-                        "verdict": "equivalent"
-                        if mutant.equivalent
-                        else str(mutant.ruling.verdict),
+                        "kind": mutant.kind,
+                        "verdict": mutant.verdict,
                         "note": mutant.ruling.note,
                     }
                     for mutant in outcome.mutants

@@ -1,6 +1,8 @@
-"""Derivations and their outcomes as plain text, for a terminal or a pipe."""
+"""Derivations and their outcomes as plain text or JSON, for a terminal or a pipe."""
 
+import json
 import re
+from collections.abc import Iterable
 from textwrap import fill
 
 from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome, Step
@@ -140,3 +142,26 @@ def trouble_lines(outcome: Outcome) -> list[str]:
         if mutant.ruling.verdict not in (Verdict.PROVED, Verdict.REFUTED)
     ]
     return lines
+
+
+def outcomes_json(outcomes: Iterable[Outcome]) -> str:
+    """What ``derive --json`` prints; verdicts are words, times are seconds."""
+    equations = [
+        {
+            "number": outcome.derivation.number,
+            "name": outcome.derivation.name,
+            "verdict": str(outcome.verdict),
+            "checks": [
+                {
+                    "kind": check.kind,
+                    "verdict": str(check.verdict),
+                    "seconds": round(check.seconds, 6),
+                }
+                for check in outcome.checks
+            ],
+            "mutants": mutant_counts(outcome),
+            "seconds": round(outcome.seconds, 6),
+        }
+        for outcome in outcomes
+    ]
+    return json.dumps({"equations": equations}, indent=2)

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 import sympy
-from force_diffusion.derivations.witnesses.small_packings import SmallPacking
+from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 
 
@@ -100,10 +100,20 @@ class Check:
 class Mutant:
     """A printed equation with one mechanical change, and what the checker said of it."""
 
+    kind: str
     change: str
     equation: sympy.Eq
     ruling: Ruling
-    equivalent: bool
+
+    @property
+    def equivalent(self) -> bool:
+        """Whether it is an equivalent rewriting, with its proof."""
+        return self.ruling.verdict is Verdict.PROVED
+
+    @property
+    def verdict(self) -> str:
+        """The ruling's verdict in words, "equivalent" for "proved"."""
+        return "equivalent" if self.equivalent else str(self.ruling.verdict)
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,10 @@
 """Runs a derivation: its proofs, its witnesses, and the mutants that must be refuted."""
 
-import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from time import perf_counter
 
-from force_diffusion.derivations.framework.guard import WRONG_USAGE, guarded
 from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome, Witness
-from force_diffusion.derivations.witnesses.small_packings import draw
+from force_diffusion.derivations.witnesses.draws import draw
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 
 SEEDS = (20021, 20022, 20023)
@@ -60,9 +58,8 @@ def judged_mutants(derivation: Derivation, watch: Watch = _silent) -> Iterator[M
 
     watch(derivation, "mutants")
     for place, equation in enumerate(derivation.printed):
-        for change, mutated in mutants(equation):
-            ruling = derivation.decide(place, mutated)
-            yield Mutant(change, mutated, ruling, ruling.verdict is Verdict.PROVED)
+        for kind, change, mutated in mutants(equation):
+            yield Mutant(kind, change, mutated, derivation.decide(place, mutated))
 
 
 def overall(checks: Iterable[Check], mutants: Iterable[Mutant] = ()) -> Verdict:
@@ -116,26 +113,3 @@ def run_all(derivations: Iterable[Derivation], watch: Watch = _silent) -> Iterat
         outcome = run(derivation, watch, known)
         known[derivation.number] = outcome.verdict
         yield outcome
-
-
-def run_alone(derivation: Derivation, arguments: Sequence[str] | None = None) -> int:
-    """Run one derivation as a program: print it in full; 0 if proved, else 1."""
-
-    def program() -> int:
-        from force_diffusion.derivations.export.terminal import outcome_text
-
-        given = sys.argv[1:] if arguments is None else arguments
-        if given:
-            number = derivation.number
-            print(
-                f"force-diffusion: this program takes no arguments, but got '{given[0]}'. Leave "
-                f"it out, or use 'force-diffusion derive {number}' or 'show {number}'; "
-                "'force-diffusion --help' tells what they take.",
-                file=sys.stderr,
-            )
-            return WRONG_USAGE
-        outcome = run(derivation)
-        print(outcome_text(outcome))
-        return 0 if outcome.verdict is Verdict.PROVED else 1
-
-    return guarded(program)

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import mpmath
 import sympy
-from force_diffusion.derivations.witnesses.on_packings import Dual, Truth, Vector, evaluate
-from force_diffusion.derivations.witnesses.small_packings import SmallPacking
+from force_diffusion.derivations.witnesses.both_sides import Dual, Truth, Vector, evaluate
+from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import sympy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.affine import Affine, Region
+from force_diffusion.symbolic.algebra.bases import LINE_SUM, Basis
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
-from force_diffusion.symbolic.mechanics.vectors import LINE_SUM, Basis
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import (
     INDICES,

@@ -15,9 +15,9 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.bases import CARTESIAN, LINE_SUM, Basis
 from force_diffusion.symbolic.algebra.exact import Domain, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.reading import Reader
-from force_diffusion.symbolic.mechanics.vectors import CARTESIAN, LINE_SUM, Basis
 
 
 class Verdict(StrEnum):

@@ -54,7 +54,7 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
     given = pytestconfig.getoption("--report")
     if given:
         return Path(given).resolve()
-    from force_diffusion.derivations.export.page import measured
+    from force_diffusion.derivations.export.page import sections
     from force_diffusion.numeric.figures import catalogue
     from force_diffusion.numeric.studies.cost import rows
     from force_diffusion.numeric.studies.stability import data as tables
@@ -62,13 +62,13 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
     from force_diffusion.symbolic.kernel import mutants
 
     folder = tmp_path_factory.mktemp("report")
-    scene = folder / measured.SCENE.name
-    scene.write_text(measured.SCENE.read_text().replace("16", "3").replace("34", "5"))
+    scene = folder / sections.SCENE.name
+    scene.write_text(sections.SCENE.read_text().replace("16", "3").replace("34", "5"))
     out = folder / "out"
     every_mutant, every_case, every_strip = mutants.mutants, tables.cases, tables.strips
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(mutants, "mutants", lambda equation: islice(every_mutant(equation), 3))
-        patch.setattr(measured, "SCENE", scene)
+        patch.setattr(sections, "SCENE", scene)
         patch.setattr(catalogue, "FIGURES", {name: catalogue.FIGURES[name] for name in "12"})
         patch.setattr(tables, "cases", lambda: islice(every_case(), 3))
         patch.setattr(tables, "strips", lambda: (s for s in every_strip() if s.height == 4))

@@ -7,8 +7,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from force_diffusion.derivations.framework.guard import about, guarded, in_range
-from force_diffusion.derivations.framework.runner import run_alone
+from force_diffusion.derivations.commands.alone import run_alone
+from force_diffusion.derivations.commands.guard import about, guarded, in_range
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
 from tests.derivations import fakes

@@ -7,21 +7,21 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.derivations.export.page import measured
+from force_diffusion.derivations.export.page import sections
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
 from force_diffusion.__main__ import main
 from tests.derivations import fakes
-from tests.derivations.test_page import PART
+from tests.derivations.export.test_page import PART
 
 
 @pytest.fixture
 def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, Any]:
-    """Equations 1 and 2 are made-up ones, and one part stands for all that is measured."""
+    """Equations 1 and 2 are made-up ones, and one part stands for all that is sections."""
     table: dict[int, Any] = {1: fakes.PREMISE, 2: fakes.CONCLUSION}
     monkeypatch.setattr("force_diffusion.derivations.commands.deriving.load", table.__getitem__)
     monkeypatch.setattr("force_diffusion.derivations.commands.deriving.modules", lambda: table)
-    monkeypatch.setattr(measured, "parts", lambda notice: [PART])
+    monkeypatch.setattr(sections, "parts", lambda notice: [PART])
     return table
 
 
@@ -96,7 +96,7 @@ def test_what_ends_it_early_leaves_nothing(
     def fail(_: object) -> None:
         raise failure
 
-    monkeypatch.setattr(measured, "parts", fail)
+    monkeypatch.setattr(sections, "parts", fail)
     out = tmp_path / "out"
     assert main(["report", "--out", str(out)]) == status
     assert "Traceback" not in capsys.readouterr().err

@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from force_diffusion.derivations.witnesses.small_packings import DIRECTIONS, SmallPacking
+from force_diffusion.derivations.witnesses.draws import DIRECTIONS, SmallPacking
 from hypothesis import strategies as st
 
 rationals = st.builds(Fraction, st.integers(-9, 9), st.integers(1, 9))

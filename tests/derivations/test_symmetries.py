@@ -5,8 +5,8 @@ from itertools import combinations
 
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.witnesses.on_packings import Truth, evaluate
-from force_diffusion.derivations.witnesses.small_packings import SmallPacking
+from force_diffusion.derivations.witnesses.both_sides import Truth, evaluate
+from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.numeric.arithmetic.systems import BigFloat, array
 from force_diffusion.numeric.mechanics import plain
 from force_diffusion.symbolic import symbols as sy

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any
 
-from force_diffusion.derivations.export.page.words import number, prose
+from force_diffusion.derivations.export.page.html import number, prose
 from force_diffusion.derivations.export.tables import csv_text
 from markupsafe import Markup
 

@@ -263,8 +263,10 @@ def test_the_printed_equation_is_proved_and_a_mutant_refuted(eq: fd.Equation) ->
     lines = [eq.expr] if isinstance(eq.expr, sympy.Eq) else list(eq.expr)
     for line in lines:
         assert eq.decide(line).verdict is Verdict.PROVED
-        _, mutant = next(mutants(sympy.Eq(sy.z, line.rhs or line.lhs, evaluate=False)))
-        wrong = (line.lhs, mutant.rhs) if line.rhs != 0 else (mutant.rhs, line.rhs)
+        mutant = next(mutants(sympy.Eq(sy.z, line.rhs or line.lhs, evaluate=False)))
+        wrong = (
+            (line.lhs, mutant.equation.rhs) if line.rhs != 0 else (mutant.equation.rhs, line.rhs)
+        )
         assert eq.decide(sympy.Eq(*wrong, evaluate=False)).verdict is Verdict.REFUTED
     if len(lines) == 1:
         assert eq.decide(eq.rhs).verdict is Verdict.PROVED

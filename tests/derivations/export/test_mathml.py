@@ -11,7 +11,7 @@ from force_diffusion.derivations.framework.catalogue import load, modules
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import latex_body
 
-words = pytest.importorskip("force_diffusion.derivations.export.page.words")
+words = pytest.importorskip("force_diffusion.derivations.export.page.html")
 
 
 def formulas() -> Iterator[str]:

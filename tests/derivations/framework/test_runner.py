@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from force_diffusion.derivations.commands.alone import run_alone
 from force_diffusion.derivations.export.terminal import (
     mutant_counts,
     outcome_text,
@@ -10,7 +11,7 @@ from force_diffusion.derivations.export.terminal import (
     trouble_lines,
 )
 from force_diffusion.derivations.framework.catalogue import modules, with_premises
-from force_diffusion.derivations.framework.runner import run, run_alone
+from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
 from tests.derivations import fakes

@@ -3,18 +3,14 @@
 import re
 from dataclasses import replace
 
-import pytest
 from force_diffusion.derivations.export.document import (
-    change_kind,
     document,
     finding,
     statement_latex,
 )
 from force_diffusion.derivations.export.prose import prose_latex
-from force_diffusion.derivations.framework.catalogue import load, modules
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic.kernel.decisions import Verdict
-from force_diffusion.symbolic.kernel.mutants import mutants
 
 from tests.derivations import fakes
 
@@ -74,12 +70,6 @@ def test_mutants_are_counted_in_the_document_and_listed_in_the_manifest() -> Non
         verdict = "refuted" if outcome is outcomes[0] else "equivalent"
         assert {one.verdict for one in listed} == {verdict}
         assert {one.note for one in listed} == {outcome.mutants[0].ruling.note}
-
-
-@pytest.mark.parametrize("number", list(modules()))
-def test_every_change_is_of_a_known_kind(number: int) -> None:
-    for equation in load(number).printed:
-        assert "other change" not in {change_kind(change) for change, _ in mutants(equation)}
 
 
 def test_prose_is_escaped_and_set_as_mathematics() -> None:

@@ -12,7 +12,7 @@ from functools import cache, cached_property
 from typing import Any
 
 import sympy
-from force_diffusion.derivations.witnesses.small_packings import SmallPacking, draw
+from force_diffusion.derivations.witnesses.draws import SmallPacking, draw
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.decisions import (

@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from force_diffusion.derivations.export.document import READING, sentence, statement_latex
-from force_diffusion.derivations.export.page.graph import proof_graph
+from force_diffusion.derivations.export.page.html import display, prose, symbol
 from force_diffusion.derivations.export.page.parts import Part
-from force_diffusion.derivations.export.page.words import display, prose, symbol
+from force_diffusion.derivations.export.page.proof_graph import proof_graph
 from force_diffusion.derivations.export.terminal import mutant_counts, relation_of
 from force_diffusion.derivations.framework.record import Derivation, Outcome
 from force_diffusion.symbolic.kernel.decisions import Verdict
@@ -75,11 +75,7 @@ def equation_view(outcome: Outcome, outcomes: Sequence[Outcome]) -> dict[str, An
         "witnesses": [_noted(str(c.verdict), c.name, c.note) for c in kinds["witness"]],
         "counts": mutant_counts(outcome),
         "mutants": [
-            Note(
-                "equivalent" if mutant.equivalent else str(mutant.ruling.verdict),
-                prose(mutant.change),
-                prose(mutant.ruling.note),
-            )
+            Note(mutant.verdict, prose(mutant.change), prose(mutant.ruling.note))
             for mutant in outcome.mutants
         ],
         "remarks": [prose(words) for words in derivation.remarks],

@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 
 import sympy
-from force_diffusion.derivations.witnesses.on_packings import Truth
-from force_diffusion.derivations.witnesses.small_packings import Site, SmallPacking
+from force_diffusion.derivations.witnesses.both_sides import Truth
+from force_diffusion.derivations.witnesses.draws import Site, SmallPacking
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, undecided

@@ -6,7 +6,7 @@ import pytest
 from force_diffusion.derivations.export.document import fragment_name, statement_latex
 from force_diffusion.derivations.framework.catalogue import load, modules
 
-GOLDEN = Path(__file__).parents[1] / "golden"
+GOLDEN = Path(__file__).parents[2] / "golden"
 
 
 @pytest.mark.parametrize("number", list(modules()))

@@ -9,10 +9,10 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
-from force_diffusion.derivations.export.page.graph import depths
-from force_diffusion.derivations.export.page.making import page
+from force_diffusion.derivations.export.page.html import prose
+from force_diffusion.derivations.export.page.page import page
 from force_diffusion.derivations.export.page.parts import Data, Figure, Part, Table
-from force_diffusion.derivations.export.page.words import prose
+from force_diffusion.derivations.export.page.proof_graph import depths
 from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic.kernel.decisions import Verdict
@@ -121,7 +121,7 @@ def test_depths_follow_the_longest_chain() -> None:
 
 def test_the_same_page_every_time() -> None:
     program = (
-        "from tests.derivations.test_page import PART, fakes, made\n"
+        "from tests.derivations.export.test_page import PART, fakes, made\n"
         "print(made(fakes.PREMISE, fakes.CONCLUSION, parts=[PART]))"
     )
     first, second = (

@@ -11,9 +11,9 @@ import pytest
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.derivations.export import closed_forms as generator
-from force_diffusion.derivations.witnesses.on_closed_forms import weights_of_forces
-from force_diffusion.derivations.witnesses.small_packings import DIRECTIONS
+from force_diffusion.derivations.export import generate_closed_forms as generator
+from force_diffusion.derivations.witnesses.draws import DIRECTIONS
+from force_diffusion.derivations.witnesses.squared_weights import weights_of_forces
 from force_diffusion.numeric import closed_forms
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
@@ -30,7 +30,7 @@ EXPRESSIONS = {
 def test_the_file_is_what_the_derivations_generate() -> None:
     written = generator.TARGET.read_text(encoding="utf-8")
     assert written == generator.source(), (
-        "run python -m force_diffusion.derivations.export.closed_forms"
+        "run python -m force_diffusion.derivations.export.generate_closed_forms"
     )
 
 

@@ -1,0 +1,42 @@
+"""A derivation runs on its own: as a script from anywhere, and as a module."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+FOLDER = Path(__file__).parents[2] / "derivations"
+SCRIPT = FOLDER / "eq13_surface_diffusion.py"
+MODULE = ["-m", "force_diffusion.derivations.eq13_surface_diffusion"]
+
+
+def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, *arguments]
+    return subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, timeout=120, check=False
+    )
+
+
+@pytest.mark.parametrize("how", [["derivations/eq13_surface_diffusion.py"], MODULE])
+def test_from_the_checkout(how: list[str]) -> None:
+    done = run(FOLDER.parent, *how)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "Eq. 13 is proved" in done.stdout
+
+
+@pytest.mark.parametrize("how", [[str(SCRIPT)], MODULE])
+def test_from_elsewhere(how: list[str], tmp_path: Path) -> None:
+    """Beside folders and files that have the names of the package's rooms."""
+    (tmp_path / "numeric").mkdir()
+    (tmp_path / "symbolic.py").write_text("raise SystemExit('this is not the package')")
+    done = run(tmp_path, *how)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "Eq. 13 is proved" in done.stdout
+
+
+def test_it_takes_no_arguments(tmp_path: Path) -> None:
+    done = run(tmp_path, str(FOLDER / "eq01_ordered_positions.py"), "13")
+    assert done.returncode == 2
+    assert "takes no arguments" in done.stderr
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,33 @@
+"""Paths and mirror images: each is the inverse of the other way round."""
+
+import pytest
+import sympy
+from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.symbolic.mechanics.lattice import mirror
+from force_diffusion.symbolic.mechanics.paths import (
+    BRANCH_COUNT,
+    IN_CONE,
+    STEPS_BELOW,
+    branched_end,
+    solve_for_path,
+)
+from force_diffusion.symbolic.symbols import i, j, k, l, p, q
+
+
+def test_steps_below_a_bead_lead_back_to_it() -> None:
+    for steps in (p, q):
+        assert sympy.expand(STEPS_BELOW[steps].xreplace(IN_CONE)) == steps
+    for index in (k, l):
+        assert sympy.expand(IN_CONE[index].xreplace(STEPS_BELOW)) == index
+
+
+def test_the_path_found_ends_where_it_should() -> None:
+    path = solve_for_path()
+    assert tuple(sympy.expand(one.xreplace(path)) for one in branched_end()) == (i, j)
+    assert sympy.expand(path[q] - BRANCH_COUNT) == 0
+
+
+@pytest.mark.parametrize("number", [n for n in modules() if n <= 11])
+def test_twice_mirrored_is_the_same(number: int) -> None:
+    for printed in load(number).printed:
+        assert mirror(mirror(printed)).doit() == printed.doit()
