@@ -1,21 +1,30 @@
 """The README: two commands, and nothing said that the program does not do."""
 
 import re
+import shutil
 import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
+import pytest
 from force_diffusion.derivations.commands.cli import STATUSES
 
 from force_diffusion.__main__ import main
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+REFERENCE = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
 COMMANDS = re.findall(r"^```sh\n(.*?)\n```$", README, re.MULTILINE | re.DOTALL)
+USES = re.findall(r"^\| `((?!force-)[a-z][^`]*)` \|", README, re.MULTILINE)
+
+
+def test_it_is_short() -> None:
+    assert README.count("\n") <= 130
 
 
 def test_exactly_two_commands_of_one_line() -> None:
-    assert README.count("```") == 4
+    assert README.count("```sh") == 2
     assert [command.count("\n") for command in COMMANDS] == [0, 0]
     assert "force-diffusion derive" in COMMANDS[0]
     assert COMMANDS[1].endswith("pytest")
@@ -32,8 +41,31 @@ def test_the_extras_it_installs_exist() -> None:
         assert extra in project["optional-dependencies"]
 
 
-def test_the_uses_that_it_lists_are_understood(capsys) -> None:
-    rows = re.findall(r"^\| `(show[^`]*|list)` \|", README, re.MULTILINE)
+def test_its_python_runs_as_written(tmp_path) -> None:
+    shutil.copytree(ROOT / "scenes", tmp_path / "scenes")
+    (block,) = re.findall(r"^```python\n(.*?)\n```$", README, re.MULTILINE | re.DOTALL)
+    subprocess.run(
+        [sys.executable, "-W", "error", "-c", block],
+        cwd=tmp_path, check=True, capture_output=True, timeout=120,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("use", USES)
+def test_the_uses_that_it_lists_are_understood(use, tmp_path, monkeypatch, capsys) -> None:
+    shutil.copytree(ROOT / "scenes", tmp_path / "scenes")
+    monkeypatch.chdir(tmp_path)
+    small = {"figures": ["--heights", "4", "--realisations", "16"]}
+    arguments = use.split()
+    assert main([*arguments, *small.get(arguments[0], [])]) == 0
+    assert capsys.readouterr().out
+
+
+def test_there_are_five_uses() -> None:
+    assert len(USES) == 5
+
+
+def test_the_equations_that_the_reference_shows_are_shown(capsys) -> None:
+    rows = re.findall(r"^\| `(show[^`]*|list)` \|", REFERENCE, re.MULTILINE)
     assert len(rows) >= 5
     for row in rows:
         assert main(row.split()) == 0
@@ -43,6 +75,7 @@ def test_the_uses_that_it_lists_are_understood(capsys) -> None:
 def test_every_exit_status_is_told() -> None:
     for status in re.findall(r"\d+", STATUSES):
         assert f"\n| {status} |" in README
+        assert f"\n| {status} |" in REFERENCE
 
 
 def test_continuous_integration_takes_the_readme_s_test_command() -> None:

@@ -9,7 +9,10 @@ import pytest
 import force_diffusion as fd
 from force_diffusion.__main__ import main
 
-REFERENCE = Path(__file__).parents[2] / "docs" / "reference"
+ROOT = Path(__file__).parents[2]
+REFERENCE = ROOT / "docs" / "reference"
+SCENES = ROOT / "scenes" / "README.md"
+STUDIES = REFERENCE / "answers.md"
 SECTIONS = ("packing", "disorder", "load", "effects", "ask")
 PACKING = "[packing]\nheight = 2\nwidth = 7\n[disorder]\nkind = 'uniform'\nrelative_std = 1e-3\n"
 POINT = "[load]\nkind = 'point'\nat = [0, 2]\n"
@@ -24,9 +27,9 @@ ASKED = {
 }
 
 
-def _part(page: str, title: str) -> str:
+def _part(page: Path, title: str) -> str:
     """What stands below a heading, up to the next one."""
-    text = (REFERENCE / f"{page}.md").read_text(encoding="utf-8")
+    text = page.read_text(encoding="utf-8")
     found = re.search(rf"^#+ {re.escape(title)}\n(.*?)(?=^#|\Z)", text, re.MULTILINE | re.DOTALL)
     assert found, title
     return found[1]
@@ -58,7 +61,7 @@ def test_a_section_has_the_keys_that_are_told(section, tmp_path, capsys) -> None
     message = " ".join(capsys.readouterr().err.split())
     found = re.search(rf"{section}\.nonsense.*allowed are ([\w, ]+)", message)
     assert found, message
-    assert _first_cells(_part("scenes", f"`[{section}]`")) == set(found[1].strip().split(", "))
+    assert _first_cells(_part(SCENES, f"`[{section}]`")) == set(found[1].strip().split(", "))
 
 
 def test_the_sections_are_told(tmp_path, capsys) -> None:
@@ -76,7 +79,7 @@ def test_the_quantities_are_told(tmp_path, capsys) -> None:
     message = " ".join(capsys.readouterr().err.split())
     assert set(re.findall(r'"(\w+)"', message)) - {"nonsense"} == set(ASKED)
     for quantity in ASKED:
-        assert f'`"{quantity}"`' in _part("scenes", "`[ask]`")
+        assert f'`"{quantity}"`' in _part(SCENES, "`[ask]`")
 
 
 @pytest.mark.parametrize("realisations", [1, 3])
@@ -86,9 +89,9 @@ def test_an_answer_has_the_columns_that_are_told(quantity, realisations, tmp_pat
     text = f"{PACKING}{load}[ask]\nrealisations = {realisations}\n{ASKED[quantity]}"
     assert main(["run", _scene(tmp_path, text)]) == 0
     columns = capsys.readouterr().out.splitlines()[0].split(",")
-    part = _part("answers", f"`{quantity}`")
+    part = _part(SCENES, f"`{quantity}`")
     if quantity == "contact_forces":
-        part += _part("answers", "`contact`")
+        part += _part(SCENES, "`contact`")
     told = set(re.findall(r"`(\w+)`", part)) | {"realisation"}
     assert set(columns) <= told
     if realisations == 1 and quantity != "response":
@@ -96,7 +99,7 @@ def test_an_answer_has_the_columns_that_are_told(quantity, realisations, tmp_pat
 
 
 def test_an_ensemble_has_the_columns_that_are_told(tmp_path, capsys) -> None:
-    told = set(re.findall(r"`(\w+)`", _part("answers", "The JSON of `ensemble`")))
+    told = set(re.findall(r"`(\w+)`", _part(SCENES, "The JSON of `ensemble`")))
     for quantity in ("profile", "histogram", "response"):
         load = POINT if quantity == "response" else ""
         scene = _scene(tmp_path, f"{PACKING}{load}[ask]\nrealisations = 40\n{ASKED[quantity]}")
@@ -110,7 +113,7 @@ def test_a_study_of_costs_has_the_columns_that_are_told(tmp_path, capsys) -> Non
     assert main(["cost", scene, "--out", str(tmp_path / "cost")]) == 0
     with (tmp_path / "cost" / "cost.csv").open(newline="", encoding="utf-8") as file:
         columns = next(csv.reader(file))
-    assert _first_cells(_part("answers", "`cost.csv`")) == set(columns)
+    assert _first_cells(_part(STUDIES, "`cost.csv`")) == set(columns)
 
 
 def test_every_equation_stands_on_its_page_under_its_title() -> None:
