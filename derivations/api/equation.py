@@ -1,7 +1,8 @@
 """One equation of the paper as a Python user holds it: SymPy objects, numbers, and its proof."""
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
+from numbers import Integral
 from typing import Any, Self
 
 import sympy
@@ -234,7 +235,7 @@ class Equation(Formula):
         >>> [premise.number for premise in fd.equation(13).premises]
         [11, 12]
         """
-        return tuple(map(Equation, self._derivation.premises))
+        return tuple(equation(premise.number) for premise in self._derivation.premises)
 
     @cached_property
     def _vocabulary(self) -> dict[str, Any]:
@@ -413,6 +414,11 @@ base+1 or surface.
         return statement_text(self._derivation)
 
 
+@cache
+def _equation(number: int) -> Equation:
+    return Equation(load(number))
+
+
 def equation(number: int) -> Equation:
     """The equation of the paper with this number.
 
@@ -428,9 +434,9 @@ def equation(number: int) -> Equation:
         NoSuchFormError: there is none.
     """
     known = modules()
-    if number not in known:
+    if not isinstance(number, Integral) or number not in known:
         raise NoSuchFormError(
             f"there is no equation {number!r}: give a number from {min(known)} to {max(known)}",
             "number",
         )
-    return Equation(load(number))
+    return _equation(number)

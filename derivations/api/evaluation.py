@@ -6,7 +6,9 @@ from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from typing import Any, TypeAlias
 
+import mpmath
 import sympy
+from flint import fmpq
 from force_diffusion.derivations.export.prose import either
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
@@ -120,7 +122,9 @@ def value_of(
     Raises:
         ArgumentError: the value is beyond the range of floats.
     """
-    value = expression.xreplace(values).doit()
+    value = expression.xreplace(values)
+    sums = {series: _summed(series, exact=exact) for series in value.atoms(sympy.Sum)}
+    value = value.xreplace(sums).doit()
     if exact:
         return value
     try:
@@ -131,3 +135,20 @@ def value_of(
         raise ArgumentError(
             "the value is beyond the range of floats: give exact arguments"
         ) from None
+
+
+def _summed(series: sympy.Sum, *, exact: bool) -> sympy.Expr:
+    """The value of a sum; SymPy would add up its terms one by one.
+
+    For floats harmonic numbers are taken to 40 digits, which no packing is too high for.
+    """
+    index, low, high = series.limits[0]
+    factor, term = series.function.as_independent(index, as_Add=False)
+    if term != 1 / index:
+        return series.doit()
+    if not exact:
+        with mpmath.workdps(40):
+            number = mpmath.harmonic(int(high)) - mpmath.harmonic(int(low) - 1)
+        return factor * sympy.Float(number, 40)
+    found = fmpq.harmonic(int(high)) - fmpq.harmonic(int(low) - 1)
+    return factor * sympy.Rational(int(found.p), int(found.q))

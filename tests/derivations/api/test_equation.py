@@ -132,6 +132,26 @@ def test_responses_are_those_of_the_closed_forms(level: int, data: st.DataObject
         assert stated == closed_forms.contact_response(**site, branch="+", **values)
 
 
+@pytest.mark.parametrize(
+    ("load", "form"),
+    [("surface", closed_forms.surface_variance), ("bulk", closed_forms.bulk_variance)],
+)
+def test_averages_are_means_over_the_layers(load: str, form: Callable[..., Fraction]) -> None:
+    average = fd.equation(15).exact(f"{load}-load")
+    values = {"phi": Fraction(-2, 7), "sigma": Fraction(1, 9), "r": Fraction(1)}
+    for height in (1, 2, 3, 4, 7, 40):
+        total = sum(form(height, layer, **values) for layer in range(height))
+        assert average.at(M=height, **values) == total / height
+        floats = {name: float(value) for name, value in values.items()}
+        assert average.at(M=height, **floats) == pytest.approx(float(total / height), rel=1e-14)
+
+
+def test_no_packing_is_too_high_for_floats() -> None:
+    """To leading order the mean is M³/5 (σ/r)²/(1−φ²)², with a next order of relative 1/M."""
+    found = fd.equation(15).exact("bulk-load").at(M=10**12, phi=0.0, sigma=1, r=1)
+    assert found == pytest.approx(1e36 / 5, rel=3e-12)
+
+
 @given(st.integers(1, 10**6), st.data(), cosines, positive, positive)
 @pytest.mark.parametrize("number", [13, 14])
 def test_printed_forms_at_a_layer(
@@ -244,7 +264,7 @@ def test_a_layer_that_is_fixed_may_be_left_out() -> None:
     assert form.at(M=7, **rest) == form.at(M=7, j=6, **rest)
 
 
-@pytest.mark.parametrize("number", [0, 17, -1, "13", 13.5, None])
+@pytest.mark.parametrize("number", [0, 17, -1, "13", 13.5, None, [13]])
 def test_no_such_equation(number: Any) -> None:
     with pytest.raises(ForceDiffusionError, match="from 1 to 16"):
         fd.equation(number)
