@@ -19,8 +19,8 @@ from statistics import median
 from time import perf_counter
 
 import numpy as np
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE
-from force_diffusion.numeric.lattice.layers import Array, full_layer
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Array
+from force_diffusion.numeric.lattice.layers import full_layer
 from force_diffusion.numeric.mechanics import plain
 from peers import Problem, stacked
 

@@ -45,13 +45,14 @@ def _answer(quantity: str, packing: str = "height = 16\nwidth = 34", more: str =
     """Plan a scene and run it, as the command ``run`` does."""
     from force_diffusion.numeric.planning.planner import plan
     from force_diffusion.numeric.run import run
-    from force_diffusion.numeric.scene.sections import parse_scene
+    from force_diffusion.numeric.scene.reading import parse_scene
+    from force_diffusion.numeric.scene.scene import Scene
 
     text = (
         f"[packing]\n{packing}\n[disorder]\nkind = 'uniform'\nrelative_std = 1e-6\n"
         f"[ask]\nquantity = '{quantity}'\n{more}\n"
     )
-    return lambda: run(plan(parse_scene(text)))
+    return lambda: run(plan(parse_scene(text, Scene)))
 
 
 def _line_sums() -> Work:

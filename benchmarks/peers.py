@@ -13,13 +13,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, NumberSystem
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, NumberSystem
 from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
-from force_diffusion.numeric.lattice.layers import Array, Region, whole
+from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics import plain
 from force_diffusion.numeric.mechanics.forces import Forces, Loads, sweep_down
-from force_diffusion.numeric.mechanics.load_spec import LoadSpec
-from force_diffusion.numeric.mechanics.packing import Packing, deposit, metric
+from force_diffusion.numeric.mechanics.loads import LoadSpec
+from force_diffusion.numeric.mechanics.packing import SolvedPacking, deposit, metric
 
 SEED = 1
 
@@ -52,13 +52,13 @@ class Problem:
 
     def solver(
         self, system: NumberSystem = FLOAT64, realisations: int = 1, sweeps: Any = None
-    ) -> Callable[[], tuple[Packing, Forces]]:
+    ) -> Callable[[], tuple[SolvedPacking, Forces]]:
         """Give a function that solves it from the radii; ``sweeps`` may be the compiled ones."""
         place = deposit if sweeps is None else sweeps.deposit
         carry = sweep_down if sweeps is None else sweeps.sweep_down
         region, rho, loads = self.region, self.radii(system, realisations), self.loads(system)
 
-        def solve() -> tuple[Packing, Forces]:
+        def solve() -> tuple[SolvedPacking, Forces]:
             with system.active():
                 solved = place(self.n_x, region, rho, system)
                 return solved, carry(solved, region.rows, loads)
@@ -83,12 +83,12 @@ class Balance:
 Directions = list[tuple[Array, Array, Array, Array]]
 
 
-def directions(solved: Packing, n: tuple[Any, Any]) -> Directions:
+def directions(solved: SolvedPacking, n: tuple[Any, Any]) -> Directions:
     """Cartesian (N⁺_x, N⁺_y, N⁻_x, N⁻_y) of the contacts below each layer from 1 up."""
     nx, ny = n
     return [
         ((1 + a - b) * nx, (1 + a + b) * ny, (c - d - 1) * nx, (c + d + 1) * ny)
-        for (a, b), (c, d) in zip(solved.plus[1:], solved.minus[1:], strict=True)
+        for (a, b), (c, d) in zip(solved.dn.plus[1:], solved.dn.minus[1:], strict=True)
     ]
 
 
@@ -127,7 +127,7 @@ def changes(unknowns: Array, ordered: Any, width: int) -> Array:
 
 def stacked(forces: Forces) -> Array:
     """Give the changes of ``forces`` in the same shape."""
-    return np.stack([np.stack(forces.change_plus[1:]), np.stack(forces.change_minus[1:])], axis=-1)
+    return np.stack([np.stack(forces.change.plus[1:]), np.stack(forces.change.minus[1:])], axis=-1)
 
 
 class CSweep:

@@ -37,7 +37,7 @@ LIMITS = {INSTRUCTIONS: 1.05, RATIO: 1.5}
 STARTS = {"start: show 13": ["show", "13"], "start: --help": ["--help"]}
 FAST = "fast sweep / NumPy arithmetic, 256 × 512"
 ALL = [*COUNTED, *PROOFS, *STARTS, FAST]
-PACKAGES = ("numpy", "sympy", "python-flint", "mpmath", "gmpy2", "typer", "rich", "pydantic")
+PACKAGES = ("numpy", "sympy", "python-flint", "mpmath", "typer", "rich", "pydantic")
 ONLY_RATIO = ("numba", "processor")
 """What a ratio of times depends on, and a count does not."""
 ENVIRONMENT = {

@@ -24,7 +24,7 @@ from derive_speed import in_turn as processes_in_turn
 from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat
 from force_diffusion.numeric.mechanics import plain
-from force_diffusion.numeric.planning.budget import initial_bits
+from force_diffusion.numeric.planning.expected_error import initial_bits
 from peers import (
     CSweep,
     Problem,
@@ -179,8 +179,8 @@ def probe_memory() -> float:
     packing, forces = solve()
     peak = resident("VmHWM")
     # The ordered forces are windows on one row, here: they are not counted.
-    answer = [packing.c_plus, packing.c_minus, forces.change_plus, forces.change_minus]
-    answer += [*zip(*packing.plus, strict=True), *zip(*packing.minus, strict=True)]
+    answer = [packing.c.plus, packing.c.minus, forces.change.plus, forces.change.minus]
+    answer += [*zip(*packing.dn.plus, strict=True), *zip(*packing.dn.minus, strict=True)]
     return (peak - before) / sum(layer.nbytes for block in answer for layer in block)
 
 
@@ -196,10 +196,10 @@ def against_c() -> Iterator[Line]:
         blocks = alike()
         packing, forces = solve()
         same = [
-            np.array_equal(np.stack(packing.c_plus), blocks[0]),
-            np.array_equal(np.stack(packing.c_minus), blocks[1]),
-            np.array_equal(np.stack(forces.change_plus[1:]), blocks[8][1:]),
-            np.array_equal(np.stack(forces.change_minus[1:]), blocks[9][1:]),
+            np.array_equal(np.stack(packing.c.plus), blocks[0]),
+            np.array_equal(np.stack(packing.c.minus), blocks[1]),
+            np.array_equal(np.stack(forces.change.plus[1:]), blocks[8][1:]),
+            np.array_equal(np.stack(forces.change.minus[1:]), blocks[9][1:]),
         ]
         yield Line("C gives the same bits (1: yes)", float(all(same)), "", ">", 1)
         quick = in_turn({"fast": solve, "alike": alike, "fused": fused}, 31)
@@ -271,9 +271,9 @@ def profile() -> Iterator[Line]:
         _, found = problem.solver(realisations=realisations, sweeps=fast)()
         squares = [
             np.mean(np.square([p, m]))
-            for p, m in zip(found.change_plus[1:], found.change_minus[1:], strict=True)
+            for p, m in zip(found.change.plus[1:], found.change.minus[1:], strict=True)
         ]
-        return np.sqrt(squares) / float(found.ordered_plus[1][0])
+        return np.sqrt(squares) / float(found.ordered.plus[1][0])
 
     spent = in_turn({"closed": closed, "simulated": simulated}, 3)
     exact = np.sqrt(np.array(closed()))

@@ -1,62 +1,40 @@
-"""Runs a plan: chooses nothing that the plan does not say, raises precision, keeps the books."""
+"""A scene becomes an outcome: planned, solved, checked, and its error known.
+
+``Scene`` is the one of ``numeric.scene`` with the two verbs that need all the rooms below.
+"""
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from force_diffusion.numeric.accuracy.enclosed import Accuracy, of_balls, of_floats, strings
-from force_diffusion.numeric.accuracy.repeated import edge_in_doubt, of_repeat
-from force_diffusion.numeric.arithmetic.decimals import short
-from force_diffusion.numeric.arithmetic.errors import NOT_REACHED, ForceDiffusionError
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, NumberSystem
-from force_diffusion.numeric.mechanics.engine import Solved, batches, solve
-from force_diffusion.numeric.mechanics.forces import NotStandingError
-from force_diffusion.numeric.mechanics.packing import UnbuildableError, UndecidedError
-from force_diffusion.numeric.mechanics.physicality import Physicality
-from force_diffusion.numeric.mechanics.work import Progress, Work
-from force_diffusion.numeric.planning.budget import DEFAULT_BINS, MOST_BITS, initial_bits
-from force_diffusion.numeric.planning.plan import CERTIFY, ESTIMATE, PHYSICAL, Choice, Plan
-from force_diffusion.numeric.quantities.answers import GATHERERS, Table
-from force_diffusion.numeric.statistics import histogram
-from force_diffusion.numeric.studies.cost.ways import solve_plainly
-from force_diffusion.numeric.theory.critical_height import critical_height
-
-__all__ = ["MOST_BITS", "Missed", "Outcome", "ToleranceError", "critical_height", "run"]
-
-
-class ToleranceError(ForceDiffusionError, ArithmeticError):
-    """The asked tolerance can't be reached; the message says why."""
-
-    exit_status = NOT_REACHED
-
-
-@dataclass(frozen=True)
-class Missed:
-    """A way that was tried before the one that answered, and why it did not."""
-
-    algorithm: str
-    arithmetic: str
-    why: str
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """A finished run: the printed answer, its accuracy, what was physical and what it cost.
-
-    ``plan`` is that of the way that answered; ``missed`` are those tried before.
-    """
-
-    plan: Plan
-    rows: list[dict[str, Any]]
-    accuracy: Accuracy
-    physical: Physicality | None
-    stopped: tuple[int, int, str] | None
-    work: Work
-    total_seconds: float
-    missed: tuple[Missed, ...] = ()
+from .accuracy.accuracy import Accuracy, ToleranceError
+from .accuracy.enclosed import of_balls
+from .accuracy.repeated import edge_in_doubt, of_floats, of_repeat
+from .arithmetic.decimals import exact, short
+from .arithmetic.errors import UndecidedError
+from .arithmetic.systems import FLOAT64, Balls, NumberSystem
+from .lattice.branch import Contact
+from .mechanics.engine import packings
+from .mechanics.forces import NotStandingError
+from .mechanics.packing import UnbuildableError
+from .mechanics.physicality import Physicality
+from .mechanics.problem import Route, Solved
+from .mechanics.work import Progress, Work
+from .outcome import Missed, Outcome
+from .planning.budget import MOST_BITS
+from .planning.expected_error import initial_bits
+from .planning.plan import CERTIFY, ESTIMATE, PHYSICAL, Choice, Plan
+from .planning.planner import plan
+from .quantities.base import Table
+from .quantities.histogram import Histogram
+from .scene import reading, scene
+from .scene.sections import SceneError
+from .statistics import histogram
+from .theory.critical_height import critical_height
 
 
 @dataclass
@@ -64,7 +42,7 @@ class _Attempt:
     table: Table
     bins: list[tuple[Fraction, Fraction, int]] | None
     physical: Physicality | None
-    stopped: tuple[int, int, str] | None
+    stopped: Contact | None
 
 
 def run(plan: Plan, progress: Progress | None = None) -> Outcome:
@@ -78,20 +56,26 @@ def run(plan: Plan, progress: Progress | None = None) -> Outcome:
     missed: list[Missed] = []
     if plan.choice is not None:
         plan, attempt, accuracy = _chosen(plan, plan.choice, work, missed)
-    elif plan.way.certified:
+    elif plan.method.certified:
         plan, attempt, accuracy = _certified(plan, work)
     else:
-        attempt = _attempt(plan, plan.system, range(plan.realisations), work)
+        attempt = _attempt(plan, plan.system, range(plan.problem.realisations), work)
         accuracy = _estimate(plan, attempt, work)
-    rows = _rows(attempt, accuracy, plan.system)
     zero = not accuracy.certified and not accuracy.error_bound
     if zero and _squares_vanish(plan):
         note = "every change is zero, or below what float64 holds: a tolerance tells which"
         accuracy = replace(accuracy, error_bound=math.inf, note=note)
     return Outcome(
-        plan, rows, accuracy, attempt.physical, attempt.stopped, work,
-        perf_counter() - start, tuple(missed),
-    )  # fmt: skip
+        plan,
+        attempt.table,
+        attempt.bins,
+        accuracy,
+        attempt.physical,
+        attempt.stopped,
+        work,
+        perf_counter() - start,
+        tuple(missed),
+    )
 
 
 def _chosen(
@@ -101,12 +85,10 @@ def _chosen(
     for candidate in choice.tried:
         assert candidate.plan is not None
         tried = replace(candidate.plan, choice=choice)
-        if candidate.ends:
+        if candidate.certified:
             return _certified(tried, work)
         try:
-            if candidate.certified:  # in the plain form, whose balls may grow too wide to decide
-                return _certified(tried, work)
-            attempt = _attempt(tried, tried.system, range(tried.realisations), work)
+            attempt = _attempt(tried, tried.system, range(tried.problem.realisations), work)
             accuracy = _estimate(tried, attempt, work)
             why = _shortfall(attempt, accuracy, choice.tolerance)
         except (UnbuildableError, NotStandingError, ArithmeticError) as error:
@@ -134,28 +116,25 @@ def _shortfall(attempt: _Attempt, accuracy: Accuracy, tolerance: Fraction) -> st
 
 def _squares_vanish(plan: Plan) -> bool:
     """Say whether changes of second order, left where the first cancels, round to zero."""
-    return 0 < plan.radii.relative_std() ** 2 < Fraction(1, 10**300)
+    return 0 < plan.problem.radii.relative_std() ** 2 < Fraction(1, 10**300)
 
 
 def _attempt(plan: Plan, system: NumberSystem, realisations: Sequence[int], work: Work) -> _Attempt:
     work.uses(system.name)
-    physical = Physicality() if plan.route == "exact" and not work.repeating else None
-    gatherer = GATHERERS[plan.scene.ask.quantity](plan, system)
-    stopped = None
-    solver = solve_plainly if plan.way.plain else solve
+    exact = plan.problem.route == Route.EXACT
+    physical = Physicality() if exact and not work.repeating else None
+    stopped, bins = None, None
     with system.active():
-        for chunk in batches(plan, realisations, system):
-            solved = solver(plan, chunk, system, work)
-            if physical is not None and solved.packing is not None:
+        gatherer = plan.quantity.gatherer(plan.problem, system)
+        for solved, chunk in packings(plan.problem, realisations, system, work):
+            if physical is not None:
                 _check(physical, solved, len(chunk), work)
             if solved.forces is not None and stopped is None:
                 stopped = solved.forces.stopped
             gatherer.add(solved, chunk)
         table = gatherer.table()
-        bins = None
-        if plan.scene.ask.quantity == "histogram" and not work.repeating:
-            values = table.numbers["change"]
-            bins = histogram.histogram(values, plan.scene.ask.bins or DEFAULT_BINS, system)
+        if isinstance(plan.quantity, Histogram) and not work.repeating:
+            bins = histogram.histogram(table.numbers["change"], plan.quantity.bins, system)
     return _Attempt(table, bins, physical, stopped)
 
 
@@ -171,12 +150,12 @@ def _check(physical: Physicality, solved: Solved, realisations: int, work: Work)
 
 def _estimate(plan: Plan, attempt: _Attempt, work: Work) -> Accuracy:
     """Solve the first realisations again with a longer significand, and compare."""
-    longer, few = plan.way.longer, range(plan.way.repeated)
+    longer, few = plan.method.longer, range(plan.method.repeated)
     assert longer is not None
-    part = replace(plan, realisations=len(few))
+    part = replace(plan, problem=replace(plan.problem, realisations=len(few)))
     with work.repeat(ESTIMATE):
         table = attempt.table
-        if len(few) < plan.realisations:
+        if len(few) < plan.problem.realisations:
             table = _attempt(part, plan.system, few, work).table
         again = _attempt(part, longer, few, work).table
         if plan.tolerance is None:
@@ -187,22 +166,22 @@ def _estimate(plan: Plan, attempt: _Attempt, work: Work) -> Accuracy:
 
 def _certified(plan: Plan, work: Work) -> tuple[Plan, _Attempt, Accuracy]:
     """Raise the precision until the enclosure is small enough, or say why that does not help."""
-    floor = plan.radii.relative_std()
+    floor = plan.problem.radii.relative_std()
     system = plan.system
     assert isinstance(system, Balls)
     if system.bits > MOST_BITS:
         raise ToleranceError(
             f"the tolerance can't be reached: {short(plan.tolerance or floor)} at height "
-            f"{plan.scene.packing.height} needs {system.bits} bits or more, and {MOST_BITS} are "
+            f"{plan.problem.height} needs {system.bits} bits or more, and {MOST_BITS} are "
             f"the most; ask for about {_least_tolerance(plan)} at best"
         )
     while True:
         try:
-            attempt = _attempt(plan, system, range(plan.realisations), work)
+            attempt = _attempt(plan, system, range(plan.problem.realisations), work)
             with work.timed(CERTIFY), system.active():
                 accuracy = of_balls(attempt.table, system, floor)
             if plan.tolerance is None or _within(accuracy, plan.tolerance):
-                return replace(plan, way=replace(plan.way, system=system)), attempt, accuracy
+                return replace(plan, method=replace(plan.method, system=system)), attempt, accuracy
             why = f"at {system.bits} bits {_still(accuracy)}"
         except (UndecidedError, NotStandingError) as error:
             why = f"at {system.bits} bits: {error}"
@@ -210,7 +189,7 @@ def _certified(plan: Plan, work: Work) -> tuple[Plan, _Attempt, Accuracy]:
             break
         system = Balls(min(2 * system.bits, MOST_BITS))
     message = f"the tolerance can't be reached: {why}, and more than {MOST_BITS} are not tried"
-    height, highest = plan.scene.packing.height, critical_height(floor)
+    height, highest = plan.problem.height, critical_height(floor)
     if height > highest / 2:
         message += (
             f"; the height is {height}, and the theory holds well below "
@@ -221,7 +200,7 @@ def _certified(plan: Plan, work: Work) -> tuple[Plan, _Attempt, Accuracy]:
 
 def _least_tolerance(plan: Plan) -> str:
     """Give the power of ten that the highest precision starts with, at this height."""
-    digits = MOST_BITS - initial_bits(Fraction(1), plan.scene.packing.height)
+    digits = MOST_BITS - initial_bits(Fraction(1), plan.problem.height)
     return f"1e-{int(digits * 0.30102)}"
 
 
@@ -237,11 +216,57 @@ def _within(accuracy: Accuracy, tolerance: Fraction) -> bool:
     return math.isfinite(bound) and Fraction(bound) <= tolerance
 
 
-def _rows(attempt: _Attempt, accuracy: Accuracy, system: NumberSystem) -> list[dict[str, Any]]:
-    """Print the answer, row by row."""
-    if attempt.bins is not None:
-        return histogram.printed(attempt.bins)
-    with system.active():
-        printed = strings(attempt.table, accuracy, system)
-    columns = {**attempt.table.index, **printed}
-    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+class Scene(scene.Scene):
+    """A scene that can be explained and run: the classes that a TOML file is read into.
+
+    ``packing``, ``disorder`` (None: all radii are equal), ``load`` (by default a surface load),
+    ``effects`` and ``ask`` are the sections; files are relative to ``folder``. Raises
+    ``SceneError``, which names the key, its value and what is allowed.
+
+    >>> from force_diffusion.numeric.scene.sections import Ask, Disorder, Packing
+    >>> strip = Scene(
+    ...     packing=Packing(height=4, width=10),
+    ...     disorder=Disorder(kind="uniform", relative_std=1e-6, seed=1),
+    ...     ask=Ask(quantity="profile"),
+    ... )
+    >>> outcome = strip.run()
+    >>> outcome.arrays["std"].shape, outcome.accuracy.error_bound < 1e-14
+    ((8,), True)
+    """
+
+    def explain(self, tolerance: Any = None, *, certified: bool = False) -> Plan:
+        """Say what ``run`` would do, what it would leave out, and why; ``print`` shows it.
+
+        ``tolerance``: error allowed, relative to the largest change; ``certified``: only a rigorous
+        bound will do. Both override what the scene asks. Raises ``SceneError`` for a scene that
+        takes too much memory or time, and ``TableError``.
+        """
+        if tolerance is None:
+            return plan(self, certified=certified)
+        try:
+            asked = exact(tolerance)
+        except ValueError as error:
+            raise SceneError("tolerance", tolerance, str(error)) from None
+        if not 0 < asked < 1:
+            raise SceneError("tolerance", tolerance, "must lie between 0 and 1")
+        return plan(self, asked, certified=certified)
+
+    def run(
+        self,
+        tolerance: Any = None,
+        *,
+        certified: bool = False,
+        progress: Progress | None = None,
+    ) -> Outcome:
+        """Answer the scene's question; arguments as for ``explain``.
+
+        ``progress`` is called with the kind of work and the number of beads just done. Raises also
+        ``ToleranceError``, and ``UnbuildableError``, ``NotStandingError`` or ``RadiusError`` for a
+        packing that can't be built.
+        """
+        return run(self.explain(tolerance, certified=certified), progress)
+
+
+def read_scene(path: str | Path) -> Scene:
+    """Read and check a scene file. Raises ``SceneError``."""
+    return reading.read_scene(Path(path), Scene)

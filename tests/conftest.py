@@ -1,8 +1,6 @@
 """What every test may use."""
 
-import os
 import signal
-from collections.abc import Iterator
 
 import pytest
 from hypothesis import settings
@@ -34,19 +32,3 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 @pytest.fixture
 def update_golden(request: pytest.FixtureRequest) -> bool:
     return bool(request.config.getoption("--update-golden"))
-
-
-@pytest.fixture(scope="session", autouse=True)
-def cache_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """No test touches the user's own calibration, and none has to calibrate: the defaults hold."""
-    from force_diffusion.numeric.planning import cost_model, stored_costs
-
-    patch = pytest.MonkeyPatch()
-    folder = tmp_path_factory.mktemp("cache")
-    for variable in ("XDG_CACHE_HOME", "HOME", "LOCALAPPDATA"):
-        if variable != "HOME" or os.uname().sysname == "Darwin":
-            patch.setenv(variable, str(folder))
-    assert str(stored_costs.location()).startswith(str(folder))
-    stored_costs.store(cost_model.defaults())
-    yield
-    patch.undo()

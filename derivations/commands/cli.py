@@ -26,10 +26,6 @@ COMMANDS = {
     "examples": ("examples", "Copy the example scenes into a folder."),
     "run": ("scenes", "Answer a scene's question."),
     "explain": ("scenes", "Say what 'run' would do, and why."),
-    "calibrate": (
-        "calibrate",
-        "Measure what this machine's arithmetic costs; a tolerance chooses the cheapest by it.",
-    ),
     "cost": (
         "scenes",
         "Measure what accuracy costs: every way to answer a scene, its error beside its time.",

@@ -94,7 +94,7 @@ def _measured(
 ) -> tuple["Measurement", int]:
     """Read the scene and say what is measured, over how many packings."""
     from force_diffusion.numeric.ensemble.asked import measurement
-    from force_diffusion.numeric.scene.sections import read_scene
+    from force_diffusion.numeric.run import read_scene
 
     try:
         with about(scene.name):

@@ -35,8 +35,8 @@ def executor_for(
     cluster: Where | None,
 ) -> "Executor":
     """Choose who solves."""
+    from force_diffusion.numeric.arithmetic.machine import cores, memory_limit
     from force_diffusion.numeric.ensemble.workers import InProcess, Pool
-    from force_diffusion.numeric.planning.budget import cores, memory_limit
 
     if scheduler is not None and (cluster is not None or workers is not None):
         other = "--workers" if cluster is None else "--cluster"

@@ -42,11 +42,9 @@ _Certified = Annotated[
 
 def _planned(scene: Path, tolerance: str | None, certified: bool) -> "Plan":
     """Read and plan a scene."""
-    from force_diffusion.derivations.commands.calibrate import model_for
     from force_diffusion.numeric.arithmetic.decimals import parse
-    from force_diffusion.numeric.planning.budget import memory_limit
-    from force_diffusion.numeric.planning.planner import plan
-    from force_diffusion.numeric.scene.sections import read_scene
+    from force_diffusion.numeric.arithmetic.machine import memory_limit
+    from force_diffusion.numeric.run import read_scene
 
     asked = None
     if tolerance is not None:
@@ -59,13 +57,12 @@ def _planned(scene: Path, tolerance: str | None, certified: bool) -> "Plan":
     try:
         with about(scene.name):
             found = read_scene(scene)
-        wanted = asked or found.ask.tolerance
-        if certified and wanted is None:
+        if certified and asked is None and found.ask.tolerance is None:
             raise ForceDiffusionError(
                 "--certified needs a tolerance: give --tolerance T, such as 1e-30"
             )
         with about(scene.name):
-            return plan(found, asked, certified=certified, model=model_for(wanted is not None))
+            return found.explain(asked, certified=certified)
     except MemoryError:
         raise ForceDiffusionError(
             f"{scene.name}: reading and planning it takes more than the free memory, "
@@ -80,11 +77,8 @@ def explain(
     as_json: _Json = False,
 ) -> None:
     """Say what 'run' would do, and why."""
-    from force_diffusion.numeric.result import plan_data
-
     planned = _planned(scene, tolerance, certified)
-    data = plan_data(planned)
-    print(json.dumps(data, indent=2) if as_json else "\n".join(_plan_lines(data)))
+    print(json.dumps(planned.data(), indent=2) if as_json else planned)
 
 
 def run(
@@ -120,7 +114,7 @@ def cost(
     """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
     import shlex
 
-    from force_diffusion.numeric.scene.sections import read_scene
+    from force_diffusion.numeric.run import read_scene
     from force_diffusion.numeric.studies.cost.data import csv_rows, lines, study_data
     from force_diffusion.numeric.studies.cost.study import study
 
@@ -144,12 +138,11 @@ def cost(
 
 def _solved(planned: "Plan", scene: Path) -> dict[str, Any]:
     """Run a plan under a progress bar."""
-    from force_diffusion.numeric.result import outcome_data
     from force_diffusion.numeric.run import run as solve
 
     bar, progress = _progress(planned)
     with about(scene.name), in_range(), bar:
-        return outcome_data(solve(planned, progress=progress))
+        return solve(planned, progress=progress).data()
 
 
 def _progress(
@@ -180,85 +173,15 @@ def _progress(
     return stack, progress
 
 
-def _plan_lines(data: dict[str, Any]) -> list[str]:
-    lines = ["What is done"]
-    for step in data["plan"]:
-        spent = "" if step["seconds"] is None else f", {step['seconds']:.3g} s"
-        cost = f"{step['beads']} beads, {step['arithmetic']}{spent}"
-        lines.append(f"  {step['step']}: {step['reason']} ({cost})")
-    lines.append("What is left out")
-    lines += [f"  {s['effect']}: {s['reason']}" for s in data["skipped"]] or ["  nothing"]
-    lines += _choice_lines(data["choice"]) if data["choice"] else []
-    lines.append(f"About {data['estimated_seconds']:.2g} s and {data['memory_bytes'] / 1e6:.3g} MB")
-    if data["sees_images"]:
-        lines.append("The answer sees periodic images: it is that of the strip, not of the slab")
-    return lines
-
-
-def _choice_lines(choice: dict[str, Any]) -> list[str]:
-    """Say what was chosen, from what, and what a digit costs."""
-    chosen = choice["chosen"]
-    lines = [
-        f"How, for a tolerance of {choice['tolerance']}: {_way(chosen)}",
-        f"  {choice['reason']} (cost model: {choice['coefficients']})",
-        f"  {'':2}{'way':<31}{'arithmetic':<22}{'repeated':>8} {'error':>9} {'seconds':>9}",
-    ]
-    for way in choice["candidates"]:
-        mark = "*" if way == chosen else ""
-        error, spent = way["expected_error"], way["seconds"]
-        seconds = "" if spent is None else f"{spent:.2g}"
-        lines.append(
-            f"  {mark:2}{way['algorithm']:<31}{way['arithmetic']:<22}{way['repeated'] or '':>8} "
-            f"{error:>9} {seconds:>9}  {way['out']}".rstrip()
-        )
-    for name, words in (("digit_more", "One digit more"), ("digit_less", "One digit fewer")):
-        way = choice[name]
-        if way is None:
-            lines.append(f"{words}: there is no way to it")
-        else:
-            lines.append(f"{words}, {way['tolerance']}: {_way(way)}, about {way['seconds']:.2g} s")
-    for missed in choice.get("missed", []):
-        lines.append(
-            f"Tried before: {missed['algorithm']}, {missed['arithmetic']}: {missed['why']}"
-        )
-    if "measured_seconds" in choice:
-        lines.append(
-            f"Predicted {chosen['seconds']:.2g} s, took {choice['measured_seconds']:.2g} s"
-        )
-    return lines
-
-
-def _way(way: dict[str, Any]) -> str:
-    kind = "certified" if way["certified"] else "estimated"
-    return f"{way['algorithm']}, {way['arithmetic']}, {kind}"
-
-
 def _show(data: dict[str, Any], as_json: bool) -> None:
     if as_json:
         print(json.dumps(data, indent=2))
         return
-    quantity, rows = next(iter(data["results"].items()))
+    from force_diffusion.numeric.outcome import outcome_lines
+
+    (rows,) = data["results"].values()
     print(csv_text(rows), end="")
-    print(f"# {quantity}: {len(rows)} rows")
-    accuracy = data["accuracy"]
-    bound = accuracy["error_bound"]
-    kind = "certified" if accuracy["certified"] else "estimated"
-    shown = f"{bound:.2g}" if isinstance(bound, float) else bound or "unknown"
-    print(
-        f"# error {shown}, {kind}, in {accuracy['arithmetic']}; bits lost {accuracy['bits_lost']}"
-    )
-    if "physical" in data:
-        p = data["physical"]
-        words = "physical" if p["physical"] else "NOT physical"
-        gap = "none" if p["smallest_gap"] is None else f"{p['smallest_gap']:.6g} r"
-        print(
-            f"# {words}: smallest gap {gap}, {p['overlaps']} overlaps, "
-            f"{p['tensile_contacts']} tensile contacts; "
-            f"M = {p['height']}, M* = {p['critical_height']}"
-        )
-    if "stopped_at_tension" in data:
-        print(f"# stopped at the tensile contact {data['stopped_at_tension']}")
-    print("\n".join(f"# {line}" for line in _plan_lines(data)))
+    print("\n".join(f"# {line}" for line in outcome_lines(data)))
 
 
 def register(app: typer.Typer) -> None:

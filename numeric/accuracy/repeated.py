@@ -1,7 +1,7 @@
-"""Estimated errors under a tolerance: what is expected beforehand, and what a repeat measured.
+"""Estimated errors: what a repeat with a longer significand measured.
 
-The repeat solves the same packings with a longer significand. Its own error is bounded where balls
-did it, and allowed for by ``floor`` where hardware floats did.
+The repeat solves the same packings. Its own error is bounded where balls did it, and allowed for by
+``_floor`` where hardware floats did.
 """
 
 import math
@@ -10,48 +10,49 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from force_diffusion.numeric.accuracy.enclosed import Accuracy
-from force_diffusion.numeric.arithmetic.systems import Balls, NumberSystem, as_ball, midpoint
-from force_diffusion.numeric.planning.plan import Plan, Way
-from force_diffusion.numeric.quantities.answers import Table
 
-# A measured error is doubled: what repeats it is not exact.
-SAFETY = 2
-# Realisations that nobody repeated. Rounding errors of independent packings are alike, and near
-# normal: of N numbers the largest is below 6 standard deviations for every N that is allowed, and
-# that the largest of four is below 6/1000 of one has a chance of 5e-10.
-UNSEEN = 1000
-# Room for printing: see ``accuracy.SWALLOWED``, and what digits that are cut off add.
-PRINTED = 2
+from ..arithmetic.systems import (
+    Balls,
+    Hardware,
+    NumberSystem,
+    as_ball,
+    midpoint,
+)
+from ..planning.expected_error import (
+    PRINTED,
+    SAFETY,
+    UNSEEN,
+    merging,
+    usual_units,
+)
+from ..planning.plan import Plan
+from ..quantities.base import Table
+from .accuracy import Accuracy
 
 
-def usual_units(system: NumberSystem, height: int) -> Fraction:
-    """Give the largest rounding error to be expected, in units 2^-bits of the largest change.
+def of_floats(table: Table, longer: Table, whole: Table, system: Hardware) -> Accuracy:
+    """Estimate the error of a float solution from one with a longer significand.
 
-    Measured up to height 128, in all quantities, loads and geometries, from σ/r = 1e-3 down to
-    1e-100: at most 17, growing with the height. Hardware floats sum forces with compensation, big
-    floats do not.
+    ``table`` and ``longer`` are the two solutions of some realisations out of ``whole``.
     """
-    return Fraction(8) + (Fraction(height, 4) if system.dtype is not object else 2 * height)
-
-
-def expected(way: Way, height: int, realisations: int, lost: int = 0) -> Fraction:
-    """Give the error that an answer is expected to be printed with, relative to its largest change.
-
-    For balls, what they should certify: they lose some bits for the depth of the packing, and those
-    that the plain form has ``lost``.
-    """
-    bits = way.system.bits
-    if way.certified:
-        return Fraction(max(height, 4) ** 2 * 2**12, 2 ** (bits - lost))
-    seen = way.repeated >= realisations
-    units = usual_units(way.system, height) * (SAFETY if seen else UNSEEN)
-    return (PRINTED * units + _merging(way, realisations)) * Fraction(1, 2**bits)
-
-
-def _merging(way: Way, realisations: int) -> int:
-    """Bound the roundings of merged statistics, in units 2^-bits: a few for each realisation."""
-    return 0 if way.repeated >= realisations else 8 * realisations
+    largest, error = 0.0, 0.0
+    for name in table.small:
+        a, b = table.numbers[name], longer.numbers[name]
+        if not len(a):
+            continue
+        largest = max(largest, float(np.abs(a).max()))
+        error = max(error, float(max(abs(float(y - x)) for x, y in zip(a, b, strict=True))))
+    unit = 4 * 2.0**-system.bits  # no estimate can promise less than a few roundings
+    if not largest:
+        bound = math.inf if error else 0.0
+        if not error and any(np.any(whole.numbers[name]) for name in whole.small):
+            bound = unit  # what was compared is exactly zero, the rest of the answer is not
+        return Accuracy(bound, False, system.name, 0.0, "estimated, not certified")
+    if not math.isfinite(largest) or not math.isfinite(error):
+        return Accuracy(math.inf, False, system.name, float(system.bits))
+    ratio = max(2 * error / largest, unit)
+    lost = max(system.bits + math.log2(ratio), 0.0)
+    return Accuracy(ratio, False, system.name, round(lost, 1), "estimated, not certified")
 
 
 def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
@@ -60,26 +61,27 @@ def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
     ``table`` and ``again`` are the solutions of the repeated realisations, in the arithmetic of the
     plan and in the longer one.
     """
-    way = plan.way
-    assert way.longer is not None
-    unit = Fraction(1, 2**way.system.bits)
+    method = plan.method
+    assert method.longer is not None
+    unit = Fraction(1, 2**method.system.bits)
     apart = Fraction(0)
     for name in table.small:
-        difference = _apart(table.numbers[name], again.numbers[name], way.longer)
+        difference = _apart(table.numbers[name], again.numbers[name], method.longer)
         if difference is None:
-            return Accuracy(math.inf, False, way.system.name, float(way.system.bits))
+            return Accuracy(math.inf, False, method.system.name, float(method.system.bits))
         apart = max(apart, difference)
     largest = max((_largest(whole.numbers[name]) for name in whole.small), default=Fraction(0))
     if not largest:
         note = "every change is zero here, and only balls can tell whether that is exact"
-        return Accuracy(math.inf, False, way.system.name, 0.0, note)
-    seen = way.repeated >= plan.realisations
+        return Accuracy(math.inf, False, method.system.name, 0.0, note)
+    seen = method.repeated >= plan.problem.realisations
     factor = SAFETY if seen else UNSEEN
     absolute = factor * apart + SAFETY * _floor(plan, whole, largest)
-    ratio = max(absolute / largest, 4 * unit) + _merging(way, plan.realisations) * unit
-    lost = max(way.system.bits + _log2(ratio), 0.0)
-    note = f"estimated, not certified, from {way.repeated} of {plan.realisations} realisations"
-    return Accuracy(_bound(PRINTED * ratio), False, way.system.name, round(lost, 1), note)
+    ratio = max(absolute / largest, 4 * unit) + merging(method, plan.problem.realisations) * unit
+    lost = max(method.system.bits + _log2(ratio), 0.0)
+    of_all = f"{method.repeated} of {plan.problem.realisations} realisations"
+    note = f"estimated, not certified, from {of_all}"
+    return Accuracy(_bound(PRINTED * ratio), False, method.system.name, round(lost, 1), note)
 
 
 def _floor(plan: Plan, whole: Table, largest: Fraction) -> Fraction:
@@ -88,18 +90,18 @@ def _floor(plan: Plan, whole: Table, largest: Fraction) -> Fraction:
     It is relative to the terms that changes are sums of, σ/r times the forces (positions: the
     radius): a change that is left over where these cancel may be far smaller.
     """
-    longer = plan.way.longer
+    longer = plan.method.longer
     if longer is None or isinstance(longer, Balls):
         return Fraction(0)
-    if plan.needs_forces:
-        loads = (max(abs(x), abs(y)) for x, y in plan.load.single.values())
+    if plan.problem.needs_forces:
+        loads = (max(abs(x), abs(y)) for x, y in plan.problem.load.single.values())
         scale = max(max(loads, default=Fraction(1)), Fraction(1))
         for name, values in whole.numbers.items():
             if name not in whole.small:
                 scale = max(scale, _largest(values))
     else:
         scale = plan.scene.packing.radius
-    terms = max(largest, scale * plan.radii.relative_std())
+    terms = max(largest, scale * plan.problem.radii.relative_std())
     return Fraction(usual_units(longer, plan.scene.packing.height) * terms / 2**longer.bits)
 
 

@@ -11,14 +11,18 @@ _DECIMAL = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]{1,6})?"
 
 
 def exact(value: object) -> Fraction:
-    """Turn an int or a finite Decimal into the fraction that it is.
+    """Turn a number into the fraction that it is; a float into the decimal that Python prints.
 
     Raises ``ValueError`` for anything else and for more than 5000 digits or an exponent beyond
     ±5000: such a number is an accident, or a way to fill the memory.
 
-    >>> exact(Decimal("2.2"))
-    Fraction(11, 5)
+    >>> exact(Decimal("2.2")), exact(0.1)
+    (Fraction(11, 5), Fraction(1, 10))
     """
+    if isinstance(value, Fraction):
+        return value
+    if isinstance(value, float):
+        value = Decimal(repr(float(value)))
     if isinstance(value, bool) or not isinstance(value, int | Decimal):
         raise ValueError("must be a number")
     if isinstance(value, int):

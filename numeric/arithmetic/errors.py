@@ -22,3 +22,9 @@ class NotReachedError(ForceDiffusionError):
     """What was asked for can't be reached with the memory, the range or the libraries at hand."""
 
     exit_status = NOT_REACHED
+
+
+class UndecidedError(ForceDiffusionError, ArithmeticError):
+    """Balls have grown so wide that a question stays open: more bits are needed."""
+
+    exit_status = NOT_REACHED

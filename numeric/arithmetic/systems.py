@@ -15,7 +15,9 @@ from typing import Any, Protocol
 import flint
 import mpmath
 import numpy as np
-from force_diffusion.numeric.lattice.layers import Array
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
 
 
 class NumberSystem(Protocol):

@@ -9,7 +9,8 @@ only means that a draw's probability is off by as much.
 import math
 
 import numpy as np
-from force_diffusion.numeric.lattice.layers import Array
+
+from ..arithmetic.systems import Array
 
 # 2/(2k + 1): the series of 2 artanh(t); |t| <= 0.172 makes the 12th term smaller than 2^-60.
 _ARTANH = [2 / (2 * k + 1) for k in range(12)]

@@ -14,12 +14,12 @@ from fractions import Fraction
 from typing import Any, Protocol
 
 import numpy as np
-from force_diffusion.numeric.arithmetic.decimals import short
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
-from force_diffusion.numeric.arithmetic.systems import NumberSystem, array, from_floats, zeros
-from force_diffusion.numeric.disorder.normal import normal_deviates
-from force_diffusion.numeric.lattice.layers import Array, Layer, Stack
-from force_diffusion.numeric.mechanics.work import Work
+
+from ..arithmetic.decimals import short
+from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.systems import Array, NumberSystem, array, from_floats, zeros
+from ..lattice.layers import Layer, Stack
+from .normal import normal_deviates
 
 # Columns of a slab may be negative; counters must not be.
 _OFFSET = 2**62
@@ -185,6 +185,46 @@ class MeasuredRadii:
         return array(system, values)
 
 
+@dataclass(frozen=True, eq=False)
+class ArrayRadii:
+    """Radii in an array, (packings, layers, W), each double taken as the exact number that it is.
+
+    ``origin``: what is subtracted, r where the radii themselves are given, 0 where δr is;
+    ``radius``: r, in the same unit.
+    """
+
+    values: Array
+    origin: Fraction
+    radius: Fraction
+
+    def relative_std(self) -> Fraction:
+        """Give the root of the mean square of δr/r; 0 only if all are 0."""
+        deltas = (self.values - float(self.origin)) / float(self.radius)
+        largest = float(np.abs(deltas).max(initial=0))
+        if not largest:
+            return Fraction(0)
+        return Fraction(largest) * Fraction(float(np.sqrt(np.mean((deltas / largest) ** 2))))
+
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+        """Look the radii up."""
+        rows = self.values[np.asarray(realisations), layer.j]
+        columns = (np.arange(layer.first, layer.last + 2, 2) - layer.j % 2) // 2
+        picked = rows[:, columns % self.values.shape[-1]]
+        return self._deltas(picked[0] if len(realisations) == 1 else picked, system)
+
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+        """Look single beads up."""
+        i, j = np.array(sites, dtype=np.int64).reshape(-1, 2).T
+        columns = (i - j % 2) // 2 % self.values.shape[-1]
+        return self._deltas(self.values[realisation, j, columns], system)
+
+    def _deltas(self, values: Array, system: NumberSystem) -> Array:
+        deltas = from_floats(system, values)
+        if self.origin:
+            deltas = deltas - system.scalar(self.origin)
+        return np.asarray(deltas / system.scalar(self.radius))
+
+
 def philox(low: Array, high: Array, key: tuple[int, int]) -> tuple[Array, Array]:
     """Give the first two words of Philox4x64-10 for each counter (low, high, 0, 0).
 
@@ -218,7 +258,6 @@ def rows_of(
     layers: Sequence[Layer],
     realisations: Sequence[int],
     system: NumberSystem,
-    work: Work | None = None,
 ) -> Sequence[Any]:
     """Give δr/r of several rows, one array a row; rows of equal length lie in one block."""
     rows = []
@@ -232,6 +271,4 @@ def rows_of(
             rows.append(row)
         else:
             block[..., n, :] = row
-        if work is not None:
-            work.did("radii", layer, len(realisations))
     return tuple(rows) if block is None else Stack(block)

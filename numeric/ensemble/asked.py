@@ -3,9 +3,11 @@
 from dataclasses import replace
 from fractions import Fraction
 
-from force_diffusion.numeric.ensemble.measure import Measurement
-from force_diffusion.numeric.planning.planner import plan
-from force_diffusion.numeric.scene.sections import Scene, SceneError
+from ..mechanics.problem import Route
+from ..planning.planner import plan
+from ..scene.scene import Scene
+from ..scene.sections import SceneError
+from .measure import Measurement
 
 DEFAULT_BINS = 60
 # Outer edges of a histogram, in units of the largest theoretical σ_f.
@@ -36,7 +38,7 @@ def measurement(
         raise SceneError("disorder", None, "an ensemble needs radii that are drawn")
     one = scene.model_copy(update={"ask": ask.model_copy(update={"realisations": 1})})
     planned = plan(one)
-    if planned.route == "ordered":
+    if planned.problem.route == Route.ORDERED:
         why = planned.skipped[-1].reason
         raise SceneError("disorder", None, f"every realisation would be the same: {why}")
     made = Measurement(planned, (), covariance)
@@ -65,8 +67,8 @@ def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
                 "no theory says how wide it will be here: give --reach, the outer edge of the "
                 "bins in units of force",
             )
-        if made.plan.single_contact:
-            theory = [theory[made.plan.scene.contact[1]]]
+        if made.problem.contact is not None:
+            theory = [theory[made.problem.contact.j]]
         reach = float(REACH * max(theory))
     if not 0 < reach < 1e300:
         raise SceneError("--reach", None, "must be a positive number below 1e300")

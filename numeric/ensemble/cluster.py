@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import distributed as untyped
-from force_diffusion.numeric.ensemble.measure import Measurement
-from force_diffusion.numeric.ensemble.scene_key import program_version
-from force_diffusion.numeric.ensemble.sums import Sums, from_bytes
-from force_diffusion.numeric.ensemble.workers import WorkersError, solve_block
+
+from .measure import Measurement
+from .scene_key import program_version
+from .sums import Sums, from_bytes
+from .workers import WorkersError, solve_block
 
 distributed: Any = untyped  # it has no types
 # Seconds until a scheduler has to answer, and until a worker has to be there.

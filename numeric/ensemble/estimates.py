@@ -6,9 +6,11 @@ from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
-from force_diffusion.numeric.ensemble.measure import Measurement
-from force_diffusion.numeric.ensemble.sums import Sums
-from force_diffusion.numeric.lattice.layers import Array
+
+from ..arithmetic.systems import Array
+from ..statistics.confidence import half_width
+from .measure import Measurement
+from .sums import Sums
 
 
 @dataclass(frozen=True)
@@ -101,13 +103,17 @@ class Estimates:
             return [math.inf]
         return [float(pair[0] / pair[1]) for pair in self._std_error if pair is not None]
 
+    def half_width(self, confidence: float, look: int) -> float:
+        """Give the half-width of all σ_f together, relative: see ``statistics.confidence``."""
+        return half_width(self.relative_errors(), self.realisations, confidence, look)
+
     def covariance(self) -> Array:
         """Covariance over packings: of the groups' mean squares in a profile, else of changes.
 
         Shape (groups, groups); that of means over all N packings is this divided by N.
         """
         N, V = self.realisations, self.measurement.variables
-        squares = self.measurement.quantity == "profile"
+        squares = self.measurement.squares
         pairs, low = self.sums.pairs.integers()
         means, low_of_means = self.sums.means.integers()
         x = means[1 if squares else 0]

@@ -4,13 +4,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from force_diffusion.numeric.ensemble.asked import measurement
-from force_diffusion.numeric.ensemble.run import Executor, run
-from force_diffusion.numeric.ensemble.scene_key import ensemble_key
-from force_diffusion.numeric.ensemble.store import open_store
-from force_diffusion.numeric.ensemble.workers import InProcess, Pool
-from force_diffusion.numeric.lattice.layers import Array
-from force_diffusion.numeric.scene.sections import Scene, SceneError
+
+from ..arithmetic.systems import Array
+from ..scene.scene import Scene
+from ..scene.sections import SceneError
+from .asked import measurement
+from .run import Executor, run
+from .scene_key import ensemble_key
+from .store import open_store
+from .workers import InProcess, Pool
 
 
 @dataclass(frozen=True)

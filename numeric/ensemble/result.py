@@ -7,8 +7,8 @@ import math
 from fractions import Fraction
 from typing import Any
 
-from force_diffusion.numeric.ensemble.estimates import root
-from force_diffusion.numeric.ensemble.run import Result
+from .estimates import root
+from .run import Result
 
 
 def result_data(result: Result) -> dict[str, Any]:
@@ -33,7 +33,7 @@ def result_data(result: Result) -> dict[str, Any]:
     if m.edges:  # of all that was counted
         data["statistics"] = rows(result)[0]
     if m.covariance and estimates.realisations > 1:
-        of = "mean square change of a packing" if m.quantity == "profile" else "change"
+        of = "mean square change of a packing" if m.squares else "change"
         data["covariance"] = {
             "of": of,
             "labels": m.labels,

@@ -5,11 +5,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
-from force_diffusion.numeric.ensemble.estimates import Estimates
-from force_diffusion.numeric.ensemble.measure import Measurement
-from force_diffusion.numeric.ensemble.store import Block, Store, StoreError
-from force_diffusion.numeric.ensemble.sums import Sums, none
-from force_diffusion.numeric.statistics.confidence import Rule, half_width, looks
+from ..statistics.confidence import Rule, looks
+from .estimates import Estimates
+from .measure import Measurement
+from .store import Block, Store, StoreError
+from .sums import Sums, none
 
 # Beads of a block, about: a second of work, of which a kill loses no more.
 BLOCK = 1_000_000
@@ -110,8 +110,8 @@ class _Run:
         if self.rule is not None:
             if self.prefix.realisations not in self.looks:
                 look += 1  # the size itself is looked at last
-            reached = half_width(estimates, self.confidence, look) <= self.rule.relative
-        width = half_width(estimates, self.confidence, look if self.rule is not None else 0)
+            reached = estimates.half_width(self.confidence, look) <= self.rule.relative
+        width = estimates.half_width(self.confidence, look if self.rule is not None else 0)
         return Result(
             estimates, self.confidence, look if self.rule else 0, width, reached, self.solved
         )
@@ -122,7 +122,7 @@ class _Run:
 
     def _tasks(self) -> Iterator[tuple[int, int]]:
         """Give the ranges that are missing, in order; none lies across a cut."""
-        step = max(1, min(BLOCK // max(self.m.plan.region.beads, 1), 4096))
+        step = max(1, min(BLOCK // max(self.m.problem.region.beads, 1), 4096))
         known = [(block.first, block.stop) for block in self.blocks]
         at = 0
         while at < self.size:
@@ -165,7 +165,7 @@ class _Run:
             if cut in self.looks and self.rule is not None:
                 self.look += 1
                 estimates = Estimates(self.m, self.prefix)
-                self.width = half_width(estimates, self.confidence, self.look)
+                self.width = estimates.half_width(self.confidence, self.look)
                 if self.width <= self.rule.relative:
                     return True
         return True

@@ -7,8 +7,8 @@ from fractions import Fraction
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from force_diffusion.numeric.arithmetic.decimals import short
-from force_diffusion.numeric.ensemble.measure import Measurement
+from ..arithmetic.decimals import short
+from .measure import Measurement
 
 # Keys of a scene that say how much is asked, not what.
 _NOT_IN_IT = {"ask": {"realisations", "tolerance", "bins"}}
@@ -42,7 +42,7 @@ def ensemble_key(m: Measurement) -> dict[str, Any]:
 
 
 def _loads(m: Measurement) -> Any:
-    return m.plan.load.single.items()
+    return m.problem.load.single.items()
 
 
 def _plain(value: Any) -> Any:

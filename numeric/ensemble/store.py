@@ -14,10 +14,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
-from force_diffusion.numeric.ensemble.measure import Measurement
-from force_diffusion.numeric.ensemble.scene_key import differences
-from force_diffusion.numeric.ensemble.sums import Sums, from_bytes
+from ..arithmetic.errors import ForceDiffusionError
+from .measure import Measurement
+from .scene_key import differences
+from .sums import Sums, from_bytes
 
 APPLICATION, SCHEMA = 0x46444546, 1  # "FDEF"
 _MAGIC = b"SQLite format 3\x00"

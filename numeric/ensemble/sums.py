@@ -13,12 +13,11 @@ from functools import reduce
 from operator import add
 
 import numpy as np
-from force_diffusion.numeric.arithmetic.systems import FLOAT64
-from force_diffusion.numeric.ensemble.measure import Measurement
-from force_diffusion.numeric.lattice.layers import Array
-from force_diffusion.numeric.mechanics.engine import batches, solve
-from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.statistics.exact_sum import (
+
+from ..arithmetic.systems import FLOAT64, Array
+from ..mechanics.engine import packings as solved_packings
+from ..mechanics.work import Work
+from ..statistics.exact_sum import (
     ExactSum,
     digits,
     rows_and_squares,
@@ -26,6 +25,7 @@ from force_diffusion.numeric.statistics.exact_sum import (
     total_matrix,
     total_products,
 )
+from .measure import Measurement
 
 _COUNT = struct.Struct("<q")
 
@@ -112,16 +112,15 @@ def from_bytes(content: bytes, m: Measurement) -> Sums:
 def measured(m: Measurement, realisations: Sequence[int], work: Work | None = None) -> Sums:
     """Solve realisations and sum them up; what the sweeps raise is passed on."""
     work = Work() if work is None else work
-    plan = replace(m.plan, realisations=len(realisations))  # decides who sweeps, never the bits
+    problem = replace(m.problem, realisations=len(realisations))  # decides who sweeps, no bits
     over_contacts = [none(m)]
     packings = []
-    for chunk in batches(plan, realisations, FLOAT64):
-        with FLOAT64.active():
-            solved = solve(plan, chunk, FLOAT64, work)
-        with work.timed("statistics"):
-            summed, means = _over_contacts(m, *m.changes(solved, len(chunk)))
-            over_contacts.append(summed)
-            packings.append(means)
+    with FLOAT64.active():
+        for solved, chunk in solved_packings(problem, realisations, FLOAT64, work):
+            with work.timed("statistics"):
+                summed, means = _over_contacts(m, *m.changes(solved, len(chunk)))
+                over_contacts.append(summed)
+                packings.append(means)
     with work.timed("statistics"):
         return _over_packings(m, reduce(add, over_contacts), packings)
 
@@ -159,7 +158,7 @@ def _over_packings(m: Measurement, summed: Sums, packings: list[Array]) -> Sums:
     a, b = [(k, q[0]) for k, q in cut], [(k, q[1]) for k, q in cut]
     shape = (m.groups,)
     products = [total_products(x, y, shape) for x, y in ((a, a), (a, b), (b, b))]
-    chosen = b if m.quantity == "profile" else a
+    chosen = b if m.squares else a
     return replace(
         summed,
         means=total(cut, (2, m.groups)),

@@ -9,12 +9,12 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from multiprocessing import active_children, connection, get_context, parent_process
 
-from force_diffusion.numeric.arithmetic.errors import NOT_REACHED, ForceDiffusionError
-from force_diffusion.numeric.disorder.radii import RadiusError
-from force_diffusion.numeric.ensemble.measure import Measurement
-from force_diffusion.numeric.ensemble.sums import Sums, from_bytes, measured
-from force_diffusion.numeric.mechanics.forces import NotStandingError
-from force_diffusion.numeric.mechanics.packing import UnbuildableError
+from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
+from ..disorder.radii import RadiusError
+from ..mechanics.forces import NotStandingError
+from ..mechanics.packing import UnbuildableError
+from .measure import Measurement
+from .sums import Sums, from_bytes, measured
 
 # Pools in a row that may die without finishing anything.
 PATIENCE = 3

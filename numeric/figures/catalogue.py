@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from force_diffusion.numeric.figures import (
+from . import (
     chains,
     comparison,
     diffusion,
@@ -14,7 +14,7 @@ from force_diffusion.numeric.figures import (
     notation,
     response,
 )
-from force_diffusion.numeric.figures.packings import Notice, Row
+from .packings import Notice, Row
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -63,13 +63,13 @@ class _Figure(NamedTuple):
 
 
 def _draw_comparison(data: Any) -> "Figure":
-    from force_diffusion.numeric.figures import comparison_drawing
+    from . import comparison_drawing
 
     return comparison_drawing.draw(data)
 
 
 def _draw_response(data: Any) -> "Figure":
-    from force_diffusion.numeric.figures import response_drawing
+    from . import response_drawing
 
     return response_drawing.draw(data)
 
@@ -121,7 +121,7 @@ def make(name: str, options: Options, command: str) -> Made:
     ``name`` is a key of ``FIGURES``. Needs matplotlib, and "pf" SciPy (the extra ``plots``). Raises
     ``SceneError``, ``UnbuildableError`` and ``NotStandingError`` where heights can't be built.
     """
-    from force_diffusion.numeric.figures import style
+    from . import style
 
     file, title, data_of, draw = FIGURES[name]
     data = data_of(options)

@@ -9,7 +9,10 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from force_diffusion.numeric.figures.packings import (
+
+from ..mechanics.physicality import Physicality
+from ..theory.critical_height import critical_height
+from .packings import (
     Notice,
     Row,
     centres,
@@ -17,8 +20,6 @@ from force_diffusion.numeric.figures.packings import (
     planned,
     solved,
 )
-from force_diffusion.numeric.mechanics.physicality import Physicality
-from force_diffusion.numeric.run import critical_height
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -65,7 +66,7 @@ class Chains:
 def contacts(seed: int, notice: Notice) -> Chains:
     """Solve one packing."""
     notice("chains")
-    plan = planned('"contact_forces"', height=HEIGHT, width=WIDTH, seed=seed, std=STD)
+    plan = planned("contact_forces", height=HEIGHT, width=WIDTH, seed=seed, std=STD)
     answer = next(solved(plan, range(1)))[0]
     forces, packing = forces_of(answer), answer.packing
     assert packing is not None
@@ -76,17 +77,14 @@ def contacts(seed: int, notice: Notice) -> Chains:
     for j in range(1, HEIGHT + 1):
         upper, lower = centres(packing, j)[2:], centres(packing, j - 1)[2:]
         sites, below = packing.region.rows[j].sites(), packing.region.rows[j - 1].sites()
-        for branch, step, F, g in (
-            ("+", -1, forces.ordered_plus[j], forces.change_plus[j]),
-            ("-", +1, forces.ordered_minus[j], forces.change_minus[j]),
-        ):
+        for branch, F, g in forces.below(j):
             for q, i in enumerate(sites):
-                k = below.index((i + step) % (2 * WIDTH))
+                k = below.index((i - branch.side) % (2 * WIDTH))
                 x = float(lower[0][k])
                 x += period * round((float(upper[0][q]) - x) / period)
                 found.append(
                     {
-                        "i": (i + step) % (2 * WIDTH),
+                        "i": (i - branch.side) % (2 * WIDTH),
                         "j": j - 1,
                         "branch": branch,
                         "x_low": x,
@@ -101,8 +99,9 @@ def contacts(seed: int, notice: Notice) -> Chains:
 
 def draw(data: Chains) -> "Figure":
     """Draw contacts as lines, pressing ones dark, pulling ones vermillion; widths in proportion."""
-    from force_diffusion.numeric.figures import style
     from matplotlib.collections import LineCollection
+
+    from . import style
 
     figure = style.figure(style.PAGE, 2.75)
     axes = figure.subplots()

@@ -13,9 +13,20 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from force_diffusion.numeric import closed_forms
-from force_diffusion.numeric.figures.models.q_model import weight_variance
-from force_diffusion.numeric.figures.packings import (
+
+from .. import closed_forms
+from ..arithmetic.systems import Array
+from ..mechanics.problem import Problem
+from ..statistics.bands import (
+    Band,
+    Estimate,
+    averaged,
+    log_relative_std,
+    simultaneous,
+)
+from ..theory.critical_height import critical_height
+from .models.q_model import weight_variance
+from .packings import (
     PAPER_STD,
     PHI,
     Notice,
@@ -24,16 +35,6 @@ from force_diffusion.numeric.figures.packings import (
     forces_of,
     planned,
     solved,
-)
-from force_diffusion.numeric.lattice.layers import Array
-from force_diffusion.numeric.planning.planner import Plan
-from force_diffusion.numeric.run import critical_height
-from force_diffusion.numeric.statistics.bands import (
-    Band,
-    Estimate,
-    averaged,
-    log_relative_std,
-    simultaneous,
 )
 
 LEVEL = 0.99
@@ -198,10 +199,10 @@ def curves(M: int) -> tuple[Array, Array]:
     return np.sqrt(exact), np.sqrt(printed)
 
 
-def _ensemble(M: int, realisations: int, seed: int, geometry: str) -> Plan:
+def _ensemble(M: int, realisations: int, seed: int, geometry: str) -> Problem:
     """Plan packings of W = 2M: then no exact force sees an image."""
     return planned(
-        '"profile"', height=M, width=2 * M, seed=seed, geometry=geometry, realisations=realisations
+        "profile", height=M, width=2 * M, seed=seed, geometry=geometry, realisations=realisations
     )
 
 
@@ -216,9 +217,9 @@ def averages(
         forces = forces_of(answer)
         mean, square = np.empty((number, M)), np.empty((number, M))
         for j in range(M):
-            F = forces.ordered_plus[j + 1][0]
-            plus = batched(forces.change_plus[j + 1], number) / F
-            minus = batched(forces.change_minus[j + 1], number) / F
+            F = forces.ordered.plus[j + 1][0]
+            plus = batched(forces.change.plus[j + 1], number) / F
+            minus = batched(forces.change.minus[j + 1], number) / F
             mean[:, j] = (plus.mean(axis=1) + minus.mean(axis=1)) / 2
             square[:, j] = ((plus**2).mean(axis=1) + (minus**2).mean(axis=1)) / 2
         means.append(mean)

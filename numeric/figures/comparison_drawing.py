@@ -1,13 +1,14 @@
 """Figure 3 drawn: simulation, exact finite-M curves and the printed curve; below, their ratio."""
 
 import numpy as np
-from force_diffusion.numeric import closed_forms
-from force_diffusion.numeric.figures import style
-from force_diffusion.numeric.figures.comparison import NOTEWORTHY, Comparison, Height
-from force_diffusion.numeric.figures.models.q_model import weight_variance
-from force_diffusion.numeric.figures.packings import PAPER_STD, PHI
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+
+from .. import closed_forms
+from . import style
+from .comparison import NOTEWORTHY, Comparison, Height
+from .models.q_model import weight_variance
+from .packings import PAPER_STD, PHI
 
 
 def draw(data: Comparison) -> Figure:

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from force_diffusion.numeric.figures.comparison import curves
-from force_diffusion.numeric.figures.packings import N_X, PAPER_STD, Notice, Row
-from force_diffusion.numeric.lattice.layers import Array
+
+from ..arithmetic.systems import Array
+from .comparison import curves
+from .packings import N_X, PAPER_STD, Notice, Row
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -86,7 +87,7 @@ def widths(height: int, notice: Notice) -> Diffusion:
 
 def draw(data: Diffusion) -> "Figure":
     """Draw both distributions as clouds, as wide at each height as they are there."""
-    from force_diffusion.numeric.figures import style
+    from . import style
 
     figure = style.figure(style.COLUMN, 2.75)
     left, right = figure.subplots(1, 2, sharey=True)

@@ -12,8 +12,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from force_diffusion.numeric import closed_forms
-from force_diffusion.numeric.figures.packings import (
+
+from .. import closed_forms
+from ..arithmetic.systems import Array
+from .packings import (
     PAPER_STD,
     PHI,
     Notice,
@@ -23,7 +25,6 @@ from force_diffusion.numeric.figures.packings import (
     planned,
     solved,
 )
-from force_diffusion.numeric.lattice.layers import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -115,18 +116,23 @@ def _sample(case: tuple[str, int], realisations: range, seed: int, notice: Notic
     kind, M = case
     what = f"P(f), {kind} radii, M = {M}"
     plan = planned(
-        '"contact", at = [0, 0, "+"]', height=M, width=None, seed=seed, kind=kind,
+        "contact",
+        at=(0, 0, "+"),
+        height=M,
+        width=None,
+        seed=seed,
+        kind=kind,
         realisations=len(realisations),
-    )  # fmt: skip
+    )
     found = []
     for answer, number in solved(plan, realisations, notice, what):
         forces = forces_of(answer)
-        change = forces.change_plus[1].reshape(number, -1)[:, 0]
-        found.append(change / forces.ordered_plus[1][0])
+        change = forces.change.plus[1].reshape(number, -1)[:, 0]
+        found.append(change / forces.ordered.plus[1][0])
     std = np.sqrt(closed_forms.surface_variance(M, 0, float(PHI), PAPER_STD, 1.0))
     deviates = np.concatenate(found) / std
     notice(f"{what}: tests")
-    weights = forces_of(impulses(plan)).change_plus[1][:, 0]
+    weights = forces_of(impulses(plan)).change.plus[1][:, 0]
     share = float((weights**4).sum() / (weights**2).sum() ** 2)
     return Sample(kind, M, deviates, *tests(deviates, seed), KURTOSIS[kind] * share)
 
@@ -144,7 +150,7 @@ def tests(deviates: Array, seed: int) -> tuple[float, float]:
 
 def draw(data: Distribution) -> "Figure":
     """Draw histograms of two samples with the Gaussian of theory."""
-    from force_diffusion.numeric.figures import style
+    from . import style
 
     figure = style.figure(style.PAGE, 2.6)
     panels = figure.subplots(1, 2)

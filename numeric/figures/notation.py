@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from force_diffusion.numeric.figures.packings import (
+
+from .packings import (
     N_X,
     SPACING,
     Notice,
@@ -48,7 +49,7 @@ class Notation:
 def beads(seed: int, notice: Notice) -> Notation:
     """Solve a packing and cut the detail out of it."""
     notice("figure 1")
-    one = planned('"positions"', height=HEIGHT, width=WIDTH, seed=seed, std=STD)
+    one = planned("positions", height=HEIGHT, width=WIDTH, seed=seed, std=STD)
     packing = next(solved(one, range(1)))[0].packing
     assert packing is not None
     found = []
@@ -63,8 +64,9 @@ def beads(seed: int, notice: Notice) -> Notation:
 
 def draw(data: Notation) -> "Figure":
     """Draw ordered beads black, the disordered ones grey, and name what the text names."""
-    from force_diffusion.numeric.figures import style
     from matplotlib.patches import Circle
+
+    from . import style
 
     figure = style.figure(style.COLUMN, 1.85)
     axes = figure.subplots()
@@ -83,7 +85,7 @@ def draw(data: Notation) -> "Figure":
 
 
 def _names(axes: "Axes") -> None:
-    from force_diffusion.numeric.figures import style
+    from . import style
 
     nx = float(N_X)
     ny = np.sqrt(1 - nx**2)

@@ -6,15 +6,23 @@ from math import sqrt
 from typing import Any
 
 import numpy as np
-from force_diffusion.numeric.arithmetic.systems import FLOAT64
-from force_diffusion.numeric.lattice.layers import Array
-from force_diffusion.numeric.mechanics.engine import Solved, solve
-from force_diffusion.numeric.mechanics.first_order import displace
-from force_diffusion.numeric.mechanics.forces import Forces, sweep_down
-from force_diffusion.numeric.mechanics.packing import Packing
-from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.planning.planner import Plan, plan
-from force_diffusion.numeric.scene.sections import parse_scene
+
+from ..arithmetic.systems import FLOAT64, Array
+from ..mechanics.engine import packings
+from ..mechanics.first_order import displace
+from ..mechanics.forces import Forces, sweep_down
+from ..mechanics.packing import SolvedPacking
+from ..mechanics.problem import Problem, Solved
+from ..planning.planner import plan
+from ..scene.scene import Scene
+from ..scene.sections import (
+    Ask,
+    Disorder,
+    Effects,
+    Load,
+    Packing,
+    SurfaceLoad,
+)
 
 Notice = Callable[[str], None]
 """Told, now and then, what is being done."""
@@ -27,66 +35,45 @@ PAPER_STD = sqrt(1e-6 / 12)
 SPACING = Fraction(3)
 N_X = SPACING / 4
 PHI = 1 - 2 * N_X**2
-# Beads that are solved together: their arrays still fit into a cache.
-BATCH = 100_000
-
-_SCENE = """
-packing = {{height = {height}{width}, spacing = {spacing}}}
-disorder = {{kind = "{kind}", relative_std = {std!r}, seed = {seed}}}
-load = {{kind = {load}}}
-effects = {{geometry = "{geometry}"}}
-ask = {{quantity = {quantity}, realisations = {realisations}}}
-"""
 
 
 def planned(
-    quantity: str,
+    quantity: Any,
     *,
     height: int,
     width: int | None,
     seed: int,
     realisations: int = 1,
     std: float = PAPER_STD,
-    kind: str = "uniform",
-    load: str = '"surface"',
-    geometry: str = "exact",
-) -> Plan:
-    """Plan an ensemble. ``quantity`` and ``load`` are TOML and may carry further keys.
-
-    Raises ``SceneError`` where a number is out of range or the memory does not suffice.
-    """
-    return plan(
-        parse_scene(
-            _SCENE.format(
-                height=height,
-                width="" if width is None else f", width = {width}, allow_images = true",
-                spacing=int(SPACING),
-                kind=kind,
-                std=std,
-                seed=seed,
-                load=load,
-                geometry=geometry,
-                quantity=quantity,
-                realisations=realisations,
-            )
-        )
+    kind: Any = "uniform",
+    at: tuple[int, int, str] | None = None,
+    load: Load | None = None,
+    geometry: Any = "exact",
+) -> Problem:
+    """Plan an ensemble. Raises ``SceneError`` where a number is out of range or too large."""
+    narrow = width is not None
+    scene = Scene(
+        packing=Packing(height=height, width=width, spacing=SPACING, allow_images=narrow),
+        disorder=Disorder(kind=kind, relative_std=std, seed=seed),
+        load=SurfaceLoad() if load is None else load,
+        effects=Effects(geometry=geometry),
+        ask=Ask(quantity=quantity, at=at, realisations=realisations),
     )
+    return plan(scene).problem
 
 
 def solved(
-    ensemble: Plan, realisations: range, notice: Notice | None = None, what: str = ""
+    ensemble: Problem, realisations: range, notice: Notice | None = None, what: str = ""
 ) -> Iterator[tuple[Solved, int]]:
-    """Solve realisations in batches; give each batch with the number of its realisations.
+    """Solve realisations; give what was solved together with the number of its realisations.
 
     Arrays of a batch of one have no axis of realisations: ``batched`` adds it.
     """
-    size = max(1, BATCH // max(ensemble.region.beads, 1))
     with FLOAT64.active():
-        for at in range(0, len(realisations), size):
-            batch = realisations[at : at + size]
+        for answer, chunk in packings(ensemble, realisations, FLOAT64):
+            yield answer, len(chunk)
             if notice is not None:
-                notice(f"{what}: realisation {at} of {len(realisations)}")
-            yield solve(ensemble, batch, FLOAT64, Work()), len(batch)
+                notice(f"{what}: realisation {chunk[-1] - realisations[0]} of {len(realisations)}")
 
 
 def batched(values: Array, number: int) -> Array:
@@ -100,7 +87,7 @@ def forces_of(answer: Solved) -> Forces:
     return answer.forces
 
 
-def impulses(ensemble: Plan) -> Solved:
+def impulses(ensemble: Problem) -> Solved:
     """Solve to first order with δr = r on one bead at a time: the weights of δr/r in everything.
 
     The first axis of all arrays runs over the beads of the region, base first.
@@ -117,10 +104,10 @@ def impulses(ensemble: Plan) -> Solved:
     return Solved(FLOAT64, packing, forces, None)
 
 
-def centres(packing: Packing, j: int) -> tuple[Array, Array, Array, Array]:
+def centres(packing: SolvedPacking, j: int) -> tuple[Array, Array, Array, Array]:
     """Give x and y of the beads of a layer, ordered and displaced, in units of r."""
     nx, ny = float(N_X), sqrt(1 - float(N_X) ** 2)
     x = np.array(packing.region.rows[j].sites()) * (2 * nx)
     y = np.full(len(x), 2 * j * ny)
-    cp, cm = packing.c_plus[j], packing.c_minus[j]
+    cp, cm = packing.c.plus[j], packing.c.minus[j]
     return x, y, x + (cp - cm) / (2 * nx), y + (cp + cm) / (2 * ny)

@@ -13,9 +13,14 @@ from math import asin, sqrt
 from typing import Any
 
 import numpy as np
-from force_diffusion.numeric.closed_forms import bead_response, contact_response
-from force_diffusion.numeric.figures.models.double_y import Profile, profiles
-from force_diffusion.numeric.figures.packings import (
+
+from ..arithmetic.systems import Array
+from ..closed_forms import bead_response, contact_response
+from ..mechanics.problem import Solved
+from ..scene.sections import PointLoad
+from ..statistics.bands import Band, averaged, simultaneous
+from .models.double_y import Profile, profiles
+from .packings import (
     N_X,
     PHI,
     Notice,
@@ -24,9 +29,6 @@ from force_diffusion.numeric.figures.packings import (
     planned,
     solved,
 )
-from force_diffusion.numeric.lattice.layers import Array
-from force_diffusion.numeric.mechanics.engine import Solved
-from force_diffusion.numeric.statistics.bands import Band, averaged, simultaneous
 
 APEX = 24  # the loaded bead is (0, APEX)
 STD = 1e-4  # far below M*
@@ -144,9 +146,14 @@ def _on_cuts(layers: tuple[Array, ...]) -> Array:
 def respond(realisations: int, seed: int, notice: Notice, *, double_y: bool = False) -> Response:
     """Evaluate the closed forms, and simulate."""
     ensemble = planned(
-        '"response"', height=APEX, width=None, seed=seed, std=STD,
-        load=f'"point", at = [0, {APEX}]', realisations=realisations,
-    )  # fmt: skip
+        "response",
+        height=APEX,
+        width=None,
+        seed=seed,
+        std=STD,
+        load=PointLoad(at=(0, APEX)),
+        realisations=realisations,
+    )
     ordered = tuple(_ordered(j) for j in range(APEX))
     samples: list[tuple[Array, ...]] = []
     for answer, number in solved(ensemble, range(realisations), notice, "figure 4"):
@@ -190,8 +197,8 @@ def vertical(answer: Solved, number: int) -> tuple[Array, ...]:
     for j in range(1, len(forces.rows)):
         parts = []
         for F, g, dn in (
-            (forces.ordered_plus[j], forces.change_plus[j], packing.plus[j]),
-            (forces.ordered_minus[j], forces.change_minus[j], packing.minus[j]),
+            (forces.ordered.plus[j], forces.change.plus[j], packing.dn.plus[j]),
+            (forces.ordered.minus[j], forces.change.minus[j], packing.dn.minus[j]),
         ):
             change = g.reshape(number, -1)
             tilt = (dn[0] + dn[1]).reshape(number, -1)

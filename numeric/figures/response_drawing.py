@@ -1,16 +1,17 @@
 """Figure 4 drawn: maps of mean and fluctuation, cuts through the cone, the double Y."""
 
 import numpy as np
-from force_diffusion.numeric.figures import style
-from force_diffusion.numeric.figures.models.double_y import Profile
-from force_diffusion.numeric.figures.packings import N_X
-from force_diffusion.numeric.figures.response import CUTS, Response
-from force_diffusion.numeric.lattice.layers import Array
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
+
+from ..arithmetic.systems import Array
+from . import style
+from .models.double_y import Profile
+from .packings import N_X
+from .response import CUTS, Response
 
 
 def draw(data: Response) -> Figure:

@@ -11,9 +11,9 @@ from functools import cached_property
 from typing import Any, TypeVar, overload
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[Any]
+from ..arithmetic.systems import Array
+
 T = TypeVar("T")
 
 
@@ -122,7 +122,7 @@ def standing_on_base(rows: Sequence[Layer], width: int | None) -> Region:
     return Region(width, tuple(reversed(closed)))
 
 
-class Rows(Sequence[T]):
+class LazyRows(Sequence[T]):
     """What there is of each row, looked up when it is asked for: views take time to make."""
 
     def __init__(self, count: int, row: Callable[[int], T]) -> None:
@@ -146,7 +146,7 @@ class Rows(Sequence[T]):
         return self._row(self._all[which])
 
 
-class Stack(Rows[Array]):
+class Stack(LazyRows[Array]):
     """Rows of equal length in one ``block``, (…, rows, beads).
 
     >>> rows = Stack(np.arange(6).reshape(3, 2))

@@ -11,7 +11,7 @@ through δn of the contact itself, on two diagonals of the other orientation.
 
 from collections.abc import Iterable
 
-from force_diffusion.numeric.lattice.layers import Layer, Region, hull, row, supports
+from .layers import Layer, Region, hull, row, supports
 
 Site = tuple[int, int]
 Rows = tuple[Layer, ...]

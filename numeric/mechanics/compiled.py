@@ -19,13 +19,15 @@ from typing import Any, TypeVar, cast
 import llvmlite.binding
 import numba
 import numpy as np
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, NumberSystem
-from force_diffusion.numeric.lattice.layers import Array, Layer, Region, Rows, Stack
-from force_diffusion.numeric.mechanics import forces, packing
-from force_diffusion.numeric.mechanics.forces import Forces, Loads
-from force_diffusion.numeric.mechanics.packing import Packing
-from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.planning.budget import cores
+
+from ..arithmetic.machine import cores
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem
+from ..lattice.branch import PerBranch
+from ..lattice.layers import Layer, LazyRows, Region, Stack
+from . import forces, packing
+from .forces import Forces, Loads
+from .packing import SolvedPacking
+from .work import Work
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -285,7 +287,7 @@ def _sweep_down(
 
 
 @dataclass(frozen=True)
-class CompiledPacking(Packing):
+class CompiledPacking(SolvedPacking):
     """A packing that lies in ``block``, (batch, 6, …): c⁺, c⁻, the δn of plus, of minus."""
 
     block: Array
@@ -310,9 +312,9 @@ def _all(function: Callable[[int], bool], batch: int) -> bool:
         return all(pool.map(function, range(batch)))
 
 
-def _above_base(block: Array) -> Rows[Array]:
+def _above_base(block: Array) -> LazyRows[Array]:
     """Give the layers of a block, (…, layers, W), of which the lowest has nothing to say."""
-    return Rows(block.shape[-2], lambda j: block[..., j, :] if j else np.empty(0))
+    return LazyRows(block.shape[-2], lambda j: block[..., j, :] if j else np.empty(0))
 
 
 @lru_cache(maxsize=1)
@@ -328,7 +330,7 @@ def deposit(
     rho: Sequence[Array],
     system: NumberSystem,
     work: Work | None = None,
-) -> Packing:
+) -> SolvedPacking:
     """Do what ``packing.deposit`` does, and to the bit; compiled for whole packings in float64."""
     shape = rho[0].shape
     if system is not FLOAT64 or len(shape) > 2 or not region.is_whole:
@@ -358,25 +360,23 @@ def deposit(
         system,
         region,
         rho,
-        Stack(found[0]),
-        Stack(found[1]),
-        _pairs(found[2], found[3]),
-        _pairs(found[4], found[5]),
+        PerBranch(Stack(found[0]), Stack(found[1])),
+        PerBranch(_pairs(found[2], found[3]), _pairs(found[4], found[5])),
         block,
     )
 
 
-def _pairs(a: Array, b: Array) -> Rows[tuple[Array, Array]]:
+def _pairs(a: Array, b: Array) -> LazyRows[tuple[Array, Array]]:
     """Give the layers of δn, whose components lie in two blocks, (…, layers, W)."""
     nothing = np.empty(0)
-    return Rows(
+    return LazyRows(
         a.shape[-2],
         lambda j: (a[..., j, :], b[..., j, :]) if j else (nothing, nothing),
     )
 
 
 def sweep_down(
-    solved: Packing,
+    solved: SolvedPacking,
     rows: tuple[Layer, ...],
     loads: Loads,
     *,
@@ -416,16 +416,16 @@ def sweep_down(
     return Forces(
         solved.system,
         rows,
-        _windows(F_plus, start_plus, width),
-        _windows(F_minus, start_minus, width),
-        _above_base(found[0]),
-        _above_base(found[1]),
+        PerBranch(_windows(F_plus, start_plus, width), _windows(F_minus, start_minus, width)),
+        PerBranch(_above_base(found[0]), _above_base(found[1])),
     )
 
 
-def _windows(values: Array, start: Array, width: int) -> Rows[Array]:
+def _windows(values: Array, start: Array, width: int) -> LazyRows[Array]:
     """Give the layers of what ``_order`` made."""
-    return Rows(len(start) - 1, lambda j: values[start[j] : start[j] + width] if j else np.empty(0))
+    return LazyRows(
+        len(start) - 1, lambda j: values[start[j] : start[j] + width] if j else np.empty(0)
+    )
 
 
 def _stacked(loads: Sequence[Array | None]) -> tuple[Array, Array]:

@@ -1,88 +1,102 @@
-"""The engine: solves a plan for some realisations in one number system, counting its work."""
+"""The engine: the one way in which packings are solved, whatever is asked and of how many."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, NumberSystem
-from force_diffusion.numeric.disorder.radii import rows_of
-from force_diffusion.numeric.lattice.layers import Layer
-from force_diffusion.numeric.mechanics import first_order, packing
-from force_diffusion.numeric.mechanics.forces import Forces, sweep_down
-from force_diffusion.numeric.mechanics.packing import Packing
-from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.planning.budget import chunk_size
-from force_diffusion.numeric.planning.plan import Plan
+from ..arithmetic.systems import FLOAT64, NumberSystem
+from ..disorder.radii import rows_of
+from ..lattice.branch import Branch
+from ..lattice.layers import Layer, Region
+from . import first_order, packing
+from .forces import Forces, sweep_down
+from .packing import SolvedPacking
+from .plain_form import solve_plainly
+from .problem import Problem, Route, Solved
+from .work import Work
 
 # Beads from which on the compiled sweeps repay loading the compiler (half a second).
 COMPILED_FROM = 2_000_000
 # Beads of diagonals that are drawn together.
 BLOCK = 10_000
+# Beads that are swept together: their arrays still fit into a cache.
+TOGETHER = 200_000
 
 
-@dataclass(frozen=True)
-class Solved:
-    """Some realisations, solved; what the question does not need is None.
+def chunk_size(region: Region, system: NumberSystem, *, stop_at_tension: bool = False) -> int:
+    """Say how many realisations are swept together: as many as keep the arrays small."""
+    if system.dtype is object or stop_at_tension:
+        return 1
+    return max(1, TOGETHER // max(region.beads, 1))
 
-    ``single`` is the (force, change) of the one contact, or the (c⁺, c⁻) of the one bead, that
-    line sums give alone.
+
+def packings(
+    problem: Problem,
+    realisations: Sequence[int],
+    system: NumberSystem,
+    work: Work | None = None,
+    *,
+    plainly: bool = False,
+) -> Iterator[tuple[Solved, Sequence[int]]]:
+    """Solve realisations in their order, as many at a time as is good for the arrays.
+
+    Gives what was solved together and its realisations: the first axis of arrays, which a single
+    one lacks. The caller activates ``system``. ``plainly`` takes the plain form. Raises what the
+    sweeps raise for a packing that can't be built, or not be decided.
     """
-
-    system: NumberSystem
-    packing: Packing | None
-    forces: Forces | None
-    single: tuple[Any, Any] | None
-
-
-def batches(
-    plan: Plan, realisations: Sequence[int], system: NumberSystem
-) -> Iterator[Sequence[int]]:
-    """Give the realisations that ``solve`` takes together, in their order."""
-    size = 1 if plan.route == "line sums" else chunk_size(plan.region, system, plan.scene)
+    work = Work() if work is None else work
+    size = 1
+    if problem.route != Route.LINE_SUMS:
+        size = chunk_size(problem.region, system, stop_at_tension=problem.stop_at_tension)
     for at in range(0, len(realisations), size):
-        yield realisations[at : at + size]
+        chunk = realisations[at : at + size]
+        solver = solve_plainly if plainly else solve
+        yield solver(problem, chunk, system, work), chunk
 
 
-def solve(plan: Plan, realisations: Sequence[int], system: NumberSystem, work: Work) -> Solved:
-    """Solve what the plan asks; the caller activates ``system``."""
-    if plan.route == "ordered":
+def solve(
+    problem: Problem, realisations: Sequence[int], system: NumberSystem, work: Work
+) -> Solved:
+    """Solve some realisations together; the caller activates ``system``."""
+    if problem.route == Route.ORDERED:
         with work.timed("closed form"):
-            return _ordered(plan, system)
-    if plan.route == "line sums":
-        return _line_sums(plan, realisations[0], system, work)
-    n_x = plan.scene.n_x
+            return _ordered(problem, system)
+    if problem.route == Route.LINE_SUMS:
+        return _line_sums(problem, realisations[0], system, work)
+    n_x = problem.n_x
     with work.timed("radii"):
-        rho = rows_of(plan.radii, plan.region.rows, realisations, system, work)
-    deposit, sweep = _sweeps(plan, system)
-    if plan.route == "exact":
+        rho = rows_of(problem.radii, problem.region.rows, realisations, system)
+    for layer in problem.region.rows:
+        work.did("radii", layer, len(realisations))
+    deposit, sweep = _sweeps(problem, system)
+    if problem.route == Route.EXACT:
         with work.timed("deposit"):
-            solved = deposit(n_x, plan.region, rho, system, work)
+            solved = deposit(n_x, problem.region, rho, system, work)
     else:
         with work.timed("line sums"):
-            solved = first_order.displace(n_x, plan.region, rho, system, work)
-    if not plan.needs_forces:
+            solved = first_order.displace(n_x, problem.region, rho, system, work)
+    if not problem.needs_forces:
         return Solved(system, solved, None, None)
     with work.timed("balance forces"):
-        strength = plan.load.strength(n_x, system)
+        strength = problem.load.strength(n_x, system)
         forces = sweep(
             solved,
-            plan.force_rows,
-            plan.load.on(plan.force_rows, strength, system),
-            linear=plan.route == "first-order",
-            stop_at_tension=plan.scene.effects.stop_at_tension,
+            problem.force_rows,
+            problem.load.on(problem.force_rows, strength, system),
+            linear=problem.route == Route.FIRST_ORDER,
+            stop_at_tension=problem.stop_at_tension,
             work=work,
         )
     return Solved(system, solved, forces, None)
 
 
 def _sweeps(
-    plan: Plan, system: NumberSystem
-) -> tuple[Callable[..., Packing], Callable[..., Forces]]:
+    problem: Problem, system: NumberSystem
+) -> tuple[Callable[..., SolvedPacking], Callable[..., Forces]]:
     """Give the sweeps: for much exact work the compiled ones, same numbers, where numba is."""
-    much = plan.region.beads * plan.realisations >= COMPILED_FROM
-    if much and system is FLOAT64 and plan.route == "exact":
+    much = problem.region.beads * problem.realisations >= COMPILED_FROM
+    if much and system is FLOAT64 and problem.route == Route.EXACT:
         try:
-            from force_diffusion.numeric.mechanics import compiled as fast
+            from . import compiled as fast
         except ImportError:
             pass
         else:
@@ -90,47 +104,48 @@ def _sweeps(
     return packing.deposit, sweep_down
 
 
-def _ordered(plan: Plan, system: NumberSystem) -> Solved:
+def _ordered(problem: Problem, system: NumberSystem) -> Solved:
     forces, single = None, None
-    n_x = plan.scene.n_x
-    if plan.needs_forces:
-        strength = plan.load.strength(n_x, system)
-        if plan.single_contact:
-            zero = system.number(plan.scene.n_x * 0)
-            single = (plan.load.ordered_force(plan.scene.contact, strength, system), zero)
+    n_x = problem.n_x
+    if problem.needs_forces:
+        strength = problem.load.strength(n_x, system)
+        if problem.contact is not None:
+            zero = system.number(problem.n_x * 0)
+            single = (problem.load.ordered_force(problem.contact, strength, system), zero)
         else:
-            forces = plan.load.ordered_forces(plan.force_rows, strength, system)
+            forces = problem.load.ordered_forces(problem.force_rows, strength, system)
     return Solved(system, None, forces, single)
 
 
-def _line_sums(plan: Plan, realisation: int, system: NumberSystem, work: Work) -> Solved:
+def _line_sums(problem: Problem, realisation: int, system: NumberSystem, work: Work) -> Solved:
     with work.timed("radii"):
-        known = _along(plan, realisation, system, work)
+        known = _along(problem, realisation, system, work)
     with work.timed("line sums"):
-        return Solved(system, None, None, _summed(plan, known, system, work))
+        return Solved(system, None, None, _summed(problem, known, system, work))
 
 
 def _along(
-    plan: Plan, realisation: int, system: NumberSystem, work: Work
+    problem: Problem, realisation: int, system: NumberSystem, work: Work
 ) -> dict[tuple[int, int], Any]:
     """Read the radii of the diagonals that the answer depends on, each bead once."""
-    if plan.needs_forces:
-        lines = first_order.lines_read(plan.scene.contact, plan.load)
+    if problem.contact is not None:
+        lines = first_order.lines_read(problem.contact, problem.load)
     else:
-        i, j = plan.scene.site
+        assert problem.site is not None
+        i, j = problem.site
         lines = [first_order.Line(i - j, 1, j), first_order.Line(i + j, -1, j)]
     sites = list(dict.fromkeys((line.at(m), m) for line in lines for m in range(line.top + 1)))
     known: dict[tuple[int, int], Any] = {}
     for at in range(0, len(sites), BLOCK):
         block = sites[at : at + BLOCK]
-        known.update(zip(block, plan.radii.at(block, realisation, system), strict=True))
+        known.update(zip(block, problem.radii.at(block, realisation, system), strict=True))
         for i, m in block:
             work.did("radii", Layer(m, i, 1))
     return known
 
 
 def _summed(
-    plan: Plan, known: dict[tuple[int, int], Any], system: NumberSystem, work: Work
+    problem: Problem, known: dict[tuple[int, int], Any], system: NumberSystem, work: Work
 ) -> tuple[Any, Any]:
     """Give (c⁺, c⁻) of the one bead, or (force, change) of the one contact."""
 
@@ -138,27 +153,28 @@ def _summed(
         work.did("summed", Layer(j, i, 1))
         return known[i, j]
 
-    n_x = plan.scene.n_x
-    if not plan.needs_forces:
-        i, j = plan.scene.site
+    n_x = problem.n_x
+    if problem.contact is None:
+        assert problem.site is not None
+        i, j = problem.site
         lines = first_order.Diagonals(i, j, 1, radius_at, {})
         return (
             first_order.line_sum(lines.along(0, j))[-1],
             first_order.line_sum(lines.across(i, j))[-1],
         )
-    contact = plan.scene.contact
+    contact = problem.contact
     i, j, branch = contact
-    side, other = (1, "-") if branch == "+" else (-1, "+")
-    strength = plan.load.strength(n_x, system)
+    side, other = branch.side, branch.other
+    strength = problem.load.strength(n_x, system)
 
-    def ordered(a: int, b: int, orientation: str) -> Any:
-        return plan.load.ordered_force((a, b, orientation), strength, system)
+    def ordered(a: int, b: int, orientation: Branch) -> Any:
+        return problem.load.ordered_force((a, b, orientation), strength, system)
 
-    above, below = first_order.crossing_layers(contact, plan.load)
+    above, below = first_order.crossing_layers(contact, problem.load)
     own = ordered(*contact)
     change, _ = first_order.contact_change(
         contact,
-        own=own if plan.load.carries(*contact) else None,
+        own=own if problem.load.carries(*contact) else None,
         above={m: ordered(i + side * (m - j), m, other) for m in above},
         below={m: ordered(i + side * (m - j + 1), m - 1, other) for m in below},
         radius_at=radius_at,

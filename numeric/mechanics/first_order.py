@@ -16,11 +16,12 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from force_diffusion.numeric.arithmetic.systems import NumberSystem, zeros
-from force_diffusion.numeric.lattice.layers import Array, Layer, Region, pick, shifted
-from force_diffusion.numeric.mechanics.load_spec import LoadSpec
-from force_diffusion.numeric.mechanics.packing import Packing, metric, raised
-from force_diffusion.numeric.mechanics.work import Work
+from ..arithmetic.systems import Array, NumberSystem, zeros
+from ..lattice.branch import PerBranch
+from ..lattice.layers import Layer, Region, pick, shifted
+from .loads import LoadSpec
+from .packing import SolvedPacking, metric, raised
+from .work import Work
 
 RadiusAt = Callable[[int, int], Any]
 """δr/r of a site, already in the number system."""
@@ -198,7 +199,7 @@ def displace(
     rho: Sequence[Array],
     system: NumberSystem,
     work: Work | None = None,
-) -> Packing:
+) -> SolvedPacking:
     """Solve Eqs. 2–5 to first order over a region; arrays as in ``packing.deposit``."""
     m = metric(n_x, system)
     if work is not None:
@@ -225,6 +226,11 @@ def displace(
         c_minus.append(cm)
         plus.append(raised(0, beta_plus, m))
         minus.append(raised(beta_minus, 0, m))
-    return Packing(
-        n_x, system, region, rho, tuple(c_plus), tuple(c_minus), tuple(plus), tuple(minus)
+    return SolvedPacking(
+        n_x,
+        system,
+        region,
+        rho,
+        PerBranch(tuple(c_plus), tuple(c_minus)),
+        PerBranch(tuple(plus), tuple(minus)),
     )

@@ -11,16 +11,18 @@ where the load and all that is ordered have dropped out by themselves. Component
 n⁺ and n⁻, so that the linear part of a layer is a shift and an addition.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
-from force_diffusion.numeric.arithmetic.systems import NumberSystem, zeros
-from force_diffusion.numeric.lattice.layers import Array, Layer, pick
-from force_diffusion.numeric.mechanics.packing import Packing, UndecidedError
-from force_diffusion.numeric.mechanics.work import Work
+
+from ..arithmetic.errors import ForceDiffusionError, UndecidedError
+from ..arithmetic.systems import Array, NumberSystem, zeros
+from ..lattice.branch import Branch, Contact, PerBranch
+from ..lattice.layers import Layer, pick
+from .packing import SolvedPacking
+from .work import Work
 
 
 class NotStandingError(ForceDiffusionError, ValueError):
@@ -32,37 +34,36 @@ class NotStandingError(ForceDiffusionError, ValueError):
         self.site = site
 
 
-@dataclass(frozen=True)
-class Loads:
-    """Loads on the beads of rows[j] (j = 0 … top): components L^± (units of the magnitude).
+Loads = PerBranch[tuple[Array | None, ...]]
+"""Loads on the beads of rows[j] (j = 0 … top): components L^± (units of the magnitude).
 
-    Rows that carry no load may be None; shape of the others: (rows[j].count,).
-    """
-
-    plus: tuple[Array | None, ...]
-    minus: tuple[Array | None, ...]
+Rows that carry no load may be None; shape of the others: (rows[j].count,).
+"""
 
 
 @dataclass(frozen=True)
 class Forces:
     """Contact forces below the beads of ``rows[j]`` (empty at j = 0), indexed by the upper bead.
 
-    ``ordered_*``: F^±, ``change_*``: g^± = f^± − F^±; per layer arrays of shape (count,).
-    ``stopped`` names the first tensile contact (i, j, branch) where a sweep was asked to stop
-    at one: the layers below it are then empty.
+    ``ordered``: F^±, ``change``: g^± = f^± − F^±; per layer arrays of shape (count,), changes of a
+    batch of packings (…, count). ``stopped`` names the first tensile contact where a sweep was
+    asked to stop at one: the layers below it are then empty.
     """
 
     system: NumberSystem
     rows: tuple[Layer, ...]
-    ordered_plus: Sequence[Array]
-    ordered_minus: Sequence[Array]
-    change_plus: Sequence[Array]
-    change_minus: Sequence[Array]
-    stopped: tuple[int, int, str] | None = None
+    ordered: PerBranch[Sequence[Array]]
+    change: PerBranch[Sequence[Array]]
+    stopped: Contact | None = None
+
+    def below(self, j: int) -> Iterator[tuple[Branch, Array, Array]]:
+        """Give (branch, F, g) of the contacts below row j."""
+        for branch, F in self.ordered:
+            yield branch, F[j], self.change[branch][j]
 
 
 def sweep_down(
-    packing: Packing,
+    packing: SolvedPacking,
     rows: tuple[Layer, ...],
     loads: Loads,
     *,
@@ -95,8 +96,8 @@ def sweep_down(
         def here(values: Array, of: Layer, layer: Layer = layer) -> Array:
             return pick(values, of, layer, width)
 
-        plus = tuple(here(v, packing.region.rows[j]) for v in packing.plus[j])
-        minus = tuple(here(v, packing.region.rows[j]) for v in packing.minus[j])
+        plus = tuple(here(v, packing.region.rows[j]) for v in packing.dn.plus[j])
+        minus = tuple(here(v, packing.region.rows[j]) for v in packing.dn.minus[j])
         Fp, Fm, gp, gm, turn_plus, turn_minus = _from_above(
             packing, rows, j, ordered=ordered, change=change, lost=lost, linear=linear
         )
@@ -127,27 +128,25 @@ def sweep_down(
     return Forces(
         system,
         rows,
-        tuple(f[0] for f in ordered),
-        tuple(f[1] for f in ordered),
-        tuple(g[0] for g in change),
-        tuple(g[1] for g in change),
+        PerBranch(tuple(f[0] for f in ordered), tuple(f[1] for f in ordered)),
+        PerBranch(tuple(g[0] for g in change), tuple(g[1] for g in change)),
         stopped,
     )
 
 
 def first_tension(
     layer: Layer, plus: tuple[Array, Array], minus: tuple[Array, Array], system: NumberSystem
-) -> tuple[int, int, str] | None:
+) -> Contact | None:
     """Name the leftmost contact (i, j, branch) below ``layer`` that surely pulls, or None.
 
     ``plus`` and ``minus`` are pairs (force, change). Raises ``UndecidedError`` where balls leave a
     sign open; what floats leave open counts as holding.
     """
-    for (force, change), branch, step in ((plus, "+", -1), (minus, "-", 1)):
+    for (force, change), branch in ((plus, Branch.PLUS), (minus, Branch.MINUS)):
         pulls, undecided = pulling(force, change, system)
         if pulls.any():
             q = int(np.argwhere(pulls)[0][-1])
-            return layer.first + 2 * q + step, layer.j - 1, branch
+            return Contact(layer.first + 2 * q - branch.side, layer.j - 1, branch)
         if undecided.any() and system.dtype is object:
             raise UndecidedError(f"layer {layer.j}: balls are too wide for the sign of a force")
     return None
@@ -167,7 +166,7 @@ def pulling(force: Array, change: Array, system: NumberSystem) -> tuple[Array, A
 
 
 def _from_above(
-    packing: Packing,
+    packing: SolvedPacking,
     rows: tuple[Layer, ...],
     j: int,
     *,
@@ -196,8 +195,8 @@ def _from_above(
 
     Fp, gp = get(ordered[j + 1][0], above, right), get(change[j + 1][0], above, right)
     Fm, gm = get(ordered[j + 1][1], above, left), get(change[j + 1][1], above, left)
-    ap, bp = (get(v, packed, right) for v in packing.plus[j + 1])
-    am, bm = (get(v, packed, left) for v in packing.minus[j + 1])
+    ap, bp = (get(v, packed, right) for v in packing.dn.plus[j + 1])
+    am, bm = (get(v, packed, left) for v in packing.dn.minus[j + 1])
     fp, fm = (Fp, Fm) if linear else (Fp + gp, Fm + gm)
     turn_plus, turn_minus = fp * ap + fm * am, fp * bp + fm * bm
     if system.dtype is not object:

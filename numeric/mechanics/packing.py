@@ -17,10 +17,12 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
-from force_diffusion.numeric.arithmetic.errors import NOT_REACHED, ForceDiffusionError
-from force_diffusion.numeric.arithmetic.systems import NumberSystem, zeros
-from force_diffusion.numeric.lattice.layers import Array, Layer, Region, pick, shifted
-from force_diffusion.numeric.mechanics.work import Work
+
+from ..arithmetic.errors import ForceDiffusionError, UndecidedError
+from ..arithmetic.systems import Array, NumberSystem, zeros
+from ..lattice.branch import PerBranch
+from ..lattice.layers import Layer, Region, pick, shifted
+from .work import Work
 
 
 class Metric(NamedTuple):
@@ -106,22 +108,20 @@ def _direction(across: Array, rho: Array, square: Array, m: Metric) -> tuple[Arr
 
 
 @dataclass(frozen=True)
-class Packing:
+class SolvedPacking:
     """A solved packing: per layer j, arrays over the beads of ``region.rows[j]``, units of r.
 
-    ``rho``: δr/r. ``c_plus``, ``c_minus``: n^±·δx/r. ``plus[j]``, ``minus[j]`` (empty at j = 0):
-    δn of the contacts below, as components (a, b) of δn = a n⁺ + b n⁻; ``plus`` belongs to the
-    contact whose lower bead is (i − 1, j − 1), ``minus`` to that with (i + 1, j − 1).
+    ``rho``: δr/r. ``c``: n^±·δx/r. ``dn.plus[j]``, ``dn.minus[j]`` (empty at j = 0): δn of the
+    contacts below, as components (a, b) of δn = a n⁺ + b n⁻; ``plus`` belongs to the contact whose
+    lower bead is (i − 1, j − 1), ``minus`` to that with (i + 1, j − 1).
     """
 
     n_x: Fraction
     system: NumberSystem
     region: Region
     rho: Sequence[Array]
-    c_plus: Sequence[Array]
-    c_minus: Sequence[Array]
-    plus: Sequence[tuple[Array, Array]]
-    minus: Sequence[tuple[Array, Array]]
+    c: PerBranch[Sequence[Array]]
+    dn: PerBranch[Sequence[tuple[Array, Array]]]
 
 
 class UnbuildableError(ForceDiffusionError, ValueError):
@@ -133,19 +133,13 @@ class UnbuildableError(ForceDiffusionError, ValueError):
         self.site = site
 
 
-class UndecidedError(ForceDiffusionError, ArithmeticError):
-    """Balls have grown so wide that it is open whether a bead can rest: more bits are needed."""
-
-    exit_status = NOT_REACHED
-
-
 def deposit(
     n_x: Fraction,
     region: Region,
     rho: Sequence[Array],
     system: NumberSystem,
     work: Work | None = None,
-) -> Packing:
+) -> SolvedPacking:
     """Deposit beads layer by layer on the ordered base, exactly (no linearisation).
 
     ``rho[j]`` holds δr/r of the beads of ``region.rows[j]`` (shape (count,), or (…, count) for a
@@ -186,8 +180,13 @@ def deposit(
         c_minus.append(placed.c_minus)
         plus.append(placed.plus)
         minus.append(placed.minus)
-    return Packing(
-        n_x, system, region, rho, tuple(c_plus), tuple(c_minus), tuple(plus), tuple(minus)
+    return SolvedPacking(
+        n_x,
+        system,
+        region,
+        rho,
+        PerBranch(tuple(c_plus), tuple(c_minus)),
+        PerBranch(tuple(plus), tuple(minus)),
     )
 
 

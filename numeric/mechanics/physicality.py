@@ -6,13 +6,15 @@ touching are told apart. Signs of forces are those of the arithmetic that solved
 they are certified.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-from force_diffusion.numeric.lattice.layers import Array
-from force_diffusion.numeric.mechanics.forces import Forces, pulling
-from force_diffusion.numeric.mechanics.packing import Packing
+
+from ..arithmetic.systems import Array
+from ..lattice.branch import Contact
+from .forces import Forces, pulling
+from .packing import SolvedPacking
 
 # Neighbours that don't touch in the ordered packing, to the right or above, nearest first.
 NEIGHBOURS = ((2, 0), (0, 2), (3, 1), (-3, 1), (1, 3), (-1, 3))
@@ -32,12 +34,18 @@ class Physicality:
     undecided_signs: int = 0
     contacts: int = 0
     forces_known: bool = False
-    first_tensile: tuple[int, int, str] | None = field(default=None)
+    first_tensile: Contact | None = None
 
-    def look_at_gaps(self, packing: Packing) -> None:
+    @property
+    def sound(self) -> bool:
+        """Whether no two beads overlap and no contact pulls, as far as was looked, and surely."""
+        pulls = self.tensile or self.undecided_signs
+        return not (self.overlaps or self.undecided_gaps or pulls)
+
+    def look_at_gaps(self, packing: SolvedPacking) -> None:
         """Measure the gaps of every pair of near neighbours within the region."""
-        c_plus = [_floats(c) for c in packing.c_plus]
-        c_minus = [_floats(c) for c in packing.c_minus]
+        c_plus = [_floats(c) for c in packing.c.plus]
+        c_minus = [_floats(c) for c in packing.c.minus]
         rho = [_floats(r) for r in packing.rho]
         for dj in (0, 1, 2, 3):
             for j in range(packing.region.top + 1 - dj):
@@ -47,7 +55,7 @@ class Physicality:
 
     def _pairs(
         self,
-        packing: Packing,
+        packing: SolvedPacking,
         values: tuple[list[Array], list[Array], list[Array]],
         j: int,
         offset: tuple[int, int],
@@ -85,17 +93,10 @@ class Physicality:
     def look_at_forces(self, forces: Forces) -> None:
         """Count the contacts that surely pull and those whose sign stays open."""
         self.forces_known = True
-        for layer, Fp, Fm, gp, gm in zip(
-            forces.rows,
-            forces.ordered_plus,
-            forces.ordered_minus,
-            forces.change_plus,
-            forces.change_minus,
-            strict=True,
-        ):
-            if not len(Fp):
-                continue
-            for F, g, branch, step in ((Fp, gp, "+", -1), (Fm, gm, "-", 1)):
+        for j, layer in enumerate(forces.rows):
+            for branch, F, g in forces.below(j):
+                if not len(F):
+                    continue
                 f = F + g
                 pulls, undecided = pulling(f, g, forces.system)
                 self.contacts += f.size
@@ -103,7 +104,9 @@ class Physicality:
                 self.undecided_signs += int(np.count_nonzero(undecided))
                 if pulls.any() and self.first_tensile is None:
                     q = int(np.argwhere(pulls)[0][-1])
-                    self.first_tensile = (layer.first + 2 * q + step, layer.j - 1, branch)
+                    self.first_tensile = Contact(
+                        layer.first + 2 * q - branch.side, layer.j - 1, branch
+                    )
 
 
 def _home(i: int, period: int | None) -> int:

@@ -12,9 +12,11 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
-from force_diffusion.numeric.arithmetic.systems import NumberSystem, array, zeros
-from force_diffusion.numeric.lattice.layers import Array, Layer, Region, full_layer, pick, whole
-from force_diffusion.numeric.mechanics.packing import UnbuildableError, UndecidedError
+
+from ..arithmetic.errors import UndecidedError
+from ..arithmetic.systems import Array, NumberSystem, array, zeros
+from ..lattice.layers import Layer, Region, full_layer, pick, whole
+from .packing import UnbuildableError
 
 
 class Vector(NamedTuple):

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from force_diffusion.numeric.arithmetic.systems import NumberSystem, array, zeros
-from force_diffusion.numeric.lattice.layers import Array, column, whole
-from force_diffusion.numeric.mechanics import forces, packing, plain
-from force_diffusion.numeric.mechanics.loads import components, on_rows
+from ..arithmetic.systems import Array, NumberSystem, array, zeros
+from ..lattice.layers import column, whole
+from . import forces, packing, plain
+from .loads import components, on_rows
 
 Site = tuple[int, int]
 Rational = Fraction | int | str
@@ -97,17 +97,17 @@ def deviation_form(
         f = forces.sweep_down(solved, region.rows, on_rows(supported, region.rows, width, system))
         return Solution(
             width,
-            tuple((p - m) / (2 * nx) for p, m in zip(solved.c_plus, solved.c_minus, strict=True)),
-            tuple((p + m) / (2 * ny) for p, m in zip(solved.c_plus, solved.c_minus, strict=True)),
+            tuple((p - m) / (2 * nx) for p, m in zip(solved.c.plus, solved.c.minus, strict=True)),
+            tuple((p + m) / (2 * ny) for p, m in zip(solved.c.plus, solved.c.minus, strict=True)),
             {
-                "+": tuple(((a - b) * nx, (a + b) * ny) for a, b in solved.plus),
-                "-": tuple(((a - b) * nx, (a + b) * ny) for a, b in solved.minus),
+                "+": tuple(((a - b) * nx, (a + b) * ny) for a, b in solved.dn.plus),
+                "-": tuple(((a - b) * nx, (a + b) * ny) for a, b in solved.dn.minus),
             },
             {
-                "+": tuple(F + g for F, g in zip(f.ordered_plus, f.change_plus, strict=True)),
-                "-": tuple(F + g for F, g in zip(f.ordered_minus, f.change_minus, strict=True)),
+                "+": tuple(F + g for F, g in zip(f.ordered.plus, f.change.plus, strict=True)),
+                "-": tuple(F + g for F, g in zip(f.ordered.minus, f.change.minus, strict=True)),
             },
-            {"+": f.change_plus, "-": f.change_minus},
+            {"+": f.change.plus, "-": f.change.minus},
         )
 
 

@@ -13,11 +13,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from force_diffusion.numeric.arithmetic.systems import Series, zeros
-from force_diffusion.numeric.lattice.layers import column, whole
-from force_diffusion.numeric.mechanics.forces import Forces, sweep_down
-from force_diffusion.numeric.mechanics.loads import components, on_rows
-from force_diffusion.numeric.mechanics.packing import Packing, deposit
+from ..arithmetic.systems import Series, zeros
+from ..lattice.branch import Branch
+from ..lattice.layers import column, whole
+from .forces import Forces, sweep_down
+from .loads import components, on_rows
+from .packing import SolvedPacking, deposit
 
 Site = tuple[int, int]
 Coefficients = list[Fraction]
@@ -37,13 +38,13 @@ class TaylorPacking:
     n_x: Fraction
     n_y: Fraction
     order: int
-    packing: Packing
+    packing: SolvedPacking
     contact_forces: Forces
 
     def line_sums(self, i: int, j: int) -> tuple[Coefficients, Coefficients]:
         """(c⁺, c⁻) with c^± = n^±·δx of bead (i, j) (Eqs. 2 and 3)."""
         q = column(i, j, self.width)
-        return self._list(self.packing.c_plus[j][q]), self._list(self.packing.c_minus[j][q])
+        return self._list(self.packing.c.plus[j][q]), self._list(self.packing.c.minus[j][q])
 
     def displacement(self, i: int, j: int) -> tuple[Coefficients, Coefficients]:
         """Cartesian (δx, δy) of bead (i, j), from δx = c⁺ b⁺ + c⁻ b⁻ (Eqs. 2 and 3)."""
@@ -56,7 +57,7 @@ class TaylorPacking:
     def direction(self, i: int, j: int, branch: str) -> tuple[Coefficients, Coefficients]:
         """Cartesian δn of the contact from (i, j) to (i ± 1, j + 1) (Eqs. 4 and 5)."""
         upper, q = self._upper(i, j, branch)
-        a, b = (self.packing.plus if branch == "+" else self.packing.minus)[upper]
+        a, b = self.packing.dn[Branch(branch)][upper]
         along, across = self._list(a[q]), self._list(b[q])
         return (
             [(p - m) * self.n_x for p, m in zip(along, across, strict=True)],
@@ -67,11 +68,8 @@ class TaylorPacking:
         """Contact force f^±_ij; order 0 is the ordered force (Eqs. 6–11)."""
         upper, q = self._upper(i, j, branch)
         f = self.contact_forces
-        if branch == "+":
-            F, g = f.ordered_plus[upper][q], f.change_plus[upper][q]
-        else:
-            F, g = f.ordered_minus[upper][q], f.change_minus[upper][q]
-        return self._list(F + g)
+        own = Branch(branch)
+        return self._list(f.ordered[own][upper][q] + f.change[own][upper][q])
 
     def _upper(self, i: int, j: int, branch: str) -> tuple[int, int]:
         if branch not in {"+", "-"}:

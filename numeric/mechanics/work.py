@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
 
-from force_diffusion.numeric.lattice.layers import Layer
+from ..lattice.layers import Layer
 
 Progress = Callable[[str, int], None]
 """Called with the kind of work and the number of beads just done."""

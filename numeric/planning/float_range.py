@@ -6,10 +6,11 @@ word, which would then pass for an answer without error.
 
 from fractions import Fraction
 
-from force_diffusion.numeric.arithmetic.decimals import short
-from force_diffusion.numeric.disorder.radii import MeasuredRadii, Radii
-from force_diffusion.numeric.mechanics.load_spec import LoadSpec
-from force_diffusion.numeric.scene.sections import Scene, SceneError
+from ..arithmetic.decimals import short
+from ..disorder.radii import MeasuredRadii, Radii
+from ..mechanics.loads import LoadSpec
+from ..scene.scene import Scene
+from ..scene.sections import SceneError
 
 # δr/r may be as small as this; where it meets a load or a unit of length, their product a bit less.
 LEAST, LEAST_PRODUCT = Fraction(1, 10**300), Fraction(1, 10**305)

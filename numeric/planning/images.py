@@ -9,41 +9,39 @@ stand on images. There the triangle below a loaded bead (k, l) ends at k − l a
 from collections.abc import Iterable
 from itertools import combinations, pairwise
 
-from force_diffusion.numeric.lattice import regions
-from force_diffusion.numeric.lattice.layers import full_layer
-from force_diffusion.numeric.mechanics import first_order
-from force_diffusion.numeric.mechanics.load_spec import LoadSpec
-from force_diffusion.numeric.planning import budget
-from force_diffusion.numeric.scene.sections import Scene
-
-Site = tuple[int, int]
+from ..lattice.branch import Branch, Contact, Site
+from ..lattice.layers import full_layer
+from ..mechanics import first_order
+from ..mechanics.loads import LoadSpec
+from ..mechanics.problem import Problem, Route
+from ..quantities.base import Quantity
 
 
-def sees_images(scene: Scene, load: LoadSpec, route: str) -> bool:
+def sees_images(quantity: Quantity, problem: Problem) -> bool:
     """Say whether any row of the answer differs, with radii in general, from the slab's."""
-    width = scene.packing.width
+    width, load, contact = problem.width, problem.load, problem.contact
     if width is None:
         return False
-    if scene.ask.quantity == "positions":
-        tip = scene.packing.height if scene.ask.at is None else scene.site[1]
-        return route != "ordered" and tip >= width
-    reactions = scene.ask.quantity == "base_reactions"
-    if route == "ordered":  # both rays of a load may end on one base bead
-        return reactions and any(j and j % width == 0 for _, j in load.loaded or [])
-    one = budget.one_contact(scene)
-    if route == "exact":
-        if one:
-            return _exact([regions.upper_bead(*scene.contact)], load, width)
-        layer = 0 if reactions else 1
+    if not quantity.needs_forces:
+        tip = problem.height if problem.site is None else problem.site[1]
+        return problem.route != Route.ORDERED and tip >= width
+    on_base = quantity.lowest_layer == 0
+    if problem.route == Route.ORDERED:  # both rays of a load may end on one base bead
+        return on_base and any(j and j % width == 0 for _, j in load.loaded or [])
+    if problem.route == Route.EXACT:
+        if contact is not None:
+            return _exact([contact.upper], load, width)
+        layer = quantity.lowest_layer
         return _exact([(i, layer) for i in full_layer(layer, width).sites()], load, width)
-    if one:
-        return _first_order(regions.upper_bead(*scene.contact), [scene.contact], load, width)
+    if contact is not None:
+        return _first_order(contact.upper, [contact], load, width)
     highest = _highest(load)
-    if not reactions:  # the contact straight below the highest load is the first to see images
+    if not on_base:  # the contact straight below the highest load is the first to see images
         return width <= highest
     beads = [0] if load.loaded is None else full_layer(0, width).sites()
     return width <= highest + 1 and any(
-        _first_order((i, 0), [(i, 0, "+"), (i, 0, "-")], load, width) for i in beads
+        _first_order((i, 0), [Contact(i, 0, branch) for branch in Branch], load, width)
+        for i in beads
     )
 
 
@@ -108,9 +106,7 @@ def _overlap(runs: list[tuple[int, int]], width: int) -> bool:
     return any(left[1] >= right[0] for left, right in pairwise([*home, around]))
 
 
-def _first_order(
-    apex: Site, contacts: Iterable[tuple[int, int, str]], load: LoadSpec, width: int
-) -> bool:
+def _first_order(apex: Site, contacts: Iterable[Contact], load: LoadSpec, width: int) -> bool:
     """Look at the diagonals that decide some contacts, and at the loads above their ``apex``."""
     if _above(apex, load, width) is None:
         return True

@@ -1,29 +1,24 @@
-"""What a plan is: steps, what is left out, and the ways to the answer that were weighed."""
+"""What a plan is: a problem, steps, what is left out, and the ways to the answer."""
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from typing import Any
 
-from force_diffusion.numeric.arithmetic.systems import (
+from ..arithmetic.decimals import bound_string, short
+from ..arithmetic.systems import (
     FLOAT64,
     LONGDOUBLE,
     Balls,
     BigFloat,
     NumberSystem,
 )
-from force_diffusion.numeric.disorder.radii import Radii
-from force_diffusion.numeric.lattice.layers import Region
-from force_diffusion.numeric.lattice.regions import Rows
-from force_diffusion.numeric.mechanics.load_spec import LoadSpec
-from force_diffusion.numeric.planning import budget
-from force_diffusion.numeric.scene.sections import Scene
+from ..mechanics.problem import Problem
+from ..quantities.base import Quantity
+from ..scene.scene import Scene
 
 PHYSICAL, ESTIMATE, CERTIFY = "check that it is physical", "estimate the error", "certify"
 # What errors of float64 are estimated with: an own long double, where the platform has one.
 LONGER: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
-FORCE_QUANTITIES = {
-    "contact", "contact_forces", "profile", "histogram", "response", "base_reactions"
-}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -45,17 +40,15 @@ class Skipped:
 
 
 @dataclass(frozen=True)
-class Way:
+class Method:
     """An arithmetic, and how the error of its answer becomes known.
 
     ``longer`` repeats the first ``repeated`` realisations; None stands for balls, which certify.
-    ``plain`` solves for positions and forces, and subtracts the ordered ones.
     """
 
     system: NumberSystem
     longer: NumberSystem | None = None
     repeated: int = 0
-    plain: bool = False
 
     @property
     def certified(self) -> bool:
@@ -65,7 +58,7 @@ class Way:
 
 @dataclass(frozen=True)
 class Candidate:
-    """A way that was weighed: what it is expected to cost and to err, or why it is out.
+    """A method that was looked at: its expected cost and error, or why it is out.
 
     ``error``: relative to the largest change, expected (balls: bounded) before anything runs.
     """
@@ -79,10 +72,17 @@ class Candidate:
     out: str
     plan: "Plan | None"
 
-    @property
-    def ends(self) -> bool:
-        """Whether nothing else can answer where this can't: balls, and not in the plain form."""
-        return self.certified and self.plan is not None and not self.plan.way.plain
+    def data(self) -> dict[str, Any]:
+        """Give what JSON can hold of it."""
+        return {
+            "algorithm": self.algorithm,
+            "arithmetic": self.arithmetic,
+            "certified": self.certified,
+            "repeated": self.repeated,
+            "expected_error": bound_string(self.error),
+            "seconds": _rounded(self.seconds),
+            "out": self.out,
+        }
 
 
 @dataclass(frozen=True)
@@ -91,35 +91,43 @@ class Choice:
 
     tolerance: Fraction
     reason: str
-    coefficients: str
     candidates: tuple[Candidate, ...]
-    digit_more: "Candidate | None" = None
-    digit_less: "Candidate | None" = None
+    digit_more: Candidate | None = None
+    digit_less: Candidate | None = None
 
     @property
     def tried(self) -> tuple[Candidate, ...]:
-        """What is tried, the chosen one first; nothing comes after a way that ends it."""
+        """What is tried, the chosen one first; nothing comes after balls."""
         possible = [c for c in self.candidates if not c.out]
-        last = next((k for k, c in enumerate(possible) if c.ends), len(possible))
+        last = next((k for k, c in enumerate(possible) if c.certified), len(possible))
         return tuple(possible[: last + 1])
+
+    def data(self) -> dict[str, Any]:
+        """Give what JSON can hold of it; the chosen method is the first of the candidates."""
+        looked_at = [candidate.data() for candidate in self.candidates]
+
+        def digit(one: Candidate | None, tolerance: Fraction) -> dict[str, Any] | None:
+            return None if one is None else {"tolerance": short(tolerance), **one.data()}
+
+        return {
+            "tolerance": short(self.tolerance),
+            "reason": self.reason,
+            "chosen": looked_at[0],
+            "candidates": looked_at,
+            "digit_more": digit(self.digit_more, self.tolerance / 10),
+            "digit_less": digit(self.digit_less, self.tolerance * 10),
+        }
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What will be done. ``route`` is "ordered", "line sums", "first-order" or "exact".
-
-    ``choice`` says which ways a tolerance was weighed for, None without one.
-    """
+    """What will be done; ``choice`` says what a tolerance led to, None without one."""
 
     scene: Scene
-    radii: Radii
-    load: LoadSpec
-    route: str
-    region: Region
-    force_rows: Rows
-    realisations: int
+    quantity: Quantity
+    problem: Problem
     tolerance: Fraction | None
-    way: Way
+    method: Method
     steps: tuple[Step, ...]
     skipped: tuple[Skipped, ...]
     memory: int
@@ -130,14 +138,85 @@ class Plan:
     @property
     def system(self) -> NumberSystem:
         """The arithmetic of the answer."""
-        return self.way.system
+        return self.method.system
 
-    @cached_property
-    def needs_forces(self) -> bool:
-        """Whether the question is about forces at all."""
-        return self.scene.ask.quantity in FORCE_QUANTITIES
+    def data(self) -> dict[str, Any]:
+        """Give what JSON can hold of it; seconds of steps are not known before it runs."""
+        return {
+            "plan": [
+                {
+                    "step": step.step,
+                    "reason": step.reason,
+                    "beads": step.beads,
+                    "arithmetic": step.arithmetic,
+                    "seconds": None,
+                }
+                for step in self.steps
+            ],
+            "skipped": [{"effect": s.effect, "reason": s.reason} for s in self.skipped],
+            "memory_bytes": self.memory,
+            "estimated_seconds": _rounded(self.estimated_seconds),
+            "sees_images": self.sees_images,
+            "choice": None if self.choice is None else self.choice.data(),
+        }
 
-    @cached_property
-    def single_contact(self) -> bool:
-        """Whether one contact is asked for, and not the whole packing."""
-        return budget.one_contact(self.scene)
+    def __str__(self) -> str:
+        """Say what would be done, what is left out, and why."""
+        return "\n".join(plan_lines(self.data()))
+
+
+def _rounded(seconds: float | None) -> float | None:
+    return None if seconds is None else float(f"{seconds:.3g}")
+
+
+def plan_lines(data: dict[str, Any]) -> list[str]:
+    """Say in lines of text what a plan holds, before it runs or afterwards."""
+    lines = ["What is done"]
+    for step in data["plan"]:
+        spent = "" if step["seconds"] is None else f", {step['seconds']:.3g} s"
+        cost = f"{step['beads']} beads, {step['arithmetic']}{spent}"
+        lines.append(f"  {step['step']}: {step['reason']} ({cost})")
+    lines.append("What is left out")
+    lines += [f"  {s['effect']}: {s['reason']}" for s in data["skipped"]] or ["  nothing"]
+    lines += _choice_lines(data["choice"]) if data["choice"] else []
+    lines.append(f"About {data['estimated_seconds']:.2g} s and {data['memory_bytes'] / 1e6:.3g} MB")
+    if data["sees_images"]:
+        lines.append("The answer sees periodic images: it is that of the strip, not of the slab")
+    return lines
+
+
+def _choice_lines(choice: dict[str, Any]) -> list[str]:
+    """Say what was chosen, from what, and what a digit costs."""
+    chosen = choice["chosen"]
+    lines = [
+        f"How, for a tolerance of {choice['tolerance']}: {_named(chosen)}",
+        f"  {choice['reason']}",
+        f"  {'':2}{'method':<31}{'arithmetic':<22}{'repeated':>8} {'error':>9} {'seconds':>9}",
+    ]
+    for one in choice["candidates"]:
+        mark = "*" if one == chosen else ""
+        seconds = "" if one["seconds"] is None else f"{one['seconds']:.2g}"
+        lines.append(
+            f"  {mark:2}{one['algorithm']:<31}{one['arithmetic']:<22}{one['repeated'] or '':>8} "
+            f"{one['expected_error']:>9} {seconds:>9}  {one['out']}".rstrip()
+        )
+    for name, words in (("digit_more", "One digit more"), ("digit_less", "One digit fewer")):
+        one = choice[name]
+        if one is None:
+            lines.append(f"{words}: there is no way to it")
+        else:
+            about = f"about {one['seconds']:.2g} s"
+            lines.append(f"{words}, {one['tolerance']}: {_named(one)}, {about}")
+    for missed in choice.get("missed", []):
+        lines.append(
+            f"Tried before: {missed['algorithm']}, {missed['arithmetic']}: {missed['why']}"
+        )
+    if "measured_seconds" in choice:
+        took = f"took {choice['measured_seconds']:.2g} s"
+        lines.append(f"Predicted {chosen['seconds']:.2g} s, {took}")
+    return lines
+
+
+def _named(method: dict[str, Any]) -> str:
+    kind = "certified" if method["certified"] else "estimated"
+    return f"{method['algorithm']}, {method['arithmetic']}, {kind}"

@@ -1,1 +1,28 @@
 """Quantities: one class a question, what it needs and how its answer is gathered."""
+
+from collections.abc import Callable
+
+from ..scene.scene import Scene
+from .base import Quantity
+from .base_reactions import BaseReactions
+from .contact import ContactForce
+from .contact_forces import ContactForces
+from .histogram import histogram_of
+from .positions import Positions
+from .profile import Profile
+from .response import Response
+
+QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
+    "contact": ContactForce,
+    "contact_forces": ContactForces,
+    "positions": Positions,
+    "profile": Profile,
+    "histogram": histogram_of,
+    "response": Response,
+    "base_reactions": BaseReactions,
+}
+
+
+def quantity_of(scene: Scene) -> Quantity:
+    """Give the question that a scene asks."""
+    return QUANTITIES[scene.ask.quantity](scene)

@@ -8,8 +8,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TextIO
 
-from force_diffusion.numeric.arithmetic.decimals import parse, short
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from ..arithmetic.decimals import parse, short
+from ..arithmetic.errors import ForceDiffusionError
 
 Site = tuple[int, int]
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}", re.ASCII)

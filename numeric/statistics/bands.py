@@ -11,7 +11,8 @@ layers, simulated with the estimated correlations (a multivariate t).
 from dataclasses import dataclass
 
 import numpy as np
-from force_diffusion.numeric.lattice.layers import Array
+
+from ..arithmetic.systems import Array
 
 # Simulated maxima for a quantile: at 99 % the critical value then scatters by about 0.5 %.
 DRAWS = 40_000

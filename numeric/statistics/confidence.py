@@ -9,15 +9,10 @@ look is divided among the groups, so that the statement is about all of them at 
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-import flint
-from force_diffusion.numeric.arithmetic.systems import Balls
-from force_diffusion.numeric.ensemble.estimates import Estimates
-
 FIRST_LOOK = 32
-_BALLS = Balls(128)
 
 
 def looks(end: int) -> Iterator[int]:
@@ -42,37 +37,20 @@ class Rule:
     confidence: float
 
 
-def half_width(estimates: Estimates, confidence: float, look: int) -> float:
+def half_width(
+    relative_errors: Sequence[float], samples: int, confidence: float, look: int
+) -> float:
     """Give the half-width of the intervals of all σ_f together, relative to σ_f; the largest.
 
-    ``look`` counts looks from 1; 0 is for an ensemble that was of a fixed size from the start.
-    Groups that do not vary at all are left out.
+    ``relative_errors``: standard errors of the σ_f that vary, in units of them, from ``samples``
+    independent packings. ``look`` counts looks from 1; 0 is for an ensemble that was of a fixed
+    size from the start.
     """
-    spread = estimates.relative_errors()
-    if not spread:
+    from scipy.special import stdtrit
+
+    if not relative_errors:
         return 0.0
-    wrong = (1 - confidence) / len(spread) / (look * (look + 1) if look else 1)
-    return max(spread) * student(wrong, estimates.realisations - 1)
-
-
-def student(wrong: float, freedom: int) -> float:
-    """Give t with P(|T| > t) = ``wrong`` for Student's T with ``freedom`` degrees of freedom.
-
-    >>> f"{student(0.05, 10):.4f} {student(0.05, 10**6):.4f}"
-    '2.2281 1.9600'
-    """
-    if freedom < 1:
+    if samples < 2:
         return math.inf
-    with _BALLS.active():
-        half = flint.arb(freedom) / 2
-
-        def likelier(t: float) -> bool:
-            x = freedom / (freedom + flint.arb(t) ** 2)
-            return bool(x.beta_lower(half, flint.arb(1) / 2, True) > wrong)
-
-        low, high = 0.0, 1.0
-        while likelier(high):
-            low, high = high, 2 * high
-        while low < (middle := (low + high) / 2) < high:  # until doubles end: alike everywhere
-            low, high = (middle, high) if likelier(middle) else (low, middle)
-        return high
+    wrong = (1 - confidence) / len(relative_errors) / (look * (look + 1) if look else 1)
+    return max(relative_errors) * -float(stdtrit(samples - 1, wrong / 2))

@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-from force_diffusion.numeric.lattice.layers import Array
+
+from ..arithmetic.systems import Array
 
 BITS = 22
 _HALF = 1 << (BITS - 1)

@@ -4,10 +4,10 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from force_diffusion.numeric.arithmetic.decimals import decimal_string
-from force_diffusion.numeric.arithmetic.systems import Balls, NumberSystem, midpoint
-from force_diffusion.numeric.lattice.layers import Array
-from force_diffusion.numeric.mechanics.packing import UndecidedError
+
+from ..arithmetic.decimals import decimal_string
+from ..arithmetic.errors import UndecidedError
+from ..arithmetic.systems import Array, Balls, NumberSystem, midpoint
 
 
 def histogram(

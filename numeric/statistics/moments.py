@@ -7,8 +7,8 @@ from typing import Any
 
 import flint
 import numpy as np
-from force_diffusion.numeric.arithmetic.systems import NumberSystem
-from force_diffusion.numeric.lattice.layers import Array
+
+from ..arithmetic.systems import Array, NumberSystem
 
 
 @dataclass

@@ -10,7 +10,8 @@ had 1 % more tensile contacts than first order at σ/r = 0.01, and as many, to 0
 from typing import Any
 
 import mpmath
-from force_diffusion.numeric import closed_forms
+
+from .. import closed_forms
 
 LOADS = ("surface", "bulk")
 

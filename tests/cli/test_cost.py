@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.run import ToleranceError
+from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.studies.cost import rows, study
 
 from force_diffusion.__main__ import main

@@ -138,7 +138,7 @@ def test_wrong_words(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("force_diffusion.numeric.planning.budget.memory_limit", lambda: 10**9)
+    monkeypatch.setattr("force_diffusion.numeric.planning.planner.free_memory", lambda: 10**9)
     status, printed, err = call(capsys, *words)
     assert (status, printed) == (2, "")
     assert says in err.replace("\n", " ")

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from force_diffusion.numeric import run as runner
-from force_diffusion.numeric.run import ToleranceError
+from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 
 from force_diffusion.__main__ import main
 

@@ -4,9 +4,11 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from force_diffusion.numeric.planning.planner import Plan, plan
-from force_diffusion.numeric.run import Outcome, run
-from force_diffusion.numeric.scene.sections import Scene, parse_scene
+from force_diffusion.numeric.outcome import Outcome
+from force_diffusion.numeric.planning.plan import Plan
+from force_diffusion.numeric.planning.planner import plan
+from force_diffusion.numeric.run import Scene, run
+from force_diffusion.numeric.scene import reading
 from hypothesis import strategies as st
 
 
@@ -30,6 +32,10 @@ def toml(sections: dict[str, dict[str, Any]]) -> str:
                 shown = str(value)
             lines.append(f"{key} = {shown}")
     return "\n".join(lines) + "\n"
+
+
+def parse_scene(text: str, folder: Path = Path()) -> Scene:
+    return reading.parse_scene(text, Scene, folder)
 
 
 def scene(sections: dict[str, dict[str, Any]], folder: Path = Path()) -> Scene:

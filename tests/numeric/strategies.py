@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-from force_diffusion.numeric.mechanics.loads import sites
+from force_diffusion.numeric.lattice.layers import whole
 from hypothesis import strategies as st
 
 # Pythagorean directions with 1/2 < n_x < √3/2: the ordered packing is rational.
@@ -23,6 +23,11 @@ class Case:
     n: tuple[Fraction, Fraction]
     rho: dict[tuple[int, int], Fraction]
     loads: dict[tuple[int, int], tuple[Fraction, Fraction]]
+
+
+def sites(width: int, height: int) -> list[tuple[int, int]]:
+    """All sites (i, j) of a periodic packing, layer by layer."""
+    return [(i, layer.j) for layer in whole(width, height).rows for i in layer.sites()]
 
 
 def fractions(bound: int) -> st.SearchStrategy[Fraction]:

@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.result import outcome_data
-from force_diffusion.numeric.run import Outcome, ToleranceError, _attempt
+from force_diffusion.numeric.outcome import Outcome
+from force_diffusion.numeric.run import _attempt
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -30,7 +31,7 @@ def unit_of_last_digit(text: str) -> Fraction:
 
 
 def numbers(outcome: Outcome, small_only: bool = False) -> Iterator[tuple[str, str]]:
-    for row in outcome.rows:
+    for row in outcome.decimals():
         for key, value in row.items():
             wanted = key in SMALL if small_only else key not in {"branch", "first_order_std"}
             if isinstance(value, str) and wanted:
@@ -61,9 +62,11 @@ def test_the_stated_error_holds(sections: dict[str, dict[str, Any]]) -> None:
         return
     assert sharp.accuracy.certified
     assert sharp.accuracy.error_bound <= 1e-25
-    assert len(rough.rows) == len(sharp.rows)
+    assert len(rough.decimals()) == len(sharp.decimals())
     if sections["ask"]["quantity"] == "histogram":
-        assert sum(r["count"] for r in rough.rows) == sum(r["count"] for r in sharp.rows)
+        assert sum(r["count"] for r in rough.decimals()) == sum(
+            r["count"] for r in sharp.decimals()
+        )
         return
     largest = max((abs(Fraction(v)) for _, v in numbers(sharp, small_only=True)), default=0)
     for (_, a), (_, b) in zip(numbers(rough, True), numbers(sharp, True), strict=True):
@@ -103,12 +106,12 @@ def test_one_contact_is_the_same_alone_as_in_the_crowd(
     for sections in (crowd, single):
         sections["packing"]["allow_images"] = True
     whole, alone = answer(crowd), answer(single)
-    match = [row for row in whole.rows if [row["i"], row["j"], row["branch"]] == at]
+    match = [row for row in whole.decimals() if [row["i"], row["j"], row["branch"]] == at]
     # Fewer contacts set the scale of the error, and so how many digits are printed.
-    assert len(match) == len(alone.rows) == 1
+    assert len(match) == len(alone.decimals()) == 1
     for key in ("force", "change"):
-        a, b = Fraction(match[0][key]), Fraction(alone.rows[0][key])
-        room = unit_of_last_digit(match[0][key]) + unit_of_last_digit(alone.rows[0][key])
+        a, b = Fraction(match[0][key]), Fraction(alone.decimals()[0][key])
+        room = unit_of_last_digit(match[0][key]) + unit_of_last_digit(alone.decimals()[0][key])
         assert abs(a - b) <= room
 
 
@@ -127,9 +130,9 @@ def test_line_sums_of_one_contact_equal_the_first_order_sweep(
     alone = answer(
         {**basic(height, width, quantity="contact", at=contact, tolerance="=1e-30"), **first}
     )
-    change = next(r["change"] for r in sweep.rows if [r["i"], r["j"], r["branch"]] == contact)
-    largest = max(abs(Fraction(r["change"])) for r in sweep.rows)
-    assert abs(Fraction(change) - Fraction(alone.rows[0]["change"])) <= largest / 10**29
+    change = next(r["change"] for r in sweep.decimals() if [r["i"], r["j"], r["branch"]] == contact)
+    largest = max(abs(Fraction(r["change"])) for r in sweep.decimals())
+    assert abs(Fraction(change) - Fraction(alone.decimals()[0]["change"])) <= largest / 10**29
 
 
 def test_a_wide_packing_is_the_slab() -> None:
@@ -138,7 +141,7 @@ def test_a_wide_packing_is_the_slab() -> None:
         effects = {"effects": {"geometry": geometry}}
         wide = answer({**basic(5, 40, quantity="contact", at=[30, 2, "+"]), **effects})
         slab = answer({**basic(5, None, quantity="contact", at=[30, 2, "+"]), **effects})
-        assert wide.rows == slab.rows
+        assert wide.decimals() == slab.decimals()
         assert not wide.plan.sees_images
 
 
@@ -167,8 +170,9 @@ def test_realisations_are_independent_of_the_batch(quantity: str) -> None:
     """Each realisation of a batch is bit for bit the one solved alone."""
     plan = planned(basic(4, 9, quantity=quantity, realisations=5))
     together = _attempt(plan, FLOAT64, range(5), Work()).table
+    single = replace(plan, problem=replace(plan.problem, realisations=1))
     for k in range(5):
-        alone = _attempt(replace(plan, realisations=1), FLOAT64, [k], Work()).table
+        alone = _attempt(single, FLOAT64, [k], Work()).table
         for name, column in alone.numbers.items():
             n = len(column)
             assert n
@@ -176,8 +180,8 @@ def test_realisations_are_independent_of_the_batch(quantity: str) -> None:
 
 
 def test_a_profile_is_the_moments_of_all_contact_forces() -> None:
-    forces = answer(basic(4, 9, quantity="contact_forces", realisations=5)).rows
-    for row in answer(basic(4, 9, quantity="profile", realisations=5)).rows:
+    forces = answer(basic(4, 9, quantity="contact_forces", realisations=5)).decimals()
+    for row in answer(basic(4, 9, quantity="profile", realisations=5)).decimals():
         changes = [
             float(f["change"]) for f in forces if (f["j"], f["branch"]) == (row["j"], row["branch"])
         ]
@@ -193,17 +197,17 @@ def test_a_profile_under_a_point_load_keeps_the_digits_of_its_changes() -> None:
     sections = basic(4, 9, quantity="profile")
     sections["disorder"]["relative_std"] = "=1e-30"
     sections["load"] = {"kind": "point", "at": [4, 4]}
-    for row in answer(sections).rows:
+    for row in answer(sections).decimals():
         assert 1e-32 < float(row["std"]) < 1e-28
 
 
 def test_what_is_physical_does_not_depend_on_how_a_load_is_written(tmp_path: Path) -> None:
     sections = basic(6, 20, quantity="contact_forces")
     sections["load"] = {"kind": "point", "at": [6, 6]}
-    point = outcome_data(answer(sections))["physical"]
+    point = answer(sections).data()["physical"]
     (tmp_path / "load.csv").write_text("i,j,fx,fy\n6,6,0,-1\n")
     sections["load"] = {"kind": "file", "file": "load.csv"}
-    listed = outcome_data(answer(sections, tmp_path))["physical"]
+    listed = answer(sections, tmp_path).data()["physical"]
     assert point == listed
     assert point["tensile_contacts"]
     assert not point["physical"]
@@ -227,7 +231,7 @@ def test_lengths_scaled_by_a_power_of_two_change_no_bit(tmp_path: Path, power: i
         )
         sections["disorder"] = {"kind": "file", "file": "radii.csv"}
         answers.append(answer(sections, tmp_path))
-    assert answers[0].rows == answers[1].rows
+    assert answers[0].decimals() == answers[1].decimals()
     assert answers[0].accuracy == answers[1].accuracy
 
 
@@ -240,7 +244,7 @@ def test_units_change_no_bit(power: int, quantity: str) -> None:
     one = answer(sections)
     sections["packing"].update(radius=decimal(factor), spacing=decimal(factor * Fraction(11, 4)))
     other = answer(sections)
-    assert one.rows == other.rows
+    assert one.decimals() == other.decimals()
     assert one.accuracy == other.accuracy
 
 
@@ -262,7 +266,7 @@ def test_the_base_bears_the_load(height: int, angle: int, seed: int) -> None:
     sections = basic(height, width, quantity="base_reactions", tolerance="=1e-20")
     sections["disorder"]["seed"] = seed
     sections["load"] = {"kind": "bulk", "angle_deg": angle}
-    rows = answer(sections).rows
+    rows = answer(sections).decimals()
     import mpmath
 
     mp = mpmath.MPContext()
@@ -281,7 +285,7 @@ def test_a_load_file_of_one_bead_is_a_point_load(tmp_path: Path) -> None:
     file = answer(
         {**sections, "load": {"kind": "file", "file": "loads.csv", "magnitude": "=2.0"}}, tmp_path
     )
-    assert point.rows == file.rows
+    assert point.decimals() == file.decimals()
 
 
 @pytest.mark.parametrize("width", [1, 2, 3, 7])
@@ -293,12 +297,12 @@ def test_responses_add_up(width: int) -> None:
         sections = basic(height, width, tolerance="=1e-30")
         sections["packing"]["allow_images"] = True
         sections["load"] = {"kind": "point", "at": [2 * k + 1, height]}
-        for row in answer(sections).rows:
+        for row in answer(sections).decimals():
             key = (row["i"], row["j"], row["branch"])
             total[key] = total.get(key, Fraction(0)) + Fraction(row["force"])
     sections = basic(height, width, tolerance="=1e-30")
     sections["packing"]["allow_images"] = True
-    for row in answer(sections).rows:
+    for row in answer(sections).decimals():
         assert abs(total[row["i"], row["j"], row["branch"]] - Fraction(row["force"])) < Fraction(
             1, 10**25
         )
@@ -320,7 +324,7 @@ def test_measured_radii_are_read_exactly(tmp_path: Path) -> None:
     two = basic(4, 9, tolerance="=1e-20")
     two["packing"].update(radius="=2.5", spacing="=7.5")
     two["disorder"] = {"kind": "file", "file": "radii.csv"}
-    assert answer(one).rows == answer(two, tmp_path).rows
+    assert answer(one).decimals() == answer(two, tmp_path).decimals()
 
 
 def test_the_sweep_stops_at_tension() -> None:
@@ -331,11 +335,13 @@ def test_the_sweep_stops_at_tension() -> None:
     stopped = answer(sections)
     assert stopped.stopped is not None
     i, j, branch = stopped.stopped
-    pulling = [r for r in everything.rows if Fraction(r["force"]) < 0]
+    pulling = [r for r in everything.decimals() if Fraction(r["force"]) < 0]
     assert max(r["j"] for r in pulling) == j
-    named = next(r for r in everything.rows if [r["i"], r["j"], r["branch"]] == [i % 50, j, branch])
+    named = next(
+        r for r in everything.decimals() if [r["i"], r["j"], r["branch"]] == [i % 50, j, branch]
+    )
     assert Fraction(named["force"]) < 0
-    assert min(r["j"] for r in stopped.rows) == j
+    assert min(r["j"] for r in stopped.decimals()) == j
     assert everything.physical is not None
     assert everything.physical.tensile == len(pulling) > 0
 
@@ -349,7 +355,7 @@ def test_the_scatter_of_forces_is_that_of_the_exact_first_order_theory() -> None
     sections = basic(6, 13, quantity="profile", realisations=150)
     for kind in ("surface", "bulk"):
         sections["load"] = {"kind": kind}
-        for row in answer(sections).rows:
+        for row in answer(sections).decimals():
             assert abs(float(row["std"]) / float(row["first_order_std"]) - 1) < 0.24
 
 
@@ -358,7 +364,7 @@ def test_a_slab_carries_single_loads(tmp_path: Path) -> None:
     (tmp_path / "loads.csv").write_text("i,j,fx,fy\n-4,4,0.5,-2\n7,3,0,-1\n2,0,0,-3\n")
     sections = basic(5, None, quantity="base_reactions", tolerance="=1e-25")
     sections["load"] = {"kind": "file", "file": "loads.csv"}
-    rows = answer(sections, tmp_path).rows
+    rows = answer(sections, tmp_path).decimals()
     assert abs(sum(Fraction(r["fx"]) for r in rows) + Fraction(1, 2)) < Fraction(1, 10**20)
     assert abs(sum(Fraction(r["fy"]) for r in rows) - 6) < Fraction(1, 10**20)
 
@@ -372,5 +378,5 @@ def test_a_tolerance_out_of_reach_says_why() -> None:
 
 
 def test_a_scene_gives_the_same_numbers_twice() -> None:
-    assert answer(basic()).rows == answer(basic()).rows
+    assert answer(basic()).decimals() == answer(basic()).decimals()
     assert scene(basic()) == scene(basic())

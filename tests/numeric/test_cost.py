@@ -15,7 +15,7 @@ from force_diffusion.numeric.studies.cost.data import csv_rows, lines, study_dat
 from force_diffusion.numeric.studies.cost.rows import Row, Study, marked, pareto
 from force_diffusion.numeric.studies.cost.study import study
 from force_diffusion.numeric.studies.cost.truth import BEYOND, decimal
-from force_diffusion.numeric.studies.cost.ways import answer, solve_plainly, systems, why_not_plain
+from force_diffusion.numeric.studies.cost.ways import answer, systems, why_not_plain
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -140,7 +140,7 @@ def test_both_forms_enclose_the_same(load: dict[str, Any], ask: dict[str, Any]) 
     assert why_not_plain(planned) is None
     with system.active():
         deviation = answer(planned, system, [0])
-        plainly = answer(planned, system, [0], solve_plainly)
+        plainly = answer(planned, system, [0], plainly=True)
         assert deviation.index == plainly.index
         for name in deviation.numbers:
             pairs = list(zip(deviation.numbers[name], plainly.numbers[name], strict=True))

@@ -7,6 +7,7 @@ from typing import Any
 import flint
 import numpy as np
 import pytest
+from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import (
     FLOAT64,
     Balls,
@@ -19,31 +20,30 @@ from force_diffusion.numeric.disorder.normal import cosine_of_turn, logarithm
 from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii
 from force_diffusion.numeric.lattice.layers import Layer, column, whole
 from force_diffusion.numeric.mechanics import first_order, packing, taylor
-from force_diffusion.numeric.mechanics.engine import Solved, solve
+from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.forces import Forces, sweep_down
-from force_diffusion.numeric.mechanics.load_spec import LoadSpec
-from force_diffusion.numeric.mechanics.loads import sites
+from force_diffusion.numeric.mechanics.loads import LoadSpec
+from force_diffusion.numeric.mechanics.problem import Solved
 from force_diffusion.numeric.mechanics.small_packing import plain_form
 from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.planning.planner import Plan
-from force_diffusion.numeric.result import outcome_data
-from force_diffusion.numeric.run import ToleranceError, critical_height
+from force_diffusion.numeric.planning.plan import Plan
+from force_diffusion.numeric.theory.critical_height import critical_height
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.numeric.scenes import answer, basic, planned
-from tests.numeric.strategies import Case, cases
+from tests.numeric.strategies import Case, cases, sites
 
 STD = st.sampled_from(["=1e-2", "=1e-5", "=1e-40"])
 
 
 def solved(plan: Plan, system: NumberSystem) -> Solved:
     with system.active():
-        return solve(plan, [0], system, Work())
+        return solve(plan.problem, [0], system, Work())
 
 
 def changes(forces: Forces) -> list[Any]:
-    return [v for side in (forces.change_plus, forces.change_minus) for row in side for v in row]
+    return [v for side in (forces.change.plus, forces.change.minus) for row in side for v in row]
 
 
 def packings(height: int, std: str, seed: int) -> Plan:
@@ -102,7 +102,7 @@ def test_force_balance_at_every_bead_within_the_enclosure(
     assert f is not None
     width = height + 1
     with system.active():
-        own = plan.load.strength(plan.scene.n_x, system).unit
+        own = plan.problem.load.strength(plan.scene.n_x, system).unit
         for j in range(1, height + 1):
             for i in Layer(j, j % 2, width).sites():
                 q = column(i, j, width)
@@ -115,9 +115,9 @@ def test_force_balance_at_every_bead_within_the_enclosure(
                     ]
                 for row, at, branch, sign in here:
                     plus = branch == "+"
-                    dn = (p.plus if plus else p.minus)[row]
-                    F = (f.ordered_plus if plus else f.ordered_minus)[row][at]
-                    g = (f.change_plus if plus else f.change_minus)[row][at]
+                    dn = (p.dn.plus if plus else p.dn.minus)[row]
+                    F = (f.ordered.plus if plus else f.ordered.minus)[row][at]
+                    g = (f.change.plus if plus else f.change.minus)[row][at]
                     n = (1 + dn[0][at], dn[1][at]) if plus else (dn[0][at], 1 + dn[1][at])
                     balance = [b + sign * (F + g) * c for b, c in zip(balance, n, strict=True)]
                 for component in balance:
@@ -143,9 +143,9 @@ def test_first_order_sweep_is_the_first_taylor_coefficient(case: Case) -> None:
     for i, j in sites(case.width, case.height):
         q = column(i, j, case.width)
         plus, minus = t.line_sums(i, j)
-        assert (fraction(p.c_plus[j][q]), fraction(p.c_minus[j][q])) == (plus[1], minus[1])
+        assert (fraction(p.c.plus[j][q]), fraction(p.c.minus[j][q])) == (plus[1], minus[1])
         if j < case.height:
-            for branch, step, g in (("+", 1, f.change_plus), ("-", -1, f.change_minus)):
+            for branch, step, g in (("+", 1, f.change.plus), ("-", -1, f.change.minus)):
                 q = column(i + step, j + 1, case.width)
                 assert fraction(g[j + 1][q]) == t.force(i, j, branch)[1]
 
@@ -158,8 +158,7 @@ def fraction(value: Any) -> Fraction:
 
 
 def rational_strength(spec: LoadSpec, n: tuple[Fraction, Fraction], system: Series) -> Any:
-    from force_diffusion.numeric.mechanics.load_spec import Strength
-    from force_diffusion.numeric.mechanics.loads import components
+    from force_diffusion.numeric.mechanics.loads import Strength, components
 
     return Strength(
         (system.number(Fraction(0)), system.number(Fraction(0))),
@@ -180,10 +179,10 @@ def test_the_smallest_gap_is_that_of_the_positions(height: int, seed: int, spaci
     outcome = answer(sections)
     plan = outcome.plan
     system = BigFloat(40)
-    drawn = plan.radii
+    drawn = plan.problem.radii
     assert isinstance(drawn, DrawnRadii)
     rho = {}
-    for layer in plan.region.rows:
+    for layer in plan.problem.region.rows:
         for i, u in zip(layer.sites(), drawn.deviates(layer, 0), strict=True):
             rho[i, layer.j] = Fraction(float(u)) * drawn.std
     n_x = plan.scene.n_x
@@ -347,7 +346,7 @@ def test_tolerances_below_the_smallest_float() -> None:
     sections = basic(4, None, quantity="contact", at=[0, 0, "+"], tolerance="=1e-400")
     outcome = answer(sections)
     assert outcome.accuracy.arithmetic.startswith("arb balls, 13")
-    bound = outcome_data(outcome)["accuracy"]["error_bound"]
+    bound = outcome.data()["accuracy"]["error_bound"]
     assert isinstance(bound, str)
     assert outcome.accuracy.error_bound <= Fraction(bound) <= Fraction(1, 10**400)
 

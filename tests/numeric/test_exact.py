@@ -12,12 +12,11 @@ from force_diffusion.numeric.arithmetic.systems import (
     NumberSystem,
 )
 from force_diffusion.numeric.mechanics import taylor
-from force_diffusion.numeric.mechanics.loads import sites
 from force_diffusion.numeric.mechanics.small_packing import Solution, deviation_form, plain_form
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.numeric.strategies import Case, cases
+from tests.numeric.strategies import Case, cases, sites
 
 STRENGTH = Fraction(1, 10**6)  # far below M* of these heights: every packing can be built
 mp = BigFloat(60).context

@@ -6,11 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE
-from force_diffusion.numeric.lattice.layers import Array, Region, whole
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Array
+from force_diffusion.numeric.lattice.branch import PerBranch
+from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics import engine, forces, packing
 from force_diffusion.numeric.mechanics.forces import Forces, Loads, NotStandingError
-from force_diffusion.numeric.mechanics.packing import Packing, UnbuildableError
+from force_diffusion.numeric.mechanics.packing import SolvedPacking, UnbuildableError
 from force_diffusion.numeric.mechanics.work import Work
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -44,14 +45,12 @@ def loads_on(draw: st.DrawFn, region: Region) -> Loads:
     return Loads(draw(rows), draw(rows))
 
 
-def bits(solved: Packing | Forces) -> Any:
-    names = (
-        ("rho", "c_plus", "c_minus", "plus", "minus")
-        if isinstance(solved, Packing)
-        else ("ordered_plus", "ordered_minus", "change_plus", "change_minus")
-    )
+def bits(solved: SolvedPacking | Forces) -> Any:
+    names = ("rho", "c", "dn") if isinstance(solved, SolvedPacking) else ("ordered", "change")
 
     def raw(value: Any) -> Any:
+        if isinstance(value, PerBranch):
+            return raw(value.plus), raw(value.minus)
         if not isinstance(value, np.ndarray):
             return [raw(v) for v in value]
         return value.shape, value.dtype, value.tobytes()
@@ -111,7 +110,7 @@ def test_what_is_not_compiled_is_left_to_the_numpy_sweep(
     longer = tuple(r.astype(np.longdouble) for r in rho)
     with LONGDOUBLE.active():
         solved = fast.deposit(n_x, region, longer, LONGDOUBLE)
-    assert type(solved) is Packing
+    assert type(solved) is SolvedPacking
     compiled = fast.deposit(n_x, region, rho, FLOAT64)
     rows = region.rows[: len(rho) - part]
     cut = Loads(none.plus[: len(rows)], none.minus[: len(rows)])
@@ -126,10 +125,10 @@ def test_the_engine_takes_the_compiled_sweeps_for_much_work(
     scene["packing"]["allow_images"] = True
     plan = planned(scene)
     with FLOAT64.active():
-        usual = engine.solve(plan, range(4), FLOAT64, usual_work := Work())
+        usual = engine.solve(plan.problem, range(4), FLOAT64, usual_work := Work())
         monkeypatch.setattr(engine, "COMPILED_FROM", 1)
-        quick = engine.solve(plan, range(4), FLOAT64, quick_work := Work())
-    assert type(usual.packing) is Packing
+        quick = engine.solve(plan.problem, range(4), FLOAT64, quick_work := Work())
+    assert type(usual.packing) is SolvedPacking
     assert isinstance(quick.packing, fast.CompiledPacking)
     assert usual.forces is not None
     assert quick.forces is not None
@@ -150,7 +149,7 @@ def test_forces_go_straight_down_below_a_load(side: int) -> None:
     )
     given = Loads(none.plus, tuple(loads)) if side else Loads(tuple(loads), none.minus)
     found = fast.sweep_down(solved, solved.region.rows, given)
-    ordered = found.ordered_minus if side else found.ordered_plus
+    ordered = found.ordered.minus if side else found.ordered.plus
     for j in range(1, height + 1):
         for q in range(width):  # what bears on (i, j) came down from (i ± (M − j), M)
             i = 2 * q + j % 2 + (height - j) * (-1 if side else 1)
@@ -163,7 +162,7 @@ def test_without_numba_the_engine_takes_the_numpy_sweeps(monkeypatch: pytest.Mon
     monkeypatch.delattr("force_diffusion.numeric.mechanics.compiled")
     monkeypatch.setitem(sys.modules, "force_diffusion.numeric.mechanics.compiled", None)
     with FLOAT64.active():
-        assert type(engine.solve(plan, [0], FLOAT64, Work()).packing) is Packing
+        assert type(engine.solve(plan.problem, [0], FLOAT64, Work()).packing) is SolvedPacking
 
 
 def test_the_compiled_code_fuses_no_product_with_a_sum() -> None:

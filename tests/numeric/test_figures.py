@@ -28,8 +28,9 @@ from force_diffusion.numeric.figures.packings import (
     impulses,
     planned,
 )
-from force_diffusion.numeric.mechanics import first_order
-from force_diffusion.numeric.mechanics.load_spec import LoadSpec
+from force_diffusion.numeric.mechanics import engine, first_order
+from force_diffusion.numeric.mechanics.loads import LoadSpec
+from force_diffusion.numeric.scene.sections import PointLoad
 
 NY = math.sqrt(1 - N_X**2)
 
@@ -59,11 +60,11 @@ def test_figure_1_shows_beads_that_touch() -> None:
 def test_widths_of_figure_2_are_those_of_the_packing() -> None:
     """σ_x and σ_y from the weights of all radii, by the engine."""
     M = 6
-    packing = impulses(planned('"contact", at = [0, 0, "+"]', height=M, width=None, seed=0)).packing
+    packing = impulses(planned("contact", at=(0, 0, "+"), height=M, width=None, seed=0)).packing
     assert packing is not None
     x, y = diffusion.displacement_std(M)
     for j in range(M + 1):
-        cp, cm = packing.c_plus[j], packing.c_minus[j]
+        cp, cm = packing.c.plus[j], packing.c.minus[j]
         found_x = np.sqrt((((cp - cm) / (2 * float(N_X))) ** 2).sum(axis=0))
         found_y = np.sqrt((((cp + cm) / (2 * NY)) ** 2).sum(axis=0))
         assert found_x == pytest.approx(np.full(found_x.shape, x[j]), rel=1e-12)
@@ -71,18 +72,18 @@ def test_widths_of_figure_2_are_those_of_the_packing() -> None:
 
 
 def test_weights_give_the_closed_form() -> None:
-    plan = planned('"contact", at = [3, 5, "+"]', height=9, width=None, seed=0)
+    plan = planned("contact", at=(3, 5, "+"), height=9, width=None, seed=0)
     forces = forces_of(impulses(plan))
-    weights = forces.change_plus[6][:, 0] / forces.ordered_plus[6][0]
+    weights = forces.change.plus[6][:, 0] / forces.ordered.plus[6][0]
     exact = closed_forms.surface_variance(9, 5, float(PHI), 1.0, 1.0)
     assert (weights**2).sum() == pytest.approx(exact, rel=1e-13)
 
 
 def test_figure_3_is_the_same_however_it_is_batched(monkeypatch: pytest.MonkeyPatch) -> None:
     together = comparison.averages(4, range(10), 3, "exact", silent)
-    monkeypatch.setattr(packings, "BATCH", 1)
+    monkeypatch.setattr(engine, "TOGETHER", 1)
     alone = comparison.averages(4, range(10), 3, "exact", silent)
-    monkeypatch.setattr(packings, "BATCH", 4 * 45)
+    monkeypatch.setattr(engine, "TOGETHER", 4 * 45)
     some = comparison.averages(4, range(10), 3, "exact", silent)
     for one, other, third in zip(together, alone, some, strict=True):
         # only sums along rows of different memory layout may round differently
@@ -123,9 +124,14 @@ def test_csv_comes_back() -> None:
 
 def test_figure_4_conserves_the_load() -> None:
     plan = planned(
-        '"response"', height=9, width=None, seed=1, std=1e-3, load='"point", at = [1, 9]',
+        "response",
+        height=9,
+        width=None,
+        seed=1,
+        std=1e-3,
+        load=PointLoad(at=(1, 9)),
         realisations=3,
-    )  # fmt: skip
+    )
     for answer, number in packings.solved(plan, range(3)):
         for change in response.vertical(
             answer, number
@@ -158,9 +164,7 @@ def test_figure_4_does_not_depend_on_the_horizontal_position(figure4: response.R
 def test_figure_4_agrees_with_the_weights_of_all_radii(figure4: response.Response) -> None:
     """The engine's own weights, legs of the cone included."""
     l = figure4.apex  # noqa: E741
-    plan = planned(
-        '"response"', height=l, width=None, seed=1, load=f'"point", at = [0, {l}]'
-    )  # fmt: skip
+    plan = planned("response", height=l, width=None, seed=1, load=PointLoad(at=(0, l)))
     weights = impulses(plan)
     packing, forces = weights.packing, forces_of(weights)
     assert packing is not None
@@ -168,8 +172,8 @@ def test_figure_4_agrees_with_the_weights_of_all_radii(figure4: response.Respons
         plus, minus = (
             NY * (change + ordered * (tilt[0] + tilt[1]))
             for ordered, change, tilt in (
-                (forces.ordered_plus[j + 1], forces.change_plus[j + 1], packing.plus[j + 1]),
-                (forces.ordered_minus[j + 1], forces.change_minus[j + 1], packing.minus[j + 1]),
+                (forces.ordered.plus[j + 1], forces.change.plus[j + 1], packing.dn.plus[j + 1]),
+                (forces.ordered.minus[j + 1], forces.change.minus[j + 1], packing.dn.minus[j + 1]),
             )
         )
         nothing = np.zeros((len(plus), 1))
@@ -254,7 +258,7 @@ def test_goodness_of_fit_rejects_what_it_should() -> None:
 
 
 def test_the_disorder_is_that_of_the_paper() -> None:
-    plan = planned('"profile"', height=2, width=4, seed=0)
+    plan = planned("profile", height=2, width=4, seed=0)
     assert float(plan.radii.relative_std()) == PAPER_STD
     assert pytest.approx(1e-6 / 12, rel=1e-15) == PAPER_STD**2
     assert Fraction(3, 4) == N_X

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.arithmetic.systems import NumberSystem, array
+from force_diffusion.numeric.arithmetic.systems import Array, NumberSystem, array
 from force_diffusion.numeric.disorder.radii import DrawnRadii
-from force_diffusion.numeric.lattice.layers import Array, Layer
+from force_diffusion.numeric.lattice.layers import Layer
 from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.planning.planner import Plan
+from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.run import run
 
 from tests.numeric.scenes import basic, planned
@@ -48,7 +48,7 @@ def slab_differs(sections: dict[str, dict[str, Any]], width: int, folder: Path =
     strip = planned(sections, folder)
     work = Work(trace=True)
     with slab.system.active():
-        solve(slab, [0], slab.system, work)
+        solve(slab.problem, [0], slab.system, work)
     special, met = {}, set()
     for layer in work.rows.get("radii", []):
         for i in layer.sites():
@@ -60,10 +60,10 @@ def slab_differs(sections: dict[str, dict[str, Any]], width: int, folder: Path =
 
 
 def _changes(plan: Plan, radii: Known) -> list[str]:
-    if isinstance(plan.radii, DrawnRadii):
-        plan = replace(plan, radii=radii)
+    if isinstance(plan.problem.radii, DrawnRadii):
+        plan = replace(plan, problem=replace(plan.problem, radii=radii))
     drop = {"i"}
-    return [str({k: v for k, v in row.items() if k not in drop}) for row in run(plan).rows]
+    return [str({k: v for k, v in row.items() if k not in drop}) for row in run(plan).decimals()]
 
 
 def strip(height: int, width: int, geometry: str, at: list[Any]) -> dict[str, dict[str, Any]]:

@@ -4,11 +4,11 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Hardware
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Array, Hardware
 from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
-from force_diffusion.numeric.lattice.layers import Array, whole
+from force_diffusion.numeric.lattice.layers import whole
 from force_diffusion.numeric.mechanics.forces import sweep_down
-from force_diffusion.numeric.mechanics.load_spec import LoadSpec
+from force_diffusion.numeric.mechanics.loads import LoadSpec
 from force_diffusion.numeric.mechanics.packing import deposit
 
 N_X = Fraction(3, 4)
@@ -22,7 +22,7 @@ def changes(system: Hardware, height: int, width: int) -> Array:
         packing = deposit(N_X, region, rows_of(radii, region.rows, [0], system), system)
         loads = load.on(region.rows, load.strength(N_X, system), system)
         forces = sweep_down(packing, region.rows, loads)
-    return np.concatenate([*forces.change_plus, *forces.change_minus])
+    return np.concatenate([*forces.change.plus, *forces.change.minus])
 
 
 @pytest.mark.skipif(LONGDOUBLE.bits <= FLOAT64.bits, reason="long double is no longer than double")

@@ -8,18 +8,18 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.disorder.radii import RadiusError
 from force_diffusion.numeric.mechanics.forces import NotStandingError
 from force_diffusion.numeric.mechanics.packing import UnbuildableError
 from force_diffusion.numeric.planning.planner import plan
-from force_diffusion.numeric.result import outcome_data, plan_data
-from force_diffusion.numeric.run import ToleranceError, run
-from force_diffusion.numeric.scene.sections import SceneError, parse_scene, read_scene
+from force_diffusion.numeric.run import read_scene, run
+from force_diffusion.numeric.scene.sections import SceneError
 from force_diffusion.numeric.scene.tables import TableError
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.numeric.scenes import answer, basic, planned, scene, scenes, toml
+from tests.numeric.scenes import answer, basic, parse_scene, planned, scene, scenes, toml
 
 WRONG: list[tuple[str, str, Any, str]] = [
     ("packing", "height", 0, "greater than or equal to 1"),
@@ -179,10 +179,10 @@ def test_what_float64_cannot_hold_needs_a_tolerance(tmp_path: Path) -> None:
         outcome = answer(sections)
         assert 0 < outcome.accuracy.error_bound <= 1e-9
         name = {"positions": "dx", "profile": "std"}.get(quantity, "change")
-        assert any(row[name] != "0" for row in outcome.rows)
-        json.dumps(outcome_data(outcome), allow_nan=False)
+        assert any(row[name] != "0" for row in outcome.decimals())
+        json.dumps(outcome.data(), allow_nan=False)
         if quantity == "profile":
-            assert all("e-" in row["first_order_std"] for row in outcome.rows)
+            assert all("e-" in row["first_order_std"] for row in outcome.decimals())
 
 
 @pytest.mark.parametrize("force", ["1e400", "-1e-400"])
@@ -193,7 +193,7 @@ def test_loads_that_float64_cannot_hold_need_a_tolerance(force: str, tmp_path: P
     with pytest.raises(SceneError, match=r'load.file = "loads.csv".*bead \(1, 3\)'):
         planned(sections, tmp_path)
     sections["ask"]["tolerance"] = "=1e-9"
-    assert any(row["change"] != "0" for row in answer(sections, tmp_path).rows)
+    assert any(row["change"] != "0" for row in answer(sections, tmp_path).decimals())
 
 
 def test_bins_far_below_the_smallest_float() -> None:
@@ -201,7 +201,7 @@ def test_bins_far_below_the_smallest_float() -> None:
     counts = []
     for std in ("=1e-400", "=1e-200"):
         sections["disorder"]["relative_std"] = std
-        rows = answer(sections).rows
+        rows = answer(sections).decimals()
         assert all(Fraction(row["low"]) < Fraction(row["high"]) for row in rows)
         counts.append([row["count"] for row in rows])
     assert len(counts[0]) == 7
@@ -320,12 +320,12 @@ def solved_or_refused(sections: dict[str, dict[str, Any]], folder: Path = Path()
     message = None
     try:
         made = planned(sections, folder)
-        plan_data(made)
+        made.data()
         if made.estimated_seconds < 0.1 and made.system.bits <= 2000:
             outcome = run(made)
-            json.dumps(outcome_data(outcome), allow_nan=False)
+            json.dumps(outcome.data(), allow_nan=False)
             accuracy = outcome.accuracy
-            if not accuracy.certified and 0 < made.radii.relative_std() ** 2 < 1e-300:
+            if not accuracy.certified and 0 < made.problem.radii.relative_std() ** 2 < 1e-300:
                 assert accuracy.error_bound > 0  # zero would claim that nothing was rounded away
     except REFUSALS as error:
         message = str(error)

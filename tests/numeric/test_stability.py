@@ -4,11 +4,10 @@ from fractions import Fraction
 from functools import cache
 
 import pytest
+from force_diffusion.numeric.arithmetic.errors import UndecidedError
 from force_diffusion.numeric.arithmetic.systems import Balls
 from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
 from force_diffusion.numeric.lattice.layers import whole
-from force_diffusion.numeric.mechanics.packing import UndecidedError
-from force_diffusion.numeric.run import critical_height
 from force_diffusion.numeric.studies.stability import enclosures, forms
 from force_diffusion.numeric.studies.stability.closed import closed_form_rows
 from force_diffusion.numeric.studies.stability.enclosures import (
@@ -26,6 +25,7 @@ from force_diffusion.numeric.studies.stability.forms import (
     flat,
     plain_form,
 )
+from force_diffusion.numeric.theory.critical_height import critical_height
 
 UNIT = 2.0**-53  # of float64: one unit in the last place is at most 2 of these
 

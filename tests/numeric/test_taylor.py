@@ -7,10 +7,9 @@ import pytest
 from force_diffusion.numeric.arithmetic.systems import Series, zeros
 from force_diffusion.numeric.lattice.layers import column
 from force_diffusion.numeric.mechanics import plain, taylor
-from force_diffusion.numeric.mechanics.loads import sites
 from hypothesis import given
 
-from tests.numeric.strategies import Case, cases
+from tests.numeric.strategies import Case, cases, sites
 
 ORDER = 2
 

@@ -133,12 +133,12 @@ def test_exact_packings_at_the_critical_height_have_that_many() -> None:
     Forces are nonlinear by about 1 % there, and 200 packings scatter by 1 %: 5 % is beyond both.
     """
     M, std = 21, 0.01
-    ensemble = planned('"profile"', height=M, width=2 * M, seed=5, std=std, realisations=200)
+    ensemble = planned("profile", height=M, width=2 * M, seed=5, std=std, realisations=200)
     tensile = contacts = 0
     for answer, _ in solved(ensemble, range(200)):
         forces = forces_of(answer)
         for j in range(1, M + 1):
-            F, change = forces.ordered_plus[j], forces.change_plus[j]
+            F, change = forces.ordered.plus[j], forces.change.plus[j]
             tensile += int((F + change < 0).sum())
             contacts += change.size
     found = tensile / contacts

@@ -1,5 +1,6 @@
 """Only what is called for: tests on the work that was executed, and on what it depends on."""
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -12,9 +13,9 @@ from force_diffusion.numeric.lattice.layers import Layer
 from force_diffusion.numeric.mechanics import first_order
 from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.planning import budget
-from force_diffusion.numeric.planning.planner import Plan
-from force_diffusion.numeric.result import outcome_data, plan_data
+from force_diffusion.numeric.planning import choice
+from force_diffusion.numeric.planning.budget import FLOAT_BEAD
+from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.run import run
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -26,7 +27,7 @@ def beads_of(plan: Plan) -> tuple[Work, set[tuple[int, int]]]:
     """Run one realisation and give the work and the sites whose radii were asked for."""
     work = Work(trace=True)
     with plan.system.active():
-        solve(plan, [0], plan.system, work)
+        solve(plan.problem, [0], plan.system, work)
     return work, {(i, row.j) for row in work.rows.get("radii", []) for i in row.sites()}
 
 
@@ -73,12 +74,12 @@ def gradient(M: int, contact: tuple[int, int, str], load: dict[str, Any]) -> set
     system = Balls(256)
 
     def force(radii: dict[tuple[int, int], Fraction]) -> Any:
-        changed = type(plan)(**{**plan.__dict__, "radii": MeasuredRadii(radii, None)})
+        changed = replace(plan.problem, radii=MeasuredRadii(radii, None))
         with system.active():
             solved = solve(changed, [0], system, Work())
             if solved.forces is None:
                 return flint.arb(0)
-            g = solved.forces.change_plus if contact[2] == "+" else solved.forces.change_minus
+            g = solved.forces.change.plus if contact[2] == "+" else solved.forces.change.minus
             return g[j + 1][0]
 
     start = force(rho)
@@ -126,7 +127,7 @@ def test_first_order_depends_on_exactly_the_beads_it_reads(
         sections["load"]["at"] = [2 * data.draw(st.integers(0, W - 1)) + layer % 2, layer]
     plan = planned(sections)
     work, visited = beads_of(plan)
-    if plan.route == "ordered":
+    if plan.problem.route == "ordered":
         assert not visited
         return
     assert work.radii == len(visited)
@@ -140,14 +141,15 @@ def _weights(
 ) -> dict[tuple[int, int], Fraction]:
     """d force / d radius of every bead at order ε, from the exact nonlinear solution."""
     from force_diffusion.numeric.mechanics import taylor
-    from force_diffusion.numeric.mechanics.loads import sites
+
+    from tests.numeric.strategies import sites
 
     n = (Fraction(3, 5), Fraction(4, 5))
-    if plan.load.kind == "point":
-        assert plan.load.at is not None
-        loads = {plan.load.at: (Fraction(0), Fraction(-1))}
+    if plan.problem.load.kind == "point":
+        assert plan.problem.load.at is not None
+        loads = {plan.problem.load.at: (Fraction(0), Fraction(-1))}
     else:
-        layers = range(M + 1) if plan.load.kind == "bulk" else [M]
+        layers = range(M + 1) if plan.problem.load.kind == "bulk" else [M]
         loads = {s: (Fraction(0), Fraction(-1)) for s in sites(W, M) if s[1] in layers}
     weights = {}
     for site in sites(W, M):
@@ -172,7 +174,7 @@ def test_a_point_load_stays_in_its_cone() -> None:
     work = Work(trace=True)
     plan = planned(sections)
     with plan.system.active():
-        solve(plan, [0], plan.system, work)
+        solve(plan.problem, [0], plan.system, work)
     for row in work.rows["balanced"]:
         for i in row.sites():
             assert abs(i - 5) <= 7 - row.j
@@ -184,7 +186,7 @@ def test_cost_grows_with_the_region_not_with_the_packing() -> None:
     small = answer(basic(12, 30, quantity="contact", at=[30, 10, "+"]))
     large = answer(basic(12, 3000, quantity="contact", at=[30, 10, "+"]))
     assert small.work.deposited == large.work.deposited == regions.contact_beads(10, 12)
-    assert small.rows == large.rows
+    assert small.decimals() == large.decimals()
 
 
 @pytest.mark.parametrize(
@@ -199,7 +201,7 @@ def test_cost_grows_with_the_region_not_with_the_packing() -> None:
 def test_an_effect_switched_off_changes_no_bit(named: dict[str, dict[str, Any]]) -> None:
     without = answer(basic())
     off = answer({**basic(), **named})
-    assert off.rows == without.rows
+    assert off.decimals() == without.decimals()
     assert off.accuracy == without.accuracy
 
 
@@ -207,7 +209,7 @@ def test_disorder_of_zero_width_is_no_disorder() -> None:
     sections = basic()
     none = {k: v for k, v in sections.items() if k != "disorder"}
     sections["disorder"]["relative_std"] = "=0.0"
-    assert answer(sections).rows == answer(none).rows
+    assert answer(sections).decimals() == answer(none).decimals()
 
 
 def scene_of(geometry: str, quantity: str, realisations: int) -> dict[str, dict[str, Any]]:
@@ -223,7 +225,7 @@ def scene_of(geometry: str, quantity: str, realisations: int) -> dict[str, dict[
 @pytest.mark.parametrize("geometry", ["exact", "first-order"])
 def test_the_plan_is_what_runs(geometry: str, quantity: str, realisations: int) -> None:
     outcome = run(planned(scene_of(geometry, quantity, realisations)))
-    before, after = plan_data(outcome.plan)["plan"], outcome_data(outcome)["plan"]
+    before, after = outcome.plan.data()["plan"], outcome.data()["plan"]
     for planned_step, done in zip(before, after, strict=True):
         for key in ("step", "beads", "arithmetic"):
             assert planned_step[key] == done[key]
@@ -236,7 +238,7 @@ def test_progress_is_told_of_every_visit() -> None:
     told: list[int] = []
     plan = planned(scene_of("exact", "contact_forces", 7))
     outcome = run(plan, progress=lambda kind, beads: told.append(beads))
-    assert sum(told) == sum(step["beads"] for step in outcome_data(outcome)["plan"])
+    assert sum(told) == sum(step["beads"] for step in outcome.data()["plan"])
     assert sum(told) == sum(step.beads for step in plan.steps)
 
 
@@ -247,19 +249,19 @@ def test_clocks_do_not_overlap(geometry: str, quantity: str, tolerance: str | No
     sections = scene_of(geometry, quantity, 6)
     if tolerance:
         sections["ask"]["tolerance"] = tolerance
-    data = outcome_data(run(planned(sections)))
+    data = run(planned(sections)).data()
     assert sum(step["seconds"] for step in data["plan"]) <= data["seconds"] + 1e-5
 
 
 def test_precisions_that_failed_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     sections = basic(quantity="contact", at=[2, 2, "+"], tolerance="=1e-20")
-    monkeypatch.setattr(budget, "initial_bits", lambda tolerance, height: 24)
+    monkeypatch.setattr(choice, "initial_bits", lambda tolerance, height: 24)
     plan = planned(sections)
     outcome = run(plan)
     passes = outcome.work.arithmetic
     assert passes == [f"arb balls, {24 * 2**k} bits" for k in range(len(passes))]
     assert len(passes) > 2
-    data = outcome_data(outcome)
+    data = outcome.data()
     beads = regions.contact_beads(2, 6)
     for step in data["plan"]:
         assert step["arithmetic"] == ", then ".join(passes)
@@ -291,4 +293,4 @@ def test_estimates_know_what_is_printed_and_what_is_solved_together() -> None:
     # a bin with its edges as decimals takes some ten microseconds, and surely more than two
     assert many.estimated_seconds > few.estimated_seconds + 2
     one, batch = (planned(basic(quantity="profile", realisations=n)) for n in (1, 1000))
-    assert batch.memory > one.memory + 900 * one.region.beads * budget.FLOAT_BEAD
+    assert batch.memory > one.memory + 900 * one.problem.region.beads * FLOAT_BEAD

@@ -25,7 +25,7 @@ _HERE = Path(__file__).parent
 _SIZE = "0.00 MB"
 _HASHES = "'sha256-'"
 _PACKAGES = (
-    "force-diffusion", "sympy", "numpy", "mpmath", "python-flint", "gmpy2", "matplotlib", "Jinja2",
+    "force-diffusion", "sympy", "numpy", "mpmath", "python-flint", "matplotlib", "Jinja2",
     "math-core", "numba",
 )  # fmt: skip
 _MARKS = {"proved": "✓", "agrees": "✓", "refuted": "✗", "disagrees": "✗", "undecided": "?",

@@ -52,7 +52,7 @@ def figures_part(notice: Notice) -> Part:
 
 def cost_part(notice: Notice) -> Part:
     """Every way to answer the small scene, its error beside its time."""
-    from force_diffusion.numeric.scene.sections import read_scene
+    from force_diffusion.numeric.run import read_scene
     from force_diffusion.numeric.studies.cost.data import csv_rows, study_data
     from force_diffusion.numeric.studies.cost.plot import plots
     from force_diffusion.numeric.studies.cost.study import study

@@ -17,7 +17,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from force_diffusion.numeric.lattice.layers import Array
+
+from ...arithmetic.systems import Array
 
 SPLITTING_ANGLE = np.radians(20)
 RAYS = 200_000

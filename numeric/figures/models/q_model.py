@@ -17,7 +17,8 @@ q-model" is not what the load on a bead does here: Brownian is the spread of a p
 """
 
 import numpy as np
-from force_diffusion.numeric.lattice.layers import Array
+
+from ...arithmetic.systems import Array
 
 
 def weight_variance(depth: int) -> Array:

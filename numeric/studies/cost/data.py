@@ -4,7 +4,7 @@ from dataclasses import asdict
 from decimal import ROUND_CEILING, Context, Decimal
 from typing import Any
 
-from force_diffusion.numeric.studies.cost.rows import Row, Study
+from .rows import Row, Study
 
 MEMORY = (
     "tracemalloc: what Python and NumPy allocate; with big numbers a lower bound (≥), since their "

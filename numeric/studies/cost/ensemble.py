@@ -14,21 +14,22 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from force_diffusion.numeric import closed_forms
-from force_diffusion.numeric.arithmetic.systems import (
+
+from ... import closed_forms
+from ...arithmetic.systems import (
     FLOAT64,
     LONGDOUBLE,
+    Array,
     Balls,
     BigFloat,
     NumberSystem,
     array,
 )
-from force_diffusion.numeric.lattice.layers import Array
-from force_diffusion.numeric.planning import planner
-from force_diffusion.numeric.planning.plan import Plan, Skipped
-from force_diffusion.numeric.quantities.answers import Table
-from force_diffusion.numeric.scene.sections import Scene
-from force_diffusion.numeric.studies.cost.rows import (
+from ...planning import planner
+from ...planning.plan import Plan, Skipped
+from ...quantities.base import Table
+from ...scene.scene import Scene
+from .rows import (
     Notice,
     Reference,
     Row,
@@ -37,8 +38,8 @@ from force_diffusion.numeric.studies.cost.rows import (
     measured,
     row,
 )
-from force_diffusion.numeric.studies.cost.truth import decimal, exactly
-from force_diffusion.numeric.studies.cost.ways import answer, systems, with_geometry
+from .truth import decimal, exactly
+from .ways import answer, systems, with_geometry
 
 # Realisations that the correction and the scatter are estimated from: at least, at most.
 LEAST, MOST = 8, 64
@@ -102,21 +103,21 @@ def formula(plan: Plan, printed: bool, system: NumberSystem) -> Array:
 
     ``printed`` is the asymptotic form of the paper, the other is exact to first order at finite M.
     """
-    bulk = plan.load.kind == "bulk"
+    bulk = plan.problem.load.kind == "bulk"
     asymptotic = closed_forms.bulk_diffusion if bulk else closed_forms.surface_diffusion
     exact = closed_forms.bulk_variance if bulk else closed_forms.surface_variance
-    M = plan.scene.packing.height
+    M = plan.problem.height
     with system.active():
-        one, phi = system.number(Fraction(1)), system.number(1 - 2 * plan.scene.n_x**2)
-        strength = plan.load.strength(plan.scene.n_x, system)
+        one, phi = system.number(Fraction(1)), system.number(1 - 2 * plan.problem.n_x**2)
+        strength = plan.problem.load.strength(plan.problem.n_x, system)
         forces, squares = (array(system, [Fraction(0)] * M) for _ in range(2))
         for j in range(M):
-            forces[j] = plan.load.ordered_force((j % 2, j, "+"), strength, system)
+            forces[j] = plan.problem.load.ordered_force((j % 2, j, "+"), strength, system)
             if printed:
                 squares[j] = asymptotic(M, system.number(Fraction(j, M)), phi, one, one)
             else:
                 squares[j] = exact(M, j, phi, one, one)
-        scaled = system.sqrt(squares) * forces * system.scalar(plan.radii.relative_std())
+        scaled = system.sqrt(squares) * forces * system.scalar(plan.problem.radii.relative_std())
         return np.asarray(scaled)
 
 

@@ -10,8 +10,6 @@ from decimal import Decimal
 from typing import Any
 
 import numpy as np
-from force_diffusion.numeric.figures import style
-from force_diffusion.numeric.studies.cost.rows import Row, Study
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -19,6 +17,9 @@ from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from matplotlib.transforms import Bbox
+
+from ...figures import style
+from .rows import Row, Study
 
 WIDE = 60
 """Decades of error beyond which the axis is one of √digits."""

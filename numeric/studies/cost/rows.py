@@ -9,8 +9,8 @@ from statistics import median
 from time import perf_counter
 from typing import TypeVar
 
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE
-from force_diffusion.numeric.planning.plan import Skipped
+from ...arithmetic.systems import FLOAT64, LONGDOUBLE
+from ...planning.plan import Skipped
 
 LEAST_RUNS, MOST_RUNS, ENOUGH_SECONDS = 3, 15, 0.2
 # After so many seconds no further run is timed: slow rows scatter little, and a study stays short.

@@ -10,16 +10,19 @@ from decimal import Decimal
 from fractions import Fraction
 from functools import partial
 
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, NumberSystem
-from force_diffusion.numeric.disorder.radii import RadiusError
-from force_diffusion.numeric.mechanics.forces import NotStandingError
-from force_diffusion.numeric.mechanics.packing import UnbuildableError, UndecidedError
-from force_diffusion.numeric.planning import planner
-from force_diffusion.numeric.planning.plan import Skipped
-from force_diffusion.numeric.quantities.answers import Profile, Table
-from force_diffusion.numeric.scene.sections import Scene, SceneError
-from force_diffusion.numeric.studies.cost.ensemble import study_ensemble
-from force_diffusion.numeric.studies.cost.rows import (
+from ...arithmetic.errors import UndecidedError
+from ...arithmetic.systems import FLOAT64, LONGDOUBLE, NumberSystem
+from ...disorder.radii import RadiusError
+from ...mechanics.forces import NotStandingError
+from ...mechanics.packing import UnbuildableError
+from ...mechanics.problem import Route
+from ...planning import planner
+from ...planning.plan import Skipped
+from ...quantities.base import Table, first_order_std
+from ...scene.scene import Scene
+from ...scene.sections import SceneError
+from .ensemble import study_ensemble
+from .rows import (
     Notice,
     Reference,
     Row,
@@ -28,10 +31,9 @@ from force_diffusion.numeric.studies.cost.rows import (
     measured,
     row,
 )
-from force_diffusion.numeric.studies.cost.truth import BEYOND, IncomparableError, Truth
-from force_diffusion.numeric.studies.cost.ways import (
+from .truth import BEYOND, IncomparableError, Truth
+from .ways import (
     answer,
-    solve_plainly,
     systems,
     why_not_plain,
     with_geometry,
@@ -47,10 +49,10 @@ def study(scene: Scene, notice: Notice = lambda _: None) -> Study:
     ``ToleranceError`` where no reference is found, and what the sweeps raise.
     """
     plan = planner.plan(scene, Fraction(1, 10))
-    if plan.route == "ordered":
+    if plan.problem.route == Route.ORDERED:
         why = "every change is exactly zero here: there is nothing that errors could be relative to"
         raise SceneError("ask.quantity", scene.ask.quantity, why)
-    if scene.ask.quantity == "profile" and Profile(plan, FLOAT64).theory_applies():
+    if scene.ask.quantity == "profile" and first_order_std(plan.problem) is not None:
         return study_ensemble(scene, notice)
     return _study_one(scene, notice)
 
@@ -79,7 +81,7 @@ def _study_one(scene: Scene, notice: Notice) -> Study:
         wrong = nothing if model is None else true.error(model.table)
         rows.append(row(way, system.name, seconds, peak, error, (wrong, rounding, None), bound))
 
-    if plan.route == "exact":
+    if plan.problem.route == Route.EXACT:
         if scene.effects.stop_at_tension:
             skipped.append(Skipped("first-order line sums", "they do not stop at tension"))
         else:
@@ -90,14 +92,14 @@ def _study_one(scene: Scene, notice: Notice) -> Study:
     else:
         reason = "the scene asks for the first-order theory"
         skipped.append(Skipped("exact, deviation form", reason))
-    own = "exact, deviation form" if plan.route == "exact" else "first-order line sums"
+    own = "exact, deviation form" if plan.problem.route == Route.EXACT else "first-order line sums"
     why = why_not_plain(plan)
     if why is not None:
         skipped.append(Skipped("exact, plain form", why))
     for system in systems():
         measure(own, system, partial(answer, plan, system, [0]), None)
         if why is None:
-            work = partial(answer, plan, system, [0], solve_plainly)
+            work = partial(answer, plan, system, [0], plainly=True)
             measure("exact, plain form", system, work, None)
     what = "the first realisation" if scene.ask.realisations > 1 else "the packing"
     reference = Reference("certified", what, true.system.name, true.radius)

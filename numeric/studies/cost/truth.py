@@ -6,16 +6,17 @@ from fractions import Fraction
 from typing import Any
 
 import flint
-from force_diffusion.numeric.arithmetic.errors import NOT_REACHED, ForceDiffusionError
-from force_diffusion.numeric.arithmetic.systems import Balls, as_ball
-from force_diffusion.numeric.mechanics.forces import NotStandingError
-from force_diffusion.numeric.mechanics.packing import UndecidedError
-from force_diffusion.numeric.planning.budget import initial_bits
-from force_diffusion.numeric.planning.plan import Plan
-from force_diffusion.numeric.quantities.answers import Table
-from force_diffusion.numeric.run import MOST_BITS, ToleranceError
-from force_diffusion.numeric.scene.sections import SceneError
-from force_diffusion.numeric.studies.cost.ways import DIGITS, answer
+
+from ...accuracy.accuracy import ToleranceError
+from ...arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
+from ...arithmetic.systems import Balls, as_ball
+from ...mechanics.forces import NotStandingError
+from ...planning.budget import MOST_BITS
+from ...planning.expected_error import initial_bits
+from ...planning.plan import Plan
+from ...quantities.base import Table
+from ...scene.sections import SceneError
+from .ways import DIGITS, answer
 
 # The reference's radius has to lie this far below the last digit of the most precise way.
 BEYOND = Fraction(1, 10 ** (max(DIGITS) + 20))

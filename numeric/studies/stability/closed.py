@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from force_diffusion.numeric import closed_forms
+from ... import closed_forms
 
 
 @dataclass(frozen=True)

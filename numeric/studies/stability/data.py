@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Any
 
-from force_diffusion.numeric.studies.stability.closed import ClosedFormRow, closed_form_rows
-from force_diffusion.numeric.studies.stability.enclosures import DIGITS, Enclosed, enclose, strips
-from force_diffusion.numeric.studies.stability.floats import Row, cases, measure
+from .closed import ClosedFormRow, closed_form_rows
+from .enclosures import DIGITS, Enclosed, enclose, strips
+from .floats import Row, cases, measure
 
 Measured = Row | Enclosed | ClosedFormRow
 FLOATS, ENCLOSURES, CLOSED_FORMS = "rows", "enclosures", "closed_forms"

@@ -11,13 +11,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 
-from force_diffusion.numeric.arithmetic.systems import Balls, NumberSystem
-from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
-from force_diffusion.numeric.lattice.layers import Array, whole
-from force_diffusion.numeric.mechanics.forces import NotStandingError
-from force_diffusion.numeric.mechanics.packing import UnbuildableError, UndecidedError
-from force_diffusion.numeric.run import MOST_BITS, critical_height
-from force_diffusion.numeric.studies.stability.forms import (
+from ...arithmetic.errors import UndecidedError
+from ...arithmetic.systems import Array, Balls, NumberSystem
+from ...disorder.radii import DrawnRadii, rows_of
+from ...lattice.layers import whole
+from ...mechanics.forces import NotStandingError
+from ...mechanics.packing import UnbuildableError
+from ...planning.budget import MOST_BITS
+from ...theory.critical_height import critical_height
+from .forms import (
     SEED,
     Changes,
     bits_lost,

@@ -12,14 +12,16 @@ from functools import partial
 from typing import Any, TypeVar
 
 import flint
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls
-from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii, Radii, rows_of
-from force_diffusion.numeric.lattice.layers import whole
-from force_diffusion.numeric.mechanics.forces import NotStandingError
-from force_diffusion.numeric.mechanics.packing import UnbuildableError, UndecidedError
-from force_diffusion.numeric.mechanics.physicality import Physicality
-from force_diffusion.numeric.run import critical_height
-from force_diffusion.numeric.studies.stability.forms import (
+
+from ...arithmetic.errors import UndecidedError
+from ...arithmetic.systems import FLOAT64, Balls
+from ...disorder.radii import DrawnRadii, MeasuredRadii, Radii, rows_of
+from ...lattice.layers import whole
+from ...mechanics.forces import NotStandingError
+from ...mechanics.packing import UnbuildableError
+from ...mechanics.physicality import Physicality
+from ...theory.critical_height import critical_height
+from .forms import (
     SEED,
     Changes,
     bits_lost,

@@ -14,12 +14,13 @@ from time import process_time
 from typing import Any, TypeVar
 
 import flint
-from force_diffusion.numeric.arithmetic.systems import NumberSystem, zeros
-from force_diffusion.numeric.lattice.layers import Array, whole
-from force_diffusion.numeric.mechanics import plain
-from force_diffusion.numeric.mechanics.forces import Forces, sweep_down
-from force_diffusion.numeric.mechanics.load_spec import LoadSpec
-from force_diffusion.numeric.mechanics.packing import Packing, deposit
+
+from ...arithmetic.systems import Array, NumberSystem, zeros
+from ...lattice.layers import whole
+from ...mechanics import plain
+from ...mechanics.forces import Forces, sweep_down
+from ...mechanics.loads import LoadSpec
+from ...mechanics.packing import SolvedPacking, deposit
 
 SEED = 1
 Changes = tuple[Sequence[Array], Sequence[Array]]
@@ -31,7 +32,7 @@ ENOUGH_SECONDS, MOST_ROUNDS = 0.05, 9
 
 def deviation_form(
     n_x: Fraction, rho: Sequence[Array], system: NumberSystem
-) -> tuple[Packing, Forces]:
+) -> tuple[SolvedPacking, Forces]:
     """Solve a whole packing for its deviations; the caller activates ``system``."""
     height, width = len(rho) - 1, len(rho[0])
     region, load = whole(width, height), LoadSpec("surface", height, width)
@@ -42,7 +43,7 @@ def deviation_form(
 
 def changes(forces: Forces) -> Changes:
     """Give the changes of all contact forces."""
-    return forces.change_plus, forces.change_minus
+    return forces.change.plus, forces.change.minus
 
 
 def plain_form(n_x: Fraction, rho: Sequence[Array], system: NumberSystem) -> Changes:

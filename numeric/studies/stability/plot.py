@@ -8,11 +8,12 @@ from itertools import pairwise
 from math import log10
 from typing import Any
 
-from force_diffusion.numeric.figures import style
-from force_diffusion.numeric.studies.stability.enclosures import DIGITS, LINE_SUMS, POSITIONS
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
+
+from ...figures import style
+from .enclosures import DIGITS, LINE_SUMS, POSITIONS
 
 PLAIN, DEVIATION = style.VERMILLION, style.BLUE
 LEAST = 1e-30  # of σ/r: below it nothing changes any more

@@ -29,7 +29,7 @@ def local() -> Iterator[Any]:
 
 
 def test_a_worker_is_killed_in_the_middle(local: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(run, "BLOCK", 5 * M.plan.region.beads)
+    monkeypatch.setattr(run, "BLOCK", 5 * M.plan.problem.region.beads)
     address = local.scheduler_address
     with distributed.Client(address) as client:
         pids = list(client.run(os.getpid).values())

@@ -5,7 +5,8 @@ import math
 import pytest
 from force_diffusion.numeric.ensemble.estimates import Estimates
 from force_diffusion.numeric.ensemble.sums import measured
-from force_diffusion.numeric.statistics.confidence import half_width, looks, student
+from force_diffusion.numeric.statistics.confidence import half_width, looks
+from scipy import stats
 
 from tests.numeric.ensemble.cases import case
 
@@ -22,12 +23,13 @@ from tests.numeric.ensemble.cases import case
     ],
 )
 def test_student(wrong: float, freedom: int, meant: float) -> None:
-    assert student(wrong, freedom) == pytest.approx(meant, rel=1e-6)
+    assert half_width([1.0], freedom + 1, 1 - wrong, 0) == pytest.approx(meant, rel=1e-6)
 
 
 def test_student_becomes_normal_and_needs_two() -> None:
-    assert student(0.31731050786291404, 10**8) == pytest.approx(1, rel=1e-6)
-    assert student(0.05, 0) == math.inf
+    assert half_width([1.0], 10**8, 1 - 0.31731050786291404, 0) == pytest.approx(1, rel=1e-6)
+    assert half_width([1.0], 1, 0.95, 0) == math.inf
+    assert half_width([], 1, 0.95, 0) == 0
 
 
 def test_looks_are_few_and_their_shares_add_up() -> None:
@@ -39,11 +41,11 @@ def test_looks_are_few_and_their_shares_add_up() -> None:
 
 def test_more_looks_and_more_confidence_ask_for_more() -> None:
     estimates = Estimates(m := case("profile"), measured(case("profile"), range(40)))
-    fixed = half_width(estimates, 0.95, 0)
+    fixed = estimates.half_width(0.95, 0)
+    t = stats.t.isf(0.05 / m.groups / 2, 39)
     assert fixed == pytest.approx(
-        student(0.05 / m.groups, 39)
-        * max(e / s for e, s in zip(estimates.std_error, estimates.std, strict=True) if e)
+        t * max(e / s for e, s in zip(estimates.std_error, estimates.std, strict=True) if e)
     )
-    assert fixed < half_width(estimates, 0.95, 1) < half_width(estimates, 0.95, 2)
-    assert fixed < half_width(estimates, 0.99, 0)
-    assert half_width(Estimates(m, measured(m, range(1))), 0.95, 0) == math.inf
+    assert fixed < estimates.half_width(0.95, 1) < estimates.half_width(0.95, 2)
+    assert fixed < estimates.half_width(0.99, 0)
+    assert Estimates(m, measured(m, range(1))).half_width(0.95, 0) == math.inf

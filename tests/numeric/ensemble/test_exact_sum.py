@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.lattice.layers import Array
+from force_diffusion.numeric.arithmetic.systems import Array
 from force_diffusion.numeric.statistics.exact_sum import (
     ExactSum,
     digits,

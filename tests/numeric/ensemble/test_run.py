@@ -47,7 +47,7 @@ class Shuffled:
 
 
 def size_of_blocks(monkeypatch: pytest.MonkeyPatch, size: int) -> None:
-    monkeypatch.setattr(run, "BLOCK", size * M.plan.region.beads)
+    monkeypatch.setattr(run, "BLOCK", size * M.plan.problem.region.beads)
 
 
 def on_file(path: Path, m: Measurement, size: int, executor: Executor, **more: Any) -> Result:

@@ -228,7 +228,7 @@ class Watched(store.sqlite3.Connection):
 connect = store.sqlite3.connect
 store.sqlite3.connect = lambda *a, **k: connect(*a, factory=Watched, **k)
 m = case("profile")
-run.BLOCK = 5 * m.plan.region.beads
+run.BLOCK = 5 * m.plan.problem.region.beads
 opened = store.open_store(path, ensemble_key(m))
 run.run(m, 40, InProcess(), store=opened)
 """

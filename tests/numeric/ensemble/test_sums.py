@@ -9,15 +9,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array
 from force_diffusion.numeric.ensemble.asked import measurement
 from force_diffusion.numeric.ensemble.estimates import Estimates
 from force_diffusion.numeric.ensemble.measure import Measurement
 from force_diffusion.numeric.ensemble.sums import Sums, from_bytes, measured
-from force_diffusion.numeric.lattice.layers import Array
 from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.engine import solve
-from force_diffusion.numeric.mechanics.packing import Packing
+from force_diffusion.numeric.mechanics.packing import SolvedPacking
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.run import run
 from force_diffusion.numeric.scene.sections import SceneError
@@ -33,7 +32,7 @@ ALL = pytest.mark.parametrize("name", CASES)
 def changes(m: Measurement, realisations: range) -> list[Array]:
     """The changes (groups, members) of single realisations, each solved alone."""
     with FLOAT64.active():
-        alone = [m.changes(solve(m.plan, [k], FLOAT64, Work()), 1)[1] for k in realisations]
+        alone = [m.changes(solve(m.problem, [k], FLOAT64, Work()), 1)[1] for k in realisations]
     return [g[:, 0] for g in alone]
 
 
@@ -44,7 +43,7 @@ def test_batches_and_single_packings_give_the_same_bytes(
     m = case(name, covariance=True)
     whole = measured(m, range(7)).to_bytes()
     assert reduce(add, (measured(m, [k]) for k in (3, 0, 6, 2, 5, 1, 4))).to_bytes() == whole
-    monkeypatch.setattr(engine, "chunk_size", lambda *_: 3)
+    monkeypatch.setattr(engine, "chunk_size", lambda *_, **__: 3)
     assert measured(m, range(7)).to_bytes() == whole
 
 
@@ -57,7 +56,7 @@ def test_compiled_and_numpy_sweeps_give_the_same_bytes(
     usual = measured(m, range(3)).to_bytes()
     monkeypatch.setattr(engine, "COMPILED_FROM", 1)
     with FLOAT64.active():
-        assert type(solve(m.plan, [0], FLOAT64, Work()).packing) is not Packing
+        assert type(solve(m.problem, [0], FLOAT64, Work()).packing) is not SolvedPacking
     assert measured(m, range(3)).to_bytes() == usual
 
 
@@ -92,9 +91,9 @@ def test_sums_are_those_of_the_changes_as_fractions(name: str) -> None:
 def test_a_profile_is_that_of_run() -> None:
     outcome = run(planned({**PROFILE, "ask": {"quantity": "profile", "realisations": 6}}))
     found = Estimates(m := case("profile"), measured(case("profile"), range(6)))
-    assert m.labels == {n: [row[n] for row in outcome.rows] for n in ("j", "branch")}
+    assert m.labels == {n: [row[n] for row in outcome.decimals()] for n in ("j", "branch")}
     for name, values in (("std", found.std), ("mean_change", [float(v) for v in found.mean])):
-        meant = [float(row[name]) for row in outcome.rows]
+        meant = [float(row[name]) for row in outcome.decimals()]
         assert values == pytest.approx(meant, rel=1e-12, abs=1e-15 * max(found.std))
     assert [float(v) for v in m.ordered()] == pytest.approx([1 / math.sqrt(7 / 4)] * 8)
 
@@ -103,7 +102,7 @@ def test_a_profile_is_that_of_run() -> None:
 def test_labels_and_changes_are_those_of_run(name: str) -> None:
     m = case(name)
     outcome = run(planned(CASES[name]))
-    rows = outcome.rows
+    rows = outcome.decimals()
     if name == "response":
         half = m.groups // 2
         assert m.labels["component"] == ["force"] * half + ["vertical"] * half

@@ -1,0 +1,28 @@
+"""What is known of an answer's error."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """Error of the answer's small columns, relative to the largest entry of them.
+
+    ``certified``: a rigorous bound (balls). Otherwise it is estimated from a second solution with a
+    longer significand. ``bits_lost``: bits of the arithmetic that the answer lacks. A bound below
+    what a float can hold is a fraction.
+    """
+
+    error_bound: float | Fraction
+    certified: bool
+    arithmetic: str
+    bits_lost: float
+    note: str = ""
+
+
+class ToleranceError(ForceDiffusionError, ArithmeticError):
+    """The asked tolerance can't be reached; the message says why."""
+
+    exit_status = NOT_REACHED

@@ -1,0 +1,96 @@
+"""What is to be solved: beads, radii, loads, and by which theory."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from fractions import Fraction
+from typing import Any
+
+from ..arithmetic.systems import Array, NumberSystem
+from ..disorder.radii import Radii
+from ..lattice.branch import Contact, PerBranch, Site
+from ..lattice.layers import LazyRows, Region
+from ..lattice.regions import Rows
+from .forces import Forces
+from .loads import LoadSpec
+from .packing import SolvedPacking
+
+
+class Route(StrEnum):
+    """Which theory, and how it is evaluated."""
+
+    ORDERED = "ordered"  # closed forms of the ordered packing
+    LINE_SUMS = "line sums"  # first order, one contact or bead, along a few diagonals
+    FIRST_ORDER = "first-order"  # first order, layer by layer
+    EXACT = "exact"  # nonlinear, layer by layer
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Packings to be solved, all alike but for their radii.
+
+    ``region``: the beads that are deposited. ``force_rows``: those whose forces are balanced, empty
+    where only positions are asked for. ``contact`` or ``site``: the one that is asked for, if it is
+    one. ``realisations``: how many there are in all; it decides who sweeps, never a number.
+    """
+
+    n_x: Fraction
+    radii: Radii
+    load: LoadSpec
+    route: Route
+    region: Region
+    force_rows: Rows
+    needs_forces: bool
+    contact: Contact | None = None
+    site: Site | None = None
+    stop_at_tension: bool = False
+    realisations: int = 1
+
+    @property
+    def width(self) -> int | None:
+        """W beads a layer, or None for the infinite slab."""
+        return self.load.width
+
+    @property
+    def height(self) -> int:
+        """M."""
+        return self.load.height
+
+
+@dataclass(frozen=True)
+class Solved:
+    """Some realisations, solved; what the question does not need is None.
+
+    ``single`` is the (force, change) of the one contact, or the (c⁺, c⁻) of the one bead, that
+    line sums give alone.
+    """
+
+    system: NumberSystem
+    packing: SolvedPacking | None
+    forces: Forces | None
+    single: tuple[Any, Any] | None
+
+    def one(self, number: int) -> "Solved":
+        """Give the ``number``-th realisation of those that were solved together."""
+
+        def of(rows: Sequence[Array]) -> LazyRows[Array]:
+            return LazyRows(len(rows), lambda j: rows[j][number] if rows[j].size else rows[j])
+
+        def turns(rows: Sequence[tuple[Array, Array]]) -> LazyRows[tuple[Array, Array]]:
+            return LazyRows(len(rows), lambda j: (rows[j][0][number], rows[j][1][number]))
+
+        packing, forces = self.packing, self.forces
+        if packing is not None:
+            c, dn = packing.c, packing.dn
+            packing = SolvedPacking(
+                packing.n_x,
+                packing.system,
+                packing.region,
+                of(packing.rho),
+                PerBranch(of(c.plus), of(c.minus)),
+                PerBranch(turns(dn.plus), turns(dn.minus)),
+            )
+        if forces is not None:
+            change = forces.change
+            forces = replace(forces, change=PerBranch(of(change.plus), of(change.minus)))
+        return Solved(self.system, packing, forces, self.single)

@@ -1,0 +1,235 @@
+"""A finished run: the answer as arrays, rows and decimals, its error, and what was physical."""
+
+import math
+from dataclasses import asdict, dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .accuracy.accuracy import Accuracy
+from .accuracy.digits import strings
+from .arithmetic.decimals import bound_string
+from .arithmetic.systems import Array
+from .lattice.branch import Contact
+from .mechanics.physicality import Physicality
+from .mechanics.work import Work
+from .planning.plan import ESTIMATE, PHYSICAL, Plan, plan_lines
+from .quantities.base import Table
+from .statistics import histogram
+from .theory.critical_height import critical_height
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Row = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Missed:
+    """A method that was tried before the one that answered, and why it did not."""
+
+    algorithm: str
+    arithmetic: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A finished run.
+
+    ``plan`` is that of the method that answered; ``missed`` are those tried before. ``table`` holds
+    the numbers in the arithmetic of the run, ``bins`` (low, high, count) those of a histogram.
+    ``accuracy`` says how large the error is, relative to the largest change, and how it is known.
+    ``physical`` says whether beads could make such a packing, None where that is not looked at;
+    ``stopped`` names the contact at which a sweep stopped, if it was asked to.
+    """
+
+    plan: Plan
+    table: Table
+    bins: list[tuple[Fraction, Fraction, int]] | None
+    accuracy: Accuracy
+    physical: Physicality | None
+    stopped: Contact | None
+    work: Work
+    seconds: float
+    missed: tuple[Missed, ...] = ()
+
+    @property
+    def quantity(self) -> str:
+        """What was asked, as the scene calls it."""
+        return self.plan.quantity.name
+
+    @cached_property
+    def arrays(self) -> dict[str, Array]:
+        """The columns of the answer, each of shape (rows,).
+
+        Numbers are float64, or objects of the arithmetic of the run (mpmath, python-flint's balls)
+        where that was longer. Lengths are in the scene's unit, forces in that of the load's
+        magnitude. The guide to scenes says what each column means.
+        """
+        if self.bins is not None:
+            low, high, count = zip(*self.bins, strict=True) if self.bins else ((), (), ())
+            return {
+                "low": np.array([float(edge) for edge in low]),
+                "high": np.array([float(edge) for edge in high]),
+                "count": np.array(count, dtype=np.int64),
+            }
+        index = {name: np.array(values) for name, values in self.table.index.items()}
+        return index | self.table.numbers
+
+    def rows(self) -> list[Row]:
+        """The answer row by row, ready for a data frame; numbers as Python's int and float."""
+        columns = {
+            name: [float(v) for v in column] if column.dtype == object else column.tolist()
+            for name, column in self.arrays.items()
+        }
+        return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+
+    def decimals(self) -> list[Row]:
+        """The answer row by row, numbers as decimal strings with the digits that are known."""
+        if self.bins is not None:
+            return histogram.printed(self.bins)
+        system = self.plan.system
+        with system.active():
+            printed = strings(self.table, self.accuracy, system)
+        columns = {**self.table.index, **printed}
+        return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+
+    @property
+    def standard_errors(self) -> dict[str, Array]:
+        """Standard errors of the columns that are statistics, from the scatter over packings.
+
+        Shape (rows,) each; NaN where there was one packing. Empty where nothing is sampled.
+        """
+        return self.table.errors
+
+    def plot(self) -> "Figure":
+        """Draw this answer; needs matplotlib (the extra ``plots``).
+
+        Contact forces are drawn as force chains, a profile as σ_f beside theory, changes as P(f), a
+        response as a map. Raises ``SceneError`` for a quantity that has no figure.
+        """
+        from .figures.outcomes import figure_of
+
+        return figure_of(self.plan.scene, self.quantity, self.arrays, self.standard_errors)
+
+    def data(self) -> dict[str, Any]:
+        """Give what JSON can hold of it; the guide to scenes has the schema of each quantity."""
+        data = self.plan.data()
+        work, accuracy = self.work, self.accuracy
+        visited = {
+            "read radii": work.radii,
+            "draw radii": work.radii,
+            "deposit": work.deposited,
+            "line sums": work.summed,
+            "balance forces": work.balanced,
+            PHYSICAL: work.checked,
+            ESTIMATE: work.again,
+        }
+        for step in data["plan"]:
+            name = step["step"]
+            clock = "radii" if name in {"read radii", "draw radii"} else name
+            step["seconds"] = round(work.seconds.get(clock, 0.0), 6)
+            names = work.arithmetic_again if name == ESTIMATE else work.arithmetic
+            step["arithmetic"] = ", then ".join(names)
+            step["beads"] = visited.get(name, 0)
+        data["results"] = {self.quantity: self.decimals()}
+        data["accuracy"] = {
+            "error_bound": _bound(accuracy.error_bound),
+            "certified": accuracy.certified,
+            "arithmetic": accuracy.arithmetic,
+            "bits_lost": accuracy.bits_lost,
+        }
+        if accuracy.note:
+            data["accuracy"]["note"] = accuracy.note
+        if self.physical is not None:
+            data["physical"] = _physical_data(self.physical, self.plan)
+        if self.stopped is not None:
+            data["stopped_at_tension"] = self.stopped._asdict()
+        data["seconds"] = round(self.seconds, 6)
+        if data["choice"] is not None:
+            data["choice"]["missed"] = [asdict(missed) for missed in self.missed]
+            data["choice"]["measured_seconds"] = round(self.seconds, 6)
+        return data
+
+    def __str__(self) -> str:
+        """Say what was found, how accurately, and what was done for it."""
+        return "\n".join(outcome_lines(self.data()))
+
+    def _repr_html_(self) -> str:
+        """Show the first rows as a table in a notebook."""
+        rows = self.decimals()
+        shown = rows[:20]
+        heads = "".join(f"<th>{name}</th>" for name in (shown[0] if shown else {}))
+        body = "".join(
+            "<tr>" + "".join(f"<td>{value}</td>" for value in row.values()) + "</tr>"
+            for row in shown
+        )
+        more = f"<p>… and {len(rows) - len(shown)} more rows</p>" if len(rows) > len(shown) else ""
+        words = "<br>".join(summary_lines(self.data()))
+        return f"<table><tr>{heads}</tr>{body}</table>{more}<p>{words}</p>"
+
+
+def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
+    """Say whether an exact packing is one that beads could make."""
+    highest = critical_height(plan.problem.radii.relative_std())
+    pulls = found.tensile + found.undecided_signs
+    data: dict[str, Any] = {
+        "physical": found.sound,
+        "smallest_gap": found.smallest_gap,
+        "smallest_gap_between": None if found.between is None else [list(s) for s in found.between],
+        "overlaps": found.overlaps,
+        "tensile_contacts": found.tensile if found.forces_known else None,
+        "undecided": found.undecided_gaps + found.undecided_signs,
+        "contacts": found.contacts if found.forces_known else None,
+        "height": plan.problem.height,
+        "critical_height": highest if math.isfinite(highest) else None,
+    }
+    if pulls and plan.problem.load.loaded is not None:
+        data["note"] = (
+            "loads on single beads pull contacts inside their cones: such a packing stands when "
+            "other loads press these contacts more"
+        )
+    if found.first_tensile is not None:
+        home = plan.quantity.home(found.first_tensile.i)
+        data["first_tensile"] = found.first_tensile._replace(i=home)._asdict()
+    return data
+
+
+def _bound(bound: float | Fraction) -> float | str | None:
+    """Give a number where a float can hold it, else a decimal string; None stands for infinity."""
+    if isinstance(bound, Fraction):
+        return bound_string(bound)
+    return bound if math.isfinite(bound) else None
+
+
+def outcome_lines(data: dict[str, Any]) -> list[str]:
+    """Say in lines of text what a run found and did, without its rows."""
+    return [*summary_lines(data), *plan_lines(data)]
+
+
+def summary_lines(data: dict[str, Any]) -> list[str]:
+    """Say how many rows there are, how accurate they are, and what was physical."""
+    quantity, rows = next(iter(data["results"].items()))
+    accuracy = data["accuracy"]
+    bound = accuracy["error_bound"]
+    kind = "certified" if accuracy["certified"] else "estimated"
+    shown = f"{bound:.2g}" if isinstance(bound, float) else bound or "unknown"
+    lines = [
+        f"{quantity}: {len(rows)} rows",
+        f"error {shown}, {kind}, in {accuracy['arithmetic']}; bits lost {accuracy['bits_lost']}",
+    ]
+    if "physical" in data:
+        p = data["physical"]
+        words = "physical" if p["physical"] else "NOT physical"
+        gap = "none" if p["smallest_gap"] is None else f"{p['smallest_gap']:.6g} r"
+        lines.append(
+            f"{words}: smallest gap {gap}, {p['overlaps']} overlaps, "
+            f"{p['tensile_contacts']} tensile contacts; "
+            f"M = {p['height']}, M* = {p['critical_height']}"
+        )
+    if "stopped_at_tension" in data:
+        lines.append(f"stopped at the tensile contact {data['stopped_at_tension']}")
+    return lines

@@ -1,0 +1,202 @@
+"""All of a plan but its arithmetic: the beads, the theory, and what is left out."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ..arithmetic.systems import FLOAT64, NumberSystem
+from ..disorder.radii import Monodisperse, Radii
+from ..lattice.layers import Region
+from ..mechanics.engine import chunk_size
+from ..mechanics.problem import Problem, Route
+from ..quantities.base import Quantity
+from ..scene.scene import Scene
+from . import budget, float_range
+from .images import sees_images
+from .plan import Method, Plan, Skipped
+from .sources import load_of, radii_of
+from .steps import steps_of
+from .times import predicted
+
+# How plans call the way to the numbers.
+ALGORITHMS = {
+    Route.ORDERED: "closed form",
+    Route.LINE_SUMS: "line sums",
+    Route.FIRST_ORDER: "first-order sweep",
+    Route.EXACT: "exact sweep in deviation form",
+}
+
+
+@dataclass(frozen=True)
+class Outline:
+    """A scene's question as a problem, of which any method makes a plan.
+
+    ``limit``: bytes that may be used. ``closed``: whether closed forms or line sums answer it.
+    """
+
+    scene: Scene
+    quantity: Quantity
+    problem: Problem
+    skipped: tuple[Skipped, ...]
+    limit: int
+    closed: bool
+    tolerance: Fraction | None
+
+    @property
+    def algorithm(self) -> str:
+        """How plans call the way to the numbers."""
+        return ALGORITHMS[self.problem.route]
+
+    def plan(self, method: Method) -> Plan:
+        """Plan a method. Raises ``SceneError`` where it takes too much, or numbers can't hold."""
+        scene, problem = self.scene, self.problem
+        if method.system.dtype is not object:
+            float_range.check(scene, problem.radii, problem.load)
+        steps = steps_of(self.quantity, problem, method)
+        memory = self._refuse_memory(method, max((s.beads for s in steps), default=0))
+        seconds = predicted(self.quantity, problem, method)
+        budget.refuse_seconds(scene, problem.realisations, seconds)
+        return Plan(
+            scene,
+            self.quantity,
+            problem,
+            self.tolerance,
+            method,
+            steps,
+            self.skipped,
+            memory,
+            seconds,
+            sees_images(self.quantity, problem),
+        )
+
+    def _refuse_memory(self, method: Method, visited: int) -> int:
+        """Give the memory needed, or refuse the scene; ``visited`` beads in the longest step."""
+        problem = self.problem
+        n, region = problem.realisations, problem.region
+        together = chunk_size(region, method.system, stop_at_tension=problem.stop_at_tension)
+        at_once = region.beads * min(n, together)
+        if self.closed:  # one realisation after the other
+            at_once = visited // n
+        elif problem.route == Route.ORDERED:
+            at_once = 0
+        systems = [s for s in (method.system, method.longer) if s is not None]
+        needed = max(_memory(self.scene, self.quantity, region, at_once, n, s) for s in systems)
+        budget.refuse_memory(self.scene, needed, self.limit)
+        return needed
+
+
+def _memory(
+    scene: Scene, quantity: Quantity, region: Region, beads: int, n: int, system: NumberSystem
+) -> int:
+    return budget.memory(
+        beads=beads,
+        rows=quantity.answer_rows(region, n),
+        layers=len(region.rows),
+        system=system,
+        file=scene.disorder is not None and scene.disorder.file is not None,
+    )
+
+
+def outline(
+    scene: Scene,
+    quantity: Quantity,
+    limit: int,
+    tolerance: Fraction | None,
+    *,
+    line_sums: bool = True,
+) -> Outline:
+    """Say which beads are solved, by which theory, and what is left out.
+
+    ``line_sums`` may be forbidden. Raises ``SceneError`` for a scene that is too large, before a
+    single row of beads is made, and ``TableError``.
+    """
+    ordered = _ordered(scene)
+    first_order = scene.effects.geometry == "first-order"
+    has_line_sums = quantity.single and (scene.contact is not None or scene.site is not None)
+    closed = ordered or (line_sums and first_order and has_line_sums)
+    _refuse_beads(scene, quantity, limit, ordered=ordered, closed=closed)
+    skipped: list[Skipped] = []
+    load = load_of(scene)
+    if not quantity.needs_forces:
+        if "load" in scene.model_fields_set:
+            skipped.append(Skipped("load", "positions follow from the radii alone"))
+    elif not scene.load.angle_deg and scene.load.kind != "file":
+        skipped.append(Skipped("load at an angle", "the load points straight down"))
+    single = closed and quantity.single
+    force_rows = () if single else quantity.force_rows(load)
+    region = Region(load.width, ()) if single else quantity.region(force_rows)
+    radii, route = _theory(scene, region, skipped, ordered=ordered, closed=closed)
+    realisations = scene.ask.realisations
+    if realisations > 1 and route == Route.ORDERED:
+        why = "without disorder all realisations are the same: one is solved"
+        skipped.append(Skipped("realisations", why))
+        realisations = 1
+    problem = Problem(
+        scene.n_x,
+        radii,
+        load,
+        route,
+        region,
+        force_rows,
+        quantity.needs_forces,
+        scene.contact,
+        scene.site,
+        scene.effects.stop_at_tension,
+        realisations,
+    )
+    return Outline(scene, quantity, problem, tuple(skipped), limit, closed, tolerance)
+
+
+def _ordered(scene: Scene) -> bool:
+    """Say whether it is plain without reading any file that nothing is disordered."""
+    disorder = scene.disorder
+    if disorder is None or scene.effects.geometry == "ordered":
+        return True
+    drawn = disorder.kind not in ("file", "given")
+    return drawn and not disorder.relative_std
+
+
+def _refuse_beads(
+    scene: Scene, quantity: Quantity, limit: int, *, ordered: bool, closed: bool
+) -> None:
+    """Refuse what surely takes too much memory."""
+    beads = quantity.most_beads()
+    if closed and quantity.single:
+        beads = 5 * scene.packing.height
+    if ordered:
+        beads = 0
+    layers = 0 if quantity.single and not beads else scene.packing.height + 1
+    nothing = Region(scene.packing.width, ())
+    needed = _memory(scene, quantity, nothing, beads, 1, FLOAT64)
+    budget.refuse_memory(scene, needed + layers * budget.PLAN_LAYER, limit)
+
+
+def _theory(
+    scene: Scene, region: Region, skipped: list[Skipped], *, ordered: bool, closed: bool
+) -> tuple[Radii, Route]:
+    """Give the radii and the route, and say what that leaves out."""
+
+    def skip(effect: str, reason: str) -> None:
+        skipped.append(Skipped(effect, reason))
+
+    if not scene.effects.stop_at_tension:
+        skip("stop at tension", "not asked for: tensile contacts are counted, not acted on")
+    if scene.disorder is None:
+        skip("disorder", "the scene names none: all radii are equal")
+        return Monodisperse(), Route.ORDERED
+    if ordered:
+        why = "its relative_std is 0"
+        if scene.effects.geometry == "ordered":
+            why = 'geometry = "ordered" looks at the ordered packing only'
+        skip("disorder", why)
+        return Monodisperse(), Route.ORDERED
+    radii = radii_of(scene, region.rows)
+    if not radii.relative_std() and not closed:
+        skip("disorder", "every delta_r in the file is 0")
+        return Monodisperse(), Route.ORDERED
+    if not closed and not region.rows:
+        skip("disorder", "no load reaches what is asked for: the forces are exactly zero")
+        return radii, Route.ORDERED
+    if scene.effects.geometry == "exact":
+        return radii, Route.EXACT
+    skip("nonlinear geometry", 'geometry = "first-order" sums the radii along diagonals')
+    return radii, Route.LINE_SUMS if closed else Route.FIRST_ORDER

@@ -1,0 +1,74 @@
+"""The steps of a plan, each with its reason."""
+
+from dataclasses import replace
+
+from ..disorder.radii import DrawnRadii
+from ..mechanics.problem import Problem, Route
+from ..quantities.base import Quantity
+from .plan import CERTIFY, ESTIMATE, PHYSICAL, Method, Step
+
+
+def steps_of(quantity: Quantity, problem: Problem, method: Method) -> tuple[Step, ...]:
+    """List what is done for all realisations."""
+    n, arithmetic = problem.realisations, method.system.name
+    one = _solving(quantity, problem)
+    steps = [replace(step, beads=step.beads * n, arithmetic=arithmetic) for step in one]
+    if problem.route != Route.ORDERED:
+        steps.append(_judging(one, problem, method))
+    return tuple(steps)
+
+
+def _solving(quantity: Quantity, problem: Problem) -> list[Step]:
+    """List the steps of one realisation."""
+    if problem.route == Route.ORDERED:
+        return [Step("closed form", "the ordered packing is known: nothing is swept", 0)]
+    source = "draw radii" if isinstance(problem.radii, DrawnRadii) else "read radii"
+    if problem.route == Route.LINE_SUMS:
+        beads = quantity.line_beads(problem.load)
+        return [
+            Step(source, "only the beads on the diagonals that the answer depends on", beads),
+            Step("line sums", "to first order the answer is a sum down a few diagonals", beads),
+        ]
+    beads, exact = problem.region.beads, problem.route == Route.EXACT
+    steps = [Step(source, _why_region(problem), beads)]
+    if exact:
+        why = "exact positions, as deviations in line-sum coordinates"
+        steps.append(Step("deposit", why, beads))
+    else:
+        steps.append(Step("line sums", "displacements to first order, layer by layer", beads))
+    if problem.needs_forces:
+        visited = sum(layer.count for layer in problem.force_rows[1:])
+        steps.append(Step("balance forces", _why_forces(problem), visited))
+    if exact:
+        steps.append(Step(PHYSICAL, "gaps, overlaps and signs, always", beads))
+    return steps
+
+
+def _judging(one: list[Step], problem: Problem, method: Method) -> Step:
+    """Give the last step, which says how accurate the answer is."""
+    if method.longer is None:
+        why = "balls enclose the answer; bits are added, and all is done again, until it fits"
+        return Step(CERTIFY, why, 0, method.system.name)
+    passes = 1 if method.repeated == problem.realisations else 2
+    visits = sum(step.beads for step in one if step.step != PHYSICAL)
+    longer = method.longer.name
+    return Step(
+        ESTIMATE,
+        "the first realisations again with a longer significand",
+        passes * method.repeated * visits,
+        longer if passes == 1 else f"{method.system.name}, then {longer}",
+    )
+
+
+def _why_region(problem: Problem) -> str:
+    if problem.region.beads == (problem.width or 0) * (problem.height + 1):
+        return "the answer depends on every bead"
+    return "only the beads that the answer depends on: the triangles below what is asked"
+
+
+def _why_forces(problem: Problem) -> str:
+    if problem.load.loaded is not None:
+        return "only beads in the downward cone of the load carry force"
+    if problem.contact is not None:
+        return "only beads above the contact decide its force"
+    return "every bead passes its load on"

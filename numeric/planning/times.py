@@ -1,0 +1,78 @@
+"""About how long a plan takes: a small table, measured once on one machine.
+
+Good to a factor of a few; what it decides is only between algorithms of one arithmetic, and what
+would take longer than a day.
+"""
+
+from typing import NamedTuple
+
+from ..arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, NumberSystem
+from ..mechanics.engine import COMPILED_FROM, chunk_size
+from ..mechanics.problem import Problem, Route
+from ..quantities.base import Quantity
+from .plan import Method
+
+
+class _Times(NamedTuple):
+    """Seconds: of a layer (line sums: of a realisation), of a bead, of a bead and kilobit."""
+
+    layer: float
+    bead: float
+    kilobit: float = 0.0
+
+
+_SWEEPS = {
+    ("float64", Route.EXACT): _Times(6e-4, 1e-6),
+    ("float64", Route.FIRST_ORDER): _Times(2e-4, 2e-7),
+    ("float64", Route.LINE_SUMS): _Times(7e-4, 8e-6),
+    ("longdouble", Route.EXACT): _Times(6e-4, 1.6e-6),
+    ("longdouble", Route.FIRST_ORDER): _Times(2e-4, 5e-7),
+    ("longdouble", Route.LINE_SUMS): _Times(6e-4, 5e-6),
+    ("mpmath", Route.EXACT): _Times(7e-4, 2.5e-4, 5e-5),
+    ("mpmath", Route.FIRST_ORDER): _Times(4e-4, 8e-5, 2e-5),
+    ("mpmath", Route.LINE_SUMS): _Times(5e-4, 1.6e-5, 1e-6),
+    ("balls", Route.EXACT): _Times(6e-4, 2e-5, 2e-5),
+    ("balls", Route.FIRST_ORDER): _Times(2e-4, 7e-6, 7e-6),
+    ("balls", Route.LINE_SUMS): _Times(5e-4, 5e-6, 1e-6),
+}
+# Seconds of a row of the answer: gathered, compared or certified, and printed.
+_ROWS = {"float64": 5e-6, "longdouble": 2e-5, "mpmath": 6e-5, "balls": 1e-5}
+# Loading the compiled sweeps, and how much quicker the whole is with them.
+_COMPILER, _COMPILED = 0.7, 0.6
+
+
+def predicted(quantity: Quantity, problem: Problem, method: Method) -> float:
+    """Predict the seconds of a method: its own pass, and what is repeated."""
+    seconds = _pass(quantity, problem, method.system, problem.realisations)
+    if method.longer is not None:
+        if method.repeated < problem.realisations:
+            seconds += _pass(quantity, problem, method.system, method.repeated)
+        seconds += _pass(quantity, problem, method.longer, method.repeated)
+    return seconds
+
+
+def _pass(quantity: Quantity, problem: Problem, system: NumberSystem, n: int) -> float:
+    family = _family(system)
+    bits = system.bits / 1000 if system.dtype is object else 0.0
+    rows = quantity.answer_rows(problem.region, 1 if quantity.merged else n)
+    spent = rows * _ROWS[family] * (1 + bits)
+    if problem.route == Route.ORDERED:
+        return spent
+    layer, bead, kilobit = _SWEEPS[family, problem.route]
+    if problem.route == Route.LINE_SUMS:
+        beads = quantity.line_beads(problem.load)
+        return spent + n * (layer + beads * (bead + kilobit * bits))
+    region, stop = problem.region, problem.stop_at_tension
+    chunks = -(-n // chunk_size(region, system, stop_at_tension=stop))
+    work = region.beads * n * (bead + kilobit * bits * (1 + bits / 10))
+    if system is FLOAT64 and problem.route == Route.EXACT and region.beads * n >= COMPILED_FROM:
+        work = _COMPILER + work * _COMPILED
+    return spent + len(region.rows) * chunks * layer + work
+
+
+def _family(system: NumberSystem) -> str:
+    if isinstance(system, Balls):
+        return "balls"
+    if system in (FLOAT64, LONGDOUBLE):
+        return system.name
+    return "mpmath"

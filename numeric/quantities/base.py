@@ -1,0 +1,301 @@
+"""What every question has in common: what it needs, its rows, how they are gathered, its limits.
+
+A question is a class of its own in a file of its own; ``quantities.quantity_of`` finds it by name.
+"""
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from .. import closed_forms
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
+from ..disorder.radii import DrawnRadii
+from ..lattice import regions
+from ..lattice.branch import Branch
+from ..lattice.layers import Layer, Region, pick, standing_on_base, whole
+from ..lattice.regions import Rows
+from ..mechanics import plain
+from ..mechanics.forces import Forces
+from ..mechanics.loads import LoadSpec
+from ..mechanics.problem import Problem, Route, Solved
+from ..scene.scene import Scene
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of an answer, column by column; all columns have the same length.
+
+    ``index`` names the rows (sites, branches, realisations), ``numbers`` are in the arithmetic of
+    the run. ``small`` columns are the deviations from the ordered packing: accuracy is judged by
+    their error, relative to the largest of them. ``errors`` are standard errors of the columns that
+    are statistics over packings.
+    """
+
+    index: dict[str, list[Any]]
+    numbers: dict[str, Array]
+    small: tuple[str, ...]
+    errors: dict[str, Array] = field(default_factory=dict)
+
+    @property
+    def rows(self) -> int:
+        """How many rows there are."""
+        return len(next(iter(self.numbers.values()), []))
+
+
+class Gatherer(ABC):
+    """Collects solved realisations; ``table`` gives what was found."""
+
+    @abstractmethod
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
+        """Take in solved realisations (in a batch, the first axis of the arrays)."""
+
+    @abstractmethod
+    def table(self) -> Table:
+        """Give the answer."""
+
+
+class Quantity(ABC):
+    """A question about a scene."""
+
+    name: ClassVar[str]
+    needs_forces: ClassVar[bool] = True
+    plain: ClassVar[bool] = False
+    """Whether it can be gathered from a packing that was solved in the plain form."""
+    lowest_layer: ClassVar[int] = 1
+    """Of the beads whose upper contacts, or for 1 whose lower contacts, are looked at."""
+    merged: ClassVar[bool] = False
+    """Whether realisations are merged into one set of rows."""
+    statistics: ClassVar[bool] = False
+    """Whether an ensemble has statistics of it."""
+
+    def __init__(self, scene: Scene) -> None:
+        """Ask a scene's question."""
+        self.scene = scene
+        self.width, self.height = scene.packing.width, scene.packing.height
+
+    # What it needs
+
+    @property
+    def single(self) -> bool:
+        """Whether one contact or one bead is asked for, and not the whole packing."""
+        return self.scene.ask.at is not None
+
+    def force_rows(self, load: LoadSpec) -> Rows:
+        """Give the beads whose forces are to be balanced."""
+        if load.loaded is not None:
+            return regions.downward_cone(load.loaded, self.width)
+        assert self.width is not None
+        return whole(self.width, self.height).rows
+
+    def region(self, force_rows: Rows) -> Region:
+        """Give the beads that are to be deposited."""
+        if not any(layer.count for layer in force_rows):
+            return Region(self.width, ())
+        return standing_on_base(force_rows, self.width)
+
+    def line_beads(self, load: LoadSpec) -> int:
+        """Count the beads of the diagonals that decide a single answer to first order."""
+        raise NotImplementedError(f"{self.name} has no line sums")
+
+    # What limits it
+
+    def most_beads(self) -> int:
+        """Bound the beads to be solved, before a single row of them is made."""
+        layers = self.height + 1
+        beads = layers * (self.width or layers)
+        if self.scene.load.at is not None:
+            top = int(self.scene.load.at[1])
+            layers, beads = top + 1, regions.triangle_beads(top)
+        return beads if self.width is None else min(beads, self.width * layers)
+
+    @abstractmethod
+    def answer_rows(self, region: Region, realisations: int) -> int:
+        """Bound the number of rows of the answer."""
+
+    # How it is gathered
+
+    @abstractmethod
+    def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
+        """Start to gather the answer."""
+
+    def home(self, i: int) -> int:
+        """Give a column within 0 … 2W − 1 of a periodic packing."""
+        return i if self.width is None else i % (2 * self.width)
+
+
+class Listing(Gatherer):
+    """Lists the rows of every realisation below each other."""
+
+    def __init__(self, quantity: "Listed", problem: Problem, system: NumberSystem) -> None:
+        """Start empty."""
+        self.quantity, self.problem, self.system = quantity, problem, system
+        self.parts: list[Table] = []
+
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
+        """Take in solved realisations."""
+        for number, realisation in enumerate(realisations):
+            one = solved if len(realisations) == 1 else solved.one(number)
+            part = self.quantity.rows_of(self.problem, one)
+            if self.problem.realisations > 1:
+                part.index["realisation"] = [realisation] * part.rows
+            self.parts.append(part)
+
+    def table(self) -> Table:
+        """Put the realisations below each other."""
+        first = self.parts[0]
+        return Table(
+            {k: [v for part in self.parts for v in part.index[k]] for k in first.index},
+            {k: np.concatenate([part.numbers[k] for part in self.parts]) for k in first.numbers},
+            first.small,
+        )
+
+
+class Listed(Quantity):
+    """A quantity whose realisations are listed one after the other."""
+
+    def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
+        """Start a list."""
+        return Listing(self, problem, system)
+
+    @abstractmethod
+    def rows_of(self, problem: Problem, solved: Solved) -> Table:
+        """Give the rows of one realisation."""
+
+
+class Block(NamedTuple):
+    """Contacts of one branch below a row of upper beads."""
+
+    branch: Branch
+    row: Layer
+
+
+class ContactQuantity(Quantity):
+    """A question about contact forces, of which an ensemble has statistics.
+
+    Its groups hold contacts that are alike: a layer and branch of a profile, or one contact.
+    """
+
+    statistics = True
+    squares: ClassVar[bool] = False
+    """Whether covariances between groups are those of mean squares, and not of changes."""
+
+    def blocks(self, problem: Problem) -> list[Block]:
+        """Give the contacts, block by block, in the order of the groups."""
+        rows = (row for row in problem.force_rows[1:] if row.count)
+        return [Block(branch, row) for row in rows for branch in Branch]
+
+    def labels(self, problem: Problem) -> dict[str, list[Any]]:
+        """Give columns that name the groups, one entry a group."""
+        contacts = [
+            (self.home(i - branch.side), row.j - 1, branch)
+            for branch, row in self.blocks(problem)
+            for i in row.sites()
+        ]
+        names = ("i", "j", "branch")
+        return {name: [contact[k] for contact in contacts] for k, name in enumerate(names)}
+
+    def members(self, problem: Problem) -> int:
+        """Count the contacts of a group."""
+        return 1
+
+    def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
+        """Give ordered and changed forces of the groups.
+
+        Shapes: (groups, 1 or members) and (groups, realisations, members).
+        """
+        parts = list(contact_changes(solved, self.blocks(problem), realisations))
+        F = np.concatenate([F for _, F, _ in parts])
+        g = np.concatenate([g for _, _, g in parts], axis=1)
+        return F[:, None], g.T[:, :, None]
+
+    def ordered(self, problem: Problem) -> list[Fraction]:
+        """Give the ordered force of each group (of a group whose forces differ, their mean)."""
+        return [force for block in self.ordered_blocks(problem) for force in block]
+
+    def ordered_blocks(self, problem: Problem) -> list[list[Fraction]]:
+        """Give the ordered forces, block by block; nothing above the highest load."""
+        load, rows = problem.load, problem.force_rows
+        forces = load.ordered_forces(rows, load.strength(problem.n_x, FLOAT64), FLOAT64)
+        return [
+            [Fraction(float(F)) for F in forces.ordered[branch][row.j]] if row.j < len(rows) else []
+            for branch, row in self.blocks(problem)
+        ]
+
+
+def contact_changes(
+    solved: Solved, blocks: Sequence[Block], realisations: int
+) -> "Sequence[tuple[Block, Array, Array]]":
+    """Give F, shape (count,), and g, (realisations, count), of the contacts of each block.
+
+    Contacts that no load reaches have zeros.
+    """
+    forces, system = solved.forces, solved.system
+    assert forces is not None
+    zero = zeros(system, 1)[0]
+    found = []
+    for block in blocks:
+        branch, row = block
+        if row.j >= len(forces.rows):  # above every load
+            found.append((block, zeros(system, row.count), zeros(system, realisations, row.count)))
+            continue
+        F, g = forces.ordered[branch][row.j], forces.change[branch][row.j]
+        g = g.reshape(realisations, -1)
+        own = forces.rows[row.j]
+        if own != row:  # a whole layer of a periodic packing
+            F, g = pick(F, own, row, row.count, zero), pick(g, own, row, row.count, zero)
+        found.append((block, F, g))
+    return found
+
+
+def above_stop(blocks: Sequence[Block], forces: Forces) -> list[Block]:
+    """Leave out what lies below the layer at which a sweep stopped."""
+    lowest = 0 if forces.stopped is None else forces.stopped.j
+    return [block for block in blocks if block.row.j > lowest]
+
+
+def joined(system: NumberSystem, parts: Sequence[Array]) -> Array:
+    """Put arrays one after the other, of which there may be none."""
+    return np.concatenate([array(system, []), *parts])
+
+
+def column(values: Sequence[Any], system: NumberSystem) -> Array:
+    """Give a column of numbers that are in the number system already."""
+    filled = np.empty(len(values), dtype=system.dtype)
+    for q, value in enumerate(values):  # one by one: a power series looks like a sequence to NumPy
+        filled[q] = value
+    return filled
+
+
+def slope(problem: Problem, system: NumberSystem) -> Any:
+    """Give n_y."""
+    return plain.axes(problem.n_x, system)[1]
+
+
+def first_order_std(problem: Problem) -> list[Fraction] | None:
+    """Give σ_f of layers j = 0 … M − 1, exact to first order (Eqs. 13 and 14 at finite M).
+
+    None where they don't apply. Each is a float64 times the exact σ/r, in units of the load.
+    """
+    load, radii = problem.load, problem.radii
+    if (
+        problem.route == Route.ORDERED
+        or not isinstance(radii, DrawnRadii)
+        or load.loaded is not None
+        or load.angle_deg
+        or not (problem.width is None or problem.width > problem.height)
+    ):
+        return None
+    bulk = load.kind == "bulk"
+    variance = closed_forms.bulk_variance if bulk else closed_forms.surface_variance
+    phi, strength = float(1 - 2 * problem.n_x**2), load.strength(problem.n_x, FLOAT64)
+    found = []
+    for j in range(problem.height):
+        force = float(load.ordered_force((j % 2, j, Branch.PLUS), strength, FLOAT64))
+        root = math.sqrt(float(variance(problem.height, j, phi, 1, 1)))
+        found.append(Fraction(root * force) * radii.std)
+    return found

@@ -1,0 +1,89 @@
+"""Positions of beads."""
+
+import numpy as np
+
+from ..arithmetic.systems import Array, array, zeros
+from ..lattice import regions
+from ..lattice.layers import Layer, Region, pick, whole
+from ..lattice.regions import Rows
+from ..mechanics import plain
+from ..mechanics.loads import LoadSpec
+from ..mechanics.problem import Problem, Solved
+from .base import Listed, Table, column
+
+
+class Positions(Listed):
+    """Positions of one bead or of all, in the scene's unit of length."""
+
+    name = "positions"
+    needs_forces = False
+    plain = True
+
+    def force_rows(self, load: LoadSpec) -> Rows:
+        """No forces are needed."""
+        return ()
+
+    def region(self, force_rows: Rows) -> Region:
+        """Give the triangle below the bead, or the whole packing."""
+        if self.scene.site is not None:
+            return regions.triangle(*self.scene.site, self.width)
+        assert self.width is not None
+        return whole(self.width, self.height)
+
+    def line_beads(self, load: LoadSpec) -> int:
+        """Count the beads of the two diagonals below the bead."""
+        assert self.scene.site is not None
+        return 2 * self.scene.site[1] + 1
+
+    def most_beads(self) -> int:
+        """Bound the beads to be solved."""
+        if self.scene.site is None:
+            assert self.width is not None
+            return self.width * (self.height + 1)
+        j = self.scene.site[1]
+        beads = regions.triangle_beads(j)
+        return beads if self.width is None else min(beads, self.width * (j + 1))
+
+    def answer_rows(self, region: Region, realisations: int) -> int:
+        """One a bead."""
+        return (1 if self.single else region.beads) * realisations
+
+    def rows_of(self, problem: Problem, solved: Solved) -> Table:
+        """Give a row a bead, from the base up."""
+        scene, system = self.scene, solved.system
+        nx, ny = plain.axes(scene.n_x, system)
+        r = system.number(scene.packing.radius)
+        rows = list(problem.region.rows)
+        if scene.site is not None:
+            i, j = scene.site
+            rows = [Layer(j, i, 1)]
+        columns: dict[str, list[Array]] = {"x": [], "y": [], "dx": [], "dy": []}
+        for layer in rows:
+            cp, cm = self._line_sums(solved, layer)
+            dx, dy = (cp - cm) / (2 * nx) * r, (cp + cm) / (2 * ny) * r
+            columns["x"].append(array(system, [i * scene.spacing / 2 for i in layer.sites()]) + dx)
+            columns["y"].append(dy + 2 * layer.j * (ny * r))
+            columns["dx"].append(dx)
+            columns["dy"].append(dy)
+        return Table(
+            {
+                "i": [self.home(i) for layer in rows for i in layer.sites()],
+                "j": [layer.j for layer in rows for _ in range(layer.count)],
+            },
+            {name: np.concatenate(parts) for name, parts in columns.items()},
+            ("dx", "dy"),
+        )
+
+    def _line_sums(self, solved: Solved, layer: Layer) -> tuple[Array, Array]:
+        if solved.single is not None:
+            return column([solved.single[0]], solved.system), column(
+                [solved.single[1]], solved.system
+            )
+        if solved.packing is None:
+            nothing = zeros(solved.system, layer.count)
+            return nothing, nothing
+        source, c = solved.packing.region.rows[layer.j], solved.packing.c
+        return (
+            pick(c.plus[layer.j], source, layer, self.width),
+            pick(c.minus[layer.j], source, layer, self.width),
+        )

@@ -1,0 +1,121 @@
+"""σ_f layer by layer."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from ..arithmetic.decimals import decimal_string
+from ..arithmetic.systems import Array, NumberSystem
+from ..lattice.branch import Branch
+from ..lattice.layers import Region, full_layer
+from ..mechanics.problem import Problem, Solved
+from ..statistics.moments import Moments, unit_near
+from .base import (
+    Block,
+    ContactQuantity,
+    Gatherer,
+    Table,
+    above_stop,
+    column,
+    contact_changes,
+    first_order_std,
+)
+
+
+class Profile(ContactQuantity):
+    """Mean force, mean and standard deviation of its change, by layer and branch.
+
+    Under a surface or bulk load all ordered forces of a layer are equal, and the standard deviation
+    of the change is that of the force, σ_f.
+    """
+
+    name = "profile"
+    merged = True
+    squares = True
+
+    def answer_rows(self, region: Region, realisations: int) -> int:
+        """One a layer and branch."""
+        return 2 * self.height
+
+    def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
+        """Start to merge moments."""
+        return _Moments(self, problem, system)
+
+    def blocks(self, problem: Problem) -> list[Block]:
+        """Give whole layers, those that no load reaches included."""
+        assert self.width is not None
+        rows = (full_layer(j, self.width) for j in range(1, self.height + 1))
+        return [Block(branch, row) for row in rows for branch in Branch]
+
+    def labels(self, problem: Problem) -> dict[str, list[Any]]:
+        """Name the layers, by the lower beads of their contacts."""
+        blocks = self.blocks(problem)
+        return {"j": [row.j - 1 for _, row in blocks], "branch": [branch for branch, _ in blocks]}
+
+    def members(self, problem: Problem) -> int:
+        """W contacts."""
+        assert self.width is not None
+        return self.width
+
+    def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
+        """Give F, shape (2M, W), and g, (2M, realisations, W)."""
+        parts = contact_changes(solved, self.blocks(problem), realisations)
+        return np.stack([F for _, F, _ in parts]), np.stack([g for _, _, g in parts])
+
+    def ordered(self, problem: Problem) -> list[Fraction]:
+        """Give the mean ordered force of each layer and branch."""
+        blocks = self.ordered_blocks(problem)
+        return [sum(block, Fraction(0)) / self.members(problem) for block in blocks]
+
+
+class _Moments(Gatherer):
+    def __init__(self, quantity: Profile, problem: Problem, system: NumberSystem) -> None:
+        self.quantity, self.problem, self.system = quantity, problem, system
+        self.unit = unit_near(problem.radii.relative_std())
+        self.found: dict[tuple[int, Branch], tuple[Any, Moments]] = {}
+
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
+        """Merge the changes of the contacts; ordered forces only enter the mean."""
+        assert solved.forces is not None
+        blocks = above_stop(self.quantity.blocks(self.problem), solved.forces)
+        for (branch, row), F, g in contact_changes(solved, blocks, len(realisations)):
+            key = row.j - 1, branch
+            if key not in self.found:
+                # under a surface or bulk load F is one number, which a sum would round
+                one = self.problem.load.loaded is None
+                self.found[key] = (F[0] if one else F.sum() / len(F), Moments(self.unit))
+            self.found[key][1].add(g.reshape(-1))
+
+    def table(self) -> Table:
+        """One row a layer and branch, base first."""
+        keys = sorted(self.found)
+        ordered = [self.found[key][0] for key in keys]
+        moments = [self.found[key][1] for key in keys]
+        mean = [one.average().item() for one in moments]
+        std = [one.std(self.system).item() for one in moments]
+        index: dict[str, list[Any]] = {
+            "j": [j for j, _ in keys],
+            "branch": [branch for _, branch in keys],
+            "samples": [one.count for one in moments],
+        }
+        theory = first_order_std(self.problem)
+        if theory is not None:
+            index["first_order_std"] = [_printed(theory[j]) for j, _ in keys]
+        return Table(
+            index,
+            {
+                "mean": column([a + b for a, b in zip(ordered, mean, strict=True)], self.system),
+                "mean_change": column(mean, self.system),
+                "std": column(std, self.system),
+            },
+            ("mean_change", "std"),
+        )
+
+
+def _printed(value: Fraction) -> str:
+    """Print twelve digits, also of what a float would round to zero."""
+    if value > Fraction(1, 10**290):
+        return f"{float(value):.12g}"
+    return decimal_string(value, value / 10**12)

@@ -1,0 +1,141 @@
+"""The response to a point load."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem, zeros
+from ..lattice.layers import Region, pick
+from ..mechanics.problem import Problem, Route, Solved
+from ..statistics.moments import Moments, unit_near
+from .base import (
+    ContactQuantity,
+    Gatherer,
+    Table,
+    above_stop,
+    contact_changes,
+    joined,
+    slope,
+)
+
+
+class Response(ContactQuantity):
+    """The contacts within a point load's cone: one packing, or mean and std over realisations.
+
+    ``vertical`` is the vertical component of the contact force, f N_y.
+    """
+
+    name = "response"
+    plain = True
+    merged = True
+
+    def answer_rows(self, region: Region, realisations: int) -> int:
+        """Two contacts a bead of the cone."""
+        return 2 * region.beads
+
+    def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
+        """Start with no realisation."""
+        return _Responses(self, problem, system)
+
+    def labels(self, problem: Problem) -> dict[str, list[Any]]:
+        """Name the contacts twice: by their force, then by its vertical component."""
+        contacts = super().labels(problem)
+        count = len(contacts["i"])
+        labels: dict[str, list[Any]] = {name: 2 * column for name, column in contacts.items()}
+        return {**labels, "component": ["force"] * count + ["vertical"] * count}
+
+    def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
+        """Give F, shape (groups, 1), and g, (groups, realisations, 1); of both components."""
+        _, F, g, vertical = self.both(problem, solved, realisations)
+        ny = slope(problem, solved.system)
+        F, g = np.concatenate([F, F * ny]), np.concatenate([g, vertical], axis=1)
+        return F[:, None], g.T[:, :, None]
+
+    def both(
+        self, problem: Problem, solved: Solved, realisations: int
+    ) -> tuple[dict[str, list[Any]], Array, Array, Array]:
+        """Give the contacts, F, g and the change of the vertical component f N_y.
+
+        Shapes: (contacts,), (realisations, contacts) and the same.
+        """
+        assert solved.forces is not None
+        system, packing = solved.system, solved.packing
+        ny = slope(problem, system)
+        parts = contact_changes(
+            solved, above_stop(self.blocks(problem), solved.forces), realisations
+        )
+        verticals = []
+        for (branch, row), F, g in parts:
+            tilt = zeros(system, row.count)
+            if packing is not None:
+                source, width = packing.region.rows[row.j], packing.region.width
+                a, b = (pick(v, source, row, width) for v in packing.dn[branch][row.j])
+                tilt = a + b
+            f = F + (g if problem.route == Route.EXACT else 0)
+            verticals.append((g + f * tilt.reshape(-1, row.count)) * ny)
+        contacts: dict[str, list[Any]] = {
+            "i": [self.home(i - branch.side) for (branch, row), _, _ in parts for i in row.sites()],
+            "j": [row.j - 1 for (_, row), _, _ in parts for _ in range(row.count)],
+            "branch": [branch for (branch, row), _, _ in parts for _ in range(row.count)],
+        }
+        nothing = zeros(system, realisations, 0)
+        return (
+            contacts,
+            joined(system, [F for _, F, _ in parts]),
+            np.concatenate([nothing, *(g for _, _, g in parts)], axis=1),
+            np.concatenate([nothing, *verticals], axis=1),
+        )
+
+    def ordered(self, problem: Problem) -> list[Fraction]:
+        """Give the ordered forces, then their vertical components."""
+        forces = super().ordered(problem)
+        ny = Fraction(float(slope(problem, FLOAT64)))
+        return forces + [force * ny for force in forces]
+
+
+class _Responses(Gatherer):
+    def __init__(self, quantity: Response, problem: Problem, system: NumberSystem) -> None:
+        self.quantity, self.problem, self.system = quantity, problem, system
+        self.moments = Moments(unit_near(problem.radii.relative_std()))
+        self.last: tuple[dict[str, list[Any]], Array, Array, Array] | None = None
+
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
+        """Take in realisations, one after the other."""
+        for number in range(len(realisations)):
+            one = solved if len(realisations) == 1 else solved.one(number)
+            self.last = self.quantity.both(self.problem, one, 1)
+            if self.problem.realisations > 1:
+                self.moments.add(np.concatenate(self.last[2:], axis=1))
+
+    def table(self) -> Table:
+        """One row a contact."""
+        assert self.last is not None
+        contacts, F, g, vertical = self.last
+        ny = slope(self.problem, self.system)
+        if self.problem.realisations == 1:
+            return Table(
+                contacts,
+                {
+                    "force": F + g[0],
+                    "change": g[0],
+                    "vertical": F * ny + vertical[0],
+                    "vertical_change": vertical[0],
+                },
+                ("change", "vertical_change"),
+            )
+        half = len(F)
+        mean, std = self.moments.average(), self.moments.std(self.system)
+        return Table(
+            contacts,
+            {
+                "force_mean": F + mean[:half],
+                "force_mean_change": mean[:half],
+                "force_std": std[:half],
+                "vertical_mean": F * ny + mean[half:],
+                "vertical_mean_change": mean[half:],
+                "vertical_std": std[half:],
+            },
+            ("force_mean_change", "force_std", "vertical_mean_change", "vertical_std"),
+        )

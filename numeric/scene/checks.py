@@ -1,0 +1,184 @@
+"""What the keys of a scene say about each other."""
+
+from typing import Any
+
+from ..arithmetic.decimals import decimal_string, short
+from .sections import Ask, Disorder, Effects, GivenRadii, Load, Packing, SceneError
+
+
+def check(
+    packing: Packing, disorder: Disorder | None, load: Load, effects: Effects, ask: Ask
+) -> None:
+    """Check what keys say about each other. Raises ``SceneError``."""
+    _check_packing(packing)
+    if isinstance(disorder, GivenRadii):
+        _check_given(disorder, packing, ask)
+    elif disorder is not None:
+        _check_disorder(disorder, ask)
+    _check_load(load, packing)
+    _check_ask(ask, packing, load)
+    if effects.stop_at_tension and effects.geometry != "exact":
+        raise SceneError(
+            "effects.stop_at_tension", True, 'only has a meaning with geometry = "exact"'
+        )
+    if effects.stop_at_tension and ask.quantity == "response" and ask.realisations > 1:
+        raise SceneError(
+            "effects.stop_at_tension",
+            True,
+            "can't be averaged: each realisation of a response would stop elsewhere",
+        )
+
+
+def _check_packing(p: Packing) -> None:
+    if p.radius <= 0:
+        raise SceneError("packing.radius", p.radius, "must be greater than 0")
+    if not 4 * p.radius**2 < p.s**2 < 12 * p.radius**2 or p.s < 0:
+        ratio = decimal_string(p.s / p.radius, None)
+        ratio = ratio if len(ratio) <= 45 else short(p.s / p.radius)
+        raise SceneError(
+            "packing.spacing",
+            p.s,
+            f"must lie strictly between 2 r and 2√3 r = 3.4641… r (it is {ratio} r), "
+            "or beads of the ordered packing overlap",
+        )
+    if p.width is not None and p.width <= p.height and not p.allow_images:
+        raise SceneError(
+            "packing.width",
+            p.width,
+            f"must be greater than the height {p.height}, or contacts see their periodic images; "
+            "say allow_images = true if a narrow periodic strip is meant, or leave width out "
+            "for the infinite slab",
+        )
+
+
+def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
+    shape = given.values.shape
+    layers = (packing.height + 1, packing.width)
+    if shape[-2:] != layers or len(shape) not in (2, 3):
+        raise SceneError(
+            f"disorder.{given.name}",
+            None,
+            f"an array of shape {shape}; the packing has {layers[0]} layers, base included, of "
+            f"{layers[1]} beads: give ({layers[0]}, {layers[1]}), or (packings, …) for several",
+        )
+    packings = shape[0] if len(shape) == 3 else 1
+    if ask.realisations > packings:
+        raise SceneError(
+            "ask.realisations", ask.realisations, f"must be at most {packings}: so many are given"
+        )
+
+
+def _check_disorder(d: Disorder, ask: Ask) -> None:
+    if d.kind == "file":
+        if d.file is None:
+            raise SceneError("disorder.file", None, 'is required with kind = "file"')
+        for key in ("relative_std", "seed"):
+            if key in d.model_fields_set:
+                raise SceneError(
+                    f"disorder.{key}", getattr(d, key), 'has no meaning with kind = "file"'
+                )
+        if ask.realisations > 1:
+            raise SceneError(
+                "ask.realisations", ask.realisations, "must be 1: a file holds one packing"
+            )
+        return
+    if d.file is not None:
+        raise SceneError("disorder.file", d.file, 'needs kind = "file"')
+    if d.relative_std is None:
+        raise SceneError("disorder.relative_std", None, f'is required with kind = "{d.kind}"')
+    if d.relative_std < 0:
+        raise SceneError("disorder.relative_std", d.relative_std, "must not be negative")
+    if d.relative_std > 10**100:
+        raise SceneError("disorder.relative_std", d.relative_std, "must be at most 1e100")
+    reach = {"uniform": 3 * d.relative_std**2, "two-point": d.relative_std**2}.get(d.kind)
+    if reach is not None and reach >= 1:
+        below = "1/√3 = 0.57735…" if d.kind == "uniform" else "1"
+        raise SceneError(
+            "disorder.relative_std",
+            d.relative_std,
+            f"must be below {below}: {d.kind} disorder would reach a radius ≤ 0",
+        )
+
+
+def _check_load(load: Load, packing: Packing) -> None:
+    if load.magnitude <= 0:
+        raise SceneError("load.magnitude", load.magnitude, "must be greater than 0")
+    if abs(load.angle_deg) > 180:
+        raise SceneError("load.angle_deg", load.angle_deg, "must lie between -180 and 180")
+    if load.kind == "file":
+        if load.file is None:
+            raise SceneError("load.file", None, 'is required with kind = "file"')
+        if load.angle_deg:
+            raise SceneError("load.angle_deg", load.angle_deg, 'has no meaning with kind = "file"')
+    elif load.file is not None:
+        raise SceneError("load.file", load.file, 'needs kind = "file"')
+    if load.kind == "point":
+        if load.at is None:
+            raise SceneError("load.at", None, 'is required with kind = "point", as at = [k, l]')
+        if len(load.at) != 2:
+            raise SceneError("load.at", load.at, "must be a bead, [k, l]")
+        _check_site(packing, "load.at", load.at, packing.height)
+    elif load.at is not None:
+        raise SceneError("load.at", load.at, 'needs kind = "point"')
+
+
+def _check_site(packing: Packing, key: str, site: Any, highest: int) -> None:
+    i, j = site[:2]
+    width = packing.width
+    if (i + j) % 2:
+        raise SceneError(key, site, "i + j must be even")
+    if not 0 <= j <= highest:
+        raise SceneError(key, site, f"j must be from 0 to {highest}")
+    if (width is not None and not 0 <= i < 2 * width) or abs(i) >= 2**60:
+        if width is None:
+            raise SceneError(key, site, "i must be above -2^60 and below 2^60")
+        raise SceneError(key, site, f"i must be from 0 to {2 * width - 1}")
+
+
+def _check_ask(ask: Ask, packing: Packing, load: Load) -> None:
+    if ask.tolerance is not None and not 0 < ask.tolerance < 1:
+        raise SceneError("ask.tolerance", ask.tolerance, "must lie between 0 and 1")
+    if (ask.bins is not None) and ask.quantity != "histogram":
+        raise SceneError("ask.bins", ask.bins, 'needs quantity = "histogram"')
+    _check_at(ask, packing)
+    if ask.quantity == "response" and load.kind != "point":
+        raise SceneError("load.kind", load.kind, 'must be "point" for quantity = "response"')
+    wide = ask.quantity in {"contact_forces", "base_reactions"} and load.kind in {
+        "surface",
+        "bulk",
+    }
+    all_beads = ask.quantity in {"positions", "profile", "histogram"} and ask.at is None
+    if packing.width is None and (wide or all_beads):
+        raise SceneError(
+            "packing.width",
+            None,
+            f'is required: an infinite slab has infinitely many answers to "{ask.quantity}"',
+        )
+
+
+def _check_at(ask: Ask, packing: Packing) -> None:
+    forms = {"contact": 3, "histogram": 3, "positions": 2}
+    if ask.at is None:
+        if ask.quantity == "contact":
+            raise SceneError(
+                "ask.at", None, 'is required with quantity = "contact", as at = [i, j, "+"]'
+            )
+        return
+    if ask.quantity not in forms:
+        raise SceneError("ask.at", ask.at, f'has no meaning with quantity = "{ask.quantity}"')
+    if forms[ask.quantity] == 3:
+        if (
+            len(ask.at) != 3
+            or not all(isinstance(c, int) for c in ask.at[:2])
+            or ask.at[2] not in {"+", "-"}
+        ):
+            raise SceneError(
+                "ask.at",
+                ask.at,
+                'must be a contact, [i, j, "+"] or [i, j, "-"], (i, j) its lower bead',
+            )
+        _check_site(packing, "ask.at", ask.at, packing.height - 1)
+        return
+    if len(ask.at) != 2 or not all(isinstance(c, int) for c in ask.at):
+        raise SceneError("ask.at", ask.at, "must be a bead, [i, j]")
+    _check_site(packing, "ask.at", ask.at, packing.height)

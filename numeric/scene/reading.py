@@ -1,0 +1,66 @@
+"""Scenes from TOML files, checked before anything is computed."""
+
+import tomllib
+from pathlib import Path
+from typing import TypeVar
+
+from .scene import Scene
+from .sections import SceneError, Written, unknown
+
+LARGEST_FILE = 64_000  # bytes of a scene file; far more than any scene needs
+# Dots outside of whole-line comments: a dotted key makes a table a dot, in quadratic time.
+MOST_DOTS = 200
+S = TypeVar("S", bound=Scene)
+
+
+def read_scene(path: Path, kind: type[S]) -> S:
+    """Read and check a scene file. Raises ``SceneError``."""
+    try:
+        if not path.is_file():  # a device or a pipe may have no end
+            why = "a scene must be an ordinary file" if path.exists() else "there is no such file"
+            raise SceneError(str(path), None, why)
+        with path.open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+        text = content.decode("utf-8")
+    except UnicodeDecodeError:
+        raise SceneError(str(path), None, "a scene must be UTF-8 text") from None
+    except OSError as error:
+        raise SceneError(str(path), None, f"can't be read ({error.strerror})") from None
+    if len(content) > LARGEST_FILE:
+        raise SceneError(str(path), None, f"a scene has at most {LARGEST_FILE} bytes")
+    return parse_scene(text, kind, path.parent)
+
+
+def parse_scene(text: str, kind: type[S], folder: Path = Path()) -> S:
+    """Check the text of a scene, whose files lie in ``folder``. Raises ``SceneError``.
+
+    >>> parse_scene('packing = {height = 4}\\nask = {quantity = "profle"}', Scene)
+    Traceback (most recent call last):
+    ...
+    force_diffusion.numeric.scene.sections.SceneError: ask.quantity = "profle": must be one of \
+"contact", "contact_forces", "positions", "profile", "histogram", "response", "base_reactions"; \
+did you mean "profile"?
+    """
+    lines = [line for line in text.splitlines() if not line.lstrip().startswith("#")]
+    dots = sum(line.count(".") for line in lines)
+    if dots > MOST_DOTS:
+        allowed = f"at most {MOST_DOTS} outside of comments: keys are at most one section deep"
+        raise SceneError("scene", None, f"has {dots} dots, {allowed}")
+    try:
+        raw = tomllib.loads(text, parse_float=Written)
+    except (tomllib.TOMLDecodeError, ArithmeticError, RecursionError) as error:
+        reason = "is nested too deeply" if isinstance(error, RecursionError) else str(error)
+        raise SceneError("scene", None, f"is no valid TOML: {reason}") from None
+    except ValueError as error:  # an integer with thousands of digits
+        raise SceneError("scene", None, f"is no valid TOML: {error}") from None
+    if "folder" in raw:
+        raise SceneError("folder", raw["folder"], unknown("folder", Scene))
+    try:
+        return kind(**raw, folder=folder)
+    except SceneError as error:  # say the number as it was written, not as it was understood
+        section, _, key = error.key.partition(".")
+        keys = raw.get(section)
+        value = keys.get(key) if isinstance(keys, dict) else None
+        if not isinstance(value, Written):
+            raise
+        raise SceneError(error.key, value, error.allowed) from None

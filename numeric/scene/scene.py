@@ -1,0 +1,51 @@
+"""A whole scene: the packing, its disorder, the load, the effects and the question."""
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from ..lattice.branch import Branch, Contact, Site
+from .checks import check
+from .sections import Ask, Disorder, Effects, Load, Packing, Section
+
+
+class Scene(Section):
+    """A whole scene; files are relative to ``folder``. Raises ``SceneError``."""
+
+    packing: Packing
+    disorder: Disorder | None = None
+    load: Load = Load()
+    effects: Effects = Effects()
+    ask: Ask
+    folder: Path = Path()
+
+    def __init__(self, /, **values: Any) -> None:
+        """Check the sections, and what they say about each other."""
+        super().__init__(**values)
+        check(self.packing, self.disorder, self.load, self.effects, self.ask)
+
+    @property
+    def spacing(self) -> Fraction:
+        """s; 3 r unless named."""
+        return self.packing.s
+
+    @property
+    def n_x(self) -> Fraction:
+        """n_x = s/4r."""
+        return self.packing.s / (4 * Fraction(self.packing.radius))
+
+    @property
+    def contact(self) -> Contact | None:
+        """The one contact that is asked for, or None."""
+        if self.ask.at is None or self.ask.quantity == "positions":
+            return None
+        i, j, branch = self.ask.at
+        return Contact(int(i), int(j), Branch(branch))
+
+    @property
+    def site(self) -> Site | None:
+        """The one bead that is asked for, or None."""
+        if self.ask.at is None or self.ask.quantity != "positions":
+            return None
+        i, j = self.ask.at
+        return int(i), int(j)
