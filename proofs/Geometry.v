@@ -1,0 +1,373 @@
+(** The geometry of a packing to first order: what Eqs. 1-5 rest on. *)
+
+From Coq Require Import ZArith Reals Lia Lra.
+From ForceDiffusion Require Import Model Sums FirstOrder.
+
+Open Scope R_scope.
+
+(** Whether a site is a bead of the packing: parity and bounds. *)
+Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
+Ltac site := unfold bead, contact in *; lia.
+Ltac same_sites := repeat (f_equal; try lia).
+
+Section Lattice.
+  Variable G : lattice.
+  Local Notation r := (r G).
+  Local Notation n_x := (n_x G).
+  Local Notation n_y := (n_y G).
+
+  Lemma r_pos : 0 < r. Proof. apply r_positive. Qed.
+  Lemma n_x_pos : 0 < n_x. Proof. pose proof (n_x_above_half G). lra. Qed.
+  Lemma n_y_pos : 0 < n_y. Proof. pose proof (n_y_above_half G). lra. Qed.
+  Lemma n_y_squared : n_y * n_y = 1 - n_x * n_x.
+  Proof. pose proof (unit_vectors G) as H. lra. Qed.
+
+  Lemma phi_is : phi G = n_y * n_y - n_x * n_x.
+  Proof. unfold phi, dot, n_plus, n_minus. cbn. ring. Qed.
+
+  Lemma phi_above : - (1 / 2) < phi G.
+  Proof.
+    rewrite phi_is, n_y_squared. pose proof (n_y_above_half G). pose proof n_y_squared.
+    assert (1 / 2 * (1 / 2) < n_y * n_y) by (apply Rmult_gt_0_lt_compat; lra). lra.
+  Qed.
+
+  Lemma phi_below : phi G < 1 / 2.
+  Proof.
+    rewrite phi_is, n_y_squared. pose proof (n_x_above_half G).
+    assert (1 / 2 * (1 / 2) < n_x * n_x) by (apply Rmult_gt_0_lt_compat; lra). lra.
+  Qed.
+
+  Lemma one_minus_phi_squared : 1 - phi G * phi G = 4 * (n_x * n_x) * (n_y * n_y).
+  Proof. rewrite phi_is, n_y_squared. ring. Qed.
+
+  Lemma phi_squared_below : phi G * phi G < 1 / 4.
+  Proof.
+    pose proof phi_above. pose proof phi_below.
+    destruct (Rle_dec 0 (phi G)).
+    - assert (phi G * phi G <= phi G * (1 / 2)) by (apply Rmult_le_compat_l; lra). lra.
+    - assert (- phi G * - phi G <= - phi G * (1 / 2)) by (apply Rmult_le_compat_l; lra). lra.
+  Qed.
+
+  Lemma divisor_positive : 0 < 1 - phi G * phi G.
+  Proof. pose proof phi_squared_below. lra. Qed.
+End Lattice.
+
+(** ** Line sums *)
+
+(** n⁺·δx and n⁻·δx to first order, over ε: sums of ρ down one diagonal (Eq. 3); 0 on the base. *)
+Definition along_plus (rho : radii) (i j : Z) : R :=
+  if (j =? 0)%Z then 0
+  else rho (i - j)%Z 0%Z + rho i j + 2 * Sum 1 (j - 1) (fun m => rho (i - j + m)%Z m).
+Definition along_minus (rho : radii) (i j : Z) : R :=
+  if (j =? 0)%Z then 0
+  else rho (i + j)%Z 0%Z + rho i j + 2 * Sum 1 (j - 1) (fun m => rho (i + j - m)%Z m).
+
+Lemma along_plus_step rho i j : (1 <= j)%Z ->
+  along_plus rho i j = along_plus rho (i - 1) (j - 1) + rho i j + rho (i - 1)%Z (j - 1)%Z.
+Proof.
+  intros Hj. unfold along_plus. replace (j =? 0)%Z with false by lia.
+  destruct (j - 1 =? 0)%Z eqn:E.
+  - replace j with 1%Z by lia. rewrite Sum_empty by lia.
+    replace (i - 1)%Z with (i - 1 + 0)%Z at 2 by lia. cbn. ring_simplify.
+    replace (i - 1 + 0)%Z with (i - 1)%Z by lia. ring.
+  - rewrite (Sum_last 1 (j - 1)) by lia.
+    replace (i - 1 - (j - 1))%Z with (i - j)%Z by lia.
+    replace (i - j + (j - 1))%Z with (i - 1)%Z by lia. ring.
+Qed.
+
+Lemma along_minus_step rho i j : (1 <= j)%Z ->
+  along_minus rho i j = along_minus rho (i + 1) (j - 1) + rho i j + rho (i + 1)%Z (j - 1)%Z.
+Proof.
+  intros Hj. unfold along_minus. replace (j =? 0)%Z with false by lia.
+  destruct (j - 1 =? 0)%Z eqn:E.
+  - replace j with 1%Z by lia. rewrite Sum_empty by lia. cbn. ring.
+  - rewrite (Sum_last 1 (j - 1)) by lia.
+    replace (i + 1 + (j - 1))%Z with (i + j)%Z by lia.
+    replace (i + j - (j - 1))%Z with (i + 1)%Z by lia. ring.
+Qed.
+
+(** ** Positions *)
+
+(** A bead on two others of its height: which of the two circles' intersections lies above. *)
+Lemma apex (a h c s x y : R) : 0 < s ->
+  (x - (a - c)) ^ 2 + (y - h) ^ 2 = c ^ 2 + s ^ 2 ->
+  (x - (a + c)) ^ 2 + (y - h) ^ 2 = c ^ 2 + s ^ 2 -> c <> 0 -> h < y -> x = a /\ y = h + s.
+Proof.
+  intros Hs H1 H2 Hc Hy.
+  assert (Hx : x = a) by (apply (Rmult_eq_reg_l c); [lra|exact Hc]).
+  subst x. split; [reflexivity|].
+  assert (P : (y - h - s) * (y - h + s) = 0) by lra.
+  apply Rmult_integral in P. destruct P; lra.
+Qed.
+
+Section Packing.
+  Variable G : lattice.
+  Variable M : Z.
+  Variable rho : radii.
+  Variable X : centres.
+  Hypothesis P : packing G M rho X.
+  Local Notation r := (r G).
+  Local Notation n_x := (n_x G).
+  Local Notation n_y := (n_y G).
+
+  Theorem ordered_position j : (0 <= j)%Z -> forall i, bead M i j ->
+    X i j 0 = Vector (2 * IZR i * r * n_x) (2 * IZR j * r * n_y).
+  Proof.
+    intros Hj. pattern j. apply (up_from _ 0); [| |exact Hj]; clear j Hj.
+    - intros i Hi. rewrite (base_is_fixed _ _ _ _ P) by exact Hi. f_equal. ring.
+    - intros j Hj IH i Hi.
+      pose proof (near_zero _ (touches_left _ _ _ _ P i (j + 1) Hi ltac:(lia))) as L.
+      pose proof (near_zero _ (touches_right _ _ _ _ P i (j + 1) Hi ltac:(lia))) as R.
+      pose proof (above_supports _ _ _ _ P i (j + 1) Hi ltac:(lia)) as A.
+      replace (j + 1 - 1)%Z with j in * by lia.
+      rewrite IH in L by site. rewrite IH in R by site. rewrite IH in A by site.
+      destruct (X i (j + 1)%Z 0) as [x y].
+      unfold dot, minus, add, scale, delta_r in *. cbn [x_of y_of] in *.
+      rewrite minus_IZR in *. rewrite plus_IZR in *.
+      destruct (apex (2 * IZR i * r * n_x) (2 * IZR j * r * n_y) (2 * r * n_x) (2 * r * n_y) x y)
+        as [-> ->].
+      + pose proof (r_pos G). pose proof (n_y_pos G).
+        apply Rmult_lt_0_compat; [lra|assumption].
+      + etransitivity; [|etransitivity; [exact L|]]; ring [(n_y_squared G)].
+      + etransitivity; [|etransitivity; [exact R|]]; ring [(n_y_squared G)].
+      + pose proof (r_pos G). pose proof (n_x_pos G).
+        apply Rgt_not_eq. apply Rmult_lt_0_compat; [lra|assumption].
+      + exact A.
+      + f_equal; ring.
+  Qed.
+
+  (** The derivative of a contact's constraint: 2 (u·u′) = 2 · 2r · (sum of both ρ). *)
+  Lemma touch_slope i j k l xi yi xk yk dxi dyi dxk dyk :
+    touch G rho X i j k l ->
+    expands (fun e => x_of (X i j e)) xi dxi -> expands (fun e => y_of (X i j e)) yi dyi ->
+    expands (fun e => x_of (X k l e)) xk dxk -> expands (fun e => y_of (X k l e)) yk dyk ->
+    (xi - xk) * (dxi - dxk) + (yi - yk) * (dyi - dyk) = 2 * r * (rho i j + rho k l).
+  Proof.
+    intros T Hxi Hyi Hxk Hyk.
+    pose proof (expands_minus _ _ _ _ _ _ Hxi Hxk) as Dx.
+    pose proof (expands_minus _ _ _ _ _ _ Hyi Hyk) as Dy.
+    pose proof (expands_plus _ _ _ _ _ _ (expands_mult _ _ _ _ _ _ Dx Dx)
+      (expands_mult _ _ _ _ _ _ Dy Dy)) as L.
+    assert (R : expands (fun e => ((r + delta_r rho i j e) + (r + delta_r rho k l e)) ^ 2)
+      ((r + 0 * rho i j + (r + 0 * rho k l)) ^ 2) (4 * r * (rho i j + rho k l))).
+    { eapply expands_to; [apply expands_pow2; unfold delta_r;
+        expand_with ltac:(fun _ => fail)|reflexivity|ring]. }
+    assert (N : near (fun e =>
+      (x_of (X i j e) - x_of (X k l e)) * (x_of (X i j e) - x_of (X k l e)) +
+      (y_of (X i j e) - y_of (X k l e)) * (y_of (X i j e) - y_of (X k l e)) =
+      ((r + delta_r rho i j e) + (r + delta_r rho k l e)) ^ 2)).
+    { eapply near_then; [exact T|]. cbv beta. intros e E. rewrite <- E.
+      unfold dot, minus, add, scale. cbn. ring. }
+    destruct (expands_unique _ _ _ _ _ (expands_near _ _ _ _ L N) R) as [_ E]. lra.
+  Qed.
+
+  (** Value and slope of a centre, in Cartesian components of c⁺ b⁺ + c⁻ b⁻. *)
+  Theorem centre_expands j : (0 <= j)%Z -> forall i, bead M i j ->
+    expands (fun e => x_of (X i j e)) (2 * IZR i * r * n_x)
+      ((along_plus rho i j - along_minus rho i j) / (2 * n_x)) /\
+    expands (fun e => y_of (X i j e)) (2 * IZR j * r * n_y)
+      ((along_plus rho i j + along_minus rho i j) / (2 * n_y)).
+  Proof.
+    pose proof (r_pos G) as Hr. pose proof (n_x_pos G) as Hx. pose proof (n_y_pos G) as Hy.
+    intros Hj. pattern j. apply (up_from _ 0); [| |exact Hj]; clear j Hj.
+    - intros i Hi. unfold along_plus, along_minus. cbn [Z.eqb].
+      split; (eapply expands_near; [eapply expands_to; [apply expands_const|reflexivity|field; lra]|]);
+        apply near_always; intros e; rewrite (base_is_fixed _ _ _ _ P) by exact Hi; cbn; ring.
+    - intros j Hj IH i Hi.
+      destruct (differentiable _ _ _ _ P i (j + 1) Hi) as (dx & dy & Dx & Dy).
+      pose proof (ordered_position (j + 1) ltac:(lia) i Hi) as E.
+      assert (Ex : expands (fun e => x_of (X i (j + 1)%Z e)) (2 * IZR i * r * n_x) dx)
+        by (split; [rewrite E; reflexivity|exact Dx]).
+      assert (Ey : expands (fun e => y_of (X i (j + 1)%Z e)) (2 * IZR (j + 1) * r * n_y) dy)
+        by (split; [rewrite E; reflexivity|exact Dy]).
+      destruct (IH (i - 1)%Z ltac:(site)) as [Lx Ly]. destruct (IH (i + 1)%Z ltac:(site)) as [Rx Ry].
+      pose proof (touches_left _ _ _ _ P i (j + 1) Hi ltac:(lia)) as TL.
+      pose proof (touches_right _ _ _ _ P i (j + 1) Hi ltac:(lia)) as TR.
+      replace (j + 1 - 1)%Z with j in * by lia.
+      pose proof (touch_slope _ _ _ _ _ _ _ _ _ _ _ _ TL Ex Ey Lx Ly) as SL.
+      pose proof (touch_slope _ _ _ _ _ _ _ _ _ _ _ _ TR Ex Ey Rx Ry) as SR.
+      pose proof (along_plus_step rho i (j + 1) ltac:(lia)) as CP.
+      pose proof (along_minus_step rho i (j + 1) ltac:(lia)) as CM.
+      replace (j + 1 - 1)%Z with j in * by lia.
+      rewrite minus_IZR, plus_IZR in SL. rewrite !plus_IZR in SR.
+      assert (KP : n_x * dx + n_y * dy = along_plus rho i (j + 1)).
+      { apply (Rmult_eq_reg_l (2 * r)); [|lra]. rewrite CP.
+        
+        transitivity (2 * r * along_plus rho (i - 1) j +
+          2 * r * (rho i (j + 1)%Z + rho (i - 1)%Z j)); [rewrite <- SL; field; lra|ring]. }
+      assert (KM : - n_x * dx + n_y * dy = along_minus rho i (j + 1)).
+      { apply (Rmult_eq_reg_l (2 * r)); [|lra]. rewrite CM.
+        
+        transitivity (2 * r * along_minus rho (i + 1) j +
+          2 * r * (rho i (j + 1)%Z + rho (i + 1)%Z j)); [rewrite <- SR; field; lra|ring]. }
+      rewrite <- KP, <- KM.
+      split; (eapply expands_to; [eassumption|reflexivity|field; lra]).
+  Qed.
+
+  (** Displacements: the same slopes, on values 0. *)
+  Lemma delta_x_x_expands i j : bead M i j ->
+    expands (fun e => x_of (delta_x X i j e)) 0
+      ((along_plus rho i j - along_minus rho i j) / (2 * n_x)).
+  Proof.
+    intros H. destruct (centre_expands j ltac:(site) i H) as [D _].
+    pose proof D as [E _]. cbv beta in E. unfold delta_x, minus, add, scale. cbn [x_of y_of].
+    eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|rewrite E; ring|ring].
+  Qed.
+
+  Lemma delta_x_y_expands i j : bead M i j ->
+    expands (fun e => y_of (delta_x X i j e)) 0
+      ((along_plus rho i j + along_minus rho i j) / (2 * n_y)).
+  Proof.
+    intros H. destruct (centre_expands j ltac:(site) i H) as [_ D].
+    pose proof D as [E _]. cbv beta in E. unfold delta_x, minus, add, scale. cbn [x_of y_of].
+    eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|rewrite E; ring|ring].
+  Qed.
+
+  (** ** Directions *)
+
+  (** n⁻·δn⁺ and n⁺·δn⁻ to first order, over ε; the other components are 0. *)
+  Definition tilt_plus (i j : Z) : R :=
+    (along_minus rho (i + 1) (j + 1) - along_minus rho i j
+      - phi G * (rho i j + rho (i + 1)%Z (j + 1)%Z)) / (2 * r).
+  Definition tilt_minus (i j : Z) : R :=
+    (along_plus rho (i - 1) (j + 1) - along_plus rho i j
+      - phi G * (rho i j + rho (i - 1)%Z (j + 1)%Z)) / (2 * r).
+
+  (** The centres of a contact are exactly the sum of the radii apart. *)
+  Lemma distance i j k l : touch G rho X k l i j -> near (fun e =>
+    norm (minus (X k l e) (X i j e)) = 2 * r + e * (rho i j + rho k l)).
+  Proof.
+    intros T.
+    assert (R : expands (fun e => 2 * r + e * (rho i j + rho k l)) (2 * r)
+      (rho i j + rho k l)).
+    { eapply expands_to; [expand_with ltac:(fun _ => fail)|ring|ring]. }
+    pose proof (r_pos G) as Hr.
+    eapply near_then; [exact (near_both _ _ T (expands_near_positive _ _ _ R ltac:(lra)))|].
+    cbv beta. intros e [E Hp]. unfold norm. rewrite E. unfold delta_r.
+    replace ((r + e * rho k l + (r + e * rho i j)) ^ 2)
+      with ((2 * r + e * (rho i j + rho k l)) * (2 * r + e * (rho i j + rho k l))) by ring.
+    apply sqrt_square. lra.
+  Qed.
+
+  Lemma N_plus_expands i j : contact M i j ->
+    expands (fun e => x_of (N_plus X i j e)) n_x (- tilt_plus i j / (2 * n_x)) /\
+    expands (fun e => y_of (N_plus X i j e)) n_y (tilt_plus i j / (2 * n_y)).
+  Proof.
+    intros H. pose proof (r_pos G) as Hr. pose proof (n_x_pos G). pose proof (n_y_pos G).
+    assert (T : touch G rho X (i + 1) (j + 1) i j).
+    { pose proof (touches_left _ _ _ _ P (i + 1) (j + 1) ltac:(site) ltac:(site)) as T.
+      replace (i + 1 - 1)%Z with i in T by lia. replace (j + 1 - 1)%Z with j in T by lia.
+      exact T. }
+    apply distance in T.
+    destruct (centre_expands j ltac:(site) i ltac:(site)) as [Ax Ay].
+    destruct (centre_expands (j + 1) ltac:(site) (i + 1) ltac:(site)) as [Bx By].
+    pose proof (along_plus_step rho (i + 1) (j + 1) ltac:(site)) as C.
+    replace (i + 1 - 1)%Z with i in C by lia. replace (j + 1 - 1)%Z with j in C by lia.
+    assert (D : expands (fun e => 2 * r + e * (rho i j + rho (i + 1)%Z (j + 1)%Z)) (2 * r)
+      (rho i j + rho (i + 1)%Z (j + 1)%Z)).
+    { eapply expands_to; [expand_with ltac:(fun _ => fail)|ring|ring]. }
+    rewrite plus_IZR in Bx, By. unfold tilt_plus.
+    assert (F : forall x : vector -> R, x = x_of \/ x = y_of -> near (fun e =>
+      (x (X (i + 1)%Z (j + 1)%Z e) - x (X i j e)) /
+        (2 * r + e * (rho i j + rho (i + 1)%Z (j + 1)%Z)) = x (N_plus X i j e))).
+    { intros x Hx. eapply near_then; [exact T|]. cbv beta. intros e E.
+      unfold N_plus, direction. rewrite E. unfold scale, minus, add.
+      destruct Hx as [-> | ->]; cbn; unfold Rdiv; ring. }
+    split; (eapply expands_near; [|apply F; auto]); (eapply expands_to;
+      [apply expands_div; [|apply expands_minus|exact D];
+        [|first [exact Bx|exact By]|first [exact Ax|exact Ay]]; lra
+      |field; lra
+      |rewrite C, phi_is]).
+    - rewrite n_y_squared. field. lra.
+    - replace (n_x * n_x) with (1 - n_y * n_y) by ring [(n_y_squared G)]. field. lra.
+  Qed.
+
+  Lemma N_minus_expands i j : contact M i j ->
+    expands (fun e => x_of (N_minus X i j e)) (- n_x) (tilt_minus i j / (2 * n_x)) /\
+    expands (fun e => y_of (N_minus X i j e)) n_y (tilt_minus i j / (2 * n_y)).
+  Proof.
+    intros H. pose proof (r_pos G) as Hr. pose proof (n_x_pos G). pose proof (n_y_pos G).
+    assert (T : touch G rho X (i - 1) (j + 1) i j).
+    { pose proof (touches_right _ _ _ _ P (i - 1) (j + 1) ltac:(site) ltac:(site)) as T.
+      replace (i - 1 + 1)%Z with i in T by lia. replace (j + 1 - 1)%Z with j in T by lia.
+      exact T. }
+    apply distance in T.
+    destruct (centre_expands j ltac:(site) i ltac:(site)) as [Ax Ay].
+    destruct (centre_expands (j + 1) ltac:(site) (i - 1) ltac:(site)) as [Bx By].
+    pose proof (along_minus_step rho (i - 1) (j + 1) ltac:(site)) as C.
+    replace (i - 1 + 1)%Z with i in C by lia. replace (j + 1 - 1)%Z with j in C by lia.
+    assert (D : expands (fun e => 2 * r + e * (rho i j + rho (i - 1)%Z (j + 1)%Z)) (2 * r)
+      (rho i j + rho (i - 1)%Z (j + 1)%Z)).
+    { eapply expands_to; [expand_with ltac:(fun _ => fail)|ring|ring]. }
+    rewrite minus_IZR in Bx. rewrite plus_IZR in By. unfold tilt_minus.
+    assert (F : forall x : vector -> R, x = x_of \/ x = y_of -> near (fun e =>
+      (x (X (i - 1)%Z (j + 1)%Z e) - x (X i j e)) /
+        (2 * r + e * (rho i j + rho (i - 1)%Z (j + 1)%Z)) = x (N_minus X i j e))).
+    { intros x Hx. eapply near_then; [exact T|]. cbv beta. intros e E.
+      unfold N_minus, direction. rewrite E. unfold scale, minus, add.
+      destruct Hx as [-> | ->]; cbn; unfold Rdiv; ring. }
+    split; (eapply expands_near; [|apply F; auto]); (eapply expands_to;
+      [apply expands_div; [|apply expands_minus|exact D];
+        [|first [exact Bx|exact By]|first [exact Ax|exact Ay]]; lra
+      |field; lra
+      |rewrite C, phi_is]).
+    - rewrite n_y_squared. field. lra.
+    - replace (n_x * n_x) with (1 - n_y * n_y) by ring [(n_y_squared G)]. field. lra.
+  Qed.
+
+  Lemma delta_n_plus_x_expands i j : contact M i j ->
+    expands (fun e => x_of (delta_n_plus G X i j e)) 0 (- tilt_plus i j / (2 * n_x)).
+  Proof.
+    intros H. destruct (N_plus_expands i j H) as [D _]. unfold delta_n_plus, n_plus, minus, add, scale.
+    cbn [x_of y_of]. eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|ring|ring].
+  Qed.
+
+  Lemma delta_n_plus_y_expands i j : contact M i j ->
+    expands (fun e => y_of (delta_n_plus G X i j e)) 0 (tilt_plus i j / (2 * n_y)).
+  Proof.
+    intros H. destruct (N_plus_expands i j H) as [_ D]. unfold delta_n_plus, n_plus, minus, add, scale.
+    cbn [x_of y_of]. eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|ring|ring].
+  Qed.
+
+  Lemma delta_n_minus_x_expands i j : contact M i j ->
+    expands (fun e => x_of (delta_n_minus G X i j e)) 0 (tilt_minus i j / (2 * n_x)).
+  Proof.
+    intros H. destruct (N_minus_expands i j H) as [D _].
+    unfold delta_n_minus, n_minus, minus, add, scale.
+    cbn [x_of y_of]. eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|ring|ring].
+  Qed.
+
+  Lemma delta_n_minus_y_expands i j : contact M i j ->
+    expands (fun e => y_of (delta_n_minus G X i j e)) 0 (tilt_minus i j / (2 * n_y)).
+  Proof.
+    intros H. destruct (N_minus_expands i j H) as [_ D].
+    unfold delta_n_minus, n_minus, minus, add, scale.
+    cbn [x_of y_of]. eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|ring|ring].
+  Qed.
+End Packing.
+
+Lemma delta_r_expands rho i j : expands (delta_r rho i j) 0 (rho i j).
+Proof. unfold delta_r. eapply expands_to; [expand_with ltac:(fun _ => fail)|ring|ring]. Qed.
+
+(** The tilts in the radii, as Eqs. 4 and 5 print them. *)
+Lemma tilt_plus_is G rho i j : (0 <= j)%Z ->
+  2 * r G * tilt_plus G rho i j =
+  (1 - phi G) * (rho i j + rho (i + 1)%Z (j + 1)%Z) + (rho (i + j + 2)%Z 0%Z - rho (i + j)%Z 0%Z
+    + 2 * (Sum 1 j (fun m => rho (i + j - m + 2)%Z m) - Sum 1 j (fun m => rho (i + j - m)%Z m))).
+Proof.
+  intros Hj. pose proof (r_pos G). unfold tilt_plus, along_minus.
+  replace (j + 1 =? 0)%Z with false by lia. destruct (j =? 0)%Z eqn:E.
+  - assert (j = 0%Z) as -> by lia. rewrite !Sum_empty by lia. same_values. field. lra.
+  - rewrite (Sum_last 1 j (fun m => rho (i + j - m)%Z m)) by lia. same_sums. same_values. field. lra.
+Qed.
+
+Lemma tilt_minus_is G rho i j : (0 <= j)%Z ->
+  2 * r G * tilt_minus G rho i j =
+  (1 - phi G) * (rho i j + rho (i - 1)%Z (j + 1)%Z) + (rho (i - j - 2)%Z 0%Z - rho (i - j)%Z 0%Z
+    + 2 * (Sum 1 j (fun m => rho (i - j + m - 2)%Z m) - Sum 1 j (fun m => rho (i - j + m)%Z m))).
+Proof.
+  intros Hj. pose proof (r_pos G). unfold tilt_minus, along_plus.
+  replace (j + 1 =? 0)%Z with false by lia. destruct (j =? 0)%Z eqn:E.
+  - assert (j = 0%Z) as -> by lia. rewrite !Sum_empty by lia. same_values. field. lra.
+  - rewrite (Sum_last 1 j (fun m => rho (i - j + m)%Z m)) by lia. same_sums. same_values. field. lra.
+Qed.
