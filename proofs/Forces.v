@@ -260,6 +260,36 @@ Section Loads.
       symmetry; apply (free_surface _ _ _ _ C)).
   Qed.
 
+  (** What leaves a bead without load that f⁺ alone enters, over what enters it (Eq. 8). *)
+  Theorem propagates load i j : carries M X load F -> contact M i j -> (1 <= j)%Z ->
+    load i j = zero -> near (fun e => f_minus F i j e = 0 /\ f_plus F i j e <> 0) ->
+    let turn := tilt_plus G rho (i - 1) (j - 1) - tilt_plus G rho i j in
+    expands (fun e => f_plus F (i - 1) (j - 1) e / f_plus F i j e)
+      1 (phi G / (1 - phi G * phi G) * turn) /\
+    expands (fun e => f_minus F (i + 1) (j - 1) e / f_plus F i j e)
+      0 (- (turn / (1 - phi G * phi G))).
+  Proof.
+    intros C H Hj Hl N turn.
+    pose proof (n_x_pos G) as Hx. pose proof (n_y_pos G) as Hy.
+    assert (Hxy : 0 < n_x G * n_y) by (apply Rmult_lt_0_compat; assumption).
+    destruct (N_plus_expands G M rho X P i j H) as [Sx Sy].
+    destruct (N_plus_expands G M rho X P (i - 1) (j - 1) ltac:(site)) as [Ux Uy].
+    destruct (N_minus_expands G M rho X P (i + 1) (j - 1) ltac:(site)) as [Vx Vy].
+    destruct (solved (fun e => f_plus F (i - 1) (j - 1) e / f_plus F i j e)
+      (fun e => f_minus F (i + 1) (j - 1) e / f_plus F i j e)
+      _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ Ux Uy Vx Vy Sx Sy) as [A B].
+    - lra.
+    - eapply near_then; [exact (near_both _ _ N (balance _ _ _ _ C i j ltac:(site) Hj))|].
+      intros e [[E0 Hn] E]. unfold balanced in E. rewrite Hl, E0 in E.
+      pose proof (f_equal x_of E) as E1. pose proof (f_equal y_of E) as E2.
+      components in E1. components in E2.
+      split; apply (Rmult_eq_reg_l (f_plus F i j e)); try exact Hn; field_simplify; try exact Hn; lra.
+    - unfold turn. rewrite one_minus_phi_squared, phi_is.
+      split; (eapply expands_to; [eassumption|field; repeat split; lra|]).
+      + field_simplify_eq; [ring [(n_y_squared G)]|repeat split; lra].
+      + field_simplify_eq; [ring [(n_y_squared G)]|repeat split; lra].
+  Qed.
+
   (** A surface load f on every bead at j = M: Eq. 11 for all layers, downwards. *)
   Theorem surface_force f : carries M X (surface M f) F -> forall j, (j <= M - 1)%Z ->
     forall i, contact M i j ->
@@ -371,6 +401,20 @@ Section Loads.
       replace (i + 1 - 1)%Z with i in A by lia. replace (j + 1 - 1)%Z with j in * by lia.
       replace (i - 1 + 1)%Z with i in B by lia.
       eapply near_then; [exact (near_both _ _ A B)|]. cbv beta. tauto.
+  Qed.
+
+  (** A bead that carries nothing but its load (Eq. 6). *)
+  Theorem loaded_bead load k l : carries M X load F -> bead M k l -> (1 <= l)%Z ->
+    (forall i j, (l < j <= M)%Z -> load i j = zero) ->
+    near (fun e => add (load k l)
+      (add (scale (f_plus F (k - 1) (l - 1) e) (N_plus X (k - 1) (l - 1) e))
+           (scale (f_minus F (k + 1) (l - 1) e) (N_minus X (k + 1) (l - 1) e))) = zero).
+  Proof.
+    intros C H Hl Ha.
+    pose proof (nothing_above load l C ltac:(lia) Ha l ltac:(site) ltac:(lia) k H) as N.
+    eapply near_then; [exact (near_both _ _ N (balance _ _ _ _ C k l H Hl))|].
+    intros e [[E1 E2] E]. unfold balanced in E. rewrite E1, E2 in E. rewrite <- E.
+    unfold minus, add, scale. components. f_equal; ring.
   Qed.
 
   Lemma zero_expands f : near (fun e => f e = 0) -> expands f 0 0.

@@ -71,6 +71,9 @@ Proof. sum_induction low high; [ring|]. rewrite !(Sum_last low n) by lia. rewrit
 Lemma Sum_scale low high a f : Sum low high (fun m => a * f m) = a * Sum low high f.
 Proof. sum_induction low high; [ring|]. rewrite !(Sum_last low n) by lia. rewrite IH. ring. Qed.
 
+Lemma Sum_over low high a f : Sum low high (fun m => f m / a) = Sum low high f / a.
+Proof. unfold Rdiv. rewrite <- (Rmult_comm (/ a)), <- Sum_scale. apply Sum_eq; auto. intros. ring. Qed.
+
 Lemma Sum_minus low high f g :
   Sum low high (fun m => f m - g m) = Sum low high f - Sum low high g.
 Proof. sum_induction low high; [ring|]. rewrite !(Sum_last low n) by lia. rewrite IH. ring. Qed.

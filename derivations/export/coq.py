@@ -1,0 +1,316 @@
+"""Printed equations as statements for the proof assistant Coq, in the words of ``proofs/Model.v``.
+
+A statement is made from what a derivation prints, never typed: its formula symbol by symbol, its
+index ranges from the assumptions, its sites from the left-hand side. What is written here is only
+which hypotheses of ``Model.v`` an equation is about. Proofs are found by tactics in ``proofs/``.
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import sympy
+from force_diffusion.derivations.framework.record import Derivation
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.mechanics.paths import BRANCH_COUNT
+
+
+class NotStatedError(ValueError):
+    """An expression or an equation for which there are no words in ``Model.v``."""
+
+
+EXPANSION = "e"  # the strength ε of the disorder, on which every quantity depends
+
+_SITES = {
+    "DeltaR": "delta_r rho",
+    "Position": "position X",
+    "DeltaX": "delta_x X",
+    "DeltaNPlus": "delta_n_plus G X",
+    "DeltaNMinus": "delta_n_minus G X",
+    "ForcePlus": "f_plus F",
+    "ForceMinus": "f_minus F",
+    "Load": "single k l f_load",
+}
+_FIXED = ("Position", "Load")  # do not depend on ε
+_SCALARS = {sy.r: "r G", sy.n_x: "n_x G", sy.n_y: "n_y G", sy.phi: "phi G", sy.f_load: "f_load"}
+_VECTORS = {v: f"{v.name} G" for v in (sy.n_plus, sy.n_minus, sy.b_plus, sy.b_minus)}
+_VECTORS[sy.e_y] = "e_y"
+
+
+def index(expression: sympy.Expr) -> str:
+    """A whole number, with the symbols in the order of ``symbols.INDICES``."""
+    linear = sympy.Poly(expression, *sy.INDICES)
+    if linear.total_degree() > 1 or not all(c.is_Integer for c in linear.coeffs()):
+        raise NotStatedError(f"{expression} is no index")
+    terms = [(linear.coeff_monomial(symbol), symbol.in_code) for symbol in sy.INDICES]
+    terms += [(linear.coeff_monomial(1), "")]
+    shown = ""
+    for factor, name in terms:
+        if factor:
+            times = f"{abs(factor)} * {name}" if name and abs(factor) != 1 else name
+            sign = " - " if factor < 0 else " + "
+            shown += (sign if shown or factor < 0 else "") + (times or str(abs(factor)))
+    return shown.strip() or "0"
+
+
+def _is_vector(expression: sympy.Basic) -> bool:
+    if isinstance(expression, sy.SiteFunction):
+        return expression.is_vector
+    if isinstance(expression, sy.Dot | sympy.Sum):
+        return False
+    if isinstance(expression, sy.MatrixTimes) or expression in sy.VECTORS:
+        return True
+    return any(map(_is_vector, expression.args))
+
+
+def _site(expression: sy.SiteFunction) -> str:
+    kind = type(expression).__name__
+    if kind not in _SITES:
+        raise NotStatedError(f"{kind} has no name in Model.v")
+    at = " ".join(_atom(index(argument)) for argument in expression.args)
+    return f"{_SITES[kind]} {at}" + ("" if kind in _FIXED else f" {EXPANSION}")
+
+
+def _atom(shown: str) -> str:
+    return shown if re.fullmatch(r"\w+", shown) else f"({shown})"
+
+
+def _negative(term: sympy.Expr) -> sympy.Expr | None:
+    """The positive of a term with a minus sign in front."""
+    if isinstance(term, sympy.Mul) and term.args[0].is_Number and term.args[0] < 0:
+        first, *others = term.args
+        rest = others if first == -1 else [-first, *others]
+        return rest[0] if len(rest) == 1 else sympy.Mul(*rest, evaluate=False)
+    return -term if term.is_Number and term < 0 else None
+
+
+def real(expression: sympy.Expr) -> str:
+    """A real number."""
+    if expression.is_Integer:
+        return str(expression) if expression >= 0 else f"- {-expression}"
+    if expression.is_Rational:
+        return f"{expression.p} / {expression.q}"
+    if expression in _SCALARS:
+        return _SCALARS[expression]
+    if expression in sy.INDICES:
+        return f"IZR {expression.in_code}"
+    if isinstance(expression, sy.SiteFunction) and not expression.is_vector:
+        return _site(expression)
+    if isinstance(expression, sy.Dot):
+        return f"dot {' '.join(_atom(vector(side)) for side in expression.args)}"
+    if isinstance(expression, sympy.Sum):
+        ((name, low, high),) = expression.limits
+        bounds = f"{_atom(index(low))} {_atom(index(high))}"
+        return f"Sum {bounds} (fun {name.in_code} => {real(expression.function)})"
+    if isinstance(expression, sympy.Add):
+        return _sum(expression.args)
+    if isinstance(expression, sympy.Mul):
+        return _product(expression.args)
+    if isinstance(expression, sympy.Pow) and expression.exp.is_Integer:
+        if expression.exp < 0:
+            return _product((expression,))
+        return f"{_operand(expression.base)} ^ {expression.exp}"
+    raise NotStatedError(f"{expression} has no words in Model.v")
+
+
+def _operand(expression: sympy.Expr) -> str:
+    """What stands beside *, / or ^: a number, a name, an application, or in parentheses."""
+    number = expression.is_Integer and expression >= 0
+    compound = expression.is_Rational or isinstance(expression, sympy.Add | sympy.Mul | sympy.Pow)
+    shown = real(expression)
+    return f"({shown})" if compound and not number else shown
+
+
+def _sum(terms: tuple[sympy.Expr, ...]) -> str:
+    shown = ""
+    for term in terms:
+        opposite = _negative(term)
+        part = term if opposite is None else opposite
+        written = f"({real(part)})" if isinstance(part, sympy.Add) else real(part)
+        sign = "+" if opposite is None else "-"
+        shown += f" {sign} {written}" if shown else written if sign == "+" else f"- {written}"
+    return shown
+
+
+def _product(factors: tuple[sympy.Expr, ...]) -> str:
+    if factors[0] == -1 and len(factors) > 1:
+        return f"- ({_product(factors[1:])})"
+    shown = ""
+    for factor in factors:
+        if isinstance(factor, sympy.Pow) and factor.exp.is_Integer and factor.exp < 0:
+            power = "" if factor.exp == -1 else f" ^ {-factor.exp}"
+            shown = (shown or "1") + f" / {_operand(factor.base)}{power}"
+        else:
+            shown += (" * " if shown else "") + _operand(factor)
+    return shown
+
+
+def vector(expression: sympy.Expr) -> str:
+    """A vector of the plane."""
+    if expression == 0:
+        return "zero"
+    if expression in _VECTORS:
+        return _VECTORS[expression]
+    if isinstance(expression, sy.SiteFunction) and expression.is_vector:
+        return _site(expression)
+    if isinstance(expression, sy.MatrixTimes):
+        *entries, of = expression.args
+        shown = " ".join(_atom(real(entry)) for entry in entries)
+        return f"matrix {shown} {_atom(vector(of))}"
+    if isinstance(expression, sympy.Add):
+        first, *others = expression.args
+        shown = vector(first)
+        for term in others:
+            opposite = _negative(term)
+            kind, part = ("add", term) if opposite is None else ("minus", opposite)
+            shown = f"{kind} {_atom(shown)} {_atom(vector(part))}"
+        return shown
+    if isinstance(expression, sympy.Mul):
+        vectors = [factor for factor in expression.args if _is_vector(factor)]
+        scalars = tuple(factor for factor in expression.args if not _is_vector(factor))
+        if len(vectors) == 1:
+            number = real(scalars[0]) if len(scalars) == 1 else _product(scalars)
+            return f"scale {_atom(number)} {_atom(vector(vectors[0]))}"
+    raise NotStatedError(f"{expression} is no vector in the words of Model.v")
+
+
+_LETTERS = "".join(symbol.name for symbol in sy.INDICES)
+_SIDE = rf"(?:\d|[{_LETTERS}](?!\w))(?:\s*[+−]\s*(?:\d|[{_LETTERS}](?!\w)))*"
+_CHAIN = re.compile(rf"(?<![\w(,]){_SIDE}(?:\s*[≤<≥>=]\s*{_SIDE})+")
+_RELATIONS = {"≤": "<=", "<": "<", "≥": ">=", ">": ">", "=": "="}
+
+
+def ranges(derivation: Derivation) -> Iterator[str]:
+    """What the assumptions say of the indices: every chain of inequalities in them."""
+    radius = any(symbol in derivation.printed[0].free_symbols for symbol in (sy.site_r, sy.site_s))
+    for assumption in derivation.assumptions:
+        for chain in _CHAIN.findall(assumption):
+            if not re.search("[≤<≥>]", chain):
+                continue
+            sides = re.split(r"\s*([≤<≥>=])\s*", chain.replace("−", "-"))
+            if radius:
+                sides = [re.sub(r"\b([rs])\b", r"site_\1", side) for side in sides]
+            for left, relation, right in zip(sides[::2], sides[1::2], sides[2::2], strict=False):
+                yield f"({left} {_RELATIONS[relation]} {right})%Z"
+
+
+@dataclass(frozen=True)
+class Frame:
+    """What an equation is about.
+
+    Attributes:
+        variables: what is quantified besides the packing, as binders.
+        hypotheses: in the words of ``Model.v``, besides that of a packing.
+        example: indices for which hypotheses on indices hold, so that nothing is said of nothing.
+        exact: whether it holds exactly, near ε = 0, and not only to first order.
+    """
+
+    variables: str = ""
+    hypotheses: tuple[str, ...] = ()
+    example: tuple[tuple[sympy.Symbol, int], ...] = ()
+    exact: bool = False
+
+
+_LOADED = "(F : forces) (f_load : R)"
+_SINGLE = ("0 < f_load", "carries M X (single k l f_load) F")
+_CONE = ((sy.M, 7), (sy.k, 6), (sy.l, 6))
+FRAMES = {
+    1: Frame(example=((sy.M, 3), (sy.i, 1), (sy.j, 1)), exact=True),
+    2: Frame(example=((sy.M, 3), (sy.i, 1), (sy.j, 1))),
+    3: Frame(example=((sy.M, 3), (sy.i, 1), (sy.j, 1))),
+    4: Frame(example=((sy.M, 3), (sy.i, 0), (sy.j, 0))),
+    5: Frame(example=((sy.M, 3), (sy.i, 0), (sy.j, 0))),
+    6: Frame(_LOADED, _SINGLE, _CONE, exact=True),
+    7: Frame(_LOADED, _SINGLE, _CONE),
+    8: Frame(
+        "(load : Z -> Z -> vector) (F : forces)",
+        (
+            "carries M X load F",
+            "load site_r site_s = zero",
+            "near (fun e => f_minus F site_r site_s e = 0 /\\ f_plus F site_r site_s e <> 0)",
+        ),
+        ((sy.M, 7), (sy.site_r, 1), (sy.site_s, 5)),
+    ),
+    9: Frame(_LOADED, _SINGLE, (*_CONE, (sy.i, 4), (sy.j, 4))),
+    10: Frame(
+        _LOADED,
+        (*_SINGLE, f"({index(2 * BRANCH_COUNT)} = 2 * n)%Z"),
+        (*_CONE, (sy.i, 2), (sy.j, 0), (sy.n, 1)),
+    ),
+    11: Frame(
+        _LOADED,
+        ("0 < f_load", "carries M X (surface M f_load) F"),
+        ((sy.M, 3), (sy.i, 0), (sy.j, 0)),
+    ),
+}
+
+
+def _spoken_of(side: sympy.Expr) -> Iterator[str]:
+    """Beads and contacts of the left-hand side: those of the packing."""
+    for site in sorted(side.atoms(sy.SiteFunction), key=str):
+        bead = isinstance(site, sy.DeltaR | sy.DeltaX | sy.Position | sy.Load)
+        at = " ".join(_atom(index(argument)) for argument in site.args)
+        yield f"{'bead' if bead else 'contact'} M {at}"
+
+
+def _conclusion(frame: Frame, equation: sympy.Eq) -> str:
+    of_vectors = any(map(_is_vector, equation.args))
+    left, right = map(vector if of_vectors else real, equation.args)
+    if not frame.exact:
+        kind = "first_order_vector" if of_vectors else "first_order"
+        return f"{kind}\n    (fun {EXPANSION} => {left})\n    (fun {EXPANSION} => {right})"
+    if equation.atoms(*(kind for kind in _changing())):
+        return f"near (fun {EXPANSION} =>\n    {left} = {right})"
+    return f"{left} = {right}"
+
+
+def _changing() -> Iterator[type[sympy.Basic]]:
+    return (getattr(sy, kind) for kind in _SITES if kind not in _FIXED)
+
+
+@dataclass(frozen=True)
+class Statement:
+    """One printed equation in Coq, with the lemmas that keep it from being about nothing."""
+
+    name: str
+    source: str
+
+
+def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = None) -> Statement:
+    """State a printed equation of a derivation, or a candidate in its place.
+
+    Raises:
+        NotStatedError: when there are no words for it.
+    """
+    if derivation.number not in FRAMES:
+        raise NotStatedError(f"Eq. {derivation.number} has no hypotheses in Model.v yet")
+    frame, printed = FRAMES[derivation.number], derivation.printed[part]
+    several = len(derivation.printed) > 1
+    name = f"equation_{derivation.number}" + (f"_part_{part + 1}" if several else "")
+    on_indices = dict.fromkeys(
+        (
+            *_spoken_of(printed.lhs),
+            *ranges(derivation),
+            *(hypothesis for hypothesis in frame.hypotheses if hypothesis.endswith("%Z")),
+        )
+    )
+    others = [hypothesis for hypothesis in frame.hypotheses if not hypothesis.endswith("%Z")]
+    indices = " ".join(symbol.in_code for symbol, _ in frame.example if symbol != sy.M)
+    conditions = " /\\ ".join(on_indices)
+    source = [
+        f"Theorem {name} :",
+        "  forall (G : lattice) (M : Z) (rho : radii) (X : centres), packing G M rho X ->",
+        f"  forall ({indices} : Z) {frame.variables},".replace(" ,", ","),
+        *(f"  {hypothesis} ->" for hypothesis in (*on_indices, *others)),
+        f"  {_conclusion(frame, equation or printed)}.",
+        f"Proof. prove_{derivation.number}. Qed.",
+        "",
+        f"Lemma {name}_is_about_something : exists M {indices} : Z,",
+        f"  {conditions}.",
+        f"Proof. {' '.join(f'exists {_z(value)}.' for _, value in frame.example)} site. Qed.",
+    ]
+    return Statement(name, "\n".join(source) + "\n")
+
+
+def _z(value: int) -> str:
+    return f"{value}%Z"

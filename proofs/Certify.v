@@ -1,0 +1,169 @@
+(** What the generated statements are proved with: one tactic an equation.
+
+    A tactic finds value and slope of both sides from the theorems on packings and forces, and
+    compares them. Nothing here is trusted: a tactic that goes wrong proves nothing. *)
+
+From Coq Require Export ZArith Reals Lia Lra.
+From ForceDiffusion Require Export Model Sums FirstOrder Geometry Forces.
+
+Open Scope R_scope.
+Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
+
+(** What divisors are made of is positive. *)
+Ltac positive_things G :=
+  pose proof (r_pos G); pose proof (n_x_pos G); pose proof (n_y_pos G);
+  pose proof (divisor_positive G).
+Ltac nonzero := cbv beta; repeat split; lra.
+
+(** The values and slopes of what a packing consists of. *)
+Ltac of_packing P :=
+  lazymatch goal with
+  | |- expands (fun e => delta_r _ _ _ e) _ _ => apply delta_r_expands
+  | |- expands (delta_r _ _ _) _ _ => apply delta_r_expands
+  | |- expands (fun e => x_of (delta_x _ _ _ e)) _ _ =>
+      apply (delta_x_x_expands _ _ _ _ P); site
+  | |- expands (fun e => y_of (delta_x _ _ _ e)) _ _ =>
+      apply (delta_x_y_expands _ _ _ _ P); site
+  | |- expands (fun e => x_of (delta_n_plus _ _ _ _ e)) _ _ =>
+      apply (delta_n_plus_x_expands _ _ _ _ P); site
+  | |- expands (fun e => y_of (delta_n_plus _ _ _ _ e)) _ _ =>
+      apply (delta_n_plus_y_expands _ _ _ _ P); site
+  | |- expands (fun e => x_of (delta_n_minus _ _ _ _ e)) _ _ =>
+      apply (delta_n_minus_x_expands _ _ _ _ P); site
+  | |- expands (fun e => y_of (delta_n_minus _ _ _ _ e)) _ _ =>
+      apply (delta_n_minus_y_expands _ _ _ _ P); site
+  | |- ?g => idtac "no rule for" g; fail
+  end.
+
+Ltac both_sides known :=
+  unfold dot; components; eapply first_order_by; [expand_with known|expand_with known|..]; cbv beta.
+
+(** Sums of sums and multiples become single sums, so that equal ones can be told. *)
+Ltac single_sums :=
+  no_zero_sums;
+  repeat (rewrite Sum_plus || rewrite Sum_minus || rewrite Sum_scale || rewrite Sum_over);
+  no_zero_sums.
+
+(** Equal by arithmetic in the components, n_x² + n_y² = 1 included. *)
+Ltac by_components G :=
+  rewrite ?phi_is; field_simplify_eq; [ring [(n_y_squared G)]|nonzero].
+
+Ltac prove_1 :=
+  intros G M rho X P i j H;
+  unfold position; rewrite (ordered_position G M rho X P j) by site;
+  unfold add, scale; components; f_equal; ring.
+
+Ltac prove_2 :=
+  intros G M rho X P i j H Hj; positive_things G;
+  rewrite ?(along_plus_step rho i j), ?(along_minus_step rho i j) by lia;
+  split; both_sides ltac:(fun _ => of_packing P);
+  try nonzero;
+  rewrite ?(along_plus_step rho i j), ?(along_minus_step rho i j) by lia;
+  field; nonzero.
+
+Ltac prove_3 :=
+  intros G M rho X P i j H Hj; positive_things G;
+  split; both_sides ltac:(fun _ => of_packing P);
+  try nonzero; single_sums; try solve [field; nonzero]; unfold along_plus, along_minus;
+  replace (j =? 0)%Z with false by lia; same_sums; same_values; field; nonzero.
+
+Ltac prove_4 :=
+  intros G M rho X P i j H Hj; positive_things G;
+  split; both_sides ltac:(fun _ => of_packing P);
+  try nonzero; single_sums; try solve [field; nonzero];
+  (replace (tilt_plus G rho i j) with (2 * r G * tilt_plus G rho i j / (2 * r G)) by (field; nonzero));
+  rewrite tilt_plus_is by lia; same_sums; same_values; by_components G.
+
+Ltac prove_5 :=
+  intros G M rho X P i j H Hj; positive_things G;
+  split; both_sides ltac:(fun _ => of_packing P);
+  try nonzero; single_sums; try solve [field; nonzero];
+  (replace (tilt_minus G rho i j) with (2 * r G * tilt_minus G rho i j / (2 * r G)) by (field; nonzero));
+  rewrite tilt_minus_is by lia; same_sums; same_values; by_components G.
+
+(** ** Forces *)
+
+Ltac of_forces P known :=
+  lazymatch goal with
+  | |- expands (fun e => f_plus _ ?i ?j e) _ _ => known i j
+  | |- expands (fun e => f_minus _ ?i ?j e) _ _ => known i j
+  | |- expands (f_plus _ ?i ?j) _ _ => known i j
+  | |- expands (f_minus _ ?i ?j) _ _ => known i j
+  | |- _ => of_packing P
+  end.
+
+(** On a leg of the cone, inside of it, or outside: as the hypotheses on the indices say. *)
+Ltac where_it_is :=
+  unfold ordered_plus, ordered_minus, response_plus, response_minus, turn_plus, turn_minus;
+  cbv zeta;
+  repeat match goal with
+  | |- context [if ?b then _ else _] => let E := fresh "E" in destruct b eqn:E; try (exfalso; site)
+  end.
+
+Ltac of_single P L C i j := apply (single_force _ _ _ _ P _ _ _ _ L ltac:(site) C j); site.
+
+Lemma by_parts u v : x_of u = x_of v -> y_of u = y_of v -> u = v.
+Proof. destruct u, v. cbn. intros -> ->. reflexivity. Qed.
+
+Ltac prove_6 :=
+  intros G M rho X P k l F f_load; intros;
+  match goal with C : carries _ _ ?load _ |- _ =>
+    assert (L : bead M k l) by site;
+    assert (A : forall i j, (l < j <= M)%Z -> load i j = zero)
+      by (intros i j Hj; unfold single; replace (j =? l)%Z with false by lia;
+          rewrite Bool.andb_false_r; reflexivity);
+    apply (near_then _ _ (loaded_bead G M rho X P F load k l C L ltac:(site) A))
+  end;
+  intros e E; pose proof (f_equal x_of E) as Ex; pose proof (f_equal y_of E) as Ey;
+  unfold delta_n_plus, delta_n_minus; apply by_parts; components; components in Ex; components in Ey;
+  lra.
+
+Ltac prove_7 :=
+  intros G M rho X P k l F f_load H Hf C; positive_things G;
+  assert (L : bead M k l) by site;
+  both_sides ltac:(fun _ => of_forces P ltac:(of_single P L C));
+  where_it_is; try nonzero; same_values; field; nonzero.
+
+Ltac of_passage P F i j :=
+  lazymatch goal with
+  | |- expands (fun e => 1 / @?f e * @?g e) _ _ =>
+      apply (expands_near (fun e => g e / f e));
+        [|apply near_always; intros e; unfold Rdiv; ring]
+  end;
+  match goal with C : carries _ _ _ F |- _ =>
+    apply (propagates _ _ _ _ P F _ i j C); first [assumption|site]
+  end.
+
+Ltac prove_8 :=
+  intros G M rho X P i j load F; intros; positive_things G; unfold dot; components;
+  eapply first_order_by;
+  [of_passage P F i j|expand_with ltac:(fun _ => of_packing P)|..]; cbv beta;
+  try nonzero; field; nonzero.
+
+Ltac prove_9 :=
+  intros G M rho X P k l i j F f_load; intros; positive_things G;
+  match goal with C : carries _ _ _ _ |- _ =>
+    assert (L : bead M k l) by site;
+    assert (0 < f_load / (2 * n_y G)) by (apply Rdiv_lt_0_compat; lra);
+    both_sides ltac:(fun _ => of_forces P ltac:(of_single P L C))
+  end;
+  where_it_is; try nonzero; same_values; field; nonzero.
+
+Ltac prove_10 :=
+  intros G M rho X P k l i j n F f_load; intros; positive_things G;
+  match goal with C : carries _ _ _ _ |- _ =>
+    assert (L : bead M k l) by site;
+    assert (0 < f_load / (2 * n_y G)) by (apply Rdiv_lt_0_compat; lra);
+    both_sides ltac:(fun _ => of_forces P ltac:(of_single P L C))
+  end;
+  where_it_is; try nonzero; same_values; field; nonzero.
+
+Ltac of_surface P C i j := apply (surface_force _ _ _ _ P _ _ C j); site.
+
+Ltac prove_11 :=
+  intros G M rho X P i j F f_load; intros; positive_things G;
+  match goal with C : carries _ _ _ _ |- _ =>
+    both_sides ltac:(fun _ => of_forces P ltac:(of_surface P C))
+  end;
+  try nonzero; unfold surface_plus, surface_minus; single_sums; same_sums; same_values;
+  field; nonzero.

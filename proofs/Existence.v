@@ -1,0 +1,374 @@
+(** Nothing is said of nothing: lattices, packings of any radii, and forces for any loads exist. *)
+
+From Coq Require Import ZArith Reals Lia Lra Bool.
+From ForceDiffusion Require Import Model Sums FirstOrder Geometry Forces.
+
+Open Scope R_scope.
+Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
+
+Theorem lattice_exists : exists G : lattice, r G = 1 /\ n_x G = 3 / 5 /\ n_y G = 4 / 5.
+Proof.
+  assert (H1 : 0 < 1) by lra. assert (H2 : 1 / 2 < 3 / 5) by lra.
+  assert (H3 : 1 / 2 < 4 / 5) by lra. assert (H4 : (3 / 5) ^ 2 + (4 / 5) ^ 2 = 1) by lra.
+  exists {| r := 1; n_x := 3 / 5; n_y := 4 / 5; r_positive := H1; n_x_above_half := H2;
+            n_y_above_half := H3; unit_vectors := H4 |}. auto.
+Qed.
+
+(** ** Packings *)
+
+(** The point at the distances a and b from A and B, on the left of the way from A to B. *)
+Definition meeting (A B : vector) (a b : R) : vector :=
+  let d := minus B A in
+  let along := (a ^ 2 - b ^ 2 + dot d d) / (2 * dot d d) in
+  let across := sqrt (a ^ 2 / dot d d - along ^ 2) in
+  Vector (x_of A + (along * x_of d - across * y_of d)) (y_of A + (along * y_of d + across * x_of d)).
+
+Lemma meeting_touches A B a b :
+  let d := minus B A in
+  0 < dot d d -> 0 <= a ^ 2 / dot d d - ((a ^ 2 - b ^ 2 + dot d d) / (2 * dot d d)) ^ 2 ->
+  dot (minus (meeting A B a b) A) (minus (meeting A B a b) A) = a ^ 2 /\
+  dot (minus (meeting A B a b) B) (minus (meeting A B a b) B) = b ^ 2.
+Proof.
+  intros d Hd Hs. unfold meeting. fold d.
+  set (s := dot d d) in *. set (t := (a ^ 2 - b ^ 2 + s) / (2 * s)) in *.
+  set (h := sqrt (a ^ 2 / s - t ^ 2)).
+  assert (Hh : h * h = a ^ 2 / s - t ^ 2) by (apply sqrt_sqrt; exact Hs).
+  assert (Es : s = x_of d * x_of d + y_of d * y_of d) by reflexivity.
+  assert (Ts : 2 * t * s = a ^ 2 - b ^ 2 + s) by (unfold t; field; lra).
+  assert (Hhs : h * h * s = a ^ 2 - t ^ 2 * s) by (rewrite Hh; field; lra).
+  unfold dot, minus, add, scale. cbn [x_of y_of]. split.
+  - transitivity (t ^ 2 * s + h * h * s); [rewrite Es; ring|]. rewrite Hhs. ring.
+  - transitivity (t ^ 2 * s - 2 * t * s + s + h * h * s).
+    { rewrite Es. unfold d, minus, add, scale. cbn [x_of y_of]. ring. }
+    rewrite Hhs, Ts. ring.
+Qed.
+
+Section Laid.
+  Variable G : lattice.
+  Variable rho : radii.
+  Local Notation r := (r G).
+  Local Notation n_x := (n_x G).
+  Local Notation n_y := (n_y G).
+
+  Definition pair (i j k l : Z) (e : R) : R := (r + delta_r rho i j e) + (r + delta_r rho k l e).
+
+  Fixpoint laid (n : nat) (i : Z) (e : R) : vector :=
+    match n with
+    | O => Vector (2 * IZR i * r * n_x) 0
+    | S k => meeting (laid k (i - 1) e) (laid k (i + 1) e)
+        (pair i (Z.of_nat (S k)) (i - 1) (Z.of_nat k) e)
+        (pair i (Z.of_nat (S k)) (i + 1) (Z.of_nat k) e)
+    end.
+
+  Lemma pair_expands i j k l : expands (pair i j k l) (2 * r) (rho i j + rho k l).
+  Proof.
+    unfold pair, delta_r. eapply expands_to; [expand_with ltac:(fun _ => fail)|ring|ring].
+  Qed.
+
+  (** What the meeting point of two beads of one height needs, and where it is at ε = 0. *)
+  Lemma meeting_expands (A B : R -> vector) (a b : R -> R) ax ay ax' ay' bx' by' a' b' :
+    expands (fun e => x_of (A e)) ax ax' -> expands (fun e => y_of (A e)) ay ay' ->
+    expands (fun e => x_of (B e)) (ax + 4 * r * n_x) bx' -> expands (fun e => y_of (B e)) ay by' ->
+    expands a (2 * r) a' -> expands b (2 * r) b' ->
+    (exists d, expands (fun e => x_of (meeting (A e) (B e) (a e) (b e))) (ax + 2 * r * n_x) d) /\
+    (exists d, expands (fun e => y_of (meeting (A e) (B e) (a e) (b e))) (ay + 2 * r * n_y) d) /\
+    near (fun e => 0 < dot (minus (B e) (A e)) (minus (B e) (A e)) /\
+      0 < a e ^ 2 / dot (minus (B e) (A e)) (minus (B e) (A e))
+        - ((a e ^ 2 - b e ^ 2 + dot (minus (B e) (A e)) (minus (B e) (A e)))
+           / (2 * dot (minus (B e) (A e)) (minus (B e) (A e)))) ^ 2).
+  Proof.
+    intros HAx HAy HBx HBy Ha Hb.
+    pose proof (r_pos G) as Hr. pose proof (n_x_pos G) as Hx. pose proof (n_y_pos G) as Hy.
+    pose proof (n_y_squared G) as Hn.
+    assert (Hrx : 0 < r * n_x) by (apply Rmult_lt_0_compat; assumption).
+    assert (Hsq : 0 < (4 * r * n_x) * (4 * r * n_x)) by (apply Rmult_lt_0_compat; lra).
+    assert (Dx : exists d, expands (fun e => x_of (minus (B e) (A e))) (4 * r * n_x) d).
+    { eexists. unfold minus, add, scale. cbn [x_of y_of].
+      eapply expands_to; [apply expands_plus; [exact HBx|apply expands_mult; [apply expands_const|exact HAx]]
+        |ring|reflexivity]. }
+    assert (Dy : exists d, expands (fun e => y_of (minus (B e) (A e))) 0 d).
+    { eexists. unfold minus, add, scale. cbn [x_of y_of].
+      eapply expands_to; [apply expands_plus; [exact HBy|apply expands_mult; [apply expands_const|exact HAy]]
+        |ring|reflexivity]. }
+    destruct Dx as [dx Dx]. destruct Dy as [dy Dy].
+    assert (S : exists d, expands (fun e => dot (minus (B e) (A e)) (minus (B e) (A e)))
+      ((4 * r * n_x) * (4 * r * n_x)) d).
+    { eexists. unfold dot. eapply expands_to; [apply expands_plus; apply expands_mult; eassumption
+        |ring|reflexivity]. }
+    destruct S as [s' S].
+    assert (T : exists d, expands (fun e => (a e ^ 2 - b e ^ 2 + dot (minus (B e) (A e)) (minus (B e) (A e)))
+      / (2 * dot (minus (B e) (A e)) (minus (B e) (A e)))) (1 / 2) d).
+    { eexists. eapply expands_to; [apply expands_div;
+        [|apply expands_plus; [apply expands_minus; apply expands_pow2; eassumption|exact S]
+         |apply expands_mult; [apply expands_const|exact S]]; lra|field; lra|reflexivity]. }
+    destruct T as [t' T].
+    assert (U : exists d, expands (fun e => a e ^ 2 / dot (minus (B e) (A e)) (minus (B e) (A e))
+        - ((a e ^ 2 - b e ^ 2 + dot (minus (B e) (A e)) (minus (B e) (A e)))
+           / (2 * dot (minus (B e) (A e)) (minus (B e) (A e)))) ^ 2)
+      (n_y / (2 * n_x) * (n_y / (2 * n_x))) d).
+    { eexists. eapply expands_to; [apply expands_minus;
+        [apply expands_div; [|apply expands_pow2; exact Ha|exact S]; lra|apply expands_pow2; exact T]
+        |field_simplify_eq; [ring [Hn]|lra]|reflexivity]. }
+    destruct U as [u' U].
+    assert (Hu : 0 < n_y / (2 * n_x)) by (apply Rdiv_lt_0_compat; lra).
+    assert (Huu : 0 < n_y / (2 * n_x) * (n_y / (2 * n_x))) by (apply Rmult_lt_0_compat; assumption).
+    assert (V : exists d, expands (fun e => sqrt (a e ^ 2 / dot (minus (B e) (A e)) (minus (B e) (A e))
+        - ((a e ^ 2 - b e ^ 2 + dot (minus (B e) (A e)) (minus (B e) (A e)))
+           / (2 * dot (minus (B e) (A e)) (minus (B e) (A e)))) ^ 2)) (n_y / (2 * n_x)) d).
+    { eexists. eapply expands_to; [apply expands_sqrt; [exact Huu|exact U]
+        |apply sqrt_square; lra|reflexivity]. }
+    destruct V as [v' V].
+    repeat split.
+    - eexists. unfold meeting. cbv zeta. cbn [x_of].
+      eapply expands_to; [apply expands_plus; [exact HAx|apply expands_minus; apply expands_mult; eassumption]
+        |field; lra|reflexivity].
+    - eexists. unfold meeting. cbv zeta. cbn [y_of].
+      eapply expands_to; [apply expands_plus; [exact HAy|apply expands_plus; apply expands_mult; eassumption]
+        |field; lra|reflexivity].
+    - apply near_both; eapply expands_near_positive; eassumption.
+  Qed.
+
+  Lemma laid_expands n : forall i,
+    (exists d, expands (fun e => x_of (laid n i e)) (2 * IZR i * r * n_x) d) /\
+    (exists d, expands (fun e => y_of (laid n i e)) (2 * INR n * r * n_y) d).
+  Proof.
+    induction n as [|n IH]; intros i.
+    - cbn [laid x_of y_of]. split; eexists; (eapply expands_to; [apply expands_const| |reflexivity]);
+        [ring|cbn; ring].
+    - destruct (IH (i - 1)%Z) as [[? HAx] [? HAy]]. destruct (IH (i + 1)%Z) as [[? HBx] [? HBy]].
+      rewrite minus_IZR in HAx. rewrite plus_IZR in HBx.
+      replace (2 * (IZR i + 1) * r * n_x) with (2 * (IZR i - 1) * r * n_x + 4 * r * n_x) in HBx by ring.
+      destruct (meeting_expands _ _ _ _ _ _ _ _ _ _ _ _ HAx HAy HBx HBy
+        (pair_expands i (Z.of_nat (S n)) (i - 1) (Z.of_nat n))
+        (pair_expands i (Z.of_nat (S n)) (i + 1) (Z.of_nat n))) as [[dx Ex] [[dy Ey] _]].
+      rewrite S_INR. cbn [laid]. split; eexists.
+      + eapply expands_to; [exact Ex|ring|reflexivity].
+      + eapply expands_to; [exact Ey|ring|reflexivity].
+  Qed.
+
+  Lemma laid_touches n i :
+    near (fun e =>
+      dot (minus (laid (S n) i e) (laid n (i - 1) e)) (minus (laid (S n) i e) (laid n (i - 1) e))
+        = pair i (Z.of_nat (S n)) (i - 1) (Z.of_nat n) e ^ 2 /\
+      dot (minus (laid (S n) i e) (laid n (i + 1) e)) (minus (laid (S n) i e) (laid n (i + 1) e))
+        = pair i (Z.of_nat (S n)) (i + 1) (Z.of_nat n) e ^ 2).
+  Proof.
+    destruct (laid_expands n (i - 1)%Z) as [[? HAx] [? HAy]].
+    destruct (laid_expands n (i + 1)%Z) as [[? HBx] [? HBy]].
+    rewrite minus_IZR in HAx. rewrite plus_IZR in HBx.
+    replace (2 * (IZR i + 1) * r * n_x) with (2 * (IZR i - 1) * r * n_x + 4 * r * n_x) in HBx by ring.
+    destruct (meeting_expands _ _ _ _ _ _ _ _ _ _ _ _ HAx HAy HBx HBy
+      (pair_expands i (Z.of_nat (S n)) (i - 1) (Z.of_nat n))
+      (pair_expands i (Z.of_nat (S n)) (i + 1) (Z.of_nat n))) as [_ [_ N]].
+    eapply near_then; [exact N|]. cbv beta. intros e [H1 H2]. cbn [laid].
+    apply meeting_touches; [exact H1|lra].
+  Qed.
+
+  Theorem packing_exists M : exists X, packing G M rho X.
+  Proof.
+    exists (fun i j e => laid (Z.to_nat j) i e).
+    assert (Up : forall j, (1 <= j)%Z -> Z.to_nat j = S (Z.to_nat (j - 1)) /\
+      Z.of_nat (S (Z.to_nat (j - 1))) = j /\ Z.of_nat (Z.to_nat (j - 1)) = (j - 1)%Z) by lia.
+    split.
+    - intros i e _. reflexivity.
+    - intros i j _. destruct (laid_expands (Z.to_nat j) i) as [[dx [_ Dx]] [dy [_ Dy]]].
+      exists dx, dy. split; assumption.
+    - intros i j _ Hj. destruct (Up j Hj) as (E1 & E2 & E3).
+      unfold touch. rewrite E1. pose proof (laid_touches (Z.to_nat (j - 1)) i) as T.
+      rewrite E2, E3 in T. eapply near_then; [exact T|]. cbv beta. intros e [T1 _]. exact T1.
+    - intros i j _ Hj. destruct (Up j Hj) as (E1 & E2 & E3).
+      unfold touch. rewrite E1. pose proof (laid_touches (Z.to_nat (j - 1)) i) as T.
+      rewrite E2, E3 in T. eapply near_then; [exact T|]. cbv beta. intros e [_ T1]. exact T1.
+    - intros i j _ Hj. destruct (Up j Hj) as (E1 & _ & _). rewrite E1.
+      destruct (laid_expands (Z.to_nat (j - 1)) (i - 1)%Z) as [_ [? [Ea _]]].
+      destruct (laid_expands (S (Z.to_nat (j - 1))) i) as [_ [? [Eb _]]].
+      rewrite Ea, Eb, S_INR.
+      assert (0 < r * n_y) by (apply Rmult_lt_0_compat; [apply r_pos|apply n_y_pos]). lra.
+  Qed.
+End Laid.
+
+(** ** Forces *)
+
+Section Solved.
+  Variable G : lattice.
+  Variable M : Z.
+  Variable rho : radii.
+  Variable X : centres.
+  Hypothesis P : packing G M rho X.
+  Variable load : Z -> Z -> vector.
+
+  (** a and b in a u + b v = s. *)
+  Definition first (u v s : vector) : R :=
+    (x_of s * y_of v - y_of s * x_of v) / (x_of u * y_of v - y_of u * x_of v).
+  Definition second (u v s : vector) : R :=
+    (x_of u * y_of s - y_of u * x_of s) / (x_of u * y_of v - y_of u * x_of v).
+
+  (** Forces of the contacts whose lower beads lie n + 1 layers below the surface, n = 0, 1, … *)
+  Fixpoint passed (n : nat) : Z -> R -> R * R :=
+    let j := (M - Z.of_nat n)%Z in  (* the layer that sends them *)
+    let above := match n with
+      | O => fun _ _ => zero
+      | S k => fun i e => add (scale (fst (passed k i e)) (N_plus X i j e))
+                              (scale (snd (passed k i e)) (N_minus X i j e))
+      end in
+    let carried i e := minus (above i e) (load i j) in
+    fun i e =>
+      (first (N_plus X i (j - 1) e) (N_minus X (i + 2) (j - 1) e) (carried (i + 1)%Z e),
+       second (N_plus X (i - 2) (j - 1) e) (N_minus X i (j - 1) e) (carried (i - 1)%Z e)).
+
+  Definition passed_down : forces :=
+    let at_layer j := passed (Z.to_nat (M - 1 - j)) in
+    Forces (fun i j e => if (j <? M)%Z then fst (at_layer j i e) else 0)
+           (fun i j e => if (j <? M)%Z then snd (at_layer j i e) else 0).
+
+  Lemma solves u v s : x_of u * y_of v - y_of u * x_of v <> 0 ->
+    add (scale (first u v s) u) (scale (second u v s) v) = s.
+  Proof.
+    intros H. destruct u as [ux uy], v as [vx vy], s as [sx sy].
+    unfold first, second, add, scale in *. cbn [x_of y_of] in *. f_equal; field; exact H.
+  Qed.
+
+  Theorem forces_exist : exists F, carries M X load F.
+  Proof.
+    exists passed_down. split.
+    - intros i e. unfold passed_down. cbn [f_plus f_minus].
+      replace (M <? M)%Z with false by lia. auto.
+    - intros i j H Hj.
+      destruct (N_plus_expands G M rho X P (i - 1) (j - 1) ltac:(site)) as [Ux Uy].
+      destruct (N_minus_expands G M rho X P (i + 1) (j - 1) ltac:(site)) as [Vx Vy].
+      pose proof (n_x_pos G) as Hx. pose proof (n_y_pos G) as Hy.
+      assert (Hxy : 0 < n_x G * n_y G) by (apply Rmult_lt_0_compat; assumption).
+      pose proof (expands_minus _ _ _ _ _ _ (expands_mult _ _ _ _ _ _ Ux Vy)
+        (expands_mult _ _ _ _ _ _ Uy Vx)) as D.
+      eapply near_then; [exact (expands_near_nonzero _ _ _ D ltac:(lra))|].
+      cbv beta. intros e Hd. unfold balanced, passed_down. cbn [f_plus f_minus].
+      replace (j - 1 <? M)%Z with true by site.
+      replace (M - 1 - (j - 1))%Z with (M - j)%Z by lia.
+      set (u := N_plus X (i - 1) (j - 1) e) in *. set (v := N_minus X (i + 1) (j - 1) e) in *.
+      set (c := minus (add (scale (if (j <? M)%Z then fst (passed (Z.to_nat (M - 1 - j)) i e) else 0)
+                                  (N_plus X i j e))
+                           (scale (if (j <? M)%Z then snd (passed (Z.to_nat (M - 1 - j)) i e) else 0)
+                                  (N_minus X i j e))) (load i j)).
+      assert (E1 : fst (passed (Z.to_nat (M - j)) (i - 1) e) = first u v c /\
+                   snd (passed (Z.to_nat (M - j)) (i + 1) e) = second u v c).
+      { destruct (Z.eq_dec j M) as [->|Hne].
+        - assert (Hc : c = minus zero (load i M)).
+          { unfold c. replace (M <? M)%Z with false by lia.
+            unfold minus, add, scale, zero. cbn [x_of y_of]. f_equal; ring. }
+          rewrite Hc. replace (Z.to_nat (M - M)) with O by lia. cbn [passed fst snd].
+          replace (M - Z.of_nat 0)%Z with M by lia.
+          replace (i - 1 + 1)%Z with i by lia. replace (i - 1 + 2)%Z with (i + 1)%Z by lia.
+          replace (i + 1 - 1)%Z with i by lia. replace (i + 1 - 2)%Z with (i - 1)%Z by lia.
+          split; reflexivity.
+        - assert (Hn : Z.to_nat (M - j) = S (Z.to_nat (M - 1 - j))) by site.
+          unfold c. replace (j <? M)%Z with true by site. rewrite Hn. cbn [passed fst snd].
+          replace (M - Z.of_nat (S (Z.to_nat (M - 1 - j))))%Z with j by site.
+          replace (i - 1 + 1)%Z with i by lia. replace (i - 1 + 2)%Z with (i + 1)%Z by lia.
+          replace (i + 1 - 1)%Z with i by lia. replace (i + 1 - 2)%Z with (i - 1)%Z by lia.
+          split; reflexivity. }
+      destruct E1 as [-> ->]. pose proof (solves u v c Hd) as E. rewrite E. unfold c.
+      unfold minus, add, scale, zero. cbn [x_of y_of]. f_equal; ring.
+  Qed.
+End Solved.
+
+(** What Eq. 8 asks for happens: straight below a load, one force enters alone. *)
+Section Alone.
+  Variable G : lattice.
+  Variable M : Z.
+  Variable rho : radii.
+  Variable X : centres.
+  Hypothesis P : packing G M rho X.
+  Variable F : forces.
+  Variable k l : Z.
+  Variable f : R.
+  Hypothesis loaded : bead M k l.
+  Hypothesis C : carries M X (single k l f) F.
+
+  Lemma left_of_the_cone j : (j <= l - 1)%Z -> forall i, contact M i j ->
+    ((i - j < k - l)%Z -> near (fun e => f_plus F i j e = 0)) /\
+    ((i - j < k - l + 2)%Z -> near (fun e => f_minus F i j e = 0)).
+  Proof.
+    intros Hj. pattern j. apply (down_from _ (l - 1)); [| |exact Hj]; clear j Hj.
+    - assert (Top : forall i, bead M i l -> i <> k ->
+        near (fun e => f_plus F (i - 1) (l - 1) e = 0 /\ f_minus F (i + 1) (l - 1) e = 0) \/ (l <= 0)%Z).
+      { intros i Hi Hk. destruct (Z.le_gt_cases l 0) as [H0|H0]; [right; exact H0|left].
+        apply (silent G M rho X P F _ i l C Hi ltac:(lia)).
+        - unfold single. replace (i =? k)%Z with false by lia. reflexivity.
+        - apply (nothing_above G M rho X P F _ l C ltac:(lia)); [|site|lia|exact Hi].
+          intros a b Hb. unfold single. replace (b =? l)%Z with false by lia.
+          rewrite andb_false_r. reflexivity. }
+      intros i Hi. split; intros Hc.
+      + destruct (Top (i + 1)%Z ltac:(site) ltac:(site)) as [N|N]; [|site].
+        replace (i + 1 - 1)%Z with i in N by lia.
+        eapply near_then; [exact N|]. cbv beta. tauto.
+      + destruct (Top (i - 1)%Z ltac:(site) ltac:(site)) as [N|N]; [|site].
+        replace (i - 1 + 1)%Z with i in N by lia.
+        eapply near_then; [exact N|]. cbv beta. tauto.
+    - intros j Hj IH.
+      assert (Low : forall i, contact M i (j + 1) -> (i - (j + 1) < k - l)%Z ->
+        near (fun e => f_plus F (i - 1) j e = 0 /\ f_minus F (i + 1) j e = 0) \/ (j < 0)%Z).
+      { intros i Hi Hk. destruct (Z.le_gt_cases 0 j) as [H0|H0]; [left|right; exact H0].
+        destruct (IH i Hi) as [A B].
+        pose proof (silent G M rho X P F _ i (j + 1) C ltac:(site) ltac:(lia)) as N.
+        replace (j + 1 - 1)%Z with j in N by lia. apply N.
+        - unfold single. replace (j + 1 =? l)%Z with false by lia. rewrite andb_false_r. reflexivity.
+        - apply near_both; [apply A; lia|apply B; lia]. }
+      intros i Hi. split; intros Hc.
+      + destruct (Low (i + 1)%Z ltac:(site) ltac:(site)) as [N|N]; [|site].
+        replace (i + 1 - 1)%Z with i in N by lia.
+        eapply near_then; [exact N|]. cbv beta. tauto.
+      + destruct (Low (i - 1)%Z ltac:(site) ltac:(site)) as [N|N]; [|site].
+        replace (i - 1 + 1)%Z with i in N by lia.
+        eapply near_then; [exact N|]. cbv beta. tauto.
+  Qed.
+
+  Theorem enters_alone d : 0 < f -> (1 <= d < l)%Z ->
+    single k l f (k - d) (l - d) = zero /\
+    near (fun e => f_minus F (k - d) (l - d) e = 0 /\ f_plus F (k - d) (l - d) e <> 0).
+  Proof.
+    intros Hf Hd. split.
+    - unfold single. replace (l - d =? l)%Z with false by lia. rewrite andb_false_r. reflexivity.
+    - apply near_both.
+      + apply (left_of_the_cone (l - d) ltac:(lia) (k - d) ltac:(site)). lia.
+      + destruct (single_force G M rho X P F k l f loaded ltac:(lia) C (l - d) ltac:(lia) (k - d)
+          ltac:(site)) as [E _].
+        eapply expands_near_nonzero; [exact E|]. unfold ordered_plus.
+        replace (k - (k - d) =? l - (l - d))%Z with true by lia.
+        pose proof (n_y_pos G). assert (0 < f / (2 * n_y G)) by (apply Rdiv_lt_0_compat; lra). lra.
+  Qed.
+End Alone.
+
+(** In the ordered packing no two beads but those in contact are as near as 2r. *)
+Theorem ordered_beads_do_not_overlap G M rho X i j k l : packing G M rho X ->
+  bead M i j -> bead M k l -> (i, j) <> (k, l) ->
+  (Z.abs (i - k) = 1 /\ Z.abs (j - l) = 1)%Z \/
+  (2 * r G) ^ 2 < dot (minus (X i j 0) (X k l 0)) (minus (X i j 0) (X k l 0)).
+Proof.
+  intros P H K D.
+  rewrite (ordered_position G M rho X P j), (ordered_position G M rho X P l) by site.
+  unfold dot, minus, add, scale. cbn [x_of y_of].
+  pose proof (r_pos G) as Hr. pose proof (n_x_above_half G). pose proof (n_y_above_half G).
+  assert (Hx : 1 / 4 < n_x G * n_x G).
+  { replace (1 / 4) with (1 / 2 * (1 / 2)) by field. apply Rmult_gt_0_lt_compat; lra. }
+  assert (Hy : 1 / 4 < n_y G * n_y G).
+  { replace (1 / 4) with (1 / 2 * (1 / 2)) by field. apply Rmult_gt_0_lt_compat; lra. }
+  assert (Hrr : 0 < r G * r G) by (apply Rmult_lt_0_compat; assumption).
+  set (a := (i - k)%Z). set (b := (j - l)%Z).
+  replace (_ + _) with (4 * (r G * r G) * (IZR (a * a) * (n_x G * n_x G) + IZR (b * b) * (n_y G * n_y G)))
+    by (unfold a, b; rewrite !mult_IZR, !minus_IZR; ring).
+  assert (Hab : (Z.abs a = 1 /\ Z.abs b = 1)%Z \/ (4 <= a * a /\ 0 <= b * b)%Z \/ (0 <= a * a /\ 4 <= b * b)%Z).
+  { assert (Hd : (a <> 0 \/ b <> 0)%Z).
+    { destruct (Z.eq_dec i k) as [->|]; [destruct (Z.eq_dec j l) as [->|]|]; unfold a, b; try lia.
+      exfalso. apply D. reflexivity. }
+    assert (Hp : ((a + b) mod 2 = 0)%Z) by (unfold a, b; site).
+    destruct (Z.le_gt_cases 2 (Z.abs a)); [right; left; nia|].
+    destruct (Z.le_gt_cases 2 (Z.abs b)); [right; right; nia|]. left. lia. }
+  destruct Hab as [Hab|[[Ha Hb]|[Ha Hb]]]; [left; exact Hab|right|right];
+    apply IZR_le in Ha; apply IZR_le in Hb.
+  - assert (4 * (n_x G * n_x G) <= IZR (a * a) * (n_x G * n_x G)) by (apply Rmult_le_compat_r; lra).
+    assert (0 <= IZR (b * b) * (n_y G * n_y G)) by (apply Rmult_le_pos; lra).
+    replace ((2 * r G) ^ 2) with (4 * (r G * r G) * 1) by ring. apply Rmult_lt_compat_l; lra.
+  - assert (4 * (n_y G * n_y G) <= IZR (b * b) * (n_y G * n_y G)) by (apply Rmult_le_compat_r; lra).
+    assert (0 <= IZR (a * a) * (n_x G * n_x G)) by (apply Rmult_le_pos; lra).
+    replace ((2 * r G) ^ 2) with (4 * (r G * r G) * 1) by ring. apply Rmult_lt_compat_l; lra.
+Qed.
