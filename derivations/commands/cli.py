@@ -21,6 +21,10 @@ COMMANDS = {
         "equations",
         "Prove equations, and the ones that they rest on, and check them.",
     ),
+    "certify": (
+        "certify",
+        "Ask Coq, an unrelated checker, whether it accepts the printed equations.",
+    ),
     "show": ("equations", "Print one equation, without deriving it."),
     "list": ("equations", "List the equations."),
     "examples": ("examples", "Copy the example scenes into a folder."),

@@ -41,7 +41,7 @@ class Place(StrEnum):
     LEG_FORCE = "leg-force"
 
 
-def _number(word: str) -> int:
+def equation_number(word: str) -> int:
     """An equation's number from outside text, which is read and never evaluated."""
     known = modules()
     if word.isascii() and word.isdigit() and len(word) < 5 and int(word) in known:
@@ -67,7 +67,7 @@ def derive(
     """Prove equations, and the ones that they rest on, and check them."""
     from force_diffusion.derivations.commands import deriving
 
-    wanted = [_number(word) for word in numbers] if numbers else list(modules())
+    wanted = [equation_number(word) for word in numbers] if numbers else list(modules())
     raise typer.Exit(deriving.derive(wanted, out, as_json, overwrite))
 
 
@@ -90,7 +90,7 @@ def show(
     ] = None,
 ) -> None:
     """Print one equation, without deriving it."""
-    place = _number(number)
+    place = equation_number(number)
     if at_j is not None and not exact:
         raise typer.BadParameter("goes with --exact only; add it.", param_hint="--at-j")
     from force_diffusion.derivations.api.equation import NoSuchFormError

@@ -6,7 +6,7 @@ which hypotheses of ``Model.v`` an equation is about. Proofs are found by tactic
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import sympy
@@ -199,29 +199,31 @@ class Frame:
     """What an equation is about.
 
     Attributes:
-        variables: what is quantified besides the packing, as binders.
+        variables: what is quantified besides packing and indices, as binders.
         hypotheses: in the words of ``Model.v``, besides that of a packing.
+        on_indices: conditions on indices besides ranges and sites.
         example: indices for which hypotheses on indices hold, so that nothing is said of nothing.
         exact: whether it holds exactly, near ε = 0, and not only to first order.
     """
 
     variables: str = ""
     hypotheses: tuple[str, ...] = ()
+    on_indices: tuple[str, ...] = ()
     example: tuple[tuple[sympy.Symbol, int], ...] = ()
     exact: bool = False
 
 
 _LOADED = "(F : forces) (f_load : R)"
 _SINGLE = ("0 < f_load", "carries M X (single k l f_load) F")
-_CONE = ((sy.M, 7), (sy.k, 6), (sy.l, 6))
+_BELOW = ((sy.M, 7), (sy.k, 6), (sy.l, 6))
 FRAMES = {
     1: Frame(example=((sy.M, 3), (sy.i, 1), (sy.j, 1)), exact=True),
     2: Frame(example=((sy.M, 3), (sy.i, 1), (sy.j, 1))),
     3: Frame(example=((sy.M, 3), (sy.i, 1), (sy.j, 1))),
     4: Frame(example=((sy.M, 3), (sy.i, 0), (sy.j, 0))),
     5: Frame(example=((sy.M, 3), (sy.i, 0), (sy.j, 0))),
-    6: Frame(_LOADED, _SINGLE, _CONE, exact=True),
-    7: Frame(_LOADED, _SINGLE, _CONE),
+    6: Frame(_LOADED, _SINGLE, example=_BELOW, exact=True),
+    7: Frame(_LOADED, _SINGLE, example=_BELOW),
     8: Frame(
         "(load : Z -> Z -> vector) (F : forces)",
         (
@@ -229,18 +231,19 @@ FRAMES = {
             "load site_r site_s = zero",
             "near (fun e => f_minus F site_r site_s e = 0 /\\ f_plus F site_r site_s e <> 0)",
         ),
-        ((sy.M, 7), (sy.site_r, 1), (sy.site_s, 5)),
+        example=((sy.M, 7), (sy.site_r, 1), (sy.site_s, 5)),
     ),
-    9: Frame(_LOADED, _SINGLE, (*_CONE, (sy.i, 4), (sy.j, 4))),
+    9: Frame(_LOADED, _SINGLE, example=(*_BELOW, (sy.i, 4), (sy.j, 4))),
     10: Frame(
         _LOADED,
-        (*_SINGLE, f"({index(2 * BRANCH_COUNT)} = 2 * n)%Z"),
-        (*_CONE, (sy.i, 2), (sy.j, 0), (sy.n, 1)),
+        _SINGLE,
+        (f"(2 * n = {index(2 * BRANCH_COUNT)})%Z",),
+        (*_BELOW, (sy.i, 2), (sy.j, 0), (sy.n, 1)),
     ),
     11: Frame(
         _LOADED,
         ("0 < f_load", "carries M X (surface M f_load) F"),
-        ((sy.M, 3), (sy.i, 0), (sy.j, 0)),
+        example=((sy.M, 3), (sy.i, 0), (sy.j, 0)),
     ),
 }
 
@@ -270,14 +273,40 @@ def _changing() -> Iterator[type[sympy.Basic]]:
 
 @dataclass(frozen=True)
 class Statement:
-    """One printed equation in Coq, with the lemmas that keep it from being about nothing."""
+    """One printed equation in Coq.
+
+    Attributes:
+        name: of the theorem.
+        proposition: what it says.
+        tactic: of ``proofs/Certify.v``, which should prove it.
+        companions: lemmas about the hypotheses: some indices obey them, and no sum's bounds are
+            reversed under them (SymPy reads such sums in another way).
+    """
 
     name: str
-    source: str
+    proposition: str
+    tactic: str
+    companions: str
+
+    @property
+    def source(self) -> str:
+        """A file of its own for Coq; it ends by naming the axioms that the theorem rests on."""
+        return (
+            f"{HEADER}\nTheorem {self.name} :\n{self.proposition}.\nProof. {self.tactic}. Qed.\n\n"
+            f"{self.companions}\nPrint Assumptions {self.name}.\n"
+        )
+
+
+HEADER = """From ForceDiffusion Require Import Certify.
+Open Scope R_scope.
+Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
+"""
 
 
 def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = None) -> Statement:
     """State a printed equation of a derivation, or a candidate in its place.
+
+    Hypotheses are those of the printed equation, whatever the candidate says.
 
     Raises:
         NotStatedError: when there are no words for it.
@@ -285,32 +314,40 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
     if derivation.number not in FRAMES:
         raise NotStatedError(f"Eq. {derivation.number} has no hypotheses in Model.v yet")
     frame, printed = FRAMES[derivation.number], derivation.printed[part]
+    stated = printed if equation is None else equation
     several = len(derivation.printed) > 1
     name = f"equation_{derivation.number}" + (f"_part_{part + 1}" if several else "")
-    on_indices = dict.fromkeys(
-        (
-            *_spoken_of(printed.lhs),
-            *ranges(derivation),
-            *(hypothesis for hypothesis in frame.hypotheses if hypothesis.endswith("%Z")),
-        )
-    )
-    others = [hypothesis for hypothesis in frame.hypotheses if not hypothesis.endswith("%Z")]
+    on_indices = dict.fromkeys((*_spoken_of(printed.lhs), *ranges(derivation), *frame.on_indices))
     indices = " ".join(symbol.in_code for symbol, _ in frame.example if symbol != sy.M)
-    conditions = " /\\ ".join(on_indices)
-    source = [
-        f"Theorem {name} :",
+    given = (*on_indices, *frame.hypotheses)
+    proposition = [
         "  forall (G : lattice) (M : Z) (rho : radii) (X : centres), packing G M rho X ->",
-        f"  forall ({indices} : Z) {frame.variables},".replace(" ,", ","),
-        *(f"  {hypothesis} ->" for hypothesis in (*on_indices, *others)),
-        f"  {_conclusion(frame, equation or printed)}.",
-        f"Proof. prove_{derivation.number}. Qed.",
-        "",
-        f"Lemma {name}_is_about_something : exists M {indices} : Z,",
-        f"  {conditions}.",
-        f"Proof. {' '.join(f'exists {_z(value)}.' for _, value in frame.example)} site. Qed.",
+        f"  forall ({indices} : Z) {frame.variables}".rstrip() + ",",
+        *(f"  {hypothesis} ->" for hypothesis in given),
+        f"  {_conclusion(frame, stated)}",
     ]
-    return Statement(name, "\n".join(source) + "\n")
+    companions = [
+        f"Lemma {name}_is_about_something : exists M {indices} : Z,",
+        f"  {_all(on_indices)}.",
+        f"Proof. {' '.join(f'exists {value}%Z.' for _, value in frame.example)} site. Qed.",
+    ]
+    orders = [f"({index(low)} <= {index(high + 1)})%Z" for low, high in _bounds(stated)]
+    if orders:
+        companions += [
+            f"Lemma {name}_sums_in_order : forall M {indices} : Z,",
+            f"  {_all(on_indices)} -> {_all(orders)}.",
+            "Proof. site. Qed.",
+        ]
+    return Statement(
+        name, "\n".join(proposition), f"prove_{derivation.number}", "\n".join(companions) + "\n"
+    )
 
 
-def _z(value: int) -> str:
-    return f"{value}%Z"
+def _all(conditions: Iterable[str]) -> str:
+    return " /\\ ".join(conditions)
+
+
+def _bounds(equation: sympy.Eq) -> Iterator[tuple[sympy.Expr, sympy.Expr]]:
+    for total in sorted(equation.atoms(sympy.Sum), key=str):
+        ((_, low, high),) = total.limits
+        yield low, high

@@ -1,0 +1,84 @@
+"""The command ``certify``: a thin layer over ``fd.certify``."""
+
+import json
+from collections import Counter
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from force_diffusion.derivations.commands.equations import equation_number
+from force_diffusion.derivations.commands.output import Overwrite, out_option, output
+from force_diffusion.derivations.commands.shared import noticing
+from force_diffusion.derivations.framework.catalogue import load, modules
+
+if TYPE_CHECKING:
+    from force_diffusion.derivations.api.certificates import Certificate
+
+STATUSES = (
+    "Takes about two minutes. Exit status: 0 all accepted, 1 something is not, or Coq is absent, "
+    "2 wrong usage, 3 the disk or a pipe failed, 130 interrupted."
+)
+CERTIFICATE = "certificate.json"
+
+
+def certify(
+    numbers: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[N...]", help="Equations to ask about; all of them by default."),
+    ] = None,
+    mutants: Annotated[
+        bool,
+        typer.Option(
+            "--mutants",
+            help="Ask also about every printed equation with one change, none of which may be "
+            "accepted that 'derive' refutes. Takes several minutes.",
+        ),
+    ] = False,
+    out: Annotated[
+        Path | None, out_option("the theory, the statements and the verdicts as JSON")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
+    overwrite: Overwrite = False,
+) -> None:
+    """Ask Coq, an unrelated checker, whether it accepts the printed equations."""
+    from force_diffusion.derivations.api import certificates
+
+    wanted = [equation_number(word) for word in numbers] if numbers else list(modules())
+    files = certificates.theory() | certificates.sources(wanted)
+    with output(out, "certify", [*files, CERTIFICATE], overwrite) as folder:
+        with noticing() as notice:
+            found = certificates.certify(wanted, mutants=mutants, notice=notice)
+        data = {
+            "equations": [asdict(one) for one in found],
+            "theory": {name: certificates.sha256(text) for name, text in files.items()},
+        }
+        if folder:
+            folder.write({**files, CERTIFICATE: json.dumps(data, indent=2) + "\n"})
+    if as_json:
+        print(json.dumps(data, indent=2))
+    else:
+        counts = Counter(str(one) for one in found)
+        print(*map(_line, found), sep="\n")
+        print(", ".join(f"{count} {verdict}" for verdict, count in counts.items()) + ".")
+    raise typer.Exit(0 if all(one.passed for one in found) else 1)
+
+
+def _line(one: "Certificate") -> str:
+    """One line about an equation."""
+    said = f"Eq. {one.number:2}  {one!s:<24}  {load(one.number).title}"
+    if one.note:
+        said += f"\n    {one.note}"
+    if one.mutants:
+        accepted = [change for change in one.mutants if change.accepted]
+        said += f"\n    of {len(one.mutants)} changes {len(accepted)} accepted"
+    return said + "".join(
+        f"\n    accepted, and not equivalent: part {change.part + 1}, {change.change}"
+        for change in one.mutants
+        if change.accepted and not change.equivalent
+    )
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command to the command line."""
+    app.command(epilog=STATUSES)(certify)

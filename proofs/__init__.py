@@ -1,0 +1,1 @@
+"""The theory in Coq that ``force-diffusion certify`` compiles: files ``*.v``."""
