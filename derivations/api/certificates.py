@@ -236,7 +236,7 @@ def file_name(made: Statement) -> str:
 
 def sources(numbers: Iterable[int]) -> dict[str, str]:
     """Files with the statements of equations, by name; what can't be stated has none."""
-    found = {}
+    found: dict[str, str] = {}
     for number in numbers:
         try:
             found |= {file_name(made): made.source for made in statements(load(number))}
@@ -277,7 +277,7 @@ def certify(
         found = []
         for number in wanted:
             notice(f"Eq. {number}")
-            found.append(_certificate(shop, load(number), trouble))
+            found.append(certificate(shop, load(number), trouble))
         accepted = [one for one in found if one.verdict is Verdict.ACCEPTED]
         notice("coqchk")
         trouble = shop.check(name.capitalize() for one in accepted for name, _ in one.theorems)
@@ -291,7 +291,8 @@ def certify(
         return tuple(found)
 
 
-def _certificate(shop: Workshop, derivation: Derivation, trouble: str) -> Certificate:
+def certificate(shop: Workshop, derivation: Derivation, trouble: str) -> Certificate:
+    """Try the statements of one equation; ``trouble`` is what went wrong with the theory."""
     start = perf_counter()
     try:
         made = statements(derivation)
@@ -329,15 +330,15 @@ _ANSWER = re.compile(r"^(accepted|refused) (\d+)$", re.MULTILINE)
 
 
 def _with_mutants(
-    shop: Workshop, certificate: Certificate, chosen: Callable[[int], bool], notice: Notice
+    shop: Workshop, found: Certificate, chosen: Callable[[int], bool], notice: Notice
 ) -> Certificate:
-    if certificate.verdict is not Verdict.ACCEPTED:
-        return certificate
-    notice(f"mutants of Eq. {certificate.number}")
-    return replace(certificate, mutants=tuple(_tried(shop, load(certificate.number), chosen)))
+    if found.verdict is not Verdict.ACCEPTED:
+        return found
+    notice(f"mutants of Eq. {found.number}")
+    return replace(found, mutants=tuple(tried(shop, load(found.number), chosen)))
 
 
-def _tried(
+def tried(
     shop: Workshop, derivation: Derivation, chosen: Callable[[int], bool]
 ) -> Iterator[Change]:
     """Changes of an equation as goals of one file; those without words are left out."""

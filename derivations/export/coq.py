@@ -134,7 +134,7 @@ def _sum(terms: tuple[sympy.Expr, ...]) -> str:
 
 def _product(factors: tuple[sympy.Expr, ...]) -> str:
     if factors[0] == -1 and len(factors) > 1:
-        return f"- ({_product(factors[1:])})"
+        return f"- ({_product(factors[1:]) if len(factors) > 2 else real(factors[1])})"
     shown = ""
     for factor in factors:
         if isinstance(factor, sympy.Pow) and factor.exp.is_Integer and factor.exp < 0:
@@ -277,16 +277,23 @@ class Statement:
 
     Attributes:
         name: of the theorem.
-        proposition: what it says.
+        hypotheses: what it is about.
+        conclusion: what it says then.
         tactic: of ``proofs/Certify.v``, which should prove it.
         companions: lemmas about the hypotheses: some indices obey them, and no sum's bounds are
             reversed under them (SymPy reads such sums in another way).
     """
 
     name: str
-    proposition: str
+    hypotheses: tuple[str, ...]
+    conclusion: str
     tactic: str
     companions: str
+
+    @property
+    def proposition(self) -> str:
+        """All that the theorem says."""
+        return "\n".join((*self.hypotheses, f"  {self.conclusion}"))
 
     @property
     def source(self) -> str:
@@ -319,13 +326,11 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
     name = f"equation_{derivation.number}" + (f"_part_{part + 1}" if several else "")
     on_indices = dict.fromkeys((*_spoken_of(printed.lhs), *ranges(derivation), *frame.on_indices))
     indices = " ".join(symbol.in_code for symbol, _ in frame.example if symbol != sy.M)
-    given = (*on_indices, *frame.hypotheses)
-    proposition = [
+    hypotheses = (
         "  forall (G : lattice) (M : Z) (rho : radii) (X : centres), packing G M rho X ->",
         f"  forall ({indices} : Z) {frame.variables}".rstrip() + ",",
-        *(f"  {hypothesis} ->" for hypothesis in given),
-        f"  {_conclusion(frame, stated)}",
-    ]
+        *(f"  {hypothesis} ->" for hypothesis in (*on_indices, *frame.hypotheses)),
+    )
     companions = [
         f"Lemma {name}_is_about_something : exists M {indices} : Z,",
         f"  {_all(on_indices)}.",
@@ -339,7 +344,11 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
             "Proof. site. Qed.",
         ]
     return Statement(
-        name, "\n".join(proposition), f"prove_{derivation.number}", "\n".join(companions) + "\n"
+        name,
+        hypotheses,
+        _conclusion(frame, stated),
+        f"prove_{derivation.number}",
+        "\n".join(companions) + "\n",
     )
 
 
