@@ -343,16 +343,16 @@ def tried(
 ) -> Iterator[Change]:
     """Changes of an equation as goals of one file; those without words are left out."""
     changes = [
-        (part, change, mutant)
+        (part, mutant)
         for part, printed in enumerate(derivation.printed)
-        for change, mutant in made_mutants(printed)
+        for mutant in made_mutants(printed)
     ]
     tries, source = [], [HEADER]
-    for place, (part, _, mutant) in enumerate(changes):
+    for place, (part, mutant) in enumerate(changes):
         if not chosen(place):
             continue
         try:
-            made = statement(derivation, part, mutant)
+            made = statement(derivation, part, mutant.equation)
         except NotStatedError:
             continue
         tries.append(place)
@@ -369,7 +369,7 @@ def tried(
     if list(answers) != tries:
         raise RuntimeError(f"{name} stopped half-way: {_last(done.stderr)}")
     for place, accepted in answers.items():
-        part, change, mutant = changes[place]
-        ruling = derivation.decide(part, mutant) if accepted else None
+        part, mutant = changes[place]
+        ruling = derivation.decide(part, mutant.equation) if accepted else None
         equivalent = ruling is not None and ruling.verdict is Proof.PROVED
-        yield Change(part, change, accepted, equivalent)
+        yield Change(part, mutant.change, accepted, equivalent)

@@ -64,9 +64,9 @@ def test_a_change_changes_the_statement_and_not_its_hypotheses(number: int) -> N
     derivation = load(number)
     for part, printed in enumerate(derivation.printed):
         true = coq.statement(derivation, part)
-        for _, mutant in mutants(printed):
+        for mutant in mutants(printed):
             try:
-                other = coq.statement(derivation, part, mutant)
+                other = coq.statement(derivation, part, mutant.equation)
             except coq.NotStatedError:
                 continue
             assert other.proposition != true.proposition
