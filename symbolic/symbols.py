@@ -57,11 +57,6 @@ class SiteFunction(Function):  # type: ignore[misc]
     branch = ""  # "+" or "-" for a contact's quantity
     is_vector = False
 
-    @property
-    def site(self) -> tuple[Any, Any]:
-        """The indices (i, j)."""
-        return self.args[0], self.args[1]
-
     def _subscript(self, printer: Any) -> tuple[str, bool]:
         """Indices side by side, and whether each is a single letter (then without commas)."""
         set_tightly = getattr(printer, "index", printer._print)

@@ -3,14 +3,13 @@
 import re
 from typing import Any
 
-from force_diffusion.symbolic.printing.structure import StructuredPrinter, ascending
+from force_diffusion.symbolic.printing.structure import StructuredPrinter
 from sympy import Expr, Sum
 from sympy.printing.latex import LatexPrinter
 
 RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim", "∝": r"\propto"}
 """LaTeX of the signs between the two sides of a printed equation."""
 
-_SIGNS = {"==": "=", "<=": r"\leq", "!=": r"\neq"}
 _TALL = re.compile(r"\\frac|\\sum|\\begin|\\left")
 _SUBSCRIPT = re.compile(r"_\{[^{}]*\}")
 
@@ -58,10 +57,6 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
             text += rf"\sum_{{{self._print(index)}={self.index(lower)}}}^{{{self.index(upper)}}} "
         inner = self._print(expr.function)
         return text + (self.set_brackets(inner) if expr.function.is_Add else inner)
-
-    def _print_Relational(self, expr: Any) -> str:
-        low, sign, high = ascending(expr)
-        return f"{self._print(low)} {_SIGNS.get(sign, sign)} {self._print(high)}"
 
 
 def latex(expr: Expr) -> str:

@@ -12,7 +12,6 @@ from force_diffusion.symbolic.printing.latex import PaperLatex
 from force_diffusion.symbolic.printing.structure import in_order, is_negative, without_sign
 from force_diffusion.symbolic.printing.text import PaperText
 from sympy import Add, Basic, Eq, Expr, Mul, Sum, Symbol, Tuple
-from sympy.core.relational import Relational
 
 LINE_WIDTH = 400.0
 """Points for one line of a displayed equation, number and margins taken off."""
@@ -104,9 +103,8 @@ class _Pieces:
     def of(self, expr: Basic, room: float) -> list[tuple[str, float]]:
         """Signed terms; a term that alone is too wide is broken within its last bracket."""
         found: list[str] = []
-        signed = self.printer.terms(expr)
-        terms = expr.args if isinstance(expr, Add) else (expr,)
-        for (sign, body), term in zip(signed, self._ordered(expr, terms), strict=True):
+        terms = in_order(expr) if isinstance(expr, Add) else [expr]
+        for (sign, body), term in zip(self.printer.terms(expr), terms, strict=True):
             whole = f"{sign} {body}" if found else f"{sign}{body}"
             inner = self._inside(term)
             if self.size(whole) > room and inner is not None:
@@ -119,9 +117,6 @@ class _Pieces:
             else:
                 found.append(whole)
         return [(piece, float(self.size(piece)) + 1) for piece in found]
-
-    def _ordered(self, expr: Basic, terms: Sequence[Basic]) -> list[Basic]:
-        return list(in_order(expr)) if isinstance(expr, Add) else list(terms)
 
     def _inside(self, term: Basic) -> tuple[str, Expr] | None:
         """What ends in a bracketed sum: all before the bracket, and the sum."""
@@ -148,10 +143,9 @@ def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) 
     """An equation as the lines of an ``aligned`` environment, without the ``\\\\``."""
     printer = PaperLatex()
     pieces = _Pieces(printer, r"\biggl\{", r"\biggr\}")
-    if not isinstance(equation, Relational):
+    if not isinstance(equation, Eq):
         return ["&" + line for line in pack(pieces.of(equation, room), room, room)]
     lhs = printer.doprint(equation.lhs)
-    sign = relation if isinstance(equation, Eq) else _latex_sign(equation)
     rhs = pieces.of(equation.rhs, room)
     if width(lhs) > room / 3 and len(equation.lhs.args) > 1:
         left = pack(pieces.of(equation.lhs, room), room, room)
@@ -160,16 +154,11 @@ def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) 
             return [
                 f"&{left[0]}",
                 *(rf"&\quad {line}" for line in left[1:]),
-                rf"&\qquad {sign} {right[0]}",
+                rf"&\qquad {relation} {right[0]}",
                 *(rf"&\qquad\quad {line}" for line in right[1:]),
             ]
     first, *others = pack(rhs, room - width(lhs) - 22, room - width(lhs) - 12)
-    return [f"{lhs} &{sign} {first}", *(rf"&\quad {line}" for line in others)]
-
-
-def _latex_sign(relation: Relational) -> str:
-    signs = {"<=": r"\leq", ">=": r"\geq", "!=": r"\neq"}
-    return signs.get(relation.rel_op, str(relation.rel_op))
+    return [f"{lhs} &{relation} {first}", *(rf"&\quad {line}" for line in others)]
 
 
 def _single(formulas: Iterable[Basic]) -> Iterator[Basic]:
@@ -195,15 +184,14 @@ def text_lines(equation: Basic, relation: str = "=", room: int = TEXT_WIDTH) -> 
         return [line for one in equation for line in text_lines(one, relation, room)]
     printer = PaperText()
     pieces = _Pieces(printer, "{", "}")
-    if not isinstance(equation, Relational):
+    if not isinstance(equation, Eq):
         first, *others = pack(pieces.of(equation, room), room - 4, room)
         return [first, *("    " + line for line in others)]
-    sign = relation if isinstance(equation, Eq) else printer.doprint(equation).split()[-2]
-    whole = f"{printer.doprint(equation.lhs)} {sign} {printer.doprint(equation.rhs)}"
+    whole = f"{printer.doprint(equation.lhs)} {relation} {printer.doprint(equation.rhs)}"
     if len(whole) <= room:
         return [whole]
     left = pieces.of(equation.lhs, room)
     right = pieces.of(equation.rhs, room - 4)
-    right = [(f"{sign} {right[0][0]}", right[0][1] + 2), *right[1:]]
+    right = [(f"{relation} {right[0][0]}", right[0][1] + 2), *right[1:]]
     first, *others = pack([*left, *right], room - 4, room)
     return [first, *("    " + line for line in others)]

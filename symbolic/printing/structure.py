@@ -12,7 +12,6 @@ from typing import Any
 
 from force_diffusion.symbolic import symbols as sy
 from sympy import Add, Basic, Expr, Integer, MatrixBase, Mul, Pow, Rational, Sum, Symbol
-from sympy.core.relational import Relational
 from sympy.printing.printer import Printer
 
 
@@ -82,13 +81,6 @@ def is_vector(expr: Expr) -> bool:
     if isinstance(expr, sy.Dot):
         return False
     return expr in sy.VECTORS or any(is_vector(arg) for arg in expr.args)
-
-
-def ascending(relation: Relational) -> tuple[Expr, str, Expr]:
-    """The two sides and the sign of a relation, turned so that it never reads ``>``."""
-    if relation.rel_op in (">", ">="):
-        return relation.rhs, relation.rel_op.replace(">", "<"), relation.lhs
-    return relation.lhs, relation.rel_op, relation.rhs
 
 
 def _index_key(term: Expr) -> int:

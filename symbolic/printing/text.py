@@ -4,11 +4,10 @@ import re
 from typing import Any
 
 from force_diffusion.symbolic.notation import raised
-from force_diffusion.symbolic.printing.structure import StructuredPrinter, ascending
+from force_diffusion.symbolic.printing.structure import StructuredPrinter
 from sympy import Expr, Sum, Symbol
 from sympy.printing.str import StrPrinter
 
-_SIGNS = {"==": "=", "<=": "≤", "!=": "≠"}
 _ONE_FACTOR = re.compile(r"[\w⁺⁻⟨⟩]+(_\([^()]*\))?|\([^()]*\)\w?|√\w+")
 _INDEX = re.compile(r"_\([^()]*\)|Σ\([^()]*\)")
 
@@ -84,10 +83,6 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
         power = "" if times == 1 else raised(str(times))
         inner = self.set_brackets(self._print(expr.expr))
         return f"d{power}/d{self._print(variable)}{power} {inner}"
-
-    def _print_Relational(self, expr: Any) -> str:
-        low, sign, high = ascending(expr)
-        return f"{self._print(low)} {_SIGNS.get(sign, sign)} {self._print(high)}"
 
 
 def text(expr: Any) -> str:
