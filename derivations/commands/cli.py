@@ -13,6 +13,7 @@ from importlib import import_module
 from typing import Annotated, Any
 
 import typer
+from force_diffusion.derivations.export.prose import either
 from typer.core import TyperGroup
 
 # Name: (module, what --help says: the first paragraph of the command's docstring).
@@ -56,12 +57,6 @@ STATUSES = (
     "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
     "3 the disk or a pipe failed, 130 interrupted."
 )
-
-
-def either(words: list[str]) -> str:
-    """Name alternatives: "a, b or c"."""
-    return ", ".join(words[:-1]) + f" or {words[-1]}" if len(words) > 1 else words[0]
-
 
 _GIVEN: ContextVar[list[str]] = ContextVar("given")
 
