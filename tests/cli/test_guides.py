@@ -11,7 +11,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PAGES = sorted((ROOT / "docs").rglob("*.md"))
+DESCRIPTION = ROOT / "force_diffusion" / "README.md"  # of the wheel, shown far from all files
+SCENES = ROOT / "scenes" / "README.md"  # copied by "examples"
+PAGES = [*sorted((ROOT / "docs").rglob("*.md")), DESCRIPTION]
 
 
 def _blocks(page: Path, language: str) -> list[str]:
@@ -21,7 +23,7 @@ def _blocks(page: Path, language: str) -> list[str]:
 
 
 def _name(page: Path) -> str:
-    return str(page.relative_to(ROOT / "docs").with_suffix(""))
+    return str(page.relative_to(ROOT).with_suffix(""))
 
 
 @pytest.fixture
@@ -63,7 +65,22 @@ def test_the_guides_have_commands_that_are_run() -> None:
     assert all(_blocks(guide, "sh") for guide in guides)
 
 
-@pytest.mark.parametrize("page", PAGES, ids=_name)
+def _relative_links(page: Path) -> list[str]:
+    """Links and images that are no whole addresses, whichever way they are written."""
+    text = page.read_text(encoding="utf-8")
+    ways = r"""(?:\]\(\s*|^\[[^]]+\]:\s*|(?:src|href)\s*=\s*["']?)([^)\s"'>]+)"""
+    found = re.findall(ways, text, re.MULTILINE)
+    return [target for target in found if not target.startswith("https://")]
+
+
+@pytest.mark.parametrize("page", [*PAGES, SCENES, *sorted(ROOT.glob("*.md"))], ids=_name)
 def test_its_links_lead_somewhere(page: Path) -> None:
-    for target in re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8")):
-        assert (page.parent / target).exists(), target
+    for target in _relative_links(page):
+        assert (page.parent / target.split("#")[0]).exists(), target
+
+
+@pytest.mark.parametrize("page", [DESCRIPTION, SCENES], ids=_name)
+def test_what_is_read_elsewhere_has_no_links_into_the_repository(page: Path) -> None:
+    assert [
+        target for target in _relative_links(page) if "/" in target or page == DESCRIPTION
+    ] == []
