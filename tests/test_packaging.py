@@ -15,8 +15,3 @@ def test_every_folder_of_the_rooms_is_a_package() -> None:
             inner = module.parent.relative_to(ROOT / room).parts
             found.append(".".join([name, *inner]))
     assert sorted(setuptools["packages"]) == sorted(set(found))
-
-
-def test_the_description_is_a_file_that_stands_alone() -> None:
-    readme = ROOT / PROJECT["project"]["readme"]
-    assert readme.parts[-2:] == ("force_diffusion", "README.md")
