@@ -34,9 +34,8 @@ INSTRUCTIONS, RATIO = "instructions", "ratio"
 # Counts repeat to 0.3 %, so that 5 % are no accident and small matters pass. Ratios of times
 # differ by up to a third between runs on a busy machine: only a half more is taken as real.
 LIMITS = {INSTRUCTIONS: 1.05, RATIO: 1.5}
-STARTS = {"start: show 13": ["show", "13"], "start: --help": ["--help"]}
 FAST = "fast sweep / NumPy arithmetic, 256 × 512"
-ALL = [*COUNTED, *PROOFS, *STARTS, FAST]
+ALL = [*COUNTED, *PROOFS, FAST]
 PACKAGES = ("numpy", "sympy", "python-flint", "mpmath", "typer", "rich", "pydantic")
 ONLY_RATIO = ("numba", "processor")
 """What a ratio of times depends on, and a count does not."""
@@ -209,16 +208,8 @@ def _program(names: Sequence[str]) -> dict[str, Measured]:
 def measure(names: Sequence[str]) -> Iterator[tuple[str, Measured]]:
     """Measure paths; counts in as many processes at once as there are processors."""
     groups = [[name for name in names if name in group] for group in (PROOFS, COUNTED)]
-    starts = {name: ["-m", "force_diffusion", *STARTS[name]] for name in names if name in STARTS}
-    for arguments in starts.values():
-        _run([sys.executable, *arguments])  # byte code is compiled, which would be counted
-
-    def started(name: str) -> dict[str, Measured]:
-        return {name: Measured(INSTRUCTIONS, sum(counted(starts[name])))}
-
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         tasks = [pool.submit(_program, group) for group in groups if group]
-        tasks += [pool.submit(started, name) for name in starts]
         found: dict[str, Measured] = {}
         for task in tasks:
             found |= task.result()

@@ -19,8 +19,6 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from derive_speed import COMMAND
-from derive_speed import in_turn as processes_in_turn
 from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat
 from force_diffusion.numeric.mechanics import plain
@@ -297,44 +295,12 @@ def profile() -> Iterator[Line]:
         )
 
 
-TYPER = """
-import typer
-app = typer.Typer()
-@app.command()
-def nothing(number: str) -> None: ...
-@app.command()
-def other() -> None: ...
-app({arguments})
-"""
-
-
-def start() -> Iterator[Line]:
-    """Start-up of two commands against a bare interpreter and a typer program that does nothing."""
-    commands = {"--help": ["--help"], "show": ["show", "13"]}
-    found = processes_in_turn(
-        {
-            "bare": ["-c", "pass"],
-            "typer --help": ["-c", TYPER.format(arguments=["--help"])],
-            "typer show": ["-c", TYPER.format(arguments=["nothing", "13"])],
-            **{name: [*COMMAND, *arguments] for name, arguments in commands.items()},
-        }
-    )
-    bare = found["bare"].seconds
-    yield Line("python -c pass", 1e3 * bare, " ms")
-    for name in commands:
-        typer = found[f"typer {name}"].seconds - bare
-        yield Line(f"typer, {name} of a program that does nothing, on top", 1e3 * typer, " ms")
-        ratio = found[name].seconds / (2 * bare + typer)
-        yield Line(f"{name} / (2 × python -c pass + typer)", ratio, "", "<", 1)
-
-
 PARTS: dict[str, Callable[[], Iterator[Line]]] = {
     "forces": forces,
     "size": size,
     "c": against_c,
     "digits": digits,
     "profile": profile,
-    "start": start,
 }
 
 
