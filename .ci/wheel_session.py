@@ -31,7 +31,11 @@ assert "sympy" not in sys.modules  # names are imported when they are used
 
 eq = fd.equation(13)
 assert eq.number == 13
-assert {"M", "z"} <= {symbol.name for symbol in eq.expr.free_symbols}
+assert {"M", "z"} <= set(eq.symbols)
+assert "sigma" in eq.latex()
+assert eq.exact("base").at(M=10, phi=-0.125, sigma=0.01, r=1) > 0
+assert eq.prove().verdict == "proved"
+assert eq.decide(2 * eq.rhs).verdict == "refuted"
 try:
     fd.equation(17)
 except ValueError as error:
