@@ -55,7 +55,16 @@ class NoSuchFormError(ForceDiffusionError, ValueError):
 
 @dataclass(frozen=True)
 class Proof:
-    """What :meth:`Equation.prove` found.
+    """What :meth:`Equation.prove` found; it prints as lines, and as a table in a notebook.
+
+    >>> import force_diffusion as fd
+    >>> proof = fd.equation(2).prove()
+    >>> [(outcome.derivation.number, str(outcome.verdict)) for outcome in proof.outcomes]
+    [(1, 'proved'), (2, 'proved')]
+    >>> proof.checks[0].name, proof.checks[0].note
+    ('printed equation', 'the normal forms are equal')
+    >>> sum(mutant.verdict == "refuted" for mutant in proof.mutants), len(proof.mutants)
+    (64, 64)
 
     Attributes:
         outcomes: all that has been run, premises first; the last is the equation's own.
@@ -120,7 +129,12 @@ class Proof:
 
 
 class Steps(tuple[Step, ...]):
-    """The steps of a derivation, which print as a numbered list."""
+    """The steps of a derivation, which print as a numbered list.
+
+    >>> import force_diffusion as fd
+    >>> print(str(fd.equation(13).steps())[:46])
+    Eq. 13: Variance of the forces under a surface
+    """
 
     _derivation: Derivation
 
