@@ -1,3 +1,10 @@
 from .derivations.api.certificates import certify as certify
 from .derivations.api.equation import Equation as Equation
 from .derivations.api.equation import equation as equation
+from .numeric.ensemble.ensemble import ensemble as ensemble
+from .numeric.ensemble.result import Ensemble as Ensemble
+from .numeric.run import Scene as Scene
+from .numeric.run import read_scene as read_scene
+from .numeric.scene.sections import Ask as Ask
+from .numeric.scene.sections import Disorder as Disorder
+from .numeric.scene.sections import Packing as Packing

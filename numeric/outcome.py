@@ -111,9 +111,9 @@ class Outcome:
         Contact forces are drawn as force chains, a profile as σ_f beside theory, changes as P(f), a
         response as a map. Raises ``SceneError`` for a quantity that has no figure.
         """
-        from .figures.outcomes import figure_of
+        from .figures.answers import figure_of
 
-        return figure_of(self.plan.scene, self.quantity, self.arrays, self.standard_errors)
+        return figure_of(self.plan, self.arrays, self.standard_errors)
 
     def data(self) -> dict[str, Any]:
         """Give what JSON can hold of it; the guide to scenes has the schema of each quantity."""

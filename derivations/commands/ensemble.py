@@ -1,20 +1,32 @@
 """The commands for ensembles: a thin layer over ``numeric.ensemble``."""
 
 import json
+import sys
+from collections.abc import Callable
+from contextlib import ExitStack
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.derivations.commands.ensemble_running import Where, executor_for, run_shown
-from force_diffusion.derivations.commands.guard import about
+from force_diffusion.derivations.commands.guard import about, in_range, tell
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.export.tables import csv_text
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
 
 if TYPE_CHECKING:
-    from force_diffusion.numeric.ensemble.measure import Measurement
+    from force_diffusion.numeric.ensemble.result import Ensemble
+    from force_diffusion.numeric.scene.scene import Scene
 
-MOST = 10**9
+MOST_TOLD = 10**9
+
+
+class Where(StrEnum):
+    """Where a cluster is made."""
+
+    LOCAL = "local"
+
+
 STATUSES = (
     "Exit status: 0 answered, 2 something wrong in the scene, the options or the store, 3 the "
     "asked confidence is not reached, or workers or the disk failed, 130 interrupted."
@@ -61,70 +73,106 @@ def ensemble(
     overwrite: Overwrite = False,
 ) -> None:
     """Statistics over many packings, on many cores, kept in a file as they come."""
-    from force_diffusion.numeric.ensemble.result import result_data
+    from force_diffusion.numeric.run import read_scene
 
-    m, size = _measured(scene, realisations, covariance, reach)
-    _check_numbers(until, confidence, workers)
-    executor = executor_for(m, size, workers, scheduler, cluster)
-    names = ["result.json", f"{m.quantity}.csv", *(["covariance.csv"] if covariance else [])]
+    if scheduler is not None and (cluster is not None or workers is not None):
+        other = "--workers" if cluster is None else "--cluster"
+        raise ForceDiffusionError(f"--scheduler and {other} exclude each other: leave one out")
+    with about(scene.name):
+        read = read_scene(scene)
+    table = f"{read.ask.quantity}.csv"
+    names = ["result.json", table, *(["covariance.csv"] if covariance else [])]
     with output(out, f"ensemble {scene}", names, overwrite) as folder:
-        found = run_shown(scene.name, m, size, executor, store, until, confidence)
-        data = result_data(found)
+        found = _solved(
+            scene.name, read, realisations, until, store,
+            confidence=confidence, workers=workers, scheduler=scheduler or cluster,
+            covariance=covariance, reach=reach,
+        )  # fmt: skip
+        data = found.data()
+        rows = data["results"][found.quantity]
         if folder:
-            files = {
-                "result.json": json.dumps(data, indent=2) + "\n",
-                f"{m.quantity}.csv": csv_text(data["results"][m.quantity]),
-            }
+            files = {"result.json": json.dumps(data, indent=2) + "\n", table: csv_text(rows)}
             if "covariance" in data:
                 files["covariance.csv"] = _matrix_text(data["covariance"])
             folder.write(files)
-    print(json.dumps(data, indent=2) if as_json else "\n".join(_lines(data, m.quantity)))
+    if as_json:
+        print(json.dumps(data, indent=2))
+    else:
+        print(csv_text(rows), end="")
+        print("\n".join(f"# {line}" for line in str(found).splitlines()))
     if found.reached is False:
         assert until is not None
-        N, width = found.estimates.realisations, found.half_width
-        more = f"about {N * (width / until) ** 2:.2g} realisations may do" if width < MOST else ""
+        N, width = found.realisations, found.half_width
+        guess = f"about {N * (width / until) ** 2:.2g} realisations may do"
         raise NotReachedError(
             f"the asked confidence is not reached: σ_f is known to {width:.2g}, not {until:g}; "
-            f"{more or 'more realisations are needed'}"
+            f"{guess if width < MOST_TOLD else 'more realisations are needed'}"
         )
 
 
-def _measured(
-    scene: Path, realisations: int | None, covariance: bool, reach: float | None
-) -> tuple["Measurement", int]:
-    """Read the scene and say what is measured, over how many packings."""
-    from force_diffusion.numeric.ensemble.asked import measurement
-    from force_diffusion.numeric.run import read_scene
+def _solved(
+    name: str,
+    scene: "Scene",
+    realisations: int | None,
+    until: float | None,
+    store: Path | None,
+    **more: Any,
+) -> "Ensemble":
+    """Solve under a progress bar; errors name options as they are written here."""
+    from force_diffusion.numeric.ensemble.ensemble import ensemble as solve
+    from force_diffusion.numeric.ensemble.measure import ArgumentError
+    from force_diffusion.numeric.ensemble.store import StoreError, StoreFailedError
+    from force_diffusion.numeric.ensemble.workers import WorkersError
 
     try:
-        with about(scene.name):
-            read = read_scene(scene)
-        size = read.ask.realisations if realisations is None else realisations
-        if not 2 <= size <= MOST:
-            given = f"--realisations = {size}" if realisations is not None else (
-                f"{scene.name}: ask.realisations = {size}"
-            )  # fmt: skip
-            raise ForceDiffusionError(
-                f"{given}: an ensemble has from 2 to {MOST} packings; say how many with "
-                "--realisations N or in the scene"
-            )
-        with about(scene.name):
-            return measurement(read, covariance=covariance, reach=reach), size
-    except MemoryError:
-        raise ForceDiffusionError(
-            f"{scene.name}: the memory is full; ask for a smaller packing"
-        ) from None
+        with ExitStack() as stack, in_range():
+            size = scene.ask.realisations if realisations is None else realisations
+            progress = _progress(stack, size, until)
+            return solve(scene, realisations, until=until, store=store, progress=progress, **more)
+    except ArgumentError as error:
+        raise ForceDiffusionError(f"--{error}") from None
+    except (StoreError, StoreFailedError) as error:
+        raise type(error)(f"--store {error}") from None
+    except WorkersError:
+        raise
+    except (ForceDiffusionError, MemoryError) as error:
+        error.add_note(name)
+        raise
+    except KeyboardInterrupt as interrupt:
+        nothing = "nothing was kept; with --store FILE it would have been."
+        for note in getattr(interrupt, "__notes__", [] if store else [nothing]):
+            tell(note)
+        raise
 
 
-def _check_numbers(until: float | None, confidence: float, workers: int | None) -> None:
-    if until is not None and not 0 < until < 1:
-        raise ForceDiffusionError(f"--until = {until:g}: must lie between 0 and 1, such as 0.01")
-    if not 0 < confidence < 1:
-        raise ForceDiffusionError(
-            f"--confidence = {confidence:g}: must lie between 0 and 1, such as 0.95"
-        )
-    if workers is not None and not 1 <= workers <= 1024:
-        raise ForceDiffusionError(f"--workers = {workers}: must lie between 1 and 1024")
+def _progress(
+    stack: ExitStack, size: int, until: float | None
+) -> Callable[[int, float | None], None]:
+    """A bar with the time left, on a terminal."""
+    if not sys.stderr.isatty():
+        return lambda done, width: None
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+    from rich.progress import TimeElapsedColumn as Elapsed
+    from rich.progress import TimeRemainingColumn as Left
+
+    columns = (
+        TextColumn("realisations"), BarColumn(), MofNCompleteColumn(),
+        Elapsed(), TextColumn("left"), Left(), TextColumn("{task.description}"),
+    )  # fmt: skip
+    bar = Progress(*columns, console=Console(stderr=True), transient=True)
+    task = None
+
+    def progress(done: int, width: float | None) -> None:
+        nonlocal task
+        if task is None:  # what a store held took no time now
+            task = bar.add_task("", total=size, completed=done)
+            stack.enter_context(bar)
+        bar.update(task, completed=done)
+        if width is not None and until is not None:
+            bar.update(task, description=f"σ_f to {width:.2g}, until {until:g}")
+
+    return progress
 
 
 def _matrix_text(covariance: dict[str, Any]) -> str:
@@ -132,21 +180,6 @@ def _matrix_text(covariance: dict[str, Any]) -> str:
     labels = [":".join(map(str, one)) for one in zip(*covariance["labels"].values(), strict=True)]
     rows = [dict(zip(labels, map(repr, row), strict=True)) for row in covariance["matrix"]]
     return csv_text(rows)
-
-
-def _lines(data: dict[str, Any], quantity: str) -> list[str]:
-    rows, about, sure = data["results"][quantity], data["ensemble"], data["confidence"]
-    lines = [csv_text(rows).rstrip("\n"), f"# {quantity}: {len(rows)} rows"]
-    lines.append(f"# {about['realisations']} packings, {about['arithmetic']}")
-    width = sure["largest_relative_half_width"]
-    if width is not None:
-        looks = f", looked at {sure['looks']} times" if sure["looks"] else ""
-        lines.append(
-            f"# every std together within {width:.2g} of itself, with confidence "
-            f"{sure['level']:g}{looks}"
-        )
-    lines += [f"# left out: {s['effect']}: {s['reason']}" for s in data["skipped"]]
-    return lines
 
 
 def ensemble_status(

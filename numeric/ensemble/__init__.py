@@ -1,5 +1,1 @@
 """Ensembles of packings: exact sums that merge in any order, kept in a file, solved by many."""
-
-from .profile import LayerProfile, profile
-
-__all__ = ["LayerProfile", "profile"]

@@ -2,12 +2,12 @@
 
 from bisect import bisect_left, insort
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Protocol
 
 from ..statistics.confidence import Rule, looks
 from .estimates import Estimates
 from .measure import Measurement
+from .result import Ensemble
 from .store import Block, Store, StoreError
 from .sums import Sums, none
 
@@ -24,22 +24,6 @@ class Executor(Protocol):
         """Give (first, stop, sums) of every task, in any order; tasks are taken as needed."""
 
 
-@dataclass(frozen=True)
-class Result:
-    """A finished ensemble.
-
-    ``look`` is the number of the look that ended it, 0 if its size was fixed; ``half_width`` holds
-    for all σ_f together, relative, with the confidence asked; ``reached`` says if a rule was met.
-    """
-
-    estimates: Estimates
-    confidence: float
-    look: int
-    half_width: float
-    reached: bool | None
-    solved: int
-
-
 def run(
     m: Measurement,
     size: int,
@@ -49,7 +33,7 @@ def run(
     rule: Rule | None = None,
     confidence: float = 0.95,
     progress: Callable[[int, float | None], None] = lambda done, width: None,
-) -> Result:
+) -> Ensemble:
     """Sum up realisations 0 … size − 1, or fewer where the rule is met at a look before.
 
     ``progress`` is told how many realisations are done, and the half-width at the last look. Raises
@@ -93,7 +77,7 @@ class _Run:
                     f"{block.first or block.stop} or {block.stop}, or give another name"
                 )
 
-    def finish(self, executor: Executor) -> Result:
+    def finish(self, executor: Executor) -> Ensemble:
         """Solve what is missing until the size or the rule is reached."""
         self.progress(self._done(), None)
         if not self._advance():
@@ -112,7 +96,7 @@ class _Run:
                 look += 1  # the size itself is looked at last
             reached = estimates.half_width(self.confidence, look) <= self.rule.relative
         width = estimates.half_width(self.confidence, look if self.rule is not None else 0)
-        return Result(
+        return Ensemble(
             estimates, self.confidence, look if self.rule else 0, width, reached, self.solved
         )
 

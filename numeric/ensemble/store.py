@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.errors import ForceDiffusionError, NotReachedError
 from .measure import Measurement
 from .scene_key import differences
 from .sums import Sums, from_bytes
@@ -30,6 +30,10 @@ _TABLES = (
 
 class StoreError(ForceDiffusionError, ValueError):
     """A file can't serve as the store of an ensemble: the message says why, and what to do."""
+
+
+class StoreFailedError(NotReachedError):
+    """The file of an ensemble can't be written to: the message says why, and what it holds."""
 
 
 @dataclass(frozen=True)

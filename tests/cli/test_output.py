@@ -325,7 +325,7 @@ def scene(tmp_path: Path) -> Path:
 def _unsolved(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("framework.runner.run", "commands.scenes._solved", "commands.figures._made",
                  "commands.stability._measured", "commands.report._made",
-                 "commands.ensemble.run_shown"):  # fmt: skip
+                 "commands.ensemble._solved"):  # fmt: skip
         monkeypatch.setattr(f"force_diffusion.derivations.{name}", None)
     monkeypatch.setattr("force_diffusion.numeric.studies.cost.study.study", None)
 

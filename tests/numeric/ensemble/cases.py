@@ -2,8 +2,7 @@
 
 from typing import Any
 
-from force_diffusion.numeric.ensemble.asked import measurement
-from force_diffusion.numeric.ensemble.measure import Measurement
+from force_diffusion.numeric.ensemble.measure import Measurement, measurement
 
 from tests.numeric.scenes import scene
 

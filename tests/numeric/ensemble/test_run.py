@@ -6,20 +6,19 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.ensemble import profile, run, workers
+from force_diffusion.numeric.ensemble import run, workers
 from force_diffusion.numeric.ensemble.measure import Measurement
-from force_diffusion.numeric.ensemble.run import Executor, Result
+from force_diffusion.numeric.ensemble.result import Ensemble
+from force_diffusion.numeric.ensemble.run import Executor
 from force_diffusion.numeric.ensemble.scene_key import ensemble_key
 from force_diffusion.numeric.ensemble.store import Block, Store, StoreError, open_store
 from force_diffusion.numeric.ensemble.sums import Sums, measured
 from force_diffusion.numeric.ensemble.workers import InProcess, Pool, RealisationError, WorkersError
-from force_diffusion.numeric.scene.sections import SceneError
 from force_diffusion.numeric.statistics.confidence import Rule
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.numeric.ensemble.cases import CASES, PROFILE, case
-from tests.numeric.scenes import scene
+from tests.numeric.ensemble.cases import CASES, case
 
 M = case("profile", covariance=True)
 WHOLE = measured(M, range(150)).to_bytes()
@@ -50,7 +49,7 @@ def size_of_blocks(monkeypatch: pytest.MonkeyPatch, size: int) -> None:
     monkeypatch.setattr(run, "BLOCK", size * M.plan.problem.region.beads)
 
 
-def on_file(path: Path, m: Measurement, size: int, executor: Executor, **more: Any) -> Result:
+def on_file(path: Path, m: Measurement, size: int, executor: Executor, **more: Any) -> Ensemble:
     store = open_store(path, ensemble_key(m))
     try:
         return run.run(m, size, executor, store=store, **more)
@@ -58,7 +57,7 @@ def on_file(path: Path, m: Measurement, size: int, executor: Executor, **more: A
         store.close()
 
 
-def bytes_of(result: Result) -> bytes:
+def bytes_of(result: Ensemble) -> bytes:
     return result.estimates.sums.to_bytes()
 
 
@@ -172,7 +171,7 @@ def test_where_it_stops_depends_on_nothing_but_the_sums(seed: int, size: int) ->
     assert 32 < usual.estimates.realisations < 300
     assert usual.half_width <= 0.12
     assert bytes_of(found) == bytes_of(usual)
-    assert (found.look, found.half_width) == (usual.look, usual.half_width)
+    assert (found.looks, found.half_width) == (usual.looks, usual.half_width)
 
 
 def test_a_file_with_more_does_not_change_where_it_stops(tmp_path: Path) -> None:
@@ -182,17 +181,17 @@ def test_a_file_with_more_does_not_change_where_it_stops(tmp_path: Path) -> None
     on_file(path, M, 300, InProcess())
     found = on_file(path, M, 300, Nobody(), rule=rule)
     assert bytes_of(found) == bytes_of(usual)
-    assert found.look == usual.look
+    assert found.looks == usual.looks
 
 
 def test_a_rule_that_is_not_met() -> None:
     found = run.run(M, 40, InProcess(), rule=Rule(1e-6, 0.9))
     assert found.reached is False
-    assert found.look == 2  # at 32, and at the end
+    assert found.looks == 2  # at 32, and at the end
     assert found.estimates.realisations == 40
     fixed = run.run(M, 40, InProcess(), confidence=0.9)
     assert fixed.reached is None
-    assert fixed.look == 0
+    assert fixed.looks == 0
     assert fixed.half_width < found.half_width
 
 
@@ -225,25 +224,3 @@ def test_a_block_is_written_once() -> None:
     one.store = counted
     one.finish(InProcess())
     assert counted.first == [0, 32, 48, 64, 96, 128]
-
-
-def test_the_profile_for_figures(tmp_path: Path) -> None:
-    import numpy as np
-    from force_diffusion.numeric.ensemble.estimates import Estimates
-
-    read = scene(PROFILE)
-    found = profile(read, 150, store=tmp_path / "ensemble.fd")
-    e = Estimates(M, measured(M, range(150)))
-    squares = np.array([float(v) for v in e.mean_square]).reshape(4, 2)
-    assert found.mean_square == pytest.approx(squares.mean(axis=1), rel=1e-15)
-    assert found.std == pytest.approx(np.array(e.std).reshape(4, 2).mean(axis=1), rel=1e-2)
-    half = np.kron(np.eye(4), np.full((1, 2), 0.5))
-    assert found.mean_square_covariance == pytest.approx(half @ (e.covariance() / 150) @ half.T)
-    error = np.sqrt(np.diag(found.mean_square_covariance)) / found.mean_square / 2
-    assert found.first_order_std is not None
-    assert (abs(found.std / found.first_order_std - 1) < 5 * error).all()
-    assert found.ordered == pytest.approx(0.7559289460184544)
-    with pytest.raises(SceneError, match="profile"):
-        profile(scene(CASES["response"]), 3)
-    with pytest.raises(ValueError, match="at least 2"):
-        profile(read, 1)

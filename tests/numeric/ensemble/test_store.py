@@ -154,7 +154,7 @@ def test_a_file_of_another_version(
 
 
 def test_the_same_scene_in_other_words_is_the_same_ensemble() -> None:
-    from force_diffusion.numeric.ensemble.asked import measurement
+    from force_diffusion.numeric.ensemble.measure import measurement
 
     from tests.numeric.ensemble.cases import PROFILE
     from tests.numeric.scenes import scene

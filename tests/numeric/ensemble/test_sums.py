@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array
-from force_diffusion.numeric.ensemble.asked import measurement
 from force_diffusion.numeric.ensemble.estimates import Estimates
-from force_diffusion.numeric.ensemble.measure import Measurement
+from force_diffusion.numeric.ensemble.measure import Measurement, measurement
 from force_diffusion.numeric.ensemble.sums import Sums, from_bytes, measured
 from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.engine import solve

@@ -1,0 +1,144 @@
+"""A scene becomes an ensemble: what is measured, who solves it, and where it is kept."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from ..arithmetic.errors import ForceDiffusionError, NotReachedError
+from ..arithmetic.machine import cores, memory_limit
+from ..scene.scene import Scene
+from ..scene.sections import SceneError
+from ..statistics.confidence import Rule
+from .measure import ArgumentError, Measurement, measurement
+from .result import Ensemble
+from .run import Executor, run
+from .scene_key import ensemble_key
+from .store import Store, StoreFailedError, open_store
+from .workers import InProcess, Pool, WorkersError
+
+MOST, MOST_WORKERS = 10**9, 1024
+# Bytes of a batch of small packings, on top of those of one.
+BATCH = 100_000_000
+# Seconds of work from which on starting more processes repays.
+WORTH_WORKERS = 5
+LOCAL = "local"
+
+
+def ensemble(
+    scene: Scene,
+    realisations: int | None = None,
+    *,
+    until: float | None = None,
+    store: str | Path | None = None,
+    confidence: float = 0.95,
+    workers: int | None = 1,
+    scheduler: str | None = None,
+    covariance: bool = False,
+    reach: float | None = None,
+    progress: Callable[[int, float | None], None] = lambda done, width: None,
+) -> Ensemble:
+    """Solve many packings of a scene, and give their statistics; the same for any workers.
+
+    The scene asks for a ``profile``, ``contact``, ``contact_forces``, ``response`` or
+    ``histogram``, of drawn radii. There are ``realisations`` packings, by default as many as the
+    scene says; with ``until`` fewer, if every σ_f is known to that share of itself, all together
+    with confidence ``confidence``, already before. ``store`` is a file that keeps what is done, and
+    goes on from there. ``workers`` are processes, None for as many as are good here; above 1 they
+    start the program anew, so that a script needs its ``if __name__ == "__main__"``. ``scheduler``
+    is the address of a Dask scheduler, or "local" for a cluster made here. ``covariance`` asks for
+    that between groups. ``reach`` is the outer edge of a histogram's bins, in units of force; by
+    default six times the largest σ_f of theory. ``progress`` is told how many packings are done,
+    and the half-width at the last look.
+
+    Raises ``ArgumentError``, ``SceneError``, ``StoreError`` for a file that can't serve,
+    ``StoreFailedError`` where it can't be written, ``RealisationError`` for a packing that can't be
+    built, and ``WorkersError``. What a store holds by then stays good.
+
+    >>> import force_diffusion as fd
+    >>> scene = fd.Scene(
+    ...     packing=fd.Packing(height=4, width=8),
+    ...     disorder=fd.Disorder(kind="uniform", relative_std=1e-4, seed=1),
+    ...     ask=fd.Ask(quantity="profile"),
+    ... )
+    >>> found = fd.ensemble(scene, 200, until=0.1)
+    >>> found.std.shape, found.realisations, found.reached
+    ((8,), 96, True)
+    >>> bool((abs(found.std / found.first_order_std - 1) < found.half_width).all())
+    True
+    """
+    size = _size(scene, realisations)
+    if until is not None and not 0 < until < 1:
+        raise ArgumentError("until", f"{until:g}", "must lie between 0 and 1, such as 0.01")
+    if not 0 < confidence < 1:
+        raise ArgumentError(
+            "confidence", f"{confidence:g}", "must lie between 0 and 1, such as 0.95"
+        )
+    m = measurement(scene, covariance=covariance, reach=reach)
+    executor = _executor(m, size, workers, scheduler)
+    rule = None if until is None else Rule(until, confidence)
+    path = None if store is None else Path(store)
+    opened: Store | None = None
+    try:
+        if path is not None:
+            opened = open_store(path, ensemble_key(m))
+        return run(
+            m, size, executor, store=opened, rule=rule, confidence=confidence, progress=progress
+        )
+    except WorkersError as error:
+        raise WorkersError(f"{error}.{_kept(opened)}") from None
+    except OSError as error:
+        if path is None or error.filename != str(path):
+            raise
+        raise StoreFailedError(
+            f"{path} can't be written to ({error.strerror}): make room, or move it to another "
+            f"place.{_kept(opened)}"
+        ) from None
+    except MemoryError:
+        raise NotReachedError(f"the memory is full; use fewer workers.{_kept(opened)}") from None
+    except KeyboardInterrupt as interrupt:
+        if opened is not None:
+            interrupt.add_note(_kept(opened).strip())
+        raise
+    finally:
+        if opened is not None:
+            opened.close()
+
+
+def _size(scene: Scene, realisations: int | None) -> int:
+    allowed = f"an ensemble has from 2 to {MOST} packings"
+    if realisations is None:
+        if not 2 <= scene.ask.realisations <= MOST:
+            more = f"{allowed}; say how many here or with realisations (--realisations N)"
+            raise SceneError("ask.realisations", scene.ask.realisations, more)
+        return scene.ask.realisations
+    if not 2 <= realisations <= MOST:
+        raise ArgumentError("realisations", realisations, allowed)
+    return realisations
+
+
+def _executor(m: Measurement, size: int, workers: int | None, scheduler: str | None) -> Executor:
+    """Choose who solves: this process, others on this machine, or a cluster."""
+    if workers is not None and not 1 <= workers <= MOST_WORKERS:
+        raise ArgumentError("workers", workers, f"must lie between 1 and {MOST_WORKERS}")
+    if scheduler in {None, LOCAL}:
+        room = max(1, memory_limit() // (m.plan.memory + BATCH))
+        if workers is not None and workers > room:
+            raise ArgumentError("workers", workers, f"the free memory is enough for {room}")
+        if workers is None:
+            short = scheduler is None and size * m.plan.estimated_seconds < WORTH_WORKERS
+            workers = 1 if short else min(cores(), room)
+        if scheduler is None:
+            return InProcess() if workers == 1 else Pool(workers)
+    try:
+        from .cluster import Cluster
+    except ImportError:
+        raise ForceDiffusionError(
+            "a cluster needs Dask, which is missing: pip install 'force-diffusion[cluster]'"
+        ) from None
+    return Cluster(None if scheduler == LOCAL else scheduler, workers or 1)
+
+
+def _kept(store: Store | None) -> str:
+    if store is None:
+        return ""
+    done = sum(stop - first for first, stop in store.ranges())
+    return f" {store.path} holds {done} realisations; the same command goes on from there."

@@ -1,0 +1,44 @@
+"""Results as rows, and as tables in a notebook."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from html import escape
+from typing import Any
+
+from .arithmetic.systems import Array
+
+Row = dict[str, Any]
+SHOWN = 20
+
+
+def rows_of(columns: Mapping[str, Array]) -> list[Row]:
+    """Give arrays of equal length row by row, ready for a data frame.
+
+    Numbers become Python's int and float, those of other arithmetics (mpmath, balls) floats.
+
+    >>> import numpy as np
+    >>> rows_of({"j": np.arange(2), "std": np.array([0.5, 0.25])})
+    [{'j': 0, 'std': 0.5}, {'j': 1, 'std': 0.25}]
+    """
+    lists = [
+        [float(value) for value in column] if column.dtype == object else column.tolist()
+        for column in columns.values()
+    ]
+    return [dict(zip(columns, row, strict=True)) for row in zip(*lists, strict=True)]
+
+
+def html_table(rows: Sequence[Mapping[str, Any]], words: Iterable[str]) -> str:
+    """Show the first rows as a table in HTML, and lines of words below it."""
+    heads = "".join(f"<th>{escape(name)}</th>" for name in (rows[0] if rows else {}))
+    body = "".join(
+        "<tr>" + "".join(f"<td>{_cell(value)}</td>" for value in row.values()) + "</tr>"
+        for row in rows[:SHOWN]
+    )
+    more = f"<p>… and {len(rows) - SHOWN} more rows</p>" if len(rows) > SHOWN else ""
+    below = "<br>".join(map(escape, words))
+    return f"<table><tr>{heads}</tr>{body}</table>{more}<p>{below}</p>"
+
+
+def _cell(value: Any) -> str:
+    if value is None:
+        return ""
+    return escape(f"{value:.6g}" if isinstance(value, float) else str(value))

@@ -1,0 +1,120 @@
+"""``fd.ensemble``: arrays, rows and data of one result, and what it refuses."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.ensemble import ensemble as module
+from force_diffusion.numeric.ensemble.estimates import Estimates
+from force_diffusion.numeric.ensemble.measure import ArgumentError
+from force_diffusion.numeric.ensemble.store import StoreError
+from force_diffusion.numeric.ensemble.sums import measured
+from force_diffusion.numeric.scene.sections import SceneError
+
+import force_diffusion as fd
+from tests.numeric.ensemble.cases import CASES, PROFILE, case
+from tests.numeric.scenes import scene
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_arrays_rows_and_data_say_the_same(name: str) -> None:
+    found = fd.ensemble(scene(CASES[name]), 20, covariance=True)
+    groups = len(found.mean)
+    for array in (found.mean, found.mean_change, found.mean_change_error, found.mean_square,
+                  found.std, found.std_error, found.tensile):  # fmt: skip
+        assert array.shape == (groups,)
+    assert found.covariance is not None
+    assert found.covariance.shape == (groups, groups)
+    assert found.mean_square == pytest.approx(found.std**2 + found.mean_change**2, rel=1e-9)
+    data = json.loads(json.dumps(found.data()))
+    rows = found.rows()
+    assert len(rows) == len(data["results"][found.quantity])
+    assert {len(column) for column in found.arrays.values()} == {len(rows)}
+    for row, printed in zip(rows, data["results"][found.quantity], strict=True):
+        assert list(row) == list(printed)
+        for key, value in row.items():
+            if not isinstance(value, float):
+                assert printed[key] == value
+            elif math.isnan(value):
+                assert printed[key] == ""
+            else:
+                # theory is printed with twelve digits, the rest with all
+                assert float(printed[key]) == pytest.approx(
+                    value, rel=1e-11 if key == "first_order_std" else 0
+                )
+    assert len(str(found).splitlines()) >= 3
+    assert found._repr_html_().count("<tr>") == 1 + min(len(rows), 20)
+
+
+def test_layers_of_both_branches_from_exact_sums(tmp_path: Path) -> None:
+    store = tmp_path / "ensemble.fd"
+    found = fd.ensemble(scene(PROFILE), 150, store=store, covariance=True)
+    e = Estimates(case("profile", covariance=True), measured(case("profile"), range(150)))
+    assert found.mean_square.tolist() == [float(v) for v in e.mean_square]
+    assert found.std.tolist() == e.std
+    assert found.covariance is not None
+    error = np.sqrt(np.diag(found.covariance) / 150) / found.mean_square / 2
+    assert error == pytest.approx(found.std_error / found.std, rel=0.05)  # std has the mean's too
+    assert found.first_order_std is not None
+    assert (abs(found.std / found.first_order_std - 1) < 5 * error).all()
+    assert found.mean - found.mean_change == pytest.approx(0.7559289460184544)
+    assert found.solved == 150
+    again = fd.ensemble(scene(PROFILE), 150, store=str(store), covariance=True)
+    assert (again.solved, again.data()) == (0, found.data())
+
+
+def test_bins_count_every_sample() -> None:
+    found = fd.ensemble(scene(CASES["histogram of all"]), 30, reach=1e-4)
+    assert found.bins is not None
+    assert found.bins["count"].shape == (11 + 2,)
+    assert found.bins["count"].sum() == found.samples == 30 * 2 * 4 * 6
+    assert found.bins["share"].sum() == pytest.approx(1)
+    assert (found.bins["high"][:-1] == found.bins["low"][1:]).all()
+
+
+WRONG: list[tuple[dict[str, Any], str]] = [
+    ({"realisations": 1}, "realisations = 1"),
+    ({"until": 0}, "until = 0"),
+    ({"until": math.nan}, "until = nan"),
+    ({"confidence": 1}, "confidence = 1"),
+    ({"workers": 0}, "workers = 0"),
+    ({"reach": -1}, "histogram"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "says"), WRONG)
+def test_wrong_arguments(arguments: dict[str, Any], says: str) -> None:
+    with pytest.raises((ArgumentError, SceneError), match=says):
+        fd.ensemble(scene(PROFILE), **{"realisations": 9, **arguments})
+
+
+def test_what_a_scene_and_a_file_may_be_wrong_in(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match=r"ask\.realisations = 1: an ensemble has from 2"):
+        fd.ensemble(scene(PROFILE))
+    with pytest.raises(SceneError, match="base_reactions"):
+        fd.ensemble(scene({**PROFILE, "ask": {"quantity": "base_reactions"}}), 9)
+    with pytest.raises(ArgumentError, match=r"reach = -1.*positive"):
+        fd.ensemble(scene(CASES["histogram of all"]), 9, reach=-1)
+    (tmp_path / "other").write_text("something else")
+    with pytest.raises(StoreError, match="not the store of an ensemble"):
+        fd.ensemble(scene(PROFILE), 9, store=tmp_path / "other")
+
+
+def test_memory_bounds_the_workers(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "memory_limit", lambda: 10**8)
+    with pytest.raises(ArgumentError, match="workers = 2: the free memory is enough for 1"):
+        fd.ensemble(scene(PROFILE), 9, workers=2)
+    assert fd.ensemble(scene(PROFILE), 9, workers=None).realisations == 9
+
+
+def test_an_interrupt_says_what_is_kept(tmp_path: Path) -> None:
+    def interrupted(done: int, width: float | None) -> None:
+        if done >= 32:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt) as caught:
+        fd.ensemble(scene(PROFILE), 64, store=tmp_path / "e.fd", progress=interrupted)
+    assert "holds 32 realisations" in caught.value.__notes__[0]
