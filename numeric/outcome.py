@@ -18,12 +18,11 @@ from .mechanics.work import Work
 from .planning.plan import ESTIMATE, PHYSICAL, Plan, plan_lines
 from .quantities.base import Table
 from .statistics import histogram
+from .tables import Row, html_table, rows_of
 from .theory.critical_height import critical_height
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-Row = dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -81,11 +80,7 @@ class Outcome:
 
     def rows(self) -> list[Row]:
         """The answer row by row, ready for a data frame; numbers as Python's int and float."""
-        columns = {
-            name: [float(v) for v in column] if column.dtype == object else column.tolist()
-            for name, column in self.arrays.items()
-        }
-        return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+        return rows_of(self.arrays)
 
     def decimals(self) -> list[Row]:
         """The answer row by row, numbers as decimal strings with the digits that are known."""
@@ -160,16 +155,7 @@ class Outcome:
 
     def _repr_html_(self) -> str:
         """Show the first rows as a table in a notebook."""
-        rows = self.decimals()
-        shown = rows[:20]
-        heads = "".join(f"<th>{name}</th>" for name in (shown[0] if shown else {}))
-        body = "".join(
-            "<tr>" + "".join(f"<td>{value}</td>" for value in row.values()) + "</tr>"
-            for row in shown
-        )
-        more = f"<p>… and {len(rows) - len(shown)} more rows</p>" if len(rows) > len(shown) else ""
-        words = "<br>".join(summary_lines(self.data()))
-        return f"<table><tr>{heads}</tr>{body}</table>{more}<p>{words}</p>"
+        return html_table(self.decimals(), summary_lines(self.data()))
 
 
 def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:

@@ -61,7 +61,7 @@ def ensemble(
     ... )
     >>> found = fd.ensemble(scene, 200, until=0.1)
     >>> found.std.shape, found.realisations, found.reached
-    ((8,), 96, True)
+    ((8,), 192, True)
     >>> bool((abs(found.std / found.first_order_std - 1) < found.half_width).all())
     True
     """
