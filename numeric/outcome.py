@@ -13,10 +13,10 @@ from .accuracy.digits import strings
 from .arithmetic.decimals import bound_string
 from .arithmetic.systems import Array
 from .lattice.branch import Contact
-from .mechanics.physicality import Physicality
+from .mechanics.physicality import PHYSICAL, Physicality
 from .mechanics.work import Work
-from .planning.plan import ESTIMATE, PHYSICAL, Plan, plan_lines
-from .quantities.base import Table
+from .planning.plan import ESTIMATE, Plan, plan_lines
+from .quantities.answer import Answer
 from .statistics import histogram
 from .tables import Row, html_table, rows_of
 from .theory.critical_height import critical_height
@@ -38,19 +38,14 @@ class Missed:
 class Outcome:
     """A finished run.
 
-    ``plan`` is that of the method that answered; ``missed`` are those tried before. ``table`` holds
-    the numbers in the arithmetic of the run, ``bins`` (low, high, count) those of a histogram.
-    ``accuracy`` says how large the error is, relative to the largest change, and how it is known.
-    ``physical`` says whether beads could make such a packing, None where that is not looked at;
-    ``stopped`` names the contact at which a sweep stopped, if it was asked to.
+    ``plan`` is that of the method that answered; ``missed`` are those tried before. ``answer``
+    holds the numbers in the arithmetic of the run. ``accuracy`` says how large the error is,
+    relative to the largest change, and how it is known.
     """
 
     plan: Plan
-    table: Table
-    bins: list[tuple[Fraction, Fraction, int]] | None
+    answer: Answer
     accuracy: Accuracy
-    physical: Physicality | None
-    stopped: Contact | None
     work: Work
     seconds: float
     missed: tuple[Missed, ...] = ()
@@ -60,6 +55,16 @@ class Outcome:
         """What was asked, as the scene calls it."""
         return self.plan.quantity.name
 
+    @property
+    def physical(self) -> Physicality | None:
+        """Whether beads could make such a packing; None where nothing exact was solved."""
+        return self.answer.physical
+
+    @property
+    def stopped(self) -> Contact | None:
+        """The contact at which a sweep stopped, if it was asked to."""
+        return self.answer.stopped
+
     @cached_property
     def arrays(self) -> dict[str, Array]:
         """The columns of the answer, each of shape (rows,).
@@ -68,15 +73,17 @@ class Outcome:
         where that was longer. Lengths are in the scene's unit, forces in that of the load's
         magnitude. The guide to scenes says what each column means.
         """
-        if self.bins is not None:
-            low, high, count = zip(*self.bins, strict=True) if self.bins else ((), (), ())
+        if self.answer.bins is not None:
+            low, high, count = (
+                zip(*self.answer.bins, strict=True) if self.answer.bins else ((), (), ())
+            )
             return {
                 "low": np.array([float(edge) for edge in low]),
                 "high": np.array([float(edge) for edge in high]),
                 "count": np.array(count, dtype=np.int64),
             }
-        index = {name: np.array(values) for name, values in self.table.index.items()}
-        return index | self.table.numbers
+        index = {name: np.array(values) for name, values in self.answer.table.index.items()}
+        return index | self.answer.table.numbers
 
     def rows(self) -> list[Row]:
         """The answer row by row, ready for a data frame; numbers as Python's int and float."""
@@ -84,12 +91,12 @@ class Outcome:
 
     def decimals(self) -> list[Row]:
         """The answer row by row, numbers as decimal strings with the digits that are known."""
-        if self.bins is not None:
-            return histogram.printed(self.bins)
+        if self.answer.bins is not None:
+            return histogram.printed(self.answer.bins)
         system = self.plan.system
         with system.active():
-            printed = strings(self.table, self.accuracy, system)
-        columns = {**self.table.index, **printed}
+            printed = strings(self.answer.table, self.accuracy, system)
+        columns = {**self.answer.table.index, **printed}
         return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
     @property
@@ -98,7 +105,7 @@ class Outcome:
 
         Shape (rows,) each; NaN where there was one packing. Empty where nothing is sampled.
         """
-        return self.table.errors
+        return self.answer.table.errors
 
     def plot(self) -> "Figure":
         """Draw this answer; needs matplotlib (the extra ``plots``).

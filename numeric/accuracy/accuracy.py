@@ -1,8 +1,10 @@
 """What is known of an answer's error."""
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 
+from ..arithmetic.decimals import short
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
 
 
@@ -20,6 +22,18 @@ class Accuracy:
     arithmetic: str
     bits_lost: float
     note: str = ""
+
+    def within(self, tolerance: Fraction) -> bool:
+        """Say whether the error is at most as large."""
+        bound = self.error_bound
+        return math.isfinite(bound) and Fraction(bound) <= tolerance
+
+    @property
+    def still(self) -> str:
+        """Say how large the error still is."""
+        if not math.isfinite(self.error_bound):
+            return "nothing is left of the answer"
+        return f"the error is still {short(Fraction(self.error_bound))}"
 
 
 class ToleranceError(ForceDiffusionError, ArithmeticError):

@@ -1,14 +1,24 @@
-"""The certified error of an answer in balls."""
+"""Answers in balls: certified, and bits are added until the enclosure is small enough."""
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 import flint
 
+from ..arithmetic.decimals import short
+from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import Balls, midpoint
+from ..mechanics.forces import NotStandingError
+from ..mechanics.work import Work
+from ..planning.budget import MOST_BITS
+from ..planning.expected_error import initial_bits
+from ..planning.plan import CERTIFY, Plan
+from ..quantities.answer import Answer, answer
 from ..quantities.base import Table
-from .accuracy import Accuracy
+from ..theory.critical_height import critical_height
+from .accuracy import Accuracy, ToleranceError
 
 # A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.
 PRINTED = 20
@@ -50,3 +60,47 @@ def _up(value: Any) -> float | Fraction:
     if upper < Fraction(1, 10**300):
         return upper
     return float(upper) * (1 + 1e-15) if upper < 10**300 else math.inf
+
+
+def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, Accuracy]:
+    """Raise the precision until the enclosure is small enough.
+
+    Gives the plan with the precision that was. Raises ``ToleranceError``, which says why more bits
+    do not help.
+    """
+    floor, problem = plan.problem.radii.relative_std(), plan.problem
+    system = plan.system
+    assert isinstance(system, Balls)
+    if system.bits > MOST_BITS:
+        raise ToleranceError(
+            f"the tolerance can't be reached: {short(plan.tolerance or floor)} at height "
+            f"{problem.height} needs {system.bits} bits or more, and {MOST_BITS} are "
+            f"the most; ask for about {_least_tolerance(problem.height)} at best"
+        )
+    while True:
+        try:
+            found = answer(plan.quantity, problem, range(problem.realisations), system, work)
+            with work.timed(CERTIFY), system.active():
+                accuracy = of_balls(found.table, system, floor)
+            if plan.tolerance is None or accuracy.within(plan.tolerance):
+                return replace(plan, method=replace(plan.method, system=system)), found, accuracy
+            why = f"at {system.bits} bits {accuracy.still}"
+        except (UndecidedError, NotStandingError) as error:
+            why = f"at {system.bits} bits: {error}"
+        if system.bits == MOST_BITS:
+            break
+        system = Balls(min(2 * system.bits, MOST_BITS))
+    message = f"the tolerance can't be reached: {why}, and more than {MOST_BITS} are not tried"
+    highest = critical_height(floor)
+    if problem.height > highest / 2:
+        message += (
+            f"; the height is {problem.height}, and the theory holds well below "
+            f"M* = (σ/r)^(-2/3) = {highest:.3g}"
+        )
+    raise ToleranceError(message)
+
+
+def _least_tolerance(height: int) -> str:
+    """Give the power of ten that the highest precision starts with, at this height."""
+    digits = MOST_BITS - initial_bits(Fraction(1), height)
+    return f"1e-{int(digits * 0.30102)}"

@@ -6,18 +6,21 @@ The repeat solves the same packings. Its own error is bounded where balls did it
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from ..arithmetic.systems import (
+    FLOAT64,
     Balls,
     Hardware,
     NumberSystem,
     as_ball,
     midpoint,
 )
+from ..mechanics.work import Work
 from ..planning.expected_error import (
     PRINTED,
     SAFETY,
@@ -25,9 +28,39 @@ from ..planning.expected_error import (
     merging,
     usual_units,
 )
-from ..planning.plan import Plan
+from ..planning.plan import ESTIMATE, Plan
+from ..quantities.answer import Answer, answer
 from ..quantities.base import Table
 from .accuracy import Accuracy
+
+
+def repeated(plan: Plan, work: Work) -> tuple[Answer, Accuracy]:
+    """Answer, and solve the first realisations again with a longer significand to compare."""
+    quantity, problem, longer = plan.quantity, plan.problem, plan.method.longer
+    found = answer(quantity, problem, range(problem.realisations), plan.system, work)
+    few = range(plan.method.repeated)
+    part = replace(problem, realisations=len(few))
+    assert longer is not None
+    with work.repeat(ESTIMATE):
+        table = found.table
+        if len(few) < problem.realisations:
+            table = answer(quantity, part, few, plan.system, work).table
+        again = answer(quantity, part, few, longer, work).table
+        if plan.tolerance is None:
+            return found, of_floats(table, again, found.table, FLOAT64)
+        with longer.active():
+            return found, of_repeat(table, again, found.table, plan)
+
+
+def shortfall(found: Answer, accuracy: Accuracy, tolerance: Fraction) -> str:
+    """Say why an estimated answer does not meet the tolerance; an empty string where it does."""
+    if not accuracy.within(tolerance):
+        return accuracy.still if accuracy.bits_lost else accuracy.note
+    if found.bins:
+        edges = [found.bins[0][0], *(high for _, high, _ in found.bins)]
+        if edge_in_doubt(found.table, edges, accuracy):
+            return "a change lies within its error of the edge of a bin"
+    return ""
 
 
 def of_floats(table: Table, longer: Table, whole: Table, system: Hardware) -> Accuracy:

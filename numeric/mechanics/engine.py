@@ -10,6 +10,7 @@ from ..lattice.layers import Layer, Region
 from . import first_order, packing
 from .forces import Forces, sweep_down
 from .packing import SolvedPacking
+from .physicality import PHYSICAL, Physicality
 from .plain_form import solve_plainly
 from .problem import Problem, Route, Solved
 from .work import Work
@@ -34,14 +35,16 @@ def packings(
     realisations: Sequence[int],
     system: NumberSystem,
     work: Work | None = None,
+    physical: Physicality | None = None,
     *,
     plainly: bool = False,
 ) -> Iterator[tuple[Solved, Sequence[int]]]:
     """Solve realisations in their order, as many at a time as is good for the arrays.
 
     Gives what was solved together and its realisations: the first axis of arrays, which a single
-    one lacks. The caller activates ``system``. ``plainly`` takes the plain form. Raises what the
-    sweeps raise for a packing that can't be built, or not be decided.
+    one lacks. The caller activates ``system``. ``physical`` looks at every packing. ``plainly``
+    takes the plain form. Raises what the sweeps raise for a packing that can't be built, or not be
+    decided.
     """
     work = Work() if work is None else work
     size = 1
@@ -50,7 +53,15 @@ def packings(
     for at in range(0, len(realisations), size):
         chunk = realisations[at : at + size]
         solver = solve_plainly if plainly else solve
-        yield solver(problem, chunk, system, work), chunk
+        solved = solver(problem, chunk, system, work)
+        if physical is not None and solved.packing is not None:
+            with work.timed(PHYSICAL):
+                physical.look_at_gaps(solved.packing)
+                if solved.forces is not None:
+                    physical.look_at_forces(solved.forces)
+            for layer in solved.packing.region.rows:
+                work.did("checked", layer, len(chunk))
+        yield solved, chunk
 
 
 def solve(

@@ -16,6 +16,7 @@ from ..lattice.branch import Contact
 from .forces import Forces, pulling
 from .packing import SolvedPacking
 
+PHYSICAL = "check that it is physical"
 # Neighbours that don't touch in the ordered packing, to the right or above, nearest first.
 NEIGHBOURS = ((2, 0), (0, 2), (3, 1), (-3, 1), (1, 3), (-1, 3))
 # Gaps smaller than this, in units of r, are below the rounding of the float64 check.

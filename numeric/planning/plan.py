@@ -16,7 +16,7 @@ from ..mechanics.problem import Problem
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
 
-PHYSICAL, ESTIMATE, CERTIFY = "check that it is physical", "estimate the error", "certify"
+ESTIMATE, CERTIFY = "estimate the error", "certify"
 # What errors of float64 are estimated with: an own long double, where the platform has one.
 LONGER: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
 

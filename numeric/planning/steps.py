@@ -3,9 +3,10 @@
 from dataclasses import replace
 
 from ..disorder.radii import DrawnRadii
+from ..mechanics.physicality import PHYSICAL
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
-from .plan import CERTIFY, ESTIMATE, PHYSICAL, Method, Step
+from .plan import CERTIFY, ESTIMATE, Method, Step
 
 
 def steps_of(quantity: Quantity, problem: Problem, method: Method) -> tuple[Step, ...]:

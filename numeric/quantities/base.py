@@ -123,6 +123,12 @@ class Quantity(ABC):
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
         """Start to gather the answer."""
 
+    def bins_of(
+        self, table: Table, system: NumberSystem
+    ) -> list[tuple[Fraction, Fraction, int]] | None:
+        """Count an answer into bins (low, high, count); None unless the question is about that."""
+        return None
+
     def home(self, i: int) -> int:
         """Give a column within 0 … 2W − 1 of a periodic packing."""
         return i if self.width is None else i % (2 * self.width)

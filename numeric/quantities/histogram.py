@@ -5,10 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.systems import Array
+from ..arithmetic.systems import Array, NumberSystem
 from ..lattice.layers import Region
 from ..mechanics.problem import Problem, Solved
 from ..scene.scene import Scene
+from ..statistics.histogram import histogram
 from .base import (
     ContactQuantity,
     Listed,
@@ -30,6 +31,10 @@ class Histogram(ContactQuantity, Listed):
     def bins(self) -> int:
         """How many bins there are."""
         return self.scene.ask.bins or DEFAULT_BINS
+
+    def bins_of(self, table: Table, system: NumberSystem) -> list[tuple[Fraction, Fraction, int]]:
+        """Count the changes into equal bins."""
+        return histogram(table.numbers["change"], self.bins, system)
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a bin; a change counts for a little."""

@@ -10,9 +10,8 @@ from typing import Any
 import pytest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
-from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.outcome import Outcome
-from force_diffusion.numeric.run import _attempt
+from force_diffusion.numeric.quantities.answer import answer as answered
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -169,10 +168,10 @@ def test_images_are_seen_exactly_where_the_region_needs_more_width(
 def test_realisations_are_independent_of_the_batch(quantity: str) -> None:
     """Each realisation of a batch is bit for bit the one solved alone."""
     plan = planned(basic(4, 9, quantity=quantity, realisations=5))
-    together = _attempt(plan, FLOAT64, range(5), Work()).table
+    together = answered(plan.quantity, plan.problem, range(5), FLOAT64).table
     single = replace(plan, problem=replace(plan.problem, realisations=1))
     for k in range(5):
-        alone = _attempt(single, FLOAT64, [k], Work()).table
+        alone = answered(plan.quantity, single.problem, [k], FLOAT64).table
         for name, column in alone.numbers.items():
             n = len(column)
             assert n
