@@ -82,8 +82,12 @@ class Outcome:
                 "high": np.array([float(edge) for edge in high]),
                 "count": np.array(count, dtype=np.int64),
             }
-        index = {name: np.array(values) for name, values in self.answer.table.index.items()}
-        return index | self.answer.table.numbers
+        table = self.answer.table
+        index = {
+            name: np.array(values, dtype=np.float64 if name == "first_order_std" else None)
+            for name, values in table.index.items()
+        }
+        return index | table.numbers
 
     def rows(self) -> list[Row]:
         """The answer row by row, ready for a data frame; numbers as Python's int and float."""

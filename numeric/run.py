@@ -73,6 +73,17 @@ def _squares_vanish(plan: Plan) -> bool:
     return 0 < plan.problem.radii.relative_std() ** 2 < Fraction(1, 10**300)
 
 
+def read_tolerance(value: Any) -> Fraction:
+    """Give a tolerance as a fraction. Raises ``SceneError``."""
+    try:
+        asked = exact(value)
+    except ValueError as error:
+        raise SceneError("tolerance", value, str(error)) from None
+    if not 0 < asked < 1:
+        raise SceneError("tolerance", value, "must lie between 0 and 1")
+    return asked
+
+
 class Scene(scene.Scene):
     """A scene that can be explained and run: the classes that a TOML file is read into.
 
@@ -98,14 +109,7 @@ class Scene(scene.Scene):
         bound will do. Both override what the scene asks. Raises ``SceneError`` for a scene that
         takes too much memory or time, and ``TableError``.
         """
-        if tolerance is None:
-            return plan(self, certified=certified)
-        try:
-            asked = exact(tolerance)
-        except ValueError as error:
-            raise SceneError("tolerance", tolerance, str(error)) from None
-        if not 0 < asked < 1:
-            raise SceneError("tolerance", tolerance, "must lie between 0 and 1")
+        asked = None if tolerance is None else read_tolerance(tolerance)
         return plan(self, asked, certified=certified)
 
     def run(

@@ -46,7 +46,7 @@ def repeated(plan: Plan, work: Work) -> tuple[Answer, Accuracy]:
         if len(few) < problem.realisations:
             table = answer(quantity, part, few, plan.system, work).table
         again = answer(quantity, part, few, longer, work).table
-        if plan.tolerance is None:
+        if plan.tolerance is None and plan.system is FLOAT64:
             return found, of_floats(table, again, found.table, FLOAT64)
         with longer.active():
             return found, of_repeat(table, again, found.table, plan)

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
+MOST_DIGITS = 2400  # of big numbers; balls never get more than 8192 bits
 
 
 class NumberSystem(Protocol):
@@ -85,6 +86,13 @@ def from_floats(system: NumberSystem, values: Array) -> Array:
     for q, value in enumerate(values.reshape(-1).tolist()):
         flat[q] = system.from_float(value)
     return result
+
+
+def as_floats(values: Array) -> Array:
+    """Round numbers of any arithmetic to float64 (balls: their midpoints); the same shape."""
+    if values.dtype != object:
+        return values.astype(np.float64)
+    return np.array([float(v) for v in values.reshape(-1)]).reshape(values.shape)
 
 
 @dataclass(frozen=True)
@@ -363,3 +371,22 @@ def _rational_root(value: Any) -> Any:
 def _series_sqrt(value: Any) -> Any:
     constant = value[0]
     return (value / constant).sqrt() * _rational_root(constant)
+
+
+def system_of(name: str) -> NumberSystem:
+    """Give a number system by its name; ``ValueError`` says which there are.
+
+    >>> [system_of(name).name for name in ("float64", "mpmath 50", "balls 50")]
+    ['float64', 'mpmath, 50 digits', 'arb balls, 167 bits']
+    """
+    kind, _, digits = name.partition(" ")
+    if name in (FLOAT64.name, LONGDOUBLE.name):
+        return FLOAT64 if name == FLOAT64.name else LONGDOUBLE
+    if kind in ("mpmath", "balls") and digits.isdecimal() and 15 <= int(digits) <= MOST_DIGITS:
+        if kind == "mpmath":
+            return BigFloat(int(digits))
+        return Balls(math.ceil(int(digits) * math.log2(10)))
+    raise ValueError(
+        'must be "float64", "longdouble", "mpmath N" or "balls N" with N decimal digits, '
+        f"from 15 to {MOST_DIGITS}"
+    )

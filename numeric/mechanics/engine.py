@@ -6,7 +6,7 @@ from typing import Any
 from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import rows_of
 from ..lattice.branch import Branch
-from ..lattice.layers import Layer, Region
+from ..lattice.layers import Layer
 from . import first_order, packing
 from .forces import Forces, sweep_down
 from .packing import SolvedPacking
@@ -23,11 +23,12 @@ BLOCK = 10_000
 TOGETHER = 200_000
 
 
-def chunk_size(region: Region, system: NumberSystem, *, stop_at_tension: bool = False) -> int:
+def chunk_size(problem: Problem, system: NumberSystem) -> int:
     """Say how many realisations are swept together: as many as keep the arrays small."""
-    if system.dtype is object or stop_at_tension:
+    one_by_one = problem.stop_at_tension or problem.route == Route.LINE_SUMS
+    if system.dtype is object or one_by_one:
         return 1
-    return max(1, TOGETHER // max(region.beads, 1))
+    return max(1, TOGETHER // max(problem.region.beads, 1))
 
 
 def packings(
@@ -47,9 +48,7 @@ def packings(
     decided.
     """
     work = Work() if work is None else work
-    size = 1
-    if problem.route != Route.LINE_SUMS:
-        size = chunk_size(problem.region, system, stop_at_tension=problem.stop_at_tension)
+    size = chunk_size(problem, system)
     for at in range(0, len(realisations), size):
         chunk = realisations[at : at + size]
         solver = solve_plainly if plainly else solve

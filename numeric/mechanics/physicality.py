@@ -11,7 +11,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from ..arithmetic.systems import Array
+from ..arithmetic.systems import Array, as_floats
 from ..lattice.branch import Contact
 from .forces import Forces, pulling
 from .packing import SolvedPacking
@@ -45,9 +45,9 @@ class Physicality:
 
     def look_at_gaps(self, packing: SolvedPacking) -> None:
         """Measure the gaps of every pair of near neighbours within the region."""
-        c_plus = [_floats(c) for c in packing.c.plus]
-        c_minus = [_floats(c) for c in packing.c.minus]
-        rho = [_floats(r) for r in packing.rho]
+        c_plus = [as_floats(c) for c in packing.c.plus]
+        c_minus = [as_floats(c) for c in packing.c.minus]
+        rho = [as_floats(r) for r in packing.rho]
         for dj in (0, 1, 2, 3):
             for j in range(packing.region.top + 1 - dj):
                 for di, dj_of in NEIGHBOURS:
@@ -112,12 +112,6 @@ class Physicality:
 
 def _home(i: int, period: int | None) -> int:
     return i if period is None else i % period
-
-
-def _floats(values: Array) -> Array:
-    if values.dtype != object:
-        return values.astype(np.float64)
-    return np.array([float(v) for v in values.reshape(-1)]).reshape(values.shape)
 
 
 def _gaps(n_x: Fraction, offset: tuple[int, int], up: Array, um: Array, both: Array) -> Array:

@@ -7,11 +7,11 @@ from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import Monodisperse, Radii
 from ..lattice.layers import Region
 from ..mechanics.engine import chunk_size
+from ..mechanics.images import sees_images
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
 from . import budget, float_range
-from .images import sees_images
 from .plan import Method, Plan, Skipped
 from .sources import load_of, radii_of
 from .steps import steps_of
@@ -49,11 +49,14 @@ class Outline:
     def plan(self, method: Method) -> Plan:
         """Plan a method. Raises ``SceneError`` where it takes too much, or numbers can't hold."""
         scene, problem = self.scene, self.problem
+        together = chunk_size(problem, method.system)
+        images = sees_images(problem, self.quantity.lowest_layer)
         if method.system.dtype is not object:
             float_range.check(scene, problem.radii, problem.load)
         steps = steps_of(self.quantity, problem, method)
-        memory = self._refuse_memory(method, max((s.beads for s in steps), default=0))
-        seconds = predicted(self.quantity, problem, method)
+        visited = max((step.beads for step in steps), default=0)
+        memory = self._refuse_memory(method, together, visited)
+        seconds = predicted(self.quantity, problem, method, together)
         budget.refuse_seconds(scene, problem.realisations, seconds)
         return Plan(
             scene,
@@ -65,14 +68,16 @@ class Outline:
             self.skipped,
             memory,
             seconds,
-            sees_images(self.quantity, problem),
+            images,
         )
 
-    def _refuse_memory(self, method: Method, visited: int) -> int:
-        """Give the memory needed, or refuse the scene; ``visited`` beads in the longest step."""
+    def _refuse_memory(self, method: Method, together: int, visited: int) -> int:
+        """Give the memory needed, or refuse the scene.
+
+        ``together`` realisations are swept at once; the longest step has ``visited`` beads.
+        """
         problem = self.problem
         n, region = problem.realisations, problem.region
-        together = chunk_size(region, method.system, stop_at_tension=problem.stop_at_tension)
         at_once = region.beads * min(n, together)
         if self.closed:  # one realisation after the other
             at_once = visited // n
@@ -122,8 +127,7 @@ def outline(
     elif not scene.load.angle_deg and scene.load.kind != "file":
         skipped.append(Skipped("load at an angle", "the load points straight down"))
     single = closed and quantity.single
-    force_rows = () if single else quantity.force_rows(load)
-    region = Region(load.width, ()) if single else quantity.region(force_rows)
+    force_rows, region = ((), Region(load.width, ())) if single else quantity.beads(load)
     radii, route = _theory(scene, region, skipped, ordered=ordered, closed=closed)
     realisations = scene.ask.realisations
     if realisations > 1 and route == Route.ORDERED:

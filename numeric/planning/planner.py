@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from ..arithmetic.machine import memory_limit as free_memory
-from ..arithmetic.systems import FLOAT64, Balls
+from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..mechanics.problem import Route
 from ..quantities import quantity_of
 from ..scene.scene import Scene
@@ -28,13 +28,14 @@ def plan(
     memory_limit: int | None = None,
     *,
     certified: bool = False,
+    system: NumberSystem = FLOAT64,
 ) -> Plan:
     """Plan a scene; ``tolerance`` and ``certified`` override the scene's own.
 
     With a tolerance the first of float64, long double and balls is chosen that should meet it;
-    ``certified`` keeps the choice to balls. Reads the scene's files. Raises ``SceneError`` for a
-    scene that is too large for the memory (``memory_limit`` bytes, by default most of what is free)
-    or for a lifetime, and ``TableError``.
+    ``certified`` keeps the choice to balls. Without one ``system`` is the arithmetic. Reads the
+    scene's files. Raises ``SceneError`` for a scene that is too large for the memory
+    (``memory_limit`` bytes, by default most of what is free) or for a lifetime, and ``TableError``.
     """
     tolerance = tolerance or scene.ask.tolerance
     certified = certified or scene.ask.certified
@@ -48,8 +49,15 @@ def plan(
         return outlines[0].plan(Method(Balls(bits)))
     if tolerance is None:
         few = FEW if first.region.beads < SMALL else 1
-        return outlines[0].plan(Method(FLOAT64, LONGER, min(first.realisations, few)))
+        return outlines[0].plan(_method(system, min(first.realisations, few)))
     return choose(outlines, tolerance, certified=certified)
+
+
+def _method(system: NumberSystem, repeated: int) -> Method:
+    """Say how the error of an answer in this arithmetic becomes known."""
+    if isinstance(system, Balls):
+        return Method(system)
+    return Method(system, LONGER if system is FLOAT64 else Balls(system.bits + 128), repeated)
 
 
 def _outlines(scene: Scene, limit: int, tolerance: Fraction | None) -> Sequence[Outline]:

@@ -7,7 +7,7 @@ would take longer than a day.
 from typing import NamedTuple
 
 from ..arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, NumberSystem
-from ..mechanics.engine import COMPILED_FROM, chunk_size
+from ..mechanics.engine import COMPILED_FROM
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
 from .plan import Method
@@ -41,17 +41,22 @@ _ROWS = {"float64": 5e-6, "longdouble": 2e-5, "mpmath": 6e-5, "balls": 1e-5}
 _COMPILER, _COMPILED = 0.7, 0.6
 
 
-def predicted(quantity: Quantity, problem: Problem, method: Method) -> float:
-    """Predict the seconds of a method: its own pass, and what is repeated."""
-    seconds = _pass(quantity, problem, method.system, problem.realisations)
+def predicted(quantity: Quantity, problem: Problem, method: Method, together: int) -> float:
+    """Predict the seconds of a method: its own pass, and what is repeated.
+
+    ``together``: realisations that are swept at once.
+    """
+    seconds = _pass(quantity, problem, method.system, problem.realisations, together)
     if method.longer is not None:
         if method.repeated < problem.realisations:
-            seconds += _pass(quantity, problem, method.system, method.repeated)
-        seconds += _pass(quantity, problem, method.longer, method.repeated)
+            seconds += _pass(quantity, problem, method.system, method.repeated, together)
+        seconds += _pass(quantity, problem, method.longer, method.repeated, together)
     return seconds
 
 
-def _pass(quantity: Quantity, problem: Problem, system: NumberSystem, n: int) -> float:
+def _pass(
+    quantity: Quantity, problem: Problem, system: NumberSystem, n: int, together: int
+) -> float:
     family = _family(system)
     bits = system.bits / 1000 if system.dtype is object else 0.0
     rows = quantity.answer_rows(problem.region, 1 if quantity.merged else n)
@@ -62,8 +67,8 @@ def _pass(quantity: Quantity, problem: Problem, system: NumberSystem, n: int) ->
     if problem.route == Route.LINE_SUMS:
         beads = quantity.line_beads(problem.load)
         return spent + n * (layer + beads * (bead + kilobit * bits))
-    region, stop = problem.region, problem.stop_at_tension
-    chunks = -(-n // chunk_size(region, system, stop_at_tension=stop))
+    region = problem.region
+    chunks = -(-n // together)
     work = region.beads * n * (bead + kilobit * bits * (1 + bits / 10))
     if system is FLOAT64 and problem.route == Route.EXACT and region.beads * n >= COMPILED_FROM:
         work = _COMPILER + work * _COMPILED

@@ -85,6 +85,11 @@ class Quantity(ABC):
         """Whether one contact or one bead is asked for, and not the whole packing."""
         return self.scene.ask.at is not None
 
+    def beads(self, load: LoadSpec) -> tuple[Rows, Region]:
+        """Give the beads whose forces are to be balanced, and those that are to be deposited."""
+        rows = self.force_rows(load)
+        return rows, self.region(rows)
+
     def force_rows(self, load: LoadSpec) -> Rows:
         """Give the beads whose forces are to be balanced."""
         if load.loaded is not None:
@@ -198,7 +203,7 @@ class ContactQuantity(Quantity):
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Give columns that name the groups, one entry a group."""
         contacts = [
-            (self.home(i - branch.side), row.j - 1, branch)
+            (self.home(i - branch.side), row.j - 1, branch.value)
             for branch, row in self.blocks(problem)
             for i in row.sites()
         ]

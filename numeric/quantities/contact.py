@@ -53,7 +53,8 @@ class SingleContact(ContactQuantity):
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Name the one group."""
-        return {name: [value] for name, value in self.contact._asdict().items()}
+        i, j, branch = self.contact
+        return {"i": [i], "j": [j], "branch": [branch.value]}
 
     def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
         """Give F, shape (1, 1), and g, (1, realisations, 1)."""
@@ -82,7 +83,7 @@ class SingleContact(ContactQuantity):
             found = [(solved.forces.ordered[branch][j + 1][0] + g, g)]
         i = self.home(self.contact.i)
         return Table(
-            {"i": [i] * len(found), "j": [j] * len(found), "branch": [branch] * len(found)},
+            {"i": [i] * len(found), "j": [j] * len(found), "branch": [branch.value] * len(found)},
             {
                 "force": column([force for force, _ in found], solved.system),
                 "change": column([change for _, change in found], solved.system),

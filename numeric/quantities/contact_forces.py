@@ -37,7 +37,7 @@ class ContactForces(ContactQuantity, Listed):
             {
                 "i": [self.home(i - b.side) for b, row in blocks for i in row.sites()],
                 "j": [row.j - 1 for _, row in blocks for _ in range(row.count)],
-                "branch": [b for b, row in blocks for _ in range(row.count)],
+                "branch": [b.value for b, row in blocks for _ in range(row.count)],
             },
             {
                 "force": joined(solved.system, [F + g[0] for _, F, g in found]),

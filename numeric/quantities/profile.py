@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic.decimals import decimal_string
-from ..arithmetic.systems import Array, NumberSystem
+from ..arithmetic.systems import Array, NumberSystem, as_floats
 from ..lattice.branch import Branch
 from ..lattice.layers import Region, full_layer
 from ..mechanics.problem import Problem, Solved
-from ..statistics.moments import Moments, unit_near
+from ..statistics.moments import Moments, Scatter, unit_near
 from .base import (
     Block,
     ContactQuantity,
@@ -52,7 +52,7 @@ class Profile(ContactQuantity):
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Name the layers, by the lower beads of their contacts."""
         blocks = self.blocks(problem)
-        return {"j": [row.j - 1 for _, row in blocks], "branch": [branch for branch, _ in blocks]}
+        return {"j": [row.j - 1 for _, row in blocks], "branch": [b.value for b, _ in blocks]}
 
     def members(self, problem: Problem) -> int:
         """W contacts."""
@@ -75,18 +75,25 @@ class _Moments(Gatherer):
         self.quantity, self.problem, self.system = quantity, problem, system
         self.unit = unit_near(problem.radii.relative_std())
         self.found: dict[tuple[int, Branch], tuple[Any, Moments]] = {}
+        self.scatter = Scatter()
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Merge the changes of the contacts; ordered forces only enter the mean."""
         assert solved.forces is not None
         blocks = above_stop(self.quantity.blocks(self.problem), solved.forces)
+        means, squares = [], []
         for (branch, row), F, g in contact_changes(solved, blocks, len(realisations)):
+            scaled = as_floats(g / self.unit)
+            means.append(scaled.mean(axis=1))
+            squares.append((scaled**2).mean(axis=1))
             key = row.j - 1, branch
             if key not in self.found:
                 # under a surface or bulk load F is one number, which a sum would round
                 one = self.problem.load.loaded is None
                 self.found[key] = (F[0] if one else F.sum() / len(F), Moments(self.unit))
             self.found[key][1].add(g.reshape(-1))
+        if not self.problem.stop_at_tension:
+            self.scatter.add(np.stack(means, axis=1), np.stack(squares, axis=1))
 
     def table(self) -> Table:
         """One row a layer and branch, base first."""
@@ -97,7 +104,7 @@ class _Moments(Gatherer):
         std = [one.std(self.system).item() for one in moments]
         index: dict[str, list[Any]] = {
             "j": [j for j, _ in keys],
-            "branch": [branch for _, branch in keys],
+            "branch": [branch.value for _, branch in keys],
             "samples": [one.count for one in moments],
         }
         theory = first_order_std(self.problem)
@@ -111,7 +118,12 @@ class _Moments(Gatherer):
                 "std": column(std, self.system),
             },
             ("mean_change", "std"),
+            {} if self.problem.stop_at_tension else self._errors(),
         )
+
+    def _errors(self) -> dict[str, Array]:
+        mean, std = (error * self.unit for error in self.scatter.errors())
+        return {"mean_change": mean, "std": std}
 
 
 def _printed(value: Fraction) -> str:

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.systems import FLOAT64, Array, NumberSystem, zeros
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats, zeros
 from ..lattice.layers import Region, pick
 from ..mechanics.problem import Problem, Route, Solved
-from ..statistics.moments import Moments, unit_near
+from ..statistics.moments import Moments, Scatter, unit_near
 from .base import (
     ContactQuantity,
     Gatherer,
@@ -78,7 +78,7 @@ class Response(ContactQuantity):
         contacts: dict[str, list[Any]] = {
             "i": [self.home(i - branch.side) for (branch, row), _, _ in parts for i in row.sites()],
             "j": [row.j - 1 for (_, row), _, _ in parts for _ in range(row.count)],
-            "branch": [branch for (branch, row), _, _ in parts for _ in range(row.count)],
+            "branch": [branch.value for (branch, row), _, _ in parts for _ in range(row.count)],
         }
         nothing = zeros(system, realisations, 0)
         return (
@@ -99,6 +99,7 @@ class _Responses(Gatherer):
     def __init__(self, quantity: Response, problem: Problem, system: NumberSystem) -> None:
         self.quantity, self.problem, self.system = quantity, problem, system
         self.moments = Moments(unit_near(problem.radii.relative_std()))
+        self.scatter = Scatter()
         self.last: tuple[dict[str, list[Any]], Array, Array, Array] | None = None
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
@@ -107,7 +108,9 @@ class _Responses(Gatherer):
             one = solved if len(realisations) == 1 else solved.one(number)
             self.last = self.quantity.both(self.problem, one, 1)
             if self.problem.realisations > 1:
-                self.moments.add(np.concatenate(self.last[2:], axis=1))
+                both = np.concatenate(self.last[2:], axis=1)
+                self.moments.add(both)
+                self.scatter.add(*_squared(both))
 
     def table(self) -> Table:
         """One row a contact."""
@@ -127,6 +130,7 @@ class _Responses(Gatherer):
             )
         half = len(F)
         mean, std = self.moments.average(), self.moments.std(self.system)
+        of_mean, of_std = self.scatter.errors()
         return Table(
             contacts,
             {
@@ -138,4 +142,15 @@ class _Responses(Gatherer):
                 "vertical_std": std[half:],
             },
             ("force_mean_change", "force_std", "vertical_mean_change", "vertical_std"),
+            {
+                "force_mean_change": of_mean[:half],
+                "force_std": of_std[:half],
+                "vertical_mean_change": of_mean[half:],
+                "vertical_std": of_std[half:],
+            },
         )
+
+
+def _squared(values: Array) -> tuple[Array, Array]:
+    floats = as_floats(values)
+    return floats, floats**2

@@ -61,6 +61,13 @@ def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
             f"an array of shape {shape}; the packing has {layers[0]} layers, base included, of "
             f"{layers[1]} beads: give ({layers[0]}, {layers[1]}), or (packings, …) for several",
         )
+    mean = float(given.values.mean()) - (packing.radius if given.delta_r is None else 0)
+    if abs(mean) > packing.radius / 2:
+        raise SceneError(
+            "packing.radius",
+            packing.radius,
+            f"must be near the mean radius of the beads, which differs from it by {mean:.3g}",
+        )
     packings = shape[0] if len(shape) == 3 else 1
     if ask.realisations > packings:
         raise SceneError(

@@ -133,7 +133,10 @@ class Disorder(Section):
 
 def _radii(value: object) -> Array:
     """Hold a copy of an array of finite numbers."""
-    values = np.array(value, dtype=np.float64)
+    try:
+        values = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ValueError("must be an array of numbers, all rows equally long") from None
     if values.ndim not in (2, 3):
         raise ValueError("must be an array of shape (layers, W), or (packings, layers, W)")
     if not np.isfinite(values).all():

@@ -55,6 +55,38 @@ class Moments:
         return np.asarray(root(np.asarray(self.square / self.count), system) * self.unit)
 
 
+class Scatter:
+    """How means over packings scatter from packing to packing: their standard errors.
+
+    The unit is the packing: the contacts of one are correlated, packings are independent.
+    """
+
+    def __init__(self) -> None:
+        self._mean: list[Array] = []
+        self._square: list[Array] = []
+
+    def add(self, mean: Array, square: Array) -> None:
+        """Take in packings: the means of x and of x², shapes (packings, groups)."""
+        self._mean.append(np.asarray(mean, dtype=np.float64))
+        self._square.append(np.asarray(square, dtype=np.float64))
+
+    def errors(self) -> tuple[Array, Array]:
+        """Give the standard errors of the mean and of the standard deviation, shape (groups,) each.
+
+        NaN for a single packing, and for the deviation of what does not vary.
+        """
+        a, b = np.concatenate(self._mean), np.concatenate(self._square)
+        packings = len(a)
+        if packings < 2:
+            return np.full(a.shape[1], np.nan), np.full(a.shape[1], np.nan)
+        mean, square = a.mean(axis=0), b.mean(axis=0)
+        std = np.sqrt(np.maximum(square - mean**2, 0))
+        of_mean = a.std(axis=0, ddof=1) / math.sqrt(packings)
+        of_variance = (b - 2 * mean * a).std(axis=0, ddof=1) / math.sqrt(packings)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return of_mean, np.where(std > 0, of_variance / (2 * std), np.nan)
+
+
 def unit_near(size: Fraction) -> float:
     """Give the power of two below a positive size, within the range where it can be squared.
 

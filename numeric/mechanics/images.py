@@ -11,28 +11,30 @@ from itertools import combinations, pairwise
 
 from ..lattice.branch import Branch, Contact, Site
 from ..lattice.layers import full_layer
-from ..mechanics import first_order
-from ..mechanics.loads import LoadSpec
-from ..mechanics.problem import Problem, Route
-from ..quantities.base import Quantity
+from . import first_order
+from .loads import LoadSpec
+from .problem import Problem, Route
 
 
-def sees_images(quantity: Quantity, problem: Problem) -> bool:
-    """Say whether any row of the answer differs, with radii in general, from the slab's."""
+def sees_images(problem: Problem, lowest_layer: int) -> bool:
+    """Say whether any row of the answer differs, with radii in general, from the slab's.
+
+    ``lowest_layer``: of the beads that are asked about (1: by the contacts below them).
+    """
     width, load, contact = problem.width, problem.load, problem.contact
     if width is None:
         return False
-    if not quantity.needs_forces:
+    if not problem.needs_forces:
         tip = problem.height if problem.site is None else problem.site[1]
         return problem.route != Route.ORDERED and tip >= width
-    on_base = quantity.lowest_layer == 0
+    on_base = lowest_layer == 0
     if problem.route == Route.ORDERED:  # both rays of a load may end on one base bead
         return on_base and any(j and j % width == 0 for _, j in load.loaded or [])
     if problem.route == Route.EXACT:
         if contact is not None:
             return _exact([contact.upper], load, width)
-        layer = quantity.lowest_layer
-        return _exact([(i, layer) for i in full_layer(layer, width).sites()], load, width)
+        row = full_layer(lowest_layer, width)
+        return _exact([(i, lowest_layer) for i in row.sites()], load, width)
     if contact is not None:
         return _first_order(contact.upper, [contact], load, width)
     highest = _highest(load)

@@ -1,0 +1,151 @@
+"""Radii of one's own: every bead is in balance, in space and exactly."""
+
+import math
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.arithmetic.systems import Array
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+import force_diffusion as fd
+
+
+def balance(solution: fd.Solution, weights: Array) -> float:
+    """Give the largest component of what is left over on any bead above the base.
+
+    Found from nothing but positions and forces, in Cartesian coordinates: ``weights`` (M + 1, W)
+    are the loads, straight down.
+    """
+    centres, forces = solution.position, solution.force
+    M, W = forces.shape[1:]
+    period = float(solution.scene.spacing) * W
+    worst = 0.0
+    for j in range(1, M + 1):
+        for q in range(W):
+            i = 2 * q + j % 2
+            total = np.array([0.0, -weights[j, q]])
+            for b, side in ((0, 1), (1, -1)):
+                below = (i - side - (j - 1) % 2) // 2 % W
+                total += forces[b, j - 1, below] * unit(
+                    centres[j, q] - centres[j - 1, below], period
+                )
+                if j < M:
+                    above = (i + side - (j + 1) % 2) // 2 % W
+                    step = centres[j, q] - centres[j + 1, above]
+                    total += forces[b, j, q] * unit(step, period)
+            worst = max(worst, float(np.abs(total).max()))
+    return worst
+
+
+def unit(step: Array, period: float) -> Array:
+    step = step - [period * round(step[0] / period), 0]
+    return np.asarray(step / np.linalg.norm(step))
+
+
+@given(
+    st.integers(1, 5).flatmap(
+        lambda M: st.integers(2, 8).flatmap(
+            lambda W: arrays(np.float64, (M + 1, W), elements=st.floats(-1e-3, 1e-3))
+        )
+    ),
+    st.sampled_from([2.2, 2.8, 3.0, 3.3]),
+    st.sampled_from([0.25, 1.0, 7.0]),
+    st.booleans(),
+)
+def test_every_bead_is_in_balance(delta: Array, s: float, r: float, bulk: bool) -> None:
+    load = fd.BulkLoad() if bulk else fd.SurfaceLoad()
+    solution = fd.solve(delta_r=r * delta, radius=r, spacing=s * r, load=load)
+    weights = np.zeros(delta.shape)
+    weights[-1] = 1
+    if bulk:
+        weights[:] = 1
+    scale = np.abs(solution.force).max()
+    # positions are rounded in units of the last place of the packing's width
+    assert balance(solution, weights) < 1e-13 * scale * delta.size
+    contacts = solution.position[1:] - solution.position[:-1]
+    assert np.isfinite(contacts).all()
+
+
+def test_radii_and_their_deviations_are_the_same_packing() -> None:
+    delta = np.random.default_rng(3).normal(0, 1e-3, (5, 12))
+    radii = 2 + delta  # rounded: what is solved are these doubles
+    one = fd.solve(radii, radius=2, spacing=6)
+    other = fd.solve(delta_r=radii - 2, radius=2, spacing=6)
+    assert np.array_equal(one.force, other.force)
+    assert np.array_equal(one.position, other.position)
+
+
+def test_a_batch_is_its_packings() -> None:
+    batch = 1 + np.random.default_rng(4).uniform(-1e-4, 1e-4, (3, 4, 7))
+    together = fd.solve(batch, radius=1)
+    assert together.force.shape == (3, 2, 3, 7)
+    assert together.position.shape == (3, 4, 7, 2)
+    for k, radii in enumerate(batch):
+        alone = fd.solve(radii, radius=1)
+        assert np.array_equal(together.force[k], alone.force)
+        assert np.array_equal(together.change[k], alone.change)
+        assert np.array_equal(together.position[k], alone.position)
+
+
+@pytest.mark.parametrize("arithmetic", ["longdouble", "mpmath 40", "balls 40"])
+def test_arithmetics_agree(arithmetic: str) -> None:
+    radii = 1 + np.random.default_rng(5).uniform(-1e-3, 1e-3, (4, 9))
+    usual = fd.solve(radii, radius=1)
+    longer = fd.solve(radii, radius=1, arithmetic=arithmetic)
+    largest = np.abs(usual.change).max()
+    apart = np.abs(longer.change.astype(np.float64) - usual.change).max()
+    assert apart <= usual.error * largest
+    assert longer.error < usual.error
+    assert longer.certified == arithmetic.startswith("balls")
+    assert longer.positions.accuracy.error_bound < 1e-15
+
+
+def test_a_tolerance_is_certified_when_asked() -> None:
+    radii = 1 + np.random.default_rng(6).uniform(-1e-3, 1e-3, (4, 9))
+    sharp = fd.solve(radii, tolerance=1e-30, certified=True)
+    assert sharp.certified
+    assert sharp.error <= 1e-30
+    assert len(sharp.forces.decimals()[0]["force"]) > 30
+
+
+def test_equal_radii_are_the_ordered_packing() -> None:
+    solution = fd.solve(np.ones((4, 6)))
+    assert solution.change.astype(float).tolist() == np.zeros((2, 3, 6)).tolist()
+    n_y = math.sqrt(1 - (3 / 4) ** 2)
+    assert solution.force.astype(float) == pytest.approx(np.full((2, 3, 6), 1 / (2 * n_y)))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({}, "give either radii or delta_r"),
+        ({"radii": np.ones(4)}, "shape (layers, W)"),
+        ({"radii": [[1, 2], [3]]}, "array of numbers"),
+        ({"radii": np.full((3, 4), np.nan)}, "[0, 0] is not"),
+        ({"radii": np.ones((1, 4))}, "at least 2 layers"),
+        ({"radii": np.ones((3, 4)), "spacing": 5}, "strictly between 2 r and 2√3 r"),
+        ({"radii": np.ones((3, 4)), "radius": 0.1}, "near the mean radius"),
+        ({"radii": np.ones((3, 4)), "load": "surface"}, "must be SurfaceLoad()"),
+        ({"radii": np.ones((3, 4)), "load": fd.PointLoad(at=(1, 2))}, "i + j must be even"),
+        ({"radii": np.ones((3, 4)), "tolerance": "x"}, "must be a number"),
+        ({"radii": np.ones((3, 4)), "tolerance": 2}, "between 0 and 1"),
+        ({"radii": np.ones((3, 4)), "certified": True}, "needs a tolerance"),
+        ({"radii": np.ones((3, 4)), "arithmetic": "float16"}, 'must be "float64"'),
+        ({"radii": np.ones((3, 4)), "arithmetic": "float64", "tolerance": 1e-9}, "leave one"),
+    ],
+)
+def test_wrong_arguments(arguments: dict[str, Any], says: str) -> None:
+    with pytest.raises(fd.SceneError, match=re.escape(says)) as refused:
+        fd.solve(**arguments)
+    assert refused.value.exit_status == 2
+
+
+def test_a_bead_that_cannot_rest_is_named() -> None:
+    radii = np.ones((3, 6))
+    radii[1, 2] = 5
+    with pytest.raises(fd.ForceDiffusionError, match=r"bead \(\d+, \d\)"):
+        fd.solve(radii, radius=1, spacing=3)
