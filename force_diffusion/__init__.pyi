@@ -20,3 +20,7 @@ from .numeric.scene.sections import SceneError as SceneError
 from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
 from .numeric.solving import Solution as Solution
 from .numeric.solving import solve as solve
+from .numeric.studies.cost.result import CostStudy as CostStudy
+from .numeric.studies.cost.study import cost as cost
+from .numeric.studies.stability.study import StabilityStudy as StabilityStudy
+from .numeric.studies.stability.study import stability as stability

@@ -1,8 +1,12 @@
 """Results as rows, and as tables in a notebook."""
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
+from decimal import Decimal
 from html import escape
 from typing import Any
+
+import numpy as np
 
 from .arithmetic.systems import Array
 
@@ -24,6 +28,26 @@ def rows_of(columns: Mapping[str, Array]) -> list[Row]:
         for column in columns.values()
     ]
     return [dict(zip(columns, row, strict=True)) for row in zip(*lists, strict=True)]
+
+
+def columns_of(rows: Sequence[Mapping[str, Any]]) -> dict[str, Array]:
+    """Give rows as arrays of shape (rows,); where a number is missing, it is NaN.
+
+    >>> columns_of([{"way": "a", "bound": None}, {"way": "b", "bound": 0.5}])
+    {'way': array(['a', 'b'], dtype='<U1'), 'bound': array([nan, 0.5])}
+    """
+    columns = {name: [row[name] for row in rows] for name in (rows[0] if rows else {})}
+    return {
+        name: np.array(
+            [math.nan if value is None else value for value in column] if None in column else column
+        )
+        for name, column in columns.items()
+    }
+
+
+def plain(row: Mapping[str, Any]) -> Row:
+    """Give a row with floats in place of decimals, ready for a data frame."""
+    return {n: float(value) if isinstance(value, Decimal) else value for n, value in row.items()}
 
 
 def html_table(rows: Sequence[Mapping[str, Any]], words: Iterable[str]) -> str:

@@ -115,25 +115,27 @@ def cost(
     import shlex
 
     from force_diffusion.numeric.run import read_scene
-    from force_diffusion.numeric.studies.cost.data import csv_rows, lines, study_data
-    from force_diffusion.numeric.studies.cost.study import study
+    from force_diffusion.numeric.studies.cost import study
+    from force_diffusion.numeric.studies.cost.result import csv_rows
 
     command = shlex.join(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
     names = ["cost.json", "cost.csv", *images("cost")]
     with output(out, f"cost {scene}", names, overwrite) as folder:
         with about(scene.name), noticing() as notice:
-            found = study(read_scene(scene), notice)
-        data = study_data(found, command)
+            found = study.cost(read_scene(scene), notice)
+        data = {"command": command, **found.data()}
         if folder:
-            plot = "force_diffusion.numeric.studies.cost.plot"
+            title = scene.stem
             folder.write(
                 {
                     "cost.json": json.dumps(data, indent=2) + "\n",
-                    "cost.csv": csv_text(csv_rows(data)),
-                    **drawn(plot, found, command, scene.stem),
+                    "cost.csv": csv_text(csv_rows(data, command)),
+                    **drawn(
+                        lambda: found.plot(title), "cost", f"Cost of accuracy: {title}", command
+                    ),
                 }
             )
-    print(json.dumps(data, indent=2) if as_json else "\n".join(lines(data)))
+    print(json.dumps(data, indent=2) if as_json else found)
 
 
 def _solved(planned: "Plan", scene: Path) -> dict[str, Any]:

@@ -1,12 +1,14 @@
 """What several commands share: a line that tells how far they are, and plots if they can be."""
 
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING
 
 from force_diffusion.derivations.commands.guard import tell
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @contextmanager
@@ -24,17 +26,18 @@ def noticing() -> Iterator[Callable[[str], None]]:
         notice("")
 
 
-def drawn(module: str, *arguments: Any) -> Mapping[str, str | bytes]:
-    """Call ``plots`` of a module that needs matplotlib, or say what is missing and draw nothing."""
+def drawn(plot: "Callable[[], Figure]", name: str, title: str, command: str) -> dict[str, bytes]:
+    """Give the files of a plot, which hold the command; or say what is missing, and none."""
+    from force_diffusion.numeric.figures.library import MissingLibraryError, drawing
+
     try:
-        plots = import_module(module).plots
-    except ModuleNotFoundError as error:
-        if (error.name or "").split(".")[0] != "matplotlib":
-            raise
-        tell("no plot: matplotlib is missing; pip install 'force-diffusion[plots]'")
+        with drawing():
+            from force_diffusion.numeric.figures import style
+
+            return style.images(plot, name, title, command)
+    except MissingLibraryError as error:
+        tell(f"no plot: {error}")
         return {}
-    found: Mapping[str, str | bytes] = plots(*arguments)
-    return found
 
 
 def images(name: str) -> list[str]:

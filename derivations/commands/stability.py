@@ -1,8 +1,10 @@
 """The command ``stability``: a thin layer over ``numeric.studies.stability``."""
 
 import json
+from collections.abc import Callable
+from itertools import count
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
@@ -23,50 +25,37 @@ def stability(
     """Measure what stability costs: errors and lost bits of both forms, time beside them."""
     import shlex
 
-    from force_diffusion.numeric.studies.stability.data import FILES, csv_rows, stability_data
+    from force_diffusion.numeric.studies.stability import study
 
     where = [] if out is None else ["--out", str(out)]
     command = shlex.join(["force-diffusion", "stability", *where])
 
-    names = ["stability.json", *FILES.values(), *images("stability")]
+    names = ["stability.json", *study.FILES.values(), *images("stability")]
     with output(out, "stability", names, overwrite) as folder:
-        data = stability_data(_measured(quiet=as_json), command)
+        with noticing() as notice:
+            found = study.stability(_counted(notice) if as_json else _printed)
+        data = {"command": command, **found.data()}
         if folder:
-            files: dict[str, str | bytes] = {"stability.json": json.dumps(data, indent=2) + "\n"}
-            files |= {name: csv_text(rows) for name, rows in csv_rows(data).items()}
-            files |= drawn("force_diffusion.numeric.studies.stability.plot", data)
-            folder.write(files)
+            tables = study.csv_rows(data, command)
+            folder.write(
+                {
+                    "stability.json": json.dumps(data, indent=2) + "\n",
+                    **{name: csv_text(rows) for name, rows in tables.items()},
+                    **drawn(found.plot, "stability", "The cost of stability", command),
+                }
+            )
     if as_json:
         print(json.dumps(data, indent=2))
 
 
-def _measured(*, quiet: bool) -> list[Any]:
-    """Measure all tables, printing each row as it comes, or telling a terminal how far it is."""
-    from dataclasses import asdict
+def _printed(line: str) -> None:
+    print(line, flush=True)
 
-    from force_diffusion.numeric.studies.stability.data import (
-        CLOSED_FORMS,
-        HEADS,
-        closed_form_lines,
-        line,
-        measurements,
-    )
 
-    found: list[Any] = []
-    with noticing() as notice:
-        for name, row in measurements():
-            if not quiet:
-                if not found or found[-1][0] != name:
-                    print(("\n" if found else "") + HEADS[name], flush=True)
-                if name != CLOSED_FORMS:
-                    print(line(name, asdict(row)), flush=True)
-            elif name != CLOSED_FORMS:
-                notice(f"{name}: row {len(found) + 1}")
-            found.append((name, row))
-    if not quiet:
-        rows = [asdict(row) for name, row in found if name == CLOSED_FORMS]
-        print("\n".join(closed_form_lines(rows)))
-    return found
+def _counted(notice: Callable[[str], None]) -> Callable[[str], None]:
+    """Tell how many lines have come."""
+    lines = count(1)
+    return lambda _: notice(f"stability: line {next(lines)}")
 
 
 def register(app: typer.Typer) -> None:

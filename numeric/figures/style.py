@@ -13,6 +13,7 @@ from typing import Any, Literal
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
+from matplotlib.backend_bases import RendererBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -69,7 +70,7 @@ def line(colour: str, dashes: Dashes, name: str) -> Line2D:
 
 
 @contextmanager
-def _house_style() -> Iterator[None]:
+def house_style() -> Iterator[None]:
     """Leave out what a user's own matplotlibrc says."""
     defaults = dict[Any, Any](mpl.rcParamsDefault)
     for key in [key for key in defaults if key.startswith("backend")]:
@@ -78,9 +79,23 @@ def _house_style() -> Iterator[None]:
         yield
 
 
+class HouseFigure(Figure):
+    """A figure that looks the same wherever it is drawn later, and shows itself in a notebook."""
+
+    def draw(self, renderer: RendererBase) -> None:
+        """Draw it in the house style."""
+        with house_style():
+            super().draw(renderer)
+
+    def _repr_png_(self) -> bytes:
+        painted = io.BytesIO()
+        self.savefig(painted, format="png", dpi=DPI / 2)
+        return painted.getvalue()
+
+
 def figure(width: float, height: float) -> Figure:
     """Start a figure; sizes in inches."""
-    made = Figure(figsize=(width, height), layout="constrained")
+    made = HouseFigure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(made)
     return made
 
@@ -99,7 +114,7 @@ def images(draw: Callable[[], Figure], name: str, title: str, command: str) -> d
         "pdf": {"Title": title, "Subject": command, "CreationDate": None},
     }
     files = {}
-    with _house_style():
+    with house_style():
         drawn = draw()
         files[f"{name}.png"] = _png(drawn, about)
         for kind, says in metadata.items():

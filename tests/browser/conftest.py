@@ -57,8 +57,8 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
     from force_diffusion.derivations.export.page import sections
     from force_diffusion.numeric.figures import catalogue
     from force_diffusion.numeric.studies.cost import rows
-    from force_diffusion.numeric.studies.stability import data as tables
     from force_diffusion.numeric.studies.stability import forms
+    from force_diffusion.numeric.studies.stability import study as tables
     from force_diffusion.symbolic.kernel import mutants
 
     folder = tmp_path_factory.mktemp("report")

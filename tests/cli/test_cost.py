@@ -140,7 +140,7 @@ def test_what_ends_it_early(
     def fail(*_: Any) -> None:
         raise failure
 
-    monkeypatch.setattr(study, "study", fail)
+    monkeypatch.setattr(study, "cost", fail)
     out = tmp_path / "out"
     assert call(capsys, "cost", written(tmp_path), "--out", out)[0] == status
     assert not out.exists()

@@ -324,10 +324,11 @@ def scene(tmp_path: Path) -> Path:
 @pytest.fixture
 def _unsolved(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("framework.runner.run", "commands.scenes._solved", "commands.figures._made",
-                 "commands.stability._measured", "commands.report._made",
+                 "commands.report._made",
                  "commands.ensemble._solved"):  # fmt: skip
         monkeypatch.setattr(f"force_diffusion.derivations.{name}", None)
-    monkeypatch.setattr("force_diffusion.numeric.studies.cost.study.study", None)
+    for name in ("cost.study.cost", "stability.study.stability"):
+        monkeypatch.setattr(f"force_diffusion.numeric.studies.{name}", None)
 
 
 COMMANDS = {

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.studies.stability import data as tables
 from force_diffusion.numeric.studies.stability import forms
+from force_diffusion.numeric.studies.stability import study as tables
 from force_diffusion.numeric.studies.stability.enclosures import strips
 from force_diffusion.numeric.studies.stability.floats import cases
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from decimal import Decimal
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -52,15 +53,16 @@ def figures_part(notice: Notice) -> Part:
 
 def cost_part(notice: Notice) -> Part:
     """Every way to answer the small scene, its error beside its time."""
+    from force_diffusion.numeric.figures import style
     from force_diffusion.numeric.run import read_scene
-    from force_diffusion.numeric.studies.cost.data import csv_rows, study_data
-    from force_diffusion.numeric.studies.cost.plot import plots
-    from force_diffusion.numeric.studies.cost.study import study
+    from force_diffusion.numeric.studies.cost.result import csv_rows
+    from force_diffusion.numeric.studies.cost.study import cost
 
     command = f"force-diffusion cost {SCENE.name} --out cost"
-    found = study(read_scene(SCENE), lambda way: notice(f"cost: {way}"))
-    data = study_data(found, command)
-    svg = plots(found, command, SCENE.stem)["cost.svg"]
+    found = cost(read_scene(SCENE), lambda way: notice(f"cost: {way}"))
+    data = found.data()
+    title = f"Cost of accuracy: {SCENE.stem}"
+    svg = style.images(lambda: found.plot(SCENE.stem), "cost", title, command)["cost.svg"]
     reference = data["reference"]
     ways = [row for row in data["rows"] if row["pareto"]]
     least = min(ways, key=lambda row: Decimal(row["error"]))
@@ -104,7 +106,7 @@ def cost_part(notice: Notice) -> Part:
                     )
                     for row in data["rows"]
                 ),
-                csv_data("cost.csv", csv_rows(data)),
+                csv_data("cost.csv", csv_rows(data, command)),
             ),
         ),
         files=(Data(SCENE.name, SCENE.read_text(encoding="utf-8"), "text/plain"),),
@@ -117,24 +119,22 @@ def _decimal(shown: str | None) -> Decimal | None:
 
 def stability_part(notice: Notice) -> Part:
     """How accurate the engine is where it is hard to be, and what that costs."""
-    from force_diffusion.numeric.studies.stability.data import (
+    from force_diffusion.numeric.figures import style
+    from force_diffusion.numeric.studies.stability.study import (
         CLOSED_FORMS,
         ENCLOSURES,
         FILES,
         FLOATS,
         csv_rows,
-        measurements,
-        stability_data,
+        stability,
     )
-    from force_diffusion.numeric.studies.stability.plot import plots
 
     command = "force-diffusion stability --out stability"
-    found = []
-    for name, row in measurements():
-        found.append((name, row))
-        notice(f"stability, {name}: row {len(found)}")
-    data = stability_data(found, command)
-    files = csv_rows(data)
+    lines = count(1)
+    found = stability(lambda _: notice(f"stability: line {next(lines)}"))
+    data = found.data()
+    files = csv_rows(data, command)
+    drawn = style.images(found.plot, "stability", "The cost of stability", command)
     floats, balls = data[FLOATS], data[ENCLOSURES]
     worst = max(row["error"] for row in floats if row["error"] is not None)
     return Part(
@@ -150,7 +150,7 @@ def stability_part(notice: Notice) -> Part:
         command=command,
         figures=(
             Figure(
-                _bytes(plots(data)["stability.svg"]),
+                _bytes(drawn["stability.svg"]),
                 alt=(
                     "Four panels. Errors of both forms in float64 against the disorder: the "
                     f"deviation form nowhere exceeds {plain_number(worst)}, the plain form loses "

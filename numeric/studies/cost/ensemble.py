@@ -29,11 +29,11 @@ from ...planning import planner
 from ...planning.plan import Plan, Skipped
 from ...quantities.base import Table
 from ...scene.scene import Scene
+from .result import CostStudy
 from .rows import (
     Notice,
     Reference,
     Row,
-    Study,
     marked,
     measured,
     row,
@@ -47,7 +47,7 @@ LEAST, MOST = 8, 64
 EXACT = Balls(1200)
 
 
-def study_ensemble(scene: Scene, notice: Notice) -> Study:
+def study_ensemble(scene: Scene, notice: Notice) -> CostStudy:
     """Measure every way to σ_f. Raises ``SceneError`` and what the sweeps raise."""
     truth = _Truth(scene, notice)
     linear = truth.plans["first-order"]
@@ -73,7 +73,7 @@ def study_ensemble(scene: Scene, notice: Notice) -> Study:
             error = truth.off(std, truth.best)
             rows.append(row(way, FLOAT64.name, seconds, peak, error, parts, None, n))
     skipped = tuple(_skipped(scene))
-    return Study("profile", truth.reference, marked(rows), skipped, truth.floor)
+    return CostStudy("profile", truth.reference, marked(rows), skipped, truth.floor)
 
 
 def sizes(realisations: int) -> list[int]:

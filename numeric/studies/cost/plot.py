@@ -7,7 +7,7 @@ matplotlib (the extra ``plots``).
 import math
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,7 +19,10 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from matplotlib.transforms import Bbox
 
 from ...figures import style
-from .rows import Row, Study
+from .rows import Row
+
+if TYPE_CHECKING:
+    from .result import CostStudy
 
 WIDE = 60
 """Decades of error beyond which the axis is one of √digits."""
@@ -40,16 +43,11 @@ DASHES: Mapping[str, tuple[str, Any]] = {
 }
 
 
-def plots(study: Study, command: str, title: str) -> Mapping[str, str | bytes]:
-    """Draw a study; ``cost.png``, ``.svg`` and ``.pdf`` hold the command that reproduces them."""
-    return style.images(lambda: draw(study, title), "cost", f"Cost of accuracy: {title}", command)
-
-
-def draw(study: Study, title: str) -> Figure:
+def draw(study: "CostStudy", title: str) -> Figure:
     """Draw log10 of error against log10 of seconds; digits may lie beyond a float's range."""
     figure = style.figure(style.PAGE, 4.6)
     axes = figure.subplots()
-    rows = [row for row in study.rows if row.error and not _in_vain(row, study.rows)]
+    rows = [row for row in study.ways if row.error and not _in_vain(row, study.ways)]
     floor = [math.log10(study.sampling_floor)] if study.sampling_floor else []
     style.powers_of_ten(axes, "x", [_x(row) for row in rows], 0.06)
     levels = [_y(row) for row in rows] + floor
@@ -74,10 +72,8 @@ def draw(study: Study, title: str) -> Figure:
         "measured error / largest |change|" + (", spaced by √digits" if stretched else "")
     )
     reference = study.reference
-    axes.set_title(
-        f"{title}: {study.quantity}; reference {reference.kind}, radius {reference.radius:.1e}",
-        loc="left",
-    )
+    name = f"{title}: {study.quantity}" if title else study.quantity
+    axes.set_title(f"{name}; reference {reference.kind}, radius {reference.radius:.1e}", loc="left")
     figure.legend(handles=_keys(lines, bool(floor)), loc="outside lower center", ncols=3)
     figure.draw_without_rendering()  # lays out, so that labels know where points are
     _name(axes, rows)

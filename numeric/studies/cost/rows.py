@@ -10,7 +10,6 @@ from time import perf_counter
 from typing import TypeVar
 
 from ...arithmetic.systems import FLOAT64, LONGDOUBLE
-from ...planning.plan import Skipped
 
 LEAST_RUNS, MOST_RUNS, ENOUGH_SECONDS = 3, 15, 0.2
 # After so many seconds no further run is timed: slow rows scatter little, and a study stays short.
@@ -61,17 +60,6 @@ class Reference:
     what: str
     arithmetic: str
     radius: Decimal
-
-
-@dataclass(frozen=True)
-class Study:
-    """All ways to one answer; ``sampling_floor`` is the standard error of the scene's ensemble."""
-
-    quantity: str
-    reference: Reference
-    rows: tuple[Row, ...]
-    skipped: tuple[Skipped, ...]
-    sampling_floor: Decimal | None = None
 
 
 def measured(work: Callable[[], T]) -> tuple[T, list[float], int]:

@@ -3,7 +3,6 @@
 Needs matplotlib (the extra ``plots``). Markers and lines say the same as colours.
 """
 
-from collections.abc import Mapping
 from itertools import pairwise
 from math import log10
 from typing import Any
@@ -21,21 +20,16 @@ FORMS = ((POSITIONS, PLAIN, "s", "--"), (LINE_SUMS, DEVIATION, "o", "-"))
 Rows = list[dict[str, Any]]
 
 
-def plots(data: dict[str, Any]) -> Mapping[str, str | bytes]:
-    """Draw ``stability_data``; ``stability.png``, ``.svg`` and ``.pdf`` hold the command."""
-    return style.images(lambda: draw(data), "stability", "The cost of stability", data["command"])
-
-
-def draw(data: dict[str, Any]) -> Figure:
+def draw(floats: Rows, enclosures: Rows) -> Figure:
     """Draw four panels: float64 on the left, balls on the right; times below."""
     figure = style.figure(style.PAGE, 5.2)
     (errors, lost), (ratios, seconds) = figure.subplots(
         2, 2, sharex="col", gridspec_kw={"height_ratios": (5, 3)}
     )
-    rows = [r for r in data["rows"] if r["group"] == "disorder" and r["relative_std"] >= LEAST]
+    rows = [r for r in floats if r["group"] == "disorder" and r["relative_std"] >= LEAST]
     _errors(errors, rows)
     _ratios(ratios, rows)
-    balls = [row for row in data["enclosures"] if row["bits_lost"] is not None]
+    balls = [row for row in enclosures if row["bits_lost"] is not None]
     _lost(lost, balls)
     _seconds(seconds, balls)
     for words in [one for axes in figure.axes for one in axes.texts]:

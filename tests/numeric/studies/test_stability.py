@@ -3,12 +3,13 @@
 from fractions import Fraction
 from functools import cache
 
+import numpy as np
 import pytest
-from force_diffusion.numeric.arithmetic.errors import UndecidedError
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, UndecidedError
 from force_diffusion.numeric.arithmetic.systems import Balls
 from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
 from force_diffusion.numeric.lattice.layers import whole
-from force_diffusion.numeric.studies.stability import enclosures, forms
+from force_diffusion.numeric.studies.stability import enclosures, forms, study
 from force_diffusion.numeric.studies.stability.closed import closed_form_rows
 from force_diffusion.numeric.studies.stability.enclosures import (
     LINE_SUMS,
@@ -25,6 +26,7 @@ from force_diffusion.numeric.studies.stability.forms import (
     flat,
     plain_form,
 )
+from force_diffusion.numeric.studies.stability.study import stability
 from force_diffusion.numeric.theory.critical_height import critical_height
 
 UNIT = 2.0**-53  # of float64: one unit in the last place is at most 2 of these
@@ -215,3 +217,24 @@ def test_the_table_goes_beyond_the_critical_height_in_both_forms() -> None:
         here = [strip for strip in strips() if strip.form == form]
         assert any(s.height > critical_height(s.relative_std) for s in here)
         assert any(s.height < critical_height(s.relative_std) / 10 for s in here)
+
+
+def test_one_table_alone() -> None:
+    told: list[str] = []
+    found = stability(told.append, only=["closed_forms"])
+    assert "\n".join(told) == str(found)
+    assert [row["form"] for row in found.rows("closed_forms")] == found.arrays["closed_forms"][
+        "form"
+    ].tolist()
+    with pytest.raises(ForceDiffusionError, match='needs the tables "rows" and "enclosures"'):
+        found.plot()
+    with pytest.raises(ForceDiffusionError, match='no table "balls"'):
+        stability(only=["balls"])
+
+
+def test_missing_numbers_are_nan(monkeypatch: pytest.MonkeyPatch) -> None:
+    strip = enclosures.Strip(enclosures.LINE_SUMS, 512, Fraction(1, 100))
+    monkeypatch.setattr(study, "strips", lambda: iter([strip]))
+    found = stability(only=["enclosures"])
+    assert found.rows("enclosures")[0]["bits"] is None  # no such strip stands
+    assert np.isnan(found.arrays["enclosures"]["bits"]).all()

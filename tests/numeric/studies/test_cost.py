@@ -10,10 +10,10 @@ import pytest
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.scene.sections import SceneError
-from force_diffusion.numeric.studies.cost import rows as cost
-from force_diffusion.numeric.studies.cost.data import csv_rows, lines, study_data
-from force_diffusion.numeric.studies.cost.rows import Row, Study, marked, pareto
-from force_diffusion.numeric.studies.cost.study import study
+from force_diffusion.numeric.studies.cost import rows as measuring
+from force_diffusion.numeric.studies.cost.result import CostStudy, csv_rows
+from force_diffusion.numeric.studies.cost.rows import Row, marked, pareto
+from force_diffusion.numeric.studies.cost.study import cost
 from force_diffusion.numeric.studies.cost.truth import BEYOND, decimal
 from force_diffusion.numeric.studies.cost.ways import answer, systems, why_not_plain
 from hypothesis import given
@@ -24,8 +24,8 @@ from tests.numeric.scenes import basic, scene
 
 @pytest.fixture(autouse=True)
 def _one_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cost, "LEAST_RUNS", 1)
-    monkeypatch.setattr(cost, "ENOUGH_SECONDS", 0.0)
+    monkeypatch.setattr(measuring, "LEAST_RUNS", 1)
+    monkeypatch.setattr(measuring, "ENOUGH_SECONDS", 0.0)
 
 
 def profile(geometry: str = "exact", **ask: Any) -> dict[str, dict[str, Any]]:
@@ -34,20 +34,20 @@ def profile(geometry: str = "exact", **ask: Any) -> dict[str, dict[str, Any]]:
     return sections
 
 
-def one(found: Study, way: str, arithmetic: str = "float64") -> Row:
-    (row,) = [r for r in found.rows if (r.way, r.arithmetic) == (way, arithmetic)]
+def one(found: CostStudy, way: str, arithmetic: str = "float64") -> Row:
+    (row,) = [r for r in found.ways if (r.way, r.arithmetic) == (way, arithmetic)]
     return row
 
 
-def reasons(found: Study) -> dict[str, str]:
+def reasons(found: CostStudy) -> dict[str, str]:
     return {s.effect: s.reason for s in found.skipped}
 
 
-def check_certified(found: Study) -> None:
+def check_certified(found: CostStudy) -> None:
     reference = found.reference
     assert reference.kind == "certified"
     assert reference.radius < Decimal(10) ** -310
-    for row in found.rows:
+    for row in found.ways:
         assert reference.radius * 1000 < row.error
         assert row.sampling_error is None
         assert row.model_error is not None
@@ -61,17 +61,17 @@ def check_certified(found: Study) -> None:
         assert row.seconds_min <= row.seconds <= row.seconds_max
         assert row.runs >= 1
         assert row.peak_bytes > 0
-    assert found.rows == marked(found.rows)
-    assert any(row.pareto for row in found.rows)
+    assert found.ways == marked(found.ways)
+    assert any(row.pareto for row in found.ways)
 
 
 def test_one_periodic_packing() -> None:
-    found = study(scene(basic(4, 6)))
+    found = cost(scene(basic(4, 6)))
     check_certified(found)
     arithmetics = {system.name for system in systems()}
     assert len(arithmetics) >= 11
     for way in ("exact, deviation form", "exact, plain form"):
-        assert {r.arithmetic for r in found.rows if r.way == way} == arithmetics
+        assert {r.arithmetic for r in found.ways if r.way == way} == arithmetics
     deviation, plain = (one(found, f"exact, {way} form") for way in ("deviation", "plain"))
     assert deviation.error <= Decimal("1e-12")
     assert deviation.error < plain.error
@@ -102,10 +102,10 @@ def test_one_periodic_packing() -> None:
 def test_what_does_not_apply_is_listed_with_the_reason(
     sections: dict[str, dict[str, Any]], way: str, why: str
 ) -> None:
-    found = study(scene(sections))
+    found = cost(scene(sections))
     check_certified(found)
     assert why in reasons(found)[way]
-    assert way not in {row.way for row in found.rows}
+    assert way not in {row.way for row in found.ways}
     own = "first-order line sums"
     if sections.get("effects", {}).get("geometry") != "first-order":
         own = "exact, deviation form"
@@ -151,7 +151,7 @@ def test_both_forms_enclose_the_same(load: dict[str, Any], ask: dict[str, Any]) 
 
 
 def test_an_ensemble_has_an_estimated_reference_and_a_floor() -> None:
-    found = study(scene(profile()))
+    found = cost(scene(profile()))
     assert found.reference.kind == "estimated"
     assert found.reference.radius > 0
     assert found.sampling_floor is not None
@@ -159,7 +159,7 @@ def test_an_ensemble_has_an_estimated_reference_and_a_floor() -> None:
     assert exact.error < printed.error
     assert exact.sampling_error is None
     for way in ("Monte Carlo, exact", "Monte Carlo, first-order"):
-        rows = [row for row in found.rows if row.way == way]
+        rows = [row for row in found.ways if row.way == way]
         assert sorted(row.realisations or 0 for row in rows) == [2, 8]
         for row in rows:
             assert row.certified_bound is None
@@ -175,7 +175,7 @@ def test_an_ensemble_has_an_estimated_reference_and_a_floor() -> None:
 
 
 def test_a_first_order_ensemble_is_known_exactly() -> None:
-    found = study(scene(profile("first-order")))
+    found = cost(scene(profile("first-order")))
     assert found.reference.radius == 0
     formula = one(found, "exact finite-M formula")
     assert formula.model_error == 0
@@ -187,13 +187,13 @@ def test_a_first_order_ensemble_is_known_exactly() -> None:
 def test_without_any_change_there_is_nothing_to_measure(change: dict[str, Any]) -> None:
     sections = {k: v for k, v in (basic() | change).items() if v}
     with pytest.raises(SceneError, match="exactly zero"):
-        study(scene(sections))
+        cost(scene(sections))
 
 
 def test_a_contact_that_no_load_reaches() -> None:
     sections = basic(5, 20, quantity="contact", at=[21, 1, "+"])
     with pytest.raises(SceneError, match="exactly zero"):
-        study(scene(sections | {"load": {"kind": "point", "at": [1, 3]}}))
+        cost(scene(sections | {"load": {"kind": "point", "at": [1, 3]}}))
 
 
 points = st.tuples(
@@ -223,18 +223,18 @@ def test_errors_are_rounded_up_and_may_be_smaller_than_floats() -> None:
 
 
 def test_the_data_say_how_they_came_about() -> None:
-    found = study(scene(basic(2, 4)))
-    data = study_data(found, "force-diffusion cost x.toml")
+    found = cost(scene(basic(2, 4)))
+    data = found.data()
     assert [row["error"] for row in data["rows"]] == sorted(
         (row["error"] for row in data["rows"]), key=Decimal, reverse=True
     )
     assert set(data["rows"][0]) == {field.name for field in fields(Row)}
     assert data["reference"]["kind"] == "certified"
     assert "tracemalloc" in data["peak_memory"]
-    for row in csv_rows(data):
-        assert row["command"] == data["command"] == "force-diffusion cost x.toml"
+    for row in csv_rows(data, "force-diffusion cost x.toml"):
+        assert row["command"] == "force-diffusion cost x.toml"
         assert row["reference_radius"] == data["reference"]["radius"]
-    text = "\n".join(lines(data))
+    text = str(found)
     for skip in data["skipped"]:
         assert skip["reason"] in text
     assert text.count("\n* ") == sum(row["pareto"] for row in data["rows"])
@@ -244,3 +244,15 @@ def test_the_float64_row_is_the_answer_of_a_run() -> None:
     planned = plan(scene(basic(3, 5)))
     table = answer(planned, FLOAT64, [0])
     assert len(table.numbers["change"]) == 2 * 3 * 5
+
+
+def test_arrays_rows_and_decimals_say_the_same() -> None:
+    found = cost(scene(basic(2, 4)))
+    rows, decimals = found.rows(), found.data()["rows"]
+    assert len(rows) == len(decimals) == len(found.ways)
+    for column in found.arrays.values():
+        assert column.shape == (len(rows),)
+    for row, exact, error in zip(rows, decimals, found.arrays["error"], strict=True):
+        assert row["error"] == error == pytest.approx(float(exact["error"]), rel=0.01)
+        assert (row["certified_bound"] is None) == (row["arithmetic"][:3] != "arb")
+    assert found._repr_html_().count("<tr>") == 1 + min(len(rows), 20)

@@ -1,0 +1,35 @@
+"""What draws is an extra: here it is looked for."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from ..arithmetic.errors import NotReachedError
+
+
+class MissingLibraryError(NotReachedError):
+    """A library that figures need is not installed; the message says how to install it."""
+
+    def __init__(self, name: str) -> None:
+        """Say which."""
+        super().__init__(
+            f"figures need {name}, which is missing; pip install 'force-diffusion[plots]'"
+        )
+
+
+@contextmanager
+def drawing() -> Iterator[None]:
+    """Draw in the house style. Raises ``MissingLibraryError``.
+
+    Modules that import matplotlib are imported inside of the block.
+    """
+    try:
+        import matplotlib  # noqa: F401
+
+        from .style import house_style
+    except ModuleNotFoundError as error:
+        name = (error.name or "").split(".")[0]
+        if name not in {"matplotlib", "PIL"}:
+            raise
+        raise MissingLibraryError(name) from None
+    with house_style():
+        yield
