@@ -259,7 +259,14 @@ def test_a_terminal_that_knows_only_ascii() -> None:
     assert done.stdout.isascii()
 
 
-def test_every_module_runs_alone() -> None:
-    done = run(sys.executable, "-m", "force_diffusion.derivations.eq02_displacement")
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["-m", "force_diffusion.derivations.eq02_displacement"],
+        [str(ROOT / "derivations" / "eq02_displacement.py")],
+    ],
+)
+def test_every_derivation_runs_alone(words: list[str], tmp_path: Path) -> None:
+    done = run(sys.executable, *words, cwd=tmp_path)
     assert done.returncode == 0
     assert "Eq. 2 is proved" in done.stdout
