@@ -4,10 +4,13 @@ from .derivations.api.equation import equation as equation
 from .numeric.arithmetic.errors import ForceDiffusionError as ForceDiffusionError
 from .numeric.ensemble.ensemble import ensemble as ensemble
 from .numeric.ensemble.result import Ensemble as Ensemble
-from .numeric.outcome import Outcome as Outcome
 from .numeric.planning.plan import Plan as Plan
-from .numeric.run import Scene as Scene
-from .numeric.run import read_scene as read_scene
+from .numeric.run.outcome import Outcome as Outcome
+from .numeric.run.running import Scene as Scene
+from .numeric.run.running import read_scene as read_scene
+from .numeric.run.running import run as run
+from .numeric.run.solving import Solution as Solution
+from .numeric.run.solving import solve as solve
 from .numeric.scene.sections import Ask as Ask
 from .numeric.scene.sections import BulkLoad as BulkLoad
 from .numeric.scene.sections import Disorder as Disorder
@@ -18,8 +21,6 @@ from .numeric.scene.sections import Packing as Packing
 from .numeric.scene.sections import PointLoad as PointLoad
 from .numeric.scene.sections import SceneError as SceneError
 from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
-from .numeric.solving import Solution as Solution
-from .numeric.solving import solve as solve
 from .numeric.studies.cost.result import CostStudy as CostStudy
 from .numeric.studies.cost.study import cost as cost
 from .numeric.studies.stability.study import StabilityStudy as StabilityStudy

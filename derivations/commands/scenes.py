@@ -15,6 +15,8 @@ from force_diffusion.derivations.commands.shared import drawn, images, noticing
 from force_diffusion.derivations.export.tables import csv_text
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
+import force_diffusion as fd
+
 if TYPE_CHECKING:
     from force_diffusion.numeric.planning.plan import Plan
 
@@ -44,7 +46,6 @@ def _planned(scene: Path, tolerance: str | None, certified: bool) -> "Plan":
     """Read and plan a scene."""
     from force_diffusion.numeric.arithmetic.decimals import parse
     from force_diffusion.numeric.arithmetic.machine import memory_limit
-    from force_diffusion.numeric.run import read_scene
 
     asked = None
     if tolerance is not None:
@@ -56,7 +57,7 @@ def _planned(scene: Path, tolerance: str | None, certified: bool) -> "Plan":
             raise ForceDiffusionError(f"--tolerance = {tolerance}: must lie between 0 and 1")
     try:
         with about(scene.name):
-            found = read_scene(scene)
+            found = fd.read_scene(scene)
         if certified and asked is None and found.ask.tolerance is None:
             raise ForceDiffusionError(
                 "--certified needs a tolerance: give --tolerance T, such as 1e-30"
@@ -140,11 +141,9 @@ def cost(
 
 def _solved(planned: "Plan", scene: Path) -> dict[str, Any]:
     """Run a plan under a progress bar."""
-    from force_diffusion.numeric.run import run as solve
-
     bar, progress = _progress(planned)
     with about(scene.name), in_range(), bar:
-        return solve(planned, progress=progress).data()
+        return fd.run(planned, progress).data()
 
 
 def _progress(
@@ -179,7 +178,7 @@ def _show(data: dict[str, Any], as_json: bool) -> None:
     if as_json:
         print(json.dumps(data, indent=2))
         return
-    from force_diffusion.numeric.outcome import outcome_lines
+    from force_diffusion.numeric.run.outcome import outcome_lines
 
     (rows,) = data["results"].values()
     print(csv_text(rows), end="")

@@ -10,7 +10,7 @@ from ..arithmetic.decimals import short
 from ..disorder.radii import MeasuredRadii, Radii
 from ..mechanics.loads import LoadSpec
 from ..scene.scene import Scene
-from ..scene.sections import SceneError
+from ..scene.sections import GivenRadii, SceneError
 
 # δr/r may be as small as this; where it meets a load or a unit of length, their product a bit less.
 LEAST, LEAST_PRODUCT = Fraction(1, 10**300), Fraction(1, 10**305)
@@ -33,8 +33,9 @@ def check(scene: Scene, radii: Radii, load: LoadSpec) -> None:
                 f"{WAY_OUT}",
             )
     elif disorder and disorder < LEAST:
+        given = scene.disorder.name if isinstance(scene.disorder, GivenRadii) else "relative_std"
         raise SceneError(
-            "disorder.relative_std",
+            f"disorder.{given}",
             disorder,
             f"in float64 it must be zero or at least 1e-300: {WAY_OUT}",
         )

@@ -4,10 +4,10 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from force_diffusion.numeric.outcome import Outcome
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run import Scene, run
+from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.scene import reading
 from hypothesis import strategies as st
 

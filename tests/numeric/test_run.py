@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
-from force_diffusion.numeric.outcome import Outcome
 from force_diffusion.numeric.quantities.answer import answer as answered
+from force_diffusion.numeric.run.outcome import Outcome
 from hypothesis import assume, given
 from hypothesis import strategies as st
 

@@ -9,16 +9,16 @@ from typing import Any
 import pytest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Hardware, midpoint
-from force_diffusion.numeric.outcome import Outcome
 from force_diffusion.numeric.planning.plan import Candidate, Plan
 from force_diffusion.numeric.run import run
+from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.scene.sections import SceneError
 from force_diffusion.numeric.studies.cost import ways
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from tests.numeric.scenes import basic, planned, scenes
-from tests.numeric.test_answers import numbers
+from tests.numeric.test_run import numbers
 
 QUANTITIES = (
     "contact", "contact_forces", "positions", "profile", "histogram", "response", "base_reactions"

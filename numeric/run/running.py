@@ -10,19 +10,19 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from .accuracy.accuracy import Accuracy, ToleranceError
-from .accuracy.enclosed import enclosed
-from .accuracy.repeated import repeated, shortfall
-from .arithmetic.decimals import exact
-from .mechanics.forces import NotStandingError
-from .mechanics.packing import UnbuildableError
-from .mechanics.work import Progress, Work
+from ..accuracy.accuracy import Accuracy, ToleranceError
+from ..accuracy.enclosed import enclosed
+from ..accuracy.repeated import repeated, shortfall
+from ..arithmetic.decimals import exact
+from ..mechanics.forces import NotStandingError
+from ..mechanics.packing import UnbuildableError
+from ..mechanics.work import Progress, Work
+from ..planning.plan import Choice, Plan
+from ..planning.planner import plan
+from ..quantities.answer import Answer
+from ..scene import reading, scene
+from ..scene.sections import SceneError
 from .outcome import Missed, Outcome
-from .planning.plan import Choice, Plan
-from .planning.planner import plan
-from .quantities.answer import Answer
-from .scene import reading, scene
-from .scene.sections import SceneError
 
 
 def run(plan: Plan, progress: Progress | None = None) -> Outcome:

@@ -7,16 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from .accuracy.accuracy import Accuracy
-from .arithmetic.systems import FLOAT64, Array, as_floats, system_of
-from .lattice.branch import Branch
-from .mechanics.physicality import Physicality
-from .mechanics.problem import Route
+from ..accuracy.accuracy import Accuracy
+from ..arithmetic.systems import FLOAT64, Array, as_floats, system_of
+from ..lattice.branch import Branch
+from ..mechanics.physicality import Physicality
+from ..mechanics.problem import Route
+from ..planning.planner import plan
+from ..scene.scene import Scene
+from ..scene.sections import Ask, GivenRadii, Load, Packing, SceneError, SurfaceLoad
 from .outcome import Outcome
-from .planning.planner import plan
-from .run import read_tolerance, run
-from .scene.scene import Scene
-from .scene.sections import Ask, GivenRadii, Load, Packing, SceneError, SurfaceLoad
+from .running import read_tolerance, run
 
 
 @dataclass(frozen=True)

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .accuracy.accuracy import Accuracy
-from .accuracy.digits import strings
-from .arithmetic.decimals import bound_string
-from .arithmetic.systems import Array
-from .lattice.branch import Contact
-from .mechanics.physicality import PHYSICAL, Physicality
-from .mechanics.work import Work
-from .planning.plan import ESTIMATE, Plan, plan_lines
-from .quantities.answer import Answer
-from .statistics import histogram
-from .tables import Row, html_table, rows_of
-from .theory.critical_height import critical_height
+from ..accuracy.accuracy import Accuracy
+from ..accuracy.digits import strings
+from ..arithmetic.decimals import bound_string
+from ..arithmetic.systems import Array
+from ..lattice.branch import Contact
+from ..mechanics.physicality import PHYSICAL, Physicality
+from ..mechanics.work import Work
+from ..planning.plan import ESTIMATE, Plan, plan_lines
+from ..quantities.answer import Answer
+from ..statistics import histogram
+from ..tables import Row, html_table, rows_of
+from ..theory.critical_height import critical_height
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -117,7 +117,7 @@ class Outcome:
         Contact forces are drawn as force chains, a profile as σ_f beside theory, changes as P(f), a
         response as a map. Raises ``SceneError`` for a quantity that has no figure.
         """
-        from .figures.answers import figure_of
+        from ..figures.answers import figure_of
 
         return figure_of(self.plan, self.arrays, self.standard_errors)
 

@@ -1,0 +1,85 @@
+"""The house stands: rooms lie in floors, arrows point down, two rooms are blind to each other."""
+
+import ast
+from collections.abc import Iterator
+from graphlib import TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+FLOORS, ARROWS = 9, 90
+
+
+def imported(path: Path) -> Iterator[str]:
+    """Give what a file imports, lazily or not, by full names below ``force_diffusion``."""
+    package = ["force_diffusion", *path.relative_to(ROOT).parent.parts]
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    module = [node for node in tree.body if not _is_program(node)]
+    for node in (inner for statement in module for inner in ast.walk(statement)):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) - node.level + 1] if node.level else []
+            source = ".".join([*base, *([node.module] if node.module else [])])
+            yield from (f"{source}.{alias.name}" for alias in node.names)
+
+
+def _is_program(node: ast.stmt) -> bool:
+    """Say whether this is ``if __name__ == "__main__"``, which no import runs."""
+    return isinstance(node, ast.If) and "__main__" in ast.unparse(node.test)
+
+
+def rooms(folder: str) -> dict[str, set[str]]:
+    """Give the direct subfolders and files of a folder, each with those that it imports."""
+    found: dict[str, set[str]] = {}
+    for path in sorted((ROOT / folder).rglob("*.py")):
+        room = path.relative_to(ROOT / folder).parts[0].removesuffix(".py")
+        if room == "__init__":
+            continue
+        here = found.setdefault(room, set())
+        for name in imported(path):
+            parts = name.split(".")
+            if parts[:2] == ["force_diffusion", folder] and len(parts) > 2:
+                here.add(parts[2])
+    return {room: (others - {room}) & set(found) for room, others in found.items()}
+
+
+def floors(graph: dict[str, set[str]]) -> dict[str, int]:
+    """Give the floor of each room, above all that it imports; a circle raises ``CycleError``."""
+    found: dict[str, int] = {}
+    for room in TopologicalSorter(graph).static_order():
+        found[room] = 1 + max((found[below] for below in graph[room]), default=0)
+    return found
+
+
+@pytest.mark.parametrize("folder", ["numeric", "symbolic", "derivations"])
+def test_no_room_is_in_a_circle(folder: str) -> None:
+    assert floors(rooms(folder))
+
+
+def test_the_rooms_of_numeric_are_few_floors_high() -> None:
+    graph = rooms("numeric")
+    assert max(floors(graph).values()) <= FLOORS
+    assert sum(map(len, graph.values())) <= ARROWS
+
+
+@pytest.mark.parametrize(
+    ("folder", "never"),
+    [
+        ("numeric", ("force_diffusion.symbolic", "force_diffusion.derivations", "sympy")),
+        ("symbolic", ("force_diffusion.numeric", "force_diffusion.derivations")),
+    ],
+)
+def test_rooms_on_the_ground_floor_are_blind(folder: str, never: tuple[str, ...]) -> None:
+    for path in (ROOT / folder).rglob("*.py"):
+        for name in imported(path):
+            assert not any(name == one or name.startswith(f"{one}.") for one in never), path
+
+
+def test_nothing_imports_a_room_by_its_folder() -> None:
+    """In the checkout ``numeric`` can be imported from the current folder; installed it can't."""
+    for path in ROOT.rglob("*.py"):
+        if ".venv" not in path.parts:
+            heads = {name.split(".")[0] for name in imported(path)}
+            assert not heads & {"numeric", "symbolic", "derivations"}, path
