@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric import run as runner
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 
+import force_diffusion as fd
 from force_diffusion.__main__ import main
 
 SCENES = Path(__file__).parents[2] / "scenes"
@@ -151,7 +151,7 @@ def test_out_of_reach_is_status_three(
     def fail(*_: Any, **__: Any) -> None:
         raise ToleranceError("the tolerance can't be reached: the reason")
 
-    monkeypatch.setattr(runner, "run", fail)
+    monkeypatch.setattr(fd, "run", fail)
     status, out, err = call(capsys, "run", SCENES / "one_contact.toml", "--json")
     assert (status, out) == (3, "")
     assert "the reason" in err
@@ -163,7 +163,7 @@ def test_an_interrupted_run(
     def interrupted(*_: Any, **__: Any) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(runner, "run", interrupted)
+    monkeypatch.setattr(fd, "run", interrupted)
     out = tmp_path / "out"
     status, shown, err = call(capsys, "run", SCENES / "one_contact.toml", "--out", out)
     assert (status, shown) == (130, "")
