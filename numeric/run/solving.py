@@ -63,7 +63,7 @@ class Solution:
 
     @property
     def error(self) -> float:
-        """Bound or estimate of the largest error of a change, over the largest |change|."""
+        """Bound or estimate of the largest error of a change, relative to the largest change."""
         return float(self.accuracy.error_bound)
 
     @property

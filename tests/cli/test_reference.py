@@ -128,3 +128,21 @@ def test_every_command_is_told(capsys) -> None:
     commands = set(re.findall(r"^  ([\w-]+) ", listed, re.MULTILINE))
     page = (REFERENCE / "commands.md").read_text(encoding="utf-8")
     assert set(re.findall(r"^### `([\w-]+)`$", page, re.MULTILINE)) == commands
+
+
+def test_every_name_of_the_face_is_told() -> None:
+    page = (REFERENCE / "python.md").read_text(encoding="utf-8")
+    told = re.findall(r"^\.\. auto(?:function|class|exception):: (\w+)(?:\(|$)", page, re.MULTILINE)
+    assert sorted(told) == sorted(fd.__all__)
+
+
+@pytest.mark.parametrize(
+    "section", [fd.Scene, fd.Packing, fd.Disorder, fd.Load, fd.Effects, fd.Ask]
+)
+def test_a_section_takes_the_fields_that_are_told(section) -> None:
+    page = (REFERENCE / "python.md").read_text(encoding="utf-8")
+    (signature,) = re.findall(rf"^\.\. autoclass:: {section.__name__}\((.*)\)$", page, re.MULTILINE)
+    told = re.findall(r"(\w+)(?:=([^,]+))?(?:, |$)", signature.removeprefix("*, "))
+    fields = section.model_fields
+    assert {name for name, _ in told} == set(fields)
+    assert all(fields[name].is_required() == (not default) for name, default in told)
