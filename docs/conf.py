@@ -34,6 +34,7 @@ nb_execution_mode = "force"
 nb_execution_in_temp = True
 nb_execution_raise_on_error = True
 nb_execution_timeout = 120
+nb_merge_streams = True
 nb_render_markdown_format = "myst"
 
 autodoc_member_order = "bysource"
@@ -58,8 +59,14 @@ def _formula(writer: Any, node: nodes.Element, display: bool) -> None:
     raise nodes.SkipNode
 
 
+def _bars(_app: Any, _what: str, _name: str, _of: Any, _options: Any, lines: list[str]) -> None:
+    """Take |change| in a docstring for what it says, and not for a substitution."""
+    lines[:] = [re.sub(r"\|(\w+)\|", r"\\|\1\\|", line) for line in lines]
+
+
 def setup(app: Any) -> None:
     """Make MathML of all formulas."""
+    app.connect("autodoc-process-docstring", _bars)
     app.add_html_math_renderer(
         "mathml",
         (lambda writer, node: _formula(writer, node, display=False), None),
