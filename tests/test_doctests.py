@@ -7,7 +7,7 @@ from importlib import import_module
 import pytest
 
 # Modules that import these may lack them: extras.
-EXTRAS = {"distributed", "jinja2", "markupsafe", "math_core", "matplotlib", "numba", "scipy"}
+EXTRAS = {"distributed", "jinja2", "markupsafe", "math_core", "matplotlib", "numba"}
 MODULES = ["force_diffusion"] + [
     module.name
     for room in ("derivations", "numeric", "symbolic")

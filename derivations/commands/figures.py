@@ -9,7 +9,7 @@ import typer
 from force_diffusion.derivations.commands.guard import about
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import images, noticing
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.figures.catalogue import Options
@@ -19,8 +19,8 @@ MODELS = {"q-model": "3", "double-y": "4"}
 LEAST_REALISATIONS, MOST_REALISATIONS = 16, 1_000_000
 HIGHEST, MOST_HEIGHTS = 10_000, 6
 STATUSES = (
-    "Exit status: 0 made, 2 wrong usage, 3 matplotlib or SciPy is missing, or the disk or the "
-    "memory failed, 130 interrupted."
+    "Exit status: 0 made, 2 wrong usage, 3 matplotlib is missing, or the disk or the memory "
+    "failed, 130 interrupted."
 )
 
 
@@ -104,9 +104,11 @@ def figures(
                 f"{model} stands beside figure {MODELS[model]}; add {MODELS[model]}.",
                 param_hint="--with",
             )
-    _refuse_without_libraries(scipy="pf" in wanted)
-
     from force_diffusion.numeric.figures.catalogue import FIGURES, HEIGHTS, Options
+    from force_diffusion.numeric.figures.library import drawing
+
+    with drawing():  # or leave before anything is solved
+        pass
 
     words = ["force-diffusion", "figures", *wanted]
     words += [] if heights is None else ["--heights", heights]
@@ -128,17 +130,6 @@ def figures(
     for name, one in data["figures"].items():
         print(f"{name}: {out / one['files'][0]}")
         print("\n".join(f"  {line}" for line in one["says"]))
-
-
-def _refuse_without_libraries(*, scipy: bool) -> None:
-    """Leave before anything is solved where nothing could be drawn."""
-    for name in ("matplotlib", "scipy") if scipy else ("matplotlib",):
-        try:
-            __import__(name)
-        except ImportError:
-            raise NotReachedError(
-                f"figures need {name}, which is missing; pip install 'force-diffusion[plots]'"
-            ) from None
 
 
 def _made(

@@ -125,7 +125,7 @@ def measurement(
         raise SceneError(
             "ask.tolerance", ask.tolerance, "an ensemble is solved in float64: leave it out"
         )
-    if scene.disorder is None or scene.disorder.kind == "file":
+    if scene.disorder is None or scene.disorder.kind in {"file", "given"}:
         raise SceneError("disorder", None, "an ensemble needs radii that are drawn")
     one = scene.model_copy(update={"ask": ask.model_copy(update={"realisations": 1})})
     planned = plan(one)

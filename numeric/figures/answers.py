@@ -1,4 +1,4 @@
-"""Figures of one answer."""
+"""Figures of one answer: of a run, or of an ensemble."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
@@ -6,11 +6,25 @@ from typing import TYPE_CHECKING
 from ..arithmetic.systems import Array
 from ..planning.plan import Plan
 from ..scene.sections import SceneError
+from .library import drawing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
 def figure_of(plan: Plan, columns: Mapping[str, Array], errors: Mapping[str, Array]) -> "Figure":
-    """Draw the answer to a scene's question."""
-    raise SceneError("ask.quantity", plan.quantity.name, "has no figure of its own")
+    """Draw an answer; ``columns`` are those of its table, ``errors`` standard errors of some.
+
+    Raises ``MissingLibraryError``, and ``SceneError`` for a quantity that has no figure, or for an
+    answer of no rows.
+    """
+    quantity = plan.quantity.name
+    with drawing():
+        from .answers_drawing import DRAWN
+
+        if quantity not in DRAWN:
+            other = 'ask for "contact_forces" or, of many packings, "histogram"'
+            raise SceneError("ask.quantity", quantity, f"has no figure of its own: {other}")
+        if not len(next(iter(columns.values()), [])):
+            raise SceneError("ask.quantity", quantity, "the answer has no rows to be drawn")
+        return DRAWN[quantity](plan, columns, errors)

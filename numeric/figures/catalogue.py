@@ -118,7 +118,7 @@ FIGURES = {
 def make(name: str, options: Options, command: str) -> Made:
     """Make one figure: PNG, SVG, PDF and CSV, all of which hold the command.
 
-    ``name`` is a key of ``FIGURES``. Needs matplotlib, and "pf" SciPy (the extra ``plots``). Raises
+    ``name`` is a key of ``FIGURES``. Needs matplotlib (the extra ``plots``). Raises
     ``SceneError``, ``UnbuildableError`` and ``NotStandingError`` where heights can't be built.
     """
     from . import style

@@ -99,40 +99,24 @@ def contacts(seed: int, notice: Notice) -> Chains:
 
 def draw(data: Chains) -> "Figure":
     """Draw contacts as lines, pressing ones dark, pulling ones vermillion; widths in proportion."""
-    from matplotlib.collections import LineCollection
-
-    from . import style
+    from . import parts, style
 
     figure = style.figure(style.PAGE, 2.75)
     axes = figure.subplots()
-    widest = max(abs(row["force"]) for row in data.contacts)
-    for pulls, colour, order in ((False, "0.12", 1), (True, style.VERMILLION, 2)):
-        rows = [row for row in data.contacts if (row["force"] < 0) == pulls]
-        lines = LineCollection(
-            [[(r["x_low"], r["y_low"]), (r["x_high"], r["y_high"])] for r in rows],
-            linewidths=[max(3.0 * abs(r["force"]) / widest, 0.05) for r in rows],
-            colors=colour, capstyle="round", zorder=order,
-        )  # fmt: skip
-        axes.add_collection(lines)
-    right = 3.0 * SHOWN
-    top = max(row["y_high"] for row in data.contacts)
-    axes.plot([0, right], [-0.9, -0.9], color="black", lw=1)
-    for x in np.linspace(0.03, 0.97, 16) * right:
-        axes.annotate(
-            "", (x, top + 0.9), (x, top + 5),
-            arrowprops={"arrowstyle": "-|>", "color": "0.3", "lw": 0.7, "mutation_scale": 5},
-        )  # fmt: skip
+    forces = np.array([row["force"] for row in data.contacts])
+    ends = np.array([[(r["x_low"], r["y_low"]), (r["x_high"], r["y_high"])] for r in data.contacts])
+    parts.force_chains(axes, ends, forces)
+    right, top = 3.0 * SHOWN, ends[..., 1].max()
+    parts.surface_load(axes, 0, right, top)
     axes.set_xlim(0, right)
     axes.set_ylim(-1.5, top + 5)
     axes.set_aspect("equal")
     axes.axis("off")
-    unit = 3.0 / widest
-    handles = [
-        style.line("0.12", "-", r"$f=\langle f\rangle$"),
-        style.line("0.12", "-", r"$f=3\langle f\rangle$"),
-        style.line(style.VERMILLION, "-", r"pulling, $f=-\langle f\rangle$"),
+    shown = [
+        (1.0, r"$f=\langle f\rangle$"),
+        (3.0, r"$f=3\langle f\rangle$"),
+        (-1.0, r"pulling, $f=-\langle f\rangle$"),
     ]
-    for handle, size in zip(handles, (1, 3, 1), strict=True):
-        handle.set_linewidth(size * unit)
+    handles = parts.chain_keys(forces, shown)
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure

@@ -103,7 +103,7 @@ class Distribution:
 
 
 def samples(realisations: int, seed: int, notice: Notice) -> Distribution:
-    """Draw one contact from each realisation, and test. Needs SciPy."""
+    """Draw one contact from each realisation, and test."""
     return Distribution(
         tuple(
             _sample(case, range(number << 32, (number << 32) + realisations), seed, notice)
@@ -162,7 +162,8 @@ def draw(data: Distribution) -> "Figure":
 
 
 def _histogram(axes: "Axes", one: Sample, look: tuple[str, str]) -> None:
-    colour, marker = look
+    from . import parts
+
     edges = np.linspace(-4, 4, 41)
     width = edges[1] - edges[0]
     counts, _ = np.histogram(one.deviates, edges)
@@ -173,11 +174,7 @@ def _histogram(axes: "Axes", one: Sample, look: tuple[str, str]) -> None:
     v = np.linspace(-4, 4, 321)
     axes.plot(v, np.exp(-(v**2) / 2) / np.sqrt(2 * np.pi), color="black", lw=1.0, label="Gaussian")
     name = f"{one.kind} radii, $M={one.height}$"
-    axes.errorbar(
-        middle, density, error, fmt=marker, color=colour, mfc="white", ms=3.2, mew=0.7,
-        elinewidth=0.7, label=name,
-    )  # fmt: skip
-    axes.set_yscale("log")
+    parts.densities(axes, middle, density, error, look, name)
     axes.set_xlim(-4, 4)
     axes.set_ylim(5e-5, 20)
     axes.set_xlabel(r"$(f-\langle f\rangle)\,/\,\sigma_f$")

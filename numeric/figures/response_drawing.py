@@ -2,13 +2,11 @@
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle
 
 from ..arithmetic.systems import Array
-from . import style
+from . import parts, style
 from .models.double_y import Profile
 from .packings import N_X
 from .response import CUTS, Response
@@ -41,32 +39,15 @@ def _map(
     axes: Axes, data: Response, values: tuple[Array, ...], name: str, where: str, highest: float
 ) -> None:
     nx, ny = float(N_X), np.sqrt(1 - float(N_X) ** 2)
-    discs: list[Circle] = []
-    shades: list[float] = []
-    for j in range(data.apex):
-        discs += [Circle((2 * nx * i, 2 * ny * j), 1) for i in data.sites(j)]
-        shades += values[j].tolist()
-    beads = PatchCollection(discs, cmap="Greys", ec="0.75", lw=0.25)
-    beads.set_array(np.array(shades))
-    beads.set_clim(0, 1.15 * highest)  # the darkest grey still lets circles be seen
-    axes.add_collection(beads)
-    top = (0, 2 * ny * data.apex)
-    axes.add_patch(Circle(top, 1, fc="none", ec="black", lw=0.6))
-    axes.annotate(
-        r"$\mathbf{F}^{\rm load}$", (0, top[1] + 1), (0, top[1] + 6), ha="center", va="bottom",
-        arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 1, "shrinkA": 0, "shrinkB": 0,
-                    "mutation_scale": 7},
-    )  # fmt: skip
-    reach = 2 * nx * data.apex + 2
-    axes.plot([-reach, reach], [-1.2, -1.2], color="black", lw=0.8)
-    axes.set_xlim(-reach, reach)
-    axes.set_ylim(-2, top[1] + 10)
-    axes.set_aspect("equal", anchor="N")
-    axes.axis("off")
-    bar = axes.figure.colorbar(
-        beads, ax=axes, location=where, shrink=0.8, aspect=18, pad=0.03, label=name
+    parts.cone(
+        axes,
+        [(2 * nx * i, 2 * ny * j) for j in range(data.apex) for i in data.sites(j)],
+        np.concatenate(values),
+        (0, 2 * ny * data.apex),
+        name,
+        where,
+        highest,
     )
-    (bar.ax.set_xlim if where == "bottom" else bar.ax.set_ylim)(0, highest)
 
 
 def _cuts(axes: Axes, data: Response) -> None:

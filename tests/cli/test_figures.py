@@ -174,22 +174,15 @@ def test_a_folder_of_others_is_left_alone(
     assert (tmp_path / "figure1.png").read_text() == "mine"
 
 
-@pytest.mark.parametrize(
-    ("library", "name"), [("matplotlib", "1"), ("matplotlib", "pf"), ("scipy", "pf")]
-)
-def test_without_the_libraries(
-    library: str,
-    name: str,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
+def test_without_matplotlib(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for module in [m for m in sys.modules if m.split(".")[0] == library]:
+    for module in [m for m in sys.modules if m.split(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, module)
-    monkeypatch.setitem(sys.modules, library, None)
-    status, printed, err = call(capsys, name, "--out", tmp_path / "out")
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    status, printed, err = call(capsys, "1", "--out", tmp_path / "out")
     assert (status, printed) == (3, "")
-    assert f"need {library}" in err
+    assert "need matplotlib" in err
     assert "force-diffusion[plots]" in err
     assert not (tmp_path / "out").exists()
 

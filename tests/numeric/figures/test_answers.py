@@ -1,0 +1,186 @@
+"""Figures of one answer: what is drawn are the numbers of its table."""
+
+import sys
+from typing import Any
+
+import numpy as np
+import pytest
+from force_diffusion.numeric import closed_forms
+from force_diffusion.numeric.figures.library import MissingLibraryError
+
+import force_diffusion as fd
+
+pytest.importorskip("matplotlib")
+from force_diffusion.numeric.figures import parts
+from matplotlib.collections import LineCollection, PatchCollection
+from matplotlib.colors import to_rgba
+from matplotlib.container import ErrorbarContainer
+from matplotlib.figure import Figure
+
+M, W = 6, 14
+
+
+def scene(quantity: str, std: float = 1e-4, **sections: Any) -> fd.Scene:
+    ask = {"realisations": sections.pop("realisations", 1), "at": sections.pop("at", None)}
+    values = {
+        "packing": fd.Packing(height=M, width=W),
+        "disorder": fd.Disorder(kind="uniform", relative_std=std, seed=3),
+        "ask": fd.Ask(quantity=quantity, **ask),  # type: ignore[arg-type]
+        **sections,
+    }
+    return fd.Scene(**values)
+
+
+def lines(figure: Figure, panel: int = 0) -> tuple[LineCollection, LineCollection]:
+    pressing, pulling = (
+        one for one in figure.axes[panel].collections if isinstance(one, LineCollection)
+    )
+    return pressing, pulling
+
+
+def points(figure: Figure) -> list[tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]]:
+    """Give x and y of each series with error bars."""
+    found = []
+    for container in figure.axes[0].containers:
+        assert isinstance(container, ErrorbarContainer)
+        data = container.lines[0].get_data()
+        found.append((np.asarray(data[0]), np.asarray(data[1])))
+    return found
+
+
+def test_chains_are_as_thick_as_forces_and_tension_has_its_colour() -> None:
+    outcome = scene("contact_forces", std=0.04).run()
+    forces = outcome.arrays["force"]
+    assert (forces < 0).any()
+    pressing, pulling = lines(outcome.plot())
+    assert len(pulling.get_segments()) == (forces < 0).sum()
+    assert to_rgba(parts.PULLING) in map(tuple, pulling.get_colors())
+    widths = np.array(pressing.get_linewidths()) / parts.WIDEST
+    expected = forces[forces >= 0] / abs(forces).max()
+    assert widths == pytest.approx(np.maximum(expected, 0.05 / parts.WIDEST))
+    # each line is a contact of the ordered lattice, of length 2 r, also at the edges of the strip
+    ends = np.array([*pressing.get_segments(), *pulling.get_segments()])
+    assert np.hypot(*(ends[:, 1] - ends[:, 0]).T) == pytest.approx(2.0)
+
+
+def test_a_point_load_near_the_edge_has_one_cone() -> None:
+    load = fd.PointLoad(at=(0, M))
+    outcome = scene("response", load=load, packing=fd.Packing(height=M, width=2 * M)).run()
+    figure = outcome.plot()
+    (beads,) = (c for c in figure.axes[0].collections if isinstance(c, PatchCollection))
+    centres = np.array([path.get_extents().get_points().mean(axis=0) for path in beads.get_paths()])
+    shades = np.asarray(beads.get_array())
+    assert len(shades) == M * (M + 3) // 2  # l − j + 1 beads on layer j
+    assert sum(centres[:, 0]) == pytest.approx(0)
+    vertical = outcome.arrays["vertical"]
+    for height in np.unique(centres[:, 1].round(6)):  # each layer bears the whole load
+        assert shades[centres[:, 1].round(6) == height].sum() == pytest.approx(1, abs=1e-3)
+    assert vertical.sum() == pytest.approx(M, abs=1e-3 * M)
+
+
+def test_a_profile_stands_beside_theory() -> None:
+    for load, number in ((fd.SurfaceLoad(), 13), (fd.BulkLoad(), 14)):
+        outcome = scene("profile", realisations=20, load=load).run()
+        figure = outcome.plot()
+        for branch, (z, std) in zip("+-", points(figure), strict=True):
+            own = outcome.arrays["branch"] == branch
+            assert z == pytest.approx(np.arange(M) / M)
+            assert std == pytest.approx(outcome.arrays["std"][own])
+        exact, printed = figure.axes[0].get_lines()[:2]
+        theory = [float(v) for v in outcome.arrays["first_order_std"][::2]]
+        assert np.asarray(exact.get_ydata()) == pytest.approx(theory)
+        assert printed.get_label() == f"Eq. ({number}), printed"
+    # of the surface load the ordered force is 1/2n_y everywhere
+    phi, F = 1 - 2 * 0.75**2, 0.5 / np.sqrt(1 - 0.75**2)
+    figure = scene("profile").run().plot()
+    own = [closed_forms.surface_diffusion(M, j / M, phi, 1e-4, 1.0) for j in range(M)]
+    drawn = np.asarray(figure.axes[0].get_lines()[1].get_ydata())
+    assert drawn == pytest.approx(F * np.sqrt(own))
+
+
+def test_no_theory_is_drawn_where_none_applies() -> None:
+    outcome = scene("profile", load=fd.PointLoad(at=(0, M))).run()
+    assert "first_order_std" not in outcome.arrays
+    labels = [text.get_text() for text in outcome.plot().axes[0].get_legend().get_texts()]
+    assert labels == ["simulated, $f^+$", "simulated, $f^-$"]
+
+
+@pytest.mark.parametrize("at", [None, (0, 0, "+")])
+def test_densities_are_those_of_all_changes(at: Any) -> None:
+    outcome = scene("histogram", at=at, realisations=300).run()
+    count = outcome.arrays["count"]
+    figure = outcome.plot()
+    ((v, density),) = points(figure)
+    assert len(v) == (count > 0).sum()
+    assert density.sum() * np.diff(v).min() == pytest.approx(1, rel=1e-9)
+    gauss = figure.axes[0].get_lines()[-1]
+    x, y = (np.asarray(side) for side in gauss.get_data())
+    assert np.trapezoid(y, x) == pytest.approx(1, abs=0.01)
+    # the unit is σ_f of theory: both have a variance of one, up to sampling (√(2/300) for one)
+    assert (density * v**2).sum() * np.diff(v).min() == pytest.approx(1, abs=0.3)
+
+
+def test_beads_have_their_radii() -> None:
+    outcome = scene("positions", std=0.02).run()
+    (beads,) = (c for c in outcome.plot().axes[0].collections if isinstance(c, PatchCollection))
+    boxes = np.array([path.get_extents().get_points() for path in beads.get_paths()])
+    assert boxes.mean(axis=1)[:, 0] == pytest.approx(outcome.arrays["x"], abs=1e-6)
+    radii = np.ptp(boxes, axis=1)[:, 0] / 2
+    assert radii.std() == pytest.approx(0.02, rel=0.3)
+    x, y = outcome.arrays["x"], outcome.arrays["y"]
+    apart = np.hypot(x[:, None] - x, y[:, None] - y)
+    touching = np.abs(apart - (radii[:, None] + radii)) < 1e-5
+    assert touching.sum() // 2 >= 2 * M * (W - 1)  # but for those across the edge
+
+
+def test_the_base_and_its_changes() -> None:
+    outcome = scene("base_reactions").run()
+    figure = outcome.plot()
+    for axes, names in zip(figure.axes, (("fx", "fy"), ("change_x", "change_y")), strict=True):
+        for line, name in zip(axes.get_lines(), names, strict=True):
+            assert (np.asarray(line.get_ydata()) == outcome.arrays[name]).all()
+
+
+@pytest.mark.parametrize("quantity", ["profile", "histogram", "contact_forces", "response"])
+def test_an_ensemble_is_drawn_too(quantity: str) -> None:
+    load = fd.PointLoad(at=(0, M)) if quantity == "response" else fd.SurfaceLoad()
+    found = fd.ensemble(scene(quantity, load=load), 20)
+    figure = found.plot()
+    if quantity == "profile":
+        assert points(figure)[0][1] == pytest.approx(found.std[::2])
+        bars = figure.axes[0].containers[0].lines[2][0].get_segments()
+        half = np.array([(bar[1, 1] - bar[0, 1]) / 2 for bar in bars])
+        assert half == pytest.approx(found.std_error[::2])
+    if quantity == "contact_forces":
+        widths = np.array(lines(figure)[0].get_linewidths())
+        assert widths == pytest.approx(np.maximum(3 * found.std / found.std.max(), 0.05))
+    assert figure._repr_png_()[1:4] == b"PNG"  # type: ignore[attr-defined]
+
+
+def test_digits_beyond_float64_are_drawn() -> None:
+    outcome = scene("contact_forces", std=0.04).run(1e-30, certified=True)
+    assert outcome.arrays["force"].dtype == object
+    pressing, pulling = lines(outcome.plot())
+    assert len(pressing.get_segments()) + len(pulling.get_segments()) == 2 * M * W
+
+
+def test_it_looks_the_same_whatever_a_user_has_set() -> None:
+    import matplotlib as mpl
+
+    figure = scene("profile").run().plot()
+    usual = figure._repr_png_()  # type: ignore[attr-defined]
+    with mpl.rc_context({"font.family": "monospace", "xtick.direction": "out", "font.size": 20}):
+        assert figure._repr_png_() == usual  # type: ignore[attr-defined]
+
+
+def test_one_contact_has_no_figure() -> None:
+    with pytest.raises(fd.SceneError, match="has no figure"):
+        scene("contact", at=(0, 0, "+")).run().plot()
+
+
+def test_a_missing_library_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    outcome = scene("profile").run()
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(MissingLibraryError, match=r"force-diffusion\[plots\]") as caught:
+        outcome.plot()
+    assert caught.value.exit_status == 3
