@@ -83,3 +83,12 @@ def test_nothing_imports_a_room_by_its_folder() -> None:
         if ".venv" not in path.parts:
             heads = {name.split(".")[0] for name in imported(path)}
             assert not heads & {"numeric", "symbolic", "derivations"}, path
+
+
+def test_every_room_is_on_the_map() -> None:
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    for folder in ("numeric", "symbolic", "derivations"):
+        part = text.partition(f"### {folder}/")[2].partition("\n#")[0]
+        told = {name.strip("`/") for row in part.splitlines() for name in row.split("`")[1:-1:2]}
+        there = {room for room in rooms(folder) if not room.startswith("eq")}
+        assert there <= told, folder
