@@ -16,7 +16,7 @@ import numpy as np
 
 from .. import closed_forms
 from ..arithmetic.systems import Array
-from ..mechanics.problem import Problem
+from ..planning.plan import Plan
 from ..statistics.bands import (
     Band,
     Estimate,
@@ -31,10 +31,8 @@ from .packings import (
     PHI,
     Notice,
     Row,
-    batched,
-    forces_of,
+    changes,
     planned,
-    solved,
 )
 
 LEVEL = 0.99
@@ -199,7 +197,7 @@ def curves(M: int) -> tuple[Array, Array]:
     return np.sqrt(exact), np.sqrt(printed)
 
 
-def _ensemble(M: int, realisations: int, seed: int, geometry: str) -> Problem:
+def _ensemble(M: int, realisations: int, seed: int, geometry: str) -> Plan:
     """Plan packings of W = 2M: then no exact force sees an image."""
     return planned(
         "profile", height=M, width=2 * M, seed=seed, geometry=geometry, realisations=realisations
@@ -212,16 +210,10 @@ def averages(
     """Average g = f/F − 1 and g² over the contacts of each layer; shapes (realisations, M)."""
     ensemble = _ensemble(M, len(realisations), seed, geometry)
     what = f"figure 3, M = {M}" + ("" if geometry == "exact" else ", first order")
-    means, squares = [], []
-    for answer, number in solved(ensemble, realisations, notice, what):
-        forces = forces_of(answer)
-        mean, square = np.empty((number, M)), np.empty((number, M))
-        for j in range(M):
-            F = forces.ordered.plus[j + 1][0]
-            plus = batched(forces.change.plus[j + 1], number) / F
-            minus = batched(forces.change.minus[j + 1], number) / F
-            mean[:, j] = (plus.mean(axis=1) + minus.mean(axis=1)) / 2
-            square[:, j] = ((plus**2).mean(axis=1) + (minus**2).mean(axis=1)) / 2
-        means.append(mean)
-        squares.append(square)
+    means: list[Array] = []
+    squares: list[Array] = []
+    for F, g in changes(ensemble, realisations, notice, what):
+        relative = g / F[:, None]  # (layer and branch, realisation, contact)
+        for found, values in ((means, relative), (squares, relative**2)):
+            found.append(values.mean(axis=2).reshape(M, 2, -1).mean(axis=1).T)
     return np.concatenate(means), np.concatenate(squares)

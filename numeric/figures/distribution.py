@@ -20,10 +20,10 @@ from .packings import (
     PHI,
     Notice,
     Row,
+    changes,
     forces_of,
     impulses,
     planned,
-    solved,
 )
 
 if TYPE_CHECKING:
@@ -124,11 +124,7 @@ def _sample(case: tuple[str, int], realisations: range, seed: int, notice: Notic
         kind=kind,
         realisations=len(realisations),
     )
-    found = []
-    for answer, number in solved(plan, realisations, notice, what):
-        forces = forces_of(answer)
-        change = forces.change.plus[1].reshape(number, -1)[:, 0]
-        found.append(change / forces.ordered.plus[1][0])
+    found = [g[0, :, 0] / F[0, 0] for F, g in changes(plan, realisations, notice, what)]
     std = np.sqrt(closed_forms.surface_variance(M, 0, float(PHI), PAPER_STD, 1.0))
     deviates = np.concatenate(found) / std
     notice(f"{what}: tests")

@@ -1,4 +1,4 @@
-"""Ensembles for figures: scenes written as text, solved batch after batch by the engine."""
+"""Ensembles for figures: planned, and solved batch after batch by the engine."""
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
@@ -12,8 +12,10 @@ from ..mechanics.engine import packings
 from ..mechanics.first_order import displace
 from ..mechanics.forces import Forces, sweep_down
 from ..mechanics.packing import SolvedPacking
-from ..mechanics.problem import Problem, Solved
+from ..mechanics.problem import Solved
+from ..planning.plan import Plan
 from ..planning.planner import plan
+from ..quantities.base import ContactQuantity
 from ..scene.scene import Scene
 from ..scene.sections import (
     Ask,
@@ -49,7 +51,7 @@ def planned(
     at: tuple[int, int, str] | None = None,
     load: Load | None = None,
     geometry: Any = "exact",
-) -> Problem:
+) -> Plan:
     """Plan an ensemble. Raises ``SceneError`` where a number is out of range or too large."""
     narrow = width is not None
     scene = Scene(
@@ -59,26 +61,34 @@ def planned(
         effects=Effects(geometry=geometry),
         ask=Ask(quantity=quantity, at=at, realisations=realisations),
     )
-    return plan(scene).problem
+    return plan(scene)
 
 
 def solved(
-    ensemble: Problem, realisations: range, notice: Notice | None = None, what: str = ""
+    ensemble: Plan, realisations: range, notice: Notice | None = None, what: str = ""
 ) -> Iterator[tuple[Solved, int]]:
     """Solve realisations; give what was solved together with the number of its realisations.
 
-    Arrays of a batch of one have no axis of realisations: ``batched`` adds it.
+    Arrays of a batch of one have no axis of realisations.
     """
     with FLOAT64.active():
-        for answer, chunk in packings(ensemble, realisations, FLOAT64):
+        for answer, chunk in packings(ensemble.problem, realisations, FLOAT64):
             yield answer, len(chunk)
             if notice is not None:
                 notice(f"{what}: realisation {chunk[-1] - realisations[0]} of {len(realisations)}")
 
 
-def batched(values: Array, number: int) -> Array:
-    """Give an array its axis of realisations; shape (number, count)."""
-    return values.reshape(number, -1)
+def changes(
+    ensemble: Plan, realisations: range, notice: Notice, what: str
+) -> Iterator[tuple[Array, Array]]:
+    """Solve realisations; give F and g of the quantity's groups, as an ensemble has them.
+
+    Shapes: (groups, 1 or members) and (groups, realisations of a batch, members).
+    """
+    quantity = ensemble.quantity
+    assert isinstance(quantity, ContactQuantity)
+    for answer, number in solved(ensemble, realisations, notice, what):
+        yield quantity.changes(ensemble.problem, answer, number)
 
 
 def forces_of(answer: Solved) -> Forces:
@@ -87,11 +97,12 @@ def forces_of(answer: Solved) -> Forces:
     return answer.forces
 
 
-def impulses(ensemble: Problem) -> Solved:
+def impulses(plan: Plan) -> Solved:
     """Solve to first order with δr = r on one bead at a time: the weights of δr/r in everything.
 
     The first axis of all arrays runs over the beads of the region, base first.
     """
+    ensemble = plan.problem
     region = ensemble.region
     unit = np.eye(region.beads)
     edges = np.cumsum([row.count for row in region.rows])[:-1]

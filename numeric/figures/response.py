@@ -17,6 +17,8 @@ import numpy as np
 from ..arithmetic.systems import Array
 from ..closed_forms import bead_response, contact_response
 from ..mechanics.problem import Solved
+from ..planning.plan import Plan
+from ..quantities import response as quantities
 from ..scene.sections import PointLoad
 from ..statistics.bands import Band, averaged, simultaneous
 from .models.double_y import Profile, profiles
@@ -25,7 +27,6 @@ from .packings import (
     PHI,
     Notice,
     Row,
-    forces_of,
     planned,
     solved,
 )
@@ -157,7 +158,7 @@ def respond(realisations: int, seed: int, notice: Notice, *, double_y: bool = Fa
     ordered = tuple(_ordered(j) for j in range(APEX))
     samples: list[tuple[Array, ...]] = []
     for answer, number in solved(ensemble, range(realisations), notice, "figure 4"):
-        samples.append(vertical(answer, number))
+        samples.append(vertical(ensemble, answer, number))
     changes = tuple(np.concatenate(parts) for parts in zip(*samples, strict=True))
     cut = _on_cuts(changes) / STD
     variance = cut.var(axis=0)
@@ -188,23 +189,18 @@ def _exact(j: int, variance: Callable[..., Any], *branch: str) -> Array:
     return np.array(found, dtype=float)
 
 
-def vertical(answer: Solved, number: int) -> tuple[Array, ...]:
+def vertical(ensemble: Plan, answer: Solved, number: int) -> tuple[Array, ...]:
     """Give the change of p by layer 0 … l − 1, shapes (number, l − j + 1): beads of the cone."""
-    forces, packing = forces_of(answer), answer.packing
-    assert packing is not None
-    ny = np.sqrt(1 - float(N_X) ** 2)
-    found = []
-    for j in range(1, len(forces.rows)):
-        parts = []
-        for F, g, dn in (
-            (forces.ordered.plus[j], forces.change.plus[j], packing.dn.plus[j]),
-            (forces.ordered.minus[j], forces.change.minus[j], packing.dn.minus[j]),
-        ):
-            change = g.reshape(number, -1)
-            tilt = (dn[0] + dn[1]).reshape(number, -1)
-            parts.append((change + (F + change) * tilt) * ny)
+    quantity = ensemble.quantity
+    assert isinstance(quantity, quantities.Response)
+    *_, contacts = quantity.both(ensemble.problem, answer, number)
+    found, at = [], 0
+    for row in ensemble.problem.force_rows[1:]:
+        plus, minus = contacts[:, at : at + row.count], contacts[:, at + row.count :]
         nothing = np.zeros((number, 1))
-        plus = np.concatenate((parts[0], nothing), axis=1)
-        minus = np.concatenate((nothing, parts[1]), axis=1)
-        found.append(plus + minus)
+        found.append(
+            np.concatenate((plus, nothing), axis=1)
+            + np.concatenate((nothing, minus[:, : row.count]), axis=1)
+        )
+        at += 2 * row.count
     return tuple(found)

@@ -38,14 +38,11 @@ def histogram(
     low, high = float(least - span / 1009), float(most + span / 2003)
     step = (Fraction(high) - Fraction(low)) / bins
     edges = [Fraction(low) + step * k for k in range(bins + 1)]
-    counts = [0] * bins
     if isinstance(system, Balls):
         edges = [edge * unit for edge in edges]
         counts = _count(values, edges, system)
     else:
-        inner = np.array([float(e) for e in edges[1:-1]])
-        places = np.searchsorted(inner, rough, side="right")
-        counts = np.bincount(places, minlength=bins).tolist()
+        counts = np.histogram(rough, [float(edge) for edge in edges])[0].tolist()
     return list(zip(edges[:-1], edges[1:], counts, strict=True))
 
 

@@ -133,9 +133,8 @@ def test_figure_4_conserves_the_load() -> None:
         realisations=3,
     )
     for answer, number in packings.solved(plan, range(3)):
-        for change in response.vertical(
-            answer, number
-        ):  # every layer bears the whole load, exactly
+        # every layer bears the whole load, exactly
+        for change in response.vertical(plan, answer, number):
             assert change.sum(axis=1) == pytest.approx(np.zeros(3), abs=1e-16)
 
 
