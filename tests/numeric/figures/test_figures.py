@@ -258,6 +258,6 @@ def test_goodness_of_fit_rejects_what_it_should() -> None:
 
 def test_the_disorder_is_that_of_the_paper() -> None:
     plan = planned("profile", height=2, width=4, seed=0)
-    assert float(plan.radii.relative_std()) == PAPER_STD
+    assert float(plan.problem.radii.relative_std()) == PAPER_STD
     assert pytest.approx(1e-6 / 12, rel=1e-15) == PAPER_STD**2
     assert Fraction(3, 4) == N_X
