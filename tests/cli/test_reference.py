@@ -1,6 +1,7 @@
 """The scene reference: every key that a scene takes, and every column that an answer has."""
 
 import csv
+import json
 import re
 from pathlib import Path
 
@@ -146,3 +147,33 @@ def test_a_section_takes_the_fields_that_are_told(section) -> None:
     fields = section.model_fields
     assert {name for name, _ in told} == set(fields)
     assert all(fields[name].is_required() == (not default) for name, default in told)
+
+
+def _keys(value: object) -> set[str]:
+    """All names of objects within JSON."""
+    if isinstance(value, dict):
+        return set(value).union(*map(_keys, value.values()))
+    return set().union(*map(_keys, value)) if isinstance(value, list) else set()
+
+
+def _answers(title: str) -> str:
+    text = SCENES.read_text(encoding="utf-8")
+    return text.partition(f"\n## {title}\n")[2].partition("\n## ")[0]
+
+
+def test_the_json_of_a_run_has_the_keys_that_are_told(tmp_path, capsys) -> None:
+    pulling = f"{PACKING}[ask]\n{ASKED['contact_forces']}".replace("1e-3", "0.1").replace(
+        "height = 2", "height = 6"
+    )
+    told = set(re.findall(r"\w+", _answers("The JSON of `run`") + _part(SCENES, "`contact`")))
+    told |= set(ASKED)
+    for text, *more in ((pulling,), (f"{PACKING}[ask]\n{ASKED['contact']}", "--tolerance", "1e-9")):
+        assert main(["run", _scene(tmp_path, text), "--json", *more]) == 0
+        assert _keys(json.loads(capsys.readouterr().out)) <= told
+
+
+def test_the_json_of_an_ensemble_has_the_keys_that_are_told(tmp_path, capsys) -> None:
+    scene = _scene(tmp_path, f"{PACKING}[ask]\nrealisations = 40\n{ASKED['histogram']}")
+    told = set(re.findall(r"\w+", _answers("The JSON of `ensemble`"))) | set(ASKED)
+    assert main(["ensemble", scene, "--json", "--covariance"]) == 0
+    assert _keys(json.loads(capsys.readouterr().out)) <= told
