@@ -1,9 +1,17 @@
 from .derivations.api.certificates import certify as certify
+from .derivations.api.derived import Derived as Derived
+from .derivations.api.derived import derive as derive
 from .derivations.api.equation import Equation as Equation
 from .derivations.api.equation import equation as equation
+from .derivations.api.report import Report as Report
+from .derivations.api.report import report as report
 from .numeric.arithmetic.errors import ForceDiffusionError as ForceDiffusionError
 from .numeric.ensemble.ensemble import ensemble as ensemble
 from .numeric.ensemble.result import Ensemble as Ensemble
+from .numeric.ensemble.store import StoreContent as StoreContent
+from .numeric.ensemble.store import read_store as read_store
+from .numeric.figures.catalogue import PaperFigure as PaperFigure
+from .numeric.figures.catalogue import figure as figure
 from .numeric.planning.plan import Plan as Plan
 from .numeric.run.outcome import Outcome as Outcome
 from .numeric.run.running import Scene as Scene

@@ -12,6 +12,8 @@ from force_diffusion.derivations.commands.output import Overwrite, out_option, o
 from force_diffusion.derivations.commands.shared import noticing
 from force_diffusion.derivations.framework.catalogue import load, modules
 
+import force_diffusion as fd
+
 if TYPE_CHECKING:
     from force_diffusion.derivations.api.certificates import Certificate
 
@@ -48,7 +50,7 @@ def certify(
     files = certificates.theory() | certificates.sources(wanted)
     with output(out, "certify", [*files, CERTIFICATE], overwrite) as folder:
         with noticing() as notice:
-            found = certificates.certify(wanted, mutants=mutants, notice=notice)
+            found = fd.certify(wanted, mutants=mutants, notice=notice)
         data = {
             "equations": [asdict(one) for one in found],
             "theory": {name: certificates.sha256(text) for name, text in files.items()},

@@ -1,41 +1,30 @@
 """The main job: prove what is asked for and what it rests on, and write it down."""
 
-from collections import Counter
+import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from force_diffusion.derivations.commands.output import output
 from force_diffusion.derivations.commands.progress import Silence, display
 from force_diffusion.derivations.framework.catalogue import load, modules, with_premises
-from force_diffusion.derivations.framework.record import Derivation, Outcome
-from force_diffusion.derivations.framework.runner import run_all
-from force_diffusion.symbolic.kernel.decisions import Verdict
+
+import force_diffusion as fd
+
+if TYPE_CHECKING:
+    from force_diffusion.derivations.api.derived import Derived
+    from force_diffusion.derivations.framework.record import Derivation
 
 
-def everything() -> list[Derivation]:
-    """All derivations, premises first."""
-    return with_premises(load(number) for number in modules())
+def premises_first(numbers: Iterable[int]) -> "list[Derivation]":
+    """The derivations of these equations and of all that they rest on."""
+    return with_premises(load(number) for number in numbers)
 
 
-def outcomes_of(derivations: Iterable[Derivation], watch: Silence) -> list[Outcome]:
-    """Derive these in their order, premises first, and tell ``watch`` of each."""
-    outcomes: list[Outcome] = []
+def watched(numbers: Iterable[int], watch: Silence) -> "Derived":
+    """Derive these equations under a display."""
     with watch.showing():
-        for outcome in run_all(derivations, watch.checking):
-            outcomes.append(outcome)
-            watch.finished(outcome)
-    return outcomes
-
-
-def verdict_counts(outcomes: Iterable[Outcome]) -> str:
-    """How many equations have which verdict, in words."""
-    counts = Counter(str(outcome.verdict) for outcome in outcomes)
-    return ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
-
-
-def status_of(outcomes: Iterable[Outcome]) -> int:
-    """Exit status: 0 if all are proved, else 1."""
-    return 0 if all(outcome.verdict is Verdict.PROVED for outcome in outcomes) else 1
+        return fd.derive(numbers, notice=watch.checking, finished=watch.finished)
 
 
 def derive(numbers: Sequence[int], out: Path | None, as_json: bool, overwrite: bool = False) -> int:
@@ -49,32 +38,25 @@ def derive(numbers: Sequence[int], out: Path | None, as_json: bool, overwrite: b
         document,
         finding,
         fragment_name,
-        statement_latex,
     )
 
-    derivations = with_premises(load(number) for number in numbers)
+    derivations = premises_first(numbers)
     names = [*map(fragment_name, derivations), DOCUMENT]
     with output(out, "derive", names, overwrite) as folder:
         watch = display(len(derivations), as_json=as_json)
-        outcomes = outcomes_of(derivations, watch)
+        found = watched(numbers, watch)
         if folder:
             parts = {
-                found.number: (load(found.number), found)
-                for found in (folder.manifest.equations if folder.manifest else ())
-                if found.number in modules() and folder.holds(fragment_name(load(found.number)))
+                earlier.number: (load(earlier.number), earlier)
+                for earlier in (folder.manifest.equations if folder.manifest else ())
+                if earlier.number in modules() and folder.holds(fragment_name(load(earlier.number)))
             }
-            parts |= {one.derivation.number: (one.derivation, finding(one)) for one in outcomes}
+            parts |= {
+                one.derivation.number: (one.derivation, finding(one)) for one in found.outcomes
+            }
             about = [parts[number] for number in sorted(parts)]
-            folder.write(
-                {
-                    **{fragment_name(one): statement_latex(one) for one in derivations},
-                    DOCUMENT: document(about),
-                },
-                [found for _, found in about],
-            )
-    watch.summary(f"{verdict_counts(outcomes)}." + (f" Written to {out}." if out else ""))
+            folder.write({**found.latex(), DOCUMENT: document(about)}, [one for _, one in about])
+    watch.summary(f"{found.counts()}." + (f" Written to {out}." if out else ""))
     if as_json:
-        from force_diffusion.derivations.export.terminal import outcomes_json
-
-        print(outcomes_json(outcomes), flush=True)
-    return status_of(outcomes)
+        print(json.dumps(found.data(), indent=2), flush=True)
+    return 0 if found.proved else 1

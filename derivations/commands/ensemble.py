@@ -1,4 +1,4 @@
-"""The commands for ensembles: a thin layer over ``numeric.ensemble``."""
+"""The commands for ensembles: a thin layer over ``fd.ensemble`` and ``fd.read_store``."""
 
 import json
 import sys
@@ -13,6 +13,8 @@ from force_diffusion.derivations.commands.guard import about, in_range, tell
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.export.tables import csv_text
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
+
+import force_diffusion as fd
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.ensemble.result import Ensemble
@@ -73,13 +75,11 @@ def ensemble(
     overwrite: Overwrite = False,
 ) -> None:
     """Statistics over many packings, on many cores, kept in a file as they come."""
-    from force_diffusion.numeric.run import read_scene
-
     if scheduler is not None and (cluster is not None or workers is not None):
         other = "--workers" if cluster is None else "--cluster"
         raise ForceDiffusionError(f"--scheduler and {other} exclude each other: leave one out")
     with about(scene.name):
-        read = read_scene(scene)
+        read = fd.read_scene(scene)
     table = f"{read.ask.quantity}.csv"
     names = ["result.json", table, *(["covariance.csv"] if covariance else [])]
     with output(out, f"ensemble {scene}", names, overwrite) as folder:
@@ -119,7 +119,6 @@ def _solved(
     **more: Any,
 ) -> "Ensemble":
     """Solve under a progress bar; errors name options as they are written here."""
-    from force_diffusion.numeric.ensemble.ensemble import ensemble as solve
     from force_diffusion.numeric.ensemble.measure import ArgumentError
     from force_diffusion.numeric.ensemble.store import StoreError, StoreFailedError
     from force_diffusion.numeric.ensemble.workers import WorkersError
@@ -128,7 +127,9 @@ def _solved(
         with ExitStack() as stack, in_range():
             size = scene.ask.realisations if realisations is None else realisations
             progress = _progress(stack, size, until)
-            return solve(scene, realisations, until=until, store=store, progress=progress, **more)
+            return fd.ensemble(
+                scene, realisations, until=until, store=store, progress=progress, **more
+            )
     except ArgumentError as error:
         raise ForceDiffusionError(f"--{error}") from None
     except (StoreError, StoreFailedError) as error:
@@ -187,28 +188,11 @@ def ensemble_status(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
 ) -> None:
     """Say what the store of an ensemble holds, and check it."""
-    from force_diffusion.numeric.ensemble.store import open_store
-
-    opened = open_store(store, None)
-    try:
-        ranges = opened.ranges()
-    finally:
-        opened.close()
-    data = {
-        "realisations": sum(stop - first for first, stop in ranges),
-        "ranges": [list(one) for one in ranges],
-        "sizes_asked_for": list(opened.about.ends),
-        "ensemble": opened.about.key,
-    }
+    found = fd.read_store(store)
     if as_json:
-        print(json.dumps(data, indent=2))
+        print(json.dumps(found.data(), indent=2))
         return
-    print(f"{store}: sound, {data['realisations']} realisations")
-    asked = ", ".join(map(str, opened.about.ends))
-    print(f"sizes asked for: {asked}")
-    for section, keys in opened.about.key.items():
-        shown = keys or {}
-        print(f"{section}: " + ", ".join(f"{k} = {v}" for k, v in shown.items() if v is not None))
+    print(f"{store}: sound, {found}")
 
 
 def register(app: typer.Typer) -> None:

@@ -1,9 +1,9 @@
-"""The command ``figures``: a thin layer over ``numeric.figures``."""
+"""The command ``figures``: a thin layer over ``fd.figure``."""
 
 import json
 import shlex
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 from force_diffusion.derivations.commands.guard import about
@@ -11,8 +11,7 @@ from force_diffusion.derivations.commands.output import Overwrite, out_option, o
 from force_diffusion.derivations.commands.shared import images, noticing
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
-if TYPE_CHECKING:
-    from force_diffusion.numeric.figures.catalogue import Options
+import force_diffusion as fd
 
 NAMES = ("1", "2", "3", "4", "pf", "chains")
 MODELS = {"q-model": "3", "double-y": "4"}
@@ -104,7 +103,7 @@ def figures(
                 f"{model} stands beside figure {MODELS[model]}; add {MODELS[model]}.",
                 param_hint="--with",
             )
-    from force_diffusion.numeric.figures.catalogue import FIGURES, HEIGHTS, Options
+    from force_diffusion.numeric.figures.catalogue import FIGURES
     from force_diffusion.numeric.figures.library import drawing
 
     with drawing():  # or leave before anything is solved
@@ -120,8 +119,10 @@ def figures(
     stems = [FIGURES[name].file for name in wanted]
     names = [file for stem in stems for file in (*images(stem), f"{stem}.csv", f"{stem}.json")]
     with noticing() as notice, output(out, "figures", names, overwrite) as folder:
-        options = Options(chosen or HEIGHTS, realisations, seed, frozenset(beside or []), notice)
-        data, files = _made(wanted, options, command)
+        data, files = _made(
+            wanted, command, beside or [], **({} if chosen is None else {"heights": chosen}),
+            realisations=realisations, seed=seed, notice=notice,
+        )  # fmt: skip
         if folder:
             folder.write(files)
     if as_json:
@@ -133,17 +134,16 @@ def figures(
 
 
 def _made(
-    wanted: list[str], options: "Options", command: str
+    wanted: list[str], command: str, beside: list[str], **options: Any
 ) -> tuple[dict[str, Any], dict[str, str | bytes]]:
     """Make figures one after the other: what was found, and the files."""
-    from force_diffusion.numeric.figures.catalogue import FIGURES, make
-
     data: dict[str, Any] = {"command": command, "figures": {}}
     files: dict[str, str | bytes] = {}
     for name in wanted:
+        own = [model for model in beside if MODELS[model] == name]
         with about(f"figure {name}"):
             try:
-                made = make(name, options, command)
+                made = fd.figure(name, beside=own, command=command, **options)
             except ForceDiffusionError as error:
                 if name != "3":
                     raise
@@ -155,8 +155,9 @@ def _made(
             **made.facts,
         }
         data["figures"][name] = found
-        own = json.dumps({"command": command, **found}, indent=2, allow_nan=False)
-        files |= {**made.files, f"{FIGURES[name].file}.json": own + "\n"}
+        text = json.dumps({"command": command, **found}, indent=2, allow_nan=False)
+        stem = next(iter(made.files)).partition(".")[0]
+        files |= {**made.files, f"{stem}.json": text + "\n"}
     return data, files
 
 

@@ -5,7 +5,7 @@ from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, TextIO
 
 from force_diffusion.derivations.export.terminal import summary_line, trouble_lines
-from force_diffusion.derivations.framework.record import Derivation, Outcome
+from force_diffusion.derivations.framework.record import Outcome
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ class Silence:
         """While the run lasts."""
         return nullcontext()
 
-    def checking(self, derivation: Derivation, check: str) -> None:
+    def checking(self, check: str) -> None:
         """A check is about to start."""
 
     def finished(self, outcome: Outcome) -> None:
@@ -72,9 +72,9 @@ class LiveBar(Silence):
         """While the run lasts."""
         return self._bar
 
-    def checking(self, derivation: Derivation, check: str) -> None:
+    def checking(self, check: str) -> None:
         """Name the check at work."""
-        self._bar.update(self._task, description=f"Eq. {derivation.number}: {check}")
+        self._bar.update(self._task, description=check)
 
     def finished(self, outcome: Outcome) -> None:
         """One more done."""

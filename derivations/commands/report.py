@@ -1,15 +1,15 @@
 """The command ``report``: everything that the package finds, as one page."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
+from force_diffusion.derivations.commands.progress import display
 from force_diffusion.derivations.commands.shared import noticing
-from force_diffusion.numeric.arithmetic.errors import NotReachedError
+from force_diffusion.derivations.framework.catalogue import modules
 
-if TYPE_CHECKING:
-    from force_diffusion.derivations.framework.record import Outcome
+import force_diffusion as fd
 
 PAGE = "report.html"
 STATUSES = (
@@ -25,40 +25,20 @@ def report(
     """Write all results as one HTML page: derivations, checks, figures, costs, stability."""
     import shlex
 
-    try:
-        import jinja2  # noqa: F401
-        import math_core  # noqa: F401
-        import matplotlib  # noqa: F401
-    except ImportError as missing:
-        raise NotReachedError(
-            f"{missing.name} is missing; pip install 'force-diffusion[report]'"
-        ) from None
-    from force_diffusion.derivations.commands.deriving import status_of, verdict_counts
+    from force_diffusion.derivations.api.report import find_libraries
+    from force_diffusion.derivations.commands.deriving import watched
 
+    find_libraries()
     command = shlex.join(["force-diffusion", "report", "--out", str(out)])
     with output(out, "report", [PAGE], overwrite) as folder:
-        outcomes, text = _made(command)
+        derived = watched(modules(), display(len(modules()), as_json=False))
+        with noticing() as notice:
+            made = fd.report(derived, notice=notice, command=command)
         if folder:
-            folder.write({PAGE: text})
-    size = len(text.encode()) / 1e6
-    print(f"{verdict_counts(outcomes)}. Written to {out / PAGE}, {size:.2f} MB.", flush=True)
-    raise typer.Exit(status_of(outcomes))
-
-
-def _made(command: str) -> "tuple[list[Outcome], str]":
-    """Derive, measure, draw, and put the page together."""
-    from datetime import UTC, datetime
-
-    from force_diffusion.derivations.commands.deriving import everything, outcomes_of
-    from force_diffusion.derivations.commands.progress import display
-    from force_diffusion.derivations.export.page.page import page
-    from force_diffusion.derivations.export.page.sections import parts
-
-    derivations = everything()
-    outcomes = outcomes_of(derivations, display(len(derivations), as_json=False))
-    with noticing() as notice:
-        measured = parts(notice)
-    return outcomes, page(outcomes, measured, command, f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC")
+            folder.write({PAGE: made.html})
+    size = len(made.html.encode()) / 1e6
+    print(f"{derived.counts()}. Written to {out / PAGE}, {size:.2f} MB.", flush=True)
+    raise typer.Exit(0 if derived.proved else 1)
 
 
 def register(app: typer.Typer) -> None:

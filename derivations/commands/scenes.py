@@ -115,15 +115,13 @@ def cost(
     """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
     import shlex
 
-    from force_diffusion.numeric.run import read_scene
-    from force_diffusion.numeric.studies.cost import study
     from force_diffusion.numeric.studies.cost.result import csv_rows
 
     command = shlex.join(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
     names = ["cost.json", "cost.csv", *images("cost")]
     with output(out, f"cost {scene}", names, overwrite) as folder:
         with about(scene.name), noticing() as notice:
-            found = study.cost(read_scene(scene), notice)
+            found = fd.cost(fd.read_scene(scene), notice)
         data = {"command": command, **found.data()}
         if folder:
             title = scene.stem

@@ -1,4 +1,4 @@
-"""The command ``stability``: a thin layer over ``numeric.studies.stability``."""
+"""The command ``stability``: a thin layer over ``fd.stability``."""
 
 import json
 from collections.abc import Callable
@@ -10,6 +10,8 @@ import typer
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import drawn, images, noticing
 from force_diffusion.derivations.export.tables import csv_text
+
+import force_diffusion as fd
 
 STATUSES = (
     "Takes about 40 s. Exit status: 0 measured, 2 wrong usage, 3 the disk or a pipe failed, "
@@ -33,7 +35,7 @@ def stability(
     names = ["stability.json", *study.FILES.values(), *images("stability")]
     with output(out, "stability", names, overwrite) as folder:
         with noticing() as notice:
-            found = study.stability(_counted(notice) if as_json else _printed)
+            found = fd.stability(_counted(notice) if as_json else _printed)
         data = {"command": command, **found.data()}
         if folder:
             tables = study.csv_rows(data, command)

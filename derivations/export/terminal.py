@@ -1,9 +1,9 @@
 """Derivations and their outcomes as plain text or JSON, for a terminal or a pipe."""
 
-import json
 import re
 from collections.abc import Iterable
 from textwrap import fill
+from typing import Any
 
 from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome, Step
 from force_diffusion.symbolic.kernel.decisions import Verdict
@@ -144,7 +144,7 @@ def trouble_lines(outcome: Outcome) -> list[str]:
     return lines
 
 
-def outcomes_json(outcomes: Iterable[Outcome]) -> str:
+def outcomes_data(outcomes: Iterable[Outcome]) -> dict[str, Any]:
     """What ``derive --json`` prints; verdicts are words, times are seconds."""
     equations = [
         {
@@ -164,4 +164,4 @@ def outcomes_json(outcomes: Iterable[Outcome]) -> str:
         }
         for outcome in outcomes
     ]
-    return json.dumps({"equations": equations}, indent=2)
+    return {"equations": equations}

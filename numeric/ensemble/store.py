@@ -10,7 +10,7 @@ import json
 import sqlite3
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -151,6 +151,60 @@ def open_store(path: Path, key: dict[str, Any] | None) -> Store:
     except BaseException:
         database.close()
         raise
+
+
+@dataclass(frozen=True)
+class StoreContent:
+    """What the store of an ensemble holds; every block of it has been checked.
+
+    Attributes:
+        realisations: packings in all.
+        ranges: of the packings' numbers, (first, stop).
+        sizes_asked_for: numbers of realisations that have been asked for.
+        ensemble: the scene's sections that set the ensemble, as a scene file has them.
+    """
+
+    realisations: int
+    ranges: tuple[tuple[int, int], ...]
+    sizes_asked_for: tuple[int, ...]
+    ensemble: dict[str, Any]
+
+    def data(self) -> dict[str, Any]:
+        """What JSON can hold."""
+        return {**asdict(self), "ranges": [list(one) for one in self.ranges]}
+
+    def __str__(self) -> str:
+        lines = [
+            f"{self.realisations} realisations",
+            f"sizes asked for: {', '.join(map(str, self.sizes_asked_for))}",
+        ]
+        for section, keys in self.ensemble.items():
+            given = [f"{k} = {v}" for k, v in (keys or {}).items() if v is not None]
+            lines.append(f"{section}: {', '.join(given)}")
+        return "\n".join(lines)
+
+    __repr__ = __str__
+
+
+def read_store(path: str | Path) -> StoreContent:
+    """What the store of an ensemble holds, checked; nothing in it is changed.
+
+    >>> import force_diffusion as fd
+    >>> fd.read_store("nowhere.sqlite")  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    ...
+    force_diffusion...StoreError: nowhere.sqlite: there is no such store
+
+    Raises:
+        StoreError: there is no such file, or it is damaged, of another kind or version, or in use.
+    """
+    opened = open_store(Path(path), None)
+    try:
+        ranges = tuple((first, stop) for first, stop in opened.ranges())
+    finally:
+        opened.close()
+    total = sum(stop - first for first, stop in ranges)
+    return StoreContent(total, ranges, tuple(opened.about.ends), opened.about.key)
 
 
 def _looked_at(path: Path, *, may_be_new: bool) -> bool:

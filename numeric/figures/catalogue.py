@@ -2,10 +2,11 @@
 
 import csv
 import io
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+from ..arithmetic.errors import ForceDiffusionError
 from . import (
     chains,
     comparison,
@@ -14,12 +15,16 @@ from . import (
     notation,
     response,
 )
+from .library import drawing
 from .packings import Notice, Row
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 HEIGHTS = (8, 32, 128)
+LEAST_REALISATIONS = 16
+MODELS = {"q-model": "3", "double-y": "4"}
+"""What may be drawn beside which figure."""
 
 
 @dataclass(frozen=True)
@@ -46,13 +51,31 @@ class Data(Protocol):
         """Say the verdicts."""
 
 
-class Made(NamedTuple):
-    """A finished figure: its files by name, and what was found."""
+class NoSuchFigureError(ForceDiffusionError, ValueError):
+    """There is no such figure, or it can't be made so; the message says what is allowed."""
+
+
+@dataclass(frozen=True)
+class PaperFigure:
+    """A finished figure; in a notebook it shows itself.
+
+    Attributes:
+        title: what it shows.
+        files: PNG, SVG, PDF and CSV by file name; the CSV files hold what is drawn.
+        facts: verdicts and parameters, as JSON can hold them.
+        lines: the verdicts in words.
+    """
 
     title: str
     files: dict[str, str | bytes]
     facts: dict[str, Any]
     lines: list[str]
+
+    def _repr_png_(self) -> bytes:
+        return next(bytes(f) for f in self.files.values() if isinstance(f, bytes))  # PNG is first
+
+    def __repr__(self) -> str:
+        return "\n".join([self.title, *(f"  {line}" for line in self.lines)])
 
 
 class _Figure(NamedTuple):
@@ -115,22 +138,66 @@ FIGURES = {
 }
 
 
-def make(name: str, options: Options, command: str) -> Made:
-    """Make one figure: PNG, SVG, PDF and CSV, all of which hold the command.
+def figure(
+    name: int | str,
+    *,
+    heights: Sequence[int] = HEIGHTS,
+    realisations: int | None = None,
+    seed: int = 1,
+    beside: Collection[str] = (),
+    notice: Notice = lambda _: None,
+    command: str | None = None,
+) -> PaperFigure:
+    """One of the paper's figures from exact packings, as files in memory.
 
-    ``name`` is a key of ``FIGURES``. Needs matplotlib (the extra ``plots``). Raises
-    ``SceneError``, ``UnbuildableError`` and ``NotStandingError`` where heights can't be built.
+    Needs matplotlib (the extra ``plots``). Figure 3 takes half a minute, the others seconds.
+
+    >>> import force_diffusion as fd
+    >>> sorted(fd.figure("chains").files)
+    ['chains.csv', 'chains.pdf', 'chains.png', 'chains.svg']
+    >>> fd.figure(7)  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    ...
+    force_diffusion...NoSuchFigureError: there is no figure 7: give 1, 2, 3, 4, 'pf' or 'chains'
+
+    Args:
+        name: 1 to 4 as in the paper, "pf" (density of the forces) or "chains" (force chains).
+        heights: M of the packings of figure 3.
+        realisations: packings of each ensemble of figures 3, 4 and pf; ≥ 16.
+        seed: seed of all radii.
+        beside: "q-model" (beside figure 3) or "double-y" (beside figure 4).
+        notice: told what is made next.
+        command: what every file says that made it.
+
+    Raises:
+        NoSuchFigureError: there is no such figure or model, or too few realisations.
+        SceneError: heights or a seed that can't be.
+        UnbuildableError, NotStandingError: radii of such a height can't be built or stand.
+        MissingLibraryError: there is no matplotlib.
     """
-    from . import style
+    if str(name) not in FIGURES:
+        raise NoSuchFigureError(f"there is no figure {name}: give 1, 2, 3, 4, 'pf' or 'chains'")
+    for model in beside:
+        if MODELS.get(model) != str(name):
+            raise NoSuchFigureError(
+                f"there is no model {model!r} beside figure {name}: give 'q-model' with figure 3 "
+                "or 'double-y' with figure 4"
+            )
+    if realisations is not None and realisations < LEAST_REALISATIONS:
+        raise NoSuchFigureError(f"realisations = {realisations}: give at least 16")
+    with drawing():
+        from . import style
 
-    file, title, data_of, draw = FIGURES[name]
-    data = data_of(options)
-    options.notice(f"{file}: drawing")
-    files: dict[str, str | bytes] = {
-        **style.images(lambda: draw(data), file, title, command),
-        **{f"{table}.csv": csv_file(rows, title, command) for table, rows in data.tables().items()},
-    }
-    return Made(title, files, data.facts(), data.lines())
+        file, title, data_of, draw = FIGURES[str(name)]
+        data = data_of(Options(heights, realisations, seed, frozenset(beside), notice))
+        notice(f"{file}: drawing")
+        made_by = command or f"force_diffusion.figure({name!r}, seed={seed})"
+        tables = data.tables().items()
+        files: dict[str, str | bytes] = {
+            **style.images(lambda: draw(data), file, title, made_by),
+            **{f"{table}.csv": csv_file(rows, title, made_by) for table, rows in tables},
+        }
+    return PaperFigure(title, files, data.facts(), data.lines())
 
 
 def csv_file(rows: list[Row], title: str, command: str) -> str:

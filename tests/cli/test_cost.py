@@ -9,8 +9,9 @@ from typing import Any
 
 import pytest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
-from force_diffusion.numeric.studies.cost import rows, study
+from force_diffusion.numeric.studies.cost import rows
 
+import force_diffusion as fd
 from force_diffusion.__main__ import main
 
 SCENE = """
@@ -140,7 +141,7 @@ def test_what_ends_it_early(
     def fail(*_: Any) -> None:
         raise failure
 
-    monkeypatch.setattr(study, "cost", fail)
+    monkeypatch.setattr(fd, "cost", fail)
     out = tmp_path / "out"
     assert call(capsys, "cost", written(tmp_path), "--out", out)[0] == status
     assert not out.exists()

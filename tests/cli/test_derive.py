@@ -28,7 +28,8 @@ ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "100"}
 def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, object]:
     """Equations 1 and 2 are made-up ones; their verdicts can be chosen."""
     table: dict[int, object] = {1: fakes.PREMISE, 2: fakes.CONCLUSION}
-    monkeypatch.setattr("force_diffusion.derivations.commands.deriving.load", table.__getitem__)
+    for module in ("commands.deriving", "api.derived"):
+        monkeypatch.setattr(f"force_diffusion.derivations.{module}.load", table.__getitem__)
     return table
 
 
@@ -183,7 +184,8 @@ def test_a_real_signal_leaves_nothing_half_written(tmp_path: Path) -> None:
         """
         import sys, time
         from dataclasses import replace
-        import force_diffusion.derivations.commands.deriving as deriving
+        from force_diffusion.derivations.api import derived
+        from force_diffusion.derivations.commands import deriving
         from force_diffusion.__main__ import main
         from force_diffusion.derivations.framework.record import Witness
         from tests.derivations import fakes
@@ -192,7 +194,8 @@ def test_a_real_signal_leaves_nothing_half_written(tmp_path: Path) -> None:
             print("running", file=sys.stderr, flush=True)
             time.sleep(60)
 
-        deriving.load = lambda number: replace(fakes.PREMISE, witnesses=(Witness("slow", slow),))
+        made_up = replace(fakes.PREMISE, witnesses=(Witness("slow", slow),))
+        deriving.load = derived.load = lambda number: made_up
         sys.exit(main(["derive", "1", "--out", sys.argv[1]]))
         """
     )

@@ -193,7 +193,7 @@ def test_interrupted(
     def interrupt(*_: Any) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(catalogue, "make", interrupt)
+    monkeypatch.setattr(catalogue, "csv_file", interrupt)
     status, _, err = call(capsys, 1, "--out", tmp_path / "out")
     assert status == 130
     assert "Traceback" not in err

@@ -19,8 +19,8 @@ from tests.derivations.export.test_page import PART
 def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, Any]:
     """Equations 1 and 2 are made-up ones, and one part stands for all that is sections."""
     table: dict[int, Any] = {1: fakes.PREMISE, 2: fakes.CONCLUSION}
-    monkeypatch.setattr("force_diffusion.derivations.commands.deriving.load", table.__getitem__)
-    monkeypatch.setattr("force_diffusion.derivations.commands.deriving.modules", lambda: table)
+    monkeypatch.setattr("force_diffusion.derivations.api.derived.load", table.__getitem__)
+    monkeypatch.setattr("force_diffusion.derivations.commands.report.modules", lambda: table)
     monkeypatch.setattr(sections, "parts", lambda notice: [PART])
     return table
 

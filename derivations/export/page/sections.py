@@ -23,14 +23,14 @@ _PACKINGS = {"1": "One packing.", "2": "No packing: closed forms.", "chains": "O
 
 def figures_part(notice: Notice) -> Part:
     """All figures, each with what it found, of how many packings, and its data."""
-    from force_diffusion.numeric.figures.catalogue import FIGURES, Options, make
+    from force_diffusion.numeric.figures.catalogue import FIGURES, figure
 
     figures = []
     for name in FIGURES:
         n = REALISATIONS.get(name)
         few = "" if n is None else f" --realisations {n}"
         command = f"force-diffusion figures {name}{few} --seed 1 --out figure"
-        made = make(name, Options(realisations=n, notice=notice), command)
+        made = figure(name, realisations=n, notice=notice, command=command)
         drawing = next(content for file, content in made.files.items() if file.endswith(".svg"))
         assert isinstance(drawing, bytes)
         told = f"{made.title}: {'; '.join(made.lines)}. {_PACKINGS[name]}"

@@ -1,0 +1,119 @@
+"""Several equations derived in one go, premises first: what was found, as JSON and as LaTeX."""
+
+from collections import Counter
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from force_diffusion.derivations.api.equation import equation
+from force_diffusion.derivations.export.document import (
+    DOCUMENT,
+    document,
+    finding,
+    fragment_name,
+    statement_latex,
+)
+from force_diffusion.derivations.export.terminal import (
+    mutant_counts,
+    outcomes_data,
+    summary_line,
+    trouble_lines,
+)
+from force_diffusion.derivations.framework.catalogue import load, modules, with_premises
+from force_diffusion.derivations.framework.record import Outcome
+from force_diffusion.derivations.framework.runner import run_all
+from force_diffusion.symbolic.kernel.decisions import Verdict
+
+
+@dataclass(frozen=True)
+class Derived:
+    """What :func:`derive` found; it prints one line for each equation, and below it what is wrong.
+
+    Attributes:
+        outcomes: of each equation its verdict, checks and mutants, premises first.
+    """
+
+    outcomes: tuple[Outcome, ...]
+
+    @property
+    def verdicts(self) -> dict[int, Verdict]:
+        """``proved``, ``refuted`` or ``undecided``, by the equation's number."""
+        return {one.derivation.number: one.verdict for one in self.outcomes}
+
+    @property
+    def proved(self) -> bool:
+        """Whether every one of them is proved."""
+        return set(self.verdicts.values()) == {Verdict.PROVED}
+
+    def counts(self) -> str:
+        """How many equations have which verdict, in words."""
+        counts = Counter(map(str, self.verdicts.values()))
+        return ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+
+    def data(self) -> dict[str, Any]:
+        """What JSON can hold: verdicts, checks and mutants of each equation, times in seconds."""
+        return outcomes_data(self.outcomes)
+
+    def latex(self) -> dict[str, str]:
+        """LaTeX by file name: a fragment for each equation, and a document that reads them."""
+        about = [(one.derivation, finding(one)) for one in self.outcomes]
+        about.sort(key=lambda pair: pair[0].number)
+        return {
+            **{fragment_name(one): statement_latex(one) for one, _ in about},
+            DOCUMENT: document(about),
+        }
+
+    def __str__(self) -> str:
+        lines = [line for one in self.outcomes for line in (summary_line(one), *trouble_lines(one))]
+        return "\n".join([*lines, f"{self.counts()}."])
+
+    __repr__ = __str__
+
+    def _repr_markdown_(self) -> str:
+        rows = [
+            f"| {one.derivation.number} | {one.derivation.title} | {one.verdict} | "
+            f"{sum(c.kind == 'proof' for c in one.checks)} | "
+            f"{sum(c.kind == 'witness' for c in one.checks)} | "
+            f"{mutant_counts(one)['refuted']} of {len(one.mutants)} |"
+            for one in self.outcomes
+        ]
+        head = "| Eq. | title | verdict | proofs | witnesses | mutants refuted |"
+        return "\n".join([head, "| --- | --- | --- | --- | --- | --- |", *rows])
+
+
+def derive(
+    numbers: Iterable[int] | None = None,
+    *,
+    notice: Callable[[str], None] | None = None,
+    finished: Callable[[Outcome], None] | None = None,
+) -> Derived:
+    """Prove equations and all that they rest on, check them, and try to prove their mutants.
+
+    All 16 take seconds. :meth:`Equation.prove` is the same for one equation.
+
+    >>> import force_diffusion as fd
+    >>> found = fd.derive([2])
+    >>> {number: str(verdict) for number, verdict in found.verdicts.items()}
+    {1: 'proved', 2: 'proved'}
+    >>> found.proved, found.counts(), sorted(found.latex())
+    (True, '2 proved', ['eq01.tex', 'eq02.tex', 'equations.tex'])
+
+    Args:
+        numbers: of the equations; all of them by default.
+        notice: told which check comes next.
+        finished: given the outcome of each equation as soon as it is known.
+
+    Raises:
+        NoSuchFormError: there is no equation of such a number.
+    """
+    wanted = modules() if numbers is None else [equation(number).number for number in numbers]
+    outcomes = []
+    tell = notice or (lambda _: None)
+    for outcome in run_all(
+        with_premises(load(number) for number in wanted),
+        lambda derivation, check: tell(f"Eq. {derivation.number}: {check}"),
+    ):
+        outcomes.append(outcome)
+        if finished:
+            finished(outcome)
+    return Derived(tuple(outcomes))

@@ -1,0 +1,70 @@
+"""All that the package finds as one HTML page."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+from force_diffusion.derivations.api.derived import Derived, derive
+from force_diffusion.numeric.arithmetic.errors import NotReachedError
+
+
+@dataclass(frozen=True)
+class Report:
+    """The page that :func:`report` made.
+
+    Attributes:
+        html: the page, which asks nothing of a network.
+        derived: what was found of the equations.
+    """
+
+    html: str
+    derived: Derived
+
+    def save(self, path: str | Path) -> None:
+        """Write the page to a file."""
+        Path(path).write_text(self.html, encoding="utf-8")
+
+    def __repr__(self) -> str:
+        size = len(self.html.encode()) / 1e6
+        return f"<Report: {self.derived.counts()}; a page of {size:.2f} MB>"
+
+
+def find_libraries() -> None:
+    """Look for what the extra ``report`` installs. Raises ``NotReachedError``."""
+    try:
+        import jinja2  # noqa: F401
+        import math_core  # noqa: F401
+        import matplotlib  # noqa: F401
+    except ImportError as missing:
+        raise NotReachedError(
+            f"{missing.name} is missing; pip install 'force-diffusion[report]'"
+        ) from None
+
+
+def report(
+    derived: Derived | None = None,
+    *,
+    notice: Callable[[str], None] | None = None,
+    command: str = "force-diffusion report",
+) -> Report:
+    """Derive all equations, draw all figures, measure cost and stability: one HTML page.
+
+    Takes about two minutes, and needs the extra ``report``.
+
+    Args:
+        derived: what :func:`derive` has found of all equations; by default they are derived here.
+        notice: told what is drawn or measured next.
+        command: what the page says that made it.
+
+    Raises:
+        NotReachedError: a library of the extra is missing.
+    """
+    find_libraries()
+    from force_diffusion.derivations.export.page.page import page
+    from force_diffusion.derivations.export.page.sections import parts
+
+    found = derived or derive(notice=notice)
+    measured = parts(notice or (lambda _: None))
+    made = f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC"
+    return Report(page(found.outcomes, measured, command, made), found)

@@ -1,0 +1,72 @@
+"""``derive`` and ``figure`` of the face: the commands print and write what these give."""
+
+import json
+from pathlib import Path
+
+import pytest
+from force_diffusion.derivations.api.equation import NoSuchFormError
+from force_diffusion.numeric.figures.catalogue import NoSuchFigureError
+
+import force_diffusion as fd
+from force_diffusion.__main__ import main
+
+
+def test_premises_come_first_and_callbacks_are_told() -> None:
+    told: list[str] = []
+    finished: list[int] = []
+    found = fd.derive(
+        [5], notice=told.append, finished=lambda o: finished.append(o.derivation.number)
+    )
+    assert finished == list(found.verdicts)
+    assert finished[-1] == 5
+    assert len(finished) > 1
+    assert told[0].startswith(f"Eq. {finished[0]}: ")
+    assert found.proved
+    assert found.counts() == f"{len(finished)} proved"
+    assert str(found).splitlines()[-1] == f"{found.counts()}."
+    assert found._repr_markdown_().count("\n") == len(finished) + 1
+
+
+@pytest.mark.parametrize("number", [0, 17, 5.5, "5"])
+def test_a_number_that_is_no_equation(number: object) -> None:
+    with pytest.raises(NoSuchFormError, match="give a number from 1 to 16"):
+        fd.derive([number])  # type: ignore[list-item]
+
+
+def test_the_command_prints_and_writes_what_derive_gives(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["derive", "5", "--json", "--out", str(tmp_path / "out")]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    found = fd.derive([5])
+
+    def timeless(data: dict[str, list[dict[str, object]]]) -> object:
+        return [
+            {**one, "seconds": 0, "checks": [{**c, "seconds": 0} for c in one["checks"]]}  # type: ignore[attr-defined]
+            for one in data["equations"]
+        ]
+
+    assert timeless(printed) == timeless(found.data())
+    for name, text in found.latex().items():
+        assert (tmp_path / "out" / name).read_text(encoding="utf-8") == text
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "words"),
+    [
+        (5, {}, "there is no figure 5"),
+        ("3", {"beside": ["double-y"]}, "no model 'double-y' beside figure 3"),
+        (4, {"beside": ["x"]}, "no model 'x' beside figure 4"),
+        (4, {"realisations": 3}, "at least 16"),
+    ],
+)
+def test_a_figure_that_can_not_be(name: int | str, options: dict[str, object], words: str) -> None:
+    with pytest.raises(NoSuchFigureError, match=words):
+        fd.figure(name, **options)  # type: ignore[arg-type]
+
+
+def test_a_figure_shows_itself() -> None:
+    made = fd.figure("chains", command="mine")
+    assert made._repr_png_().startswith(b"\x89PNG")
+    assert "# mine" in str(made.files["chains.csv"])
+    assert repr(made).splitlines()[0] == made.title
