@@ -228,5 +228,7 @@ def summary_lines(data: dict[str, Any]) -> list[str]:
             f"M = {p['height']}, M* = {p['critical_height']}"
         )
     if "stopped_at_tension" in data:
-        lines.append(f"stopped at the tensile contact {data['stopped_at_tension']}")
+        contact = data["stopped_at_tension"]
+        where = f"i = {contact['i']}, j = {contact['j']}, branch {contact['branch']}"
+        lines.append(f"stopped at the tensile contact {where}")
     return lines
