@@ -59,6 +59,13 @@ def test_text_output_says_what_was_done(capsys: pytest.CaptureFixture[str]) -> N
     assert "only the beads that the answer depends on" in out
 
 
+def test_text_output_names_the_contact_that_pulls(capsys: pytest.CaptureFixture[str]) -> None:
+    _, out, _ = call(capsys, "run", SCENES / "beyond.toml")
+    data = fd.run(SCENES / "beyond.toml").data()["stopped_at_tension"]
+    where = f"i = {data['i']}, j = {data['j']}, branch {data['branch']}"
+    assert f"stopped at the tensile contact {where}\n" in out
+
+
 def test_a_tolerance_can_be_given(capsys: pytest.CaptureFixture[str]) -> None:
     _, out, _ = call(capsys, "run", SCENES / "one_contact.toml", "--json", "--tolerance", "1e-60")
     accuracy = json.loads(out)["accuracy"]
