@@ -29,8 +29,14 @@ def run(plan: Plan, progress: Progress | None = None) -> Outcome:
     """Run a plan, to the tolerance that it was made for.
 
     Where the estimated error of a method misses the tolerance, the next one of the plan's choice is
-    taken. Raises ``ToleranceError``, and what the sweeps raise for a packing that can't be built.
+    taken. Raises ``ToleranceError``, ``TypeError`` for what is no plan, and what the sweeps raise
+    for a packing that can't be built.
     """
+    if not isinstance(plan, Plan):
+        raise TypeError(
+            f"run takes a plan, not {type(plan).__name__}: read_scene(path).run() runs a file, "
+            "Scene(…).run() a scene"
+        )
     start = perf_counter()
     work = Work(progress=progress)
     missed: list[Missed] = []

@@ -61,7 +61,7 @@ def test_text_output_says_what_was_done(capsys: pytest.CaptureFixture[str]) -> N
 
 def test_text_output_names_the_contact_that_pulls(capsys: pytest.CaptureFixture[str]) -> None:
     _, out, _ = call(capsys, "run", SCENES / "beyond.toml")
-    data = fd.run(SCENES / "beyond.toml").data()["stopped_at_tension"]
+    data = fd.read_scene(SCENES / "beyond.toml").run().data()["stopped_at_tension"]
     where = f"i = {data['i']}, j = {data['j']}, branch {data['branch']}"
     assert f"stopped at the tensile contact {where}\n" in out
 

@@ -12,6 +12,7 @@ from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.quantities.answer import answer as answered
 from force_diffusion.numeric.run.outcome import Outcome
+from force_diffusion.numeric.run.running import run
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -377,3 +378,8 @@ def test_a_tolerance_out_of_reach_says_why() -> None:
 def test_a_scene_gives_the_same_numbers_twice() -> None:
     assert answer(basic()).decimals() == answer(basic()).decimals()
     assert scene(basic()) == scene(basic())
+
+
+def test_run_takes_a_plan_and_says_so() -> None:
+    with pytest.raises(TypeError, match=r"read_scene\(path\)\.run\(\)"):
+        run("scene.toml")  # type: ignore[arg-type]
