@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import sympy
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact
+from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact, search
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.bases import CARTESIAN
 from force_diffusion.symbolic.as_printed import equation, terms, times
@@ -169,6 +169,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     decide=decide,
+    search=search("none", each_contact),
     claims=(
         Claim(
             "contacts touch; the pairs (2, 0) and (0, 2) are apart exactly for 2r < s < 2√3 r",

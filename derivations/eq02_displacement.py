@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import sympy
 from force_diffusion.derivations import eq01_ordered_positions as eq01
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.witnesses.both_sides import about, compare, each_bead
+from force_diffusion.derivations.witnesses.both_sides import about, compare, each_bead, search
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.bases import CARTESIAN
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
@@ -137,6 +137,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     decide=decide,
+    search=search("none", each_bead),
     claims=(
         Claim(
             "the constraint holds at ε = 0 and its derivative is 4r (n·(δx − δx′) − ρ)",

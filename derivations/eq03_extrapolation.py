@@ -6,7 +6,7 @@ import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses import remainders
-from force_diffusion.derivations.witnesses.both_sides import about, compare, each_bead
+from force_diffusion.derivations.witnesses.both_sides import about, compare, each_bead, search
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, decide_linear, proved
@@ -120,6 +120,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     decide=decide,
+    search=search("none", each_bead),
     claims=(
         Claim(
             "at j = 0 the printed sums, read as empty, would leave 2δr_(i,0)(b⁺ + b⁻), not 0",

@@ -6,7 +6,7 @@ import sympy
 from force_diffusion.derivations import eq01_ordered_positions as eq01
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact
+from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact, search
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, decide_linear
@@ -130,6 +130,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     decide=decide,
+    search=search("none", each_contact),
     claims=(
         Claim("the derivative of the exact unit vector is (δx − δx′ − ρ n⁺)/2r", _unit_vector),
         Claim("n⁺·δn⁺ = 0: a unit vector to first order", _orthogonal),

@@ -6,7 +6,8 @@ import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.witnesses.both_sides import compare, loaded_bead
+from force_diffusion.derivations.witnesses.both_sides import compare, loaded_bead, search
+from force_diffusion.symbolic.algebra.signs import never_zero
 from force_diffusion.symbolic.as_printed import equation, terms, times
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
@@ -82,8 +83,15 @@ def pushed(direction: tuple[sympy.Expr, sympy.Expr]) -> list[sympy.Expr]:
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Compare with load + Σ f ∇(distance) = 0, component by component, for any directions."""
+    """Compare with load + Σ f ∇(distance) = 0, component by component, for any directions.
+
+    A multiple says the same when its factor vanishes nowhere: the factor of the load.
+    """
     rulings = []
+    load, sides = cartesian(Load(k, l), 0), cartesian(candidate.lhs - candidate.rhs, 0)
+    factor = sympy.expand(sides).coeff(load)
+    if not never_zero(factor):
+        factor = sympy.Integer(1)
     contacts = (
         (ForcePlus(*LEFT), n_plus + DeltaNPlus(*LEFT)),
         (ForceMinus(*RIGHT), n_minus + DeltaNMinus(*RIGHT)),
@@ -92,7 +100,9 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
         balance = cartesian(Load(k, l), axis)
         for force, unit in contacts:
             balance += force * pushed((cartesian(unit, 0), cartesian(unit, 1)))[axis]
-        rulings.append(decide_identity(cartesian(candidate.lhs - candidate.rhs, axis), balance))
+        rulings.append(
+            decide_identity(cartesian(candidate.lhs - candidate.rhs, axis), factor * balance)
+        )
     return all_of(*rulings)
 
 
@@ -141,6 +151,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     decide=decide,
+    search=search("single", loaded_bead),
     claims=(
         Claim(
             "the gradient of the distance is the unit vector from the support to the bead",

@@ -6,7 +6,7 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.witnesses.both_sides import about, compare, loaded_bead
+from force_diffusion.derivations.witnesses.both_sides import about, compare, loaded_bead, search
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, decide_linear
@@ -127,6 +127,7 @@ DERIVATION = Derivation(
     printed=PRINTED,
     steps=steps,
     decide=decide,
+    search=search("single", loaded_bead),
     claims=(
         Claim("the expansion solves the balance at orders 0 and 1", _solves_the_system),
         Claim("the second part is the mirror image of the first", _mirror_image),

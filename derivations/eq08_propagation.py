@@ -6,7 +6,7 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.witnesses.both_sides import about, compare, left_edge
+from force_diffusion.derivations.witnesses.both_sides import about, compare, left_edge, search
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_linear
@@ -106,6 +106,7 @@ DERIVATION = Derivation(
     printed=PRINTED,
     steps=steps,
     decide=decide,
+    search=search("single", left_edge),
     claims=(
         Claim(
             "an incoming force along n⁻ gives both mirror images, solved for and compared",

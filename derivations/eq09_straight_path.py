@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import sympy
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.witnesses.both_sides import about, compare, straight_below
+from force_diffusion.derivations.witnesses.both_sides import about, compare, search, straight_below
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.decisions import (
@@ -107,6 +107,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     decide=decide,
+    search=search("single", straight_below),
     claims=(Claim("(1 + εA)(1 + εB) has the first-order change A + B", _product_rule),),
     witnesses=(
         Witness(

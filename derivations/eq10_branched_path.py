@@ -7,7 +7,7 @@ from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
-from force_diffusion.derivations.witnesses.both_sides import about, compare, inside_cone
+from force_diffusion.derivations.witnesses.both_sides import about, compare, inside_cone, search
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, decide_linear
@@ -176,6 +176,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     decide=decide,
+    search=search("single", inside_cone),
     claims=(
         Claim("exactly one (p, q) leads to (i, j): q = n and p = (l−j) − n − 1 ≥ 0", _one_path),
         Claim("its branching bead is (i − n, j + n)", _branching_bead),

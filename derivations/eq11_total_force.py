@@ -11,7 +11,7 @@ from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses import remainders
-from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact
+from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact, search
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.algebra.linear_forms import CONSTANT
@@ -185,6 +185,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     decide=decide,
+    search=search("surface", each_contact),
     claims=(
         Claim("each surface load has one n; those that branch are k = i−M+j+2, …, i+M−j−2", _loads),
         Claim("at j = M − 1 the sum is empty and Eq. 7 is left", _next_to_the_surface),

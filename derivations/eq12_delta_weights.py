@@ -41,7 +41,13 @@ from force_diffusion.symbolic.symbols import (
     r,
     sigma,
 )
-from force_diffusion.symbolic.variances.variance import at_fixed_z, largest_weight, order, variance
+from force_diffusion.symbolic.variances.variance import (
+    at_fixed_z,
+    grows_evenly,
+    largest_weight,
+    order,
+    variance,
+)
 from force_diffusion.symbolic.variances.weights import UndeterminedError, take_apart
 
 ON_DIAGONAL = SecondDifference(i - (j - m), m)
@@ -111,8 +117,11 @@ def variance_ignored(candidate: sympy.Eq) -> tuple[int, sympy.Expr]:
     if not mean.is_zero():
         raise UnequalMeansError(text(mean.to_sympy()))
     difference = take_apart(form, DEEP).sum_of_squares() * FIELD.from_sympy(sigma**2)
+    difference = difference.reduced()
     if difference.is_zero():
         return order(difference), sympy.Integer(0)
+    if not grows_evenly(difference):
+        raise NotExactError("the order in M is not shown to hold at every z and φ")
     return order(difference), at_fixed_z(difference)
 
 

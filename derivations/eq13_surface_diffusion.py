@@ -11,6 +11,7 @@ from force_diffusion.derivations.framework.record import Claim, Derivation, Exac
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.as_printed import equation, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, undecided
+from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import M, j, m, phi, r, sigma, z
 from force_diffusion.symbolic.variances.certified_sums import certified_sum
@@ -86,6 +87,11 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     return compare_leading_order(exact_forms()["interior"].value, candidate.rhs)
 
 
+def search(candidate: sympy.Eq) -> str | None:
+    """Values at growing M where the candidate and the exact variance part."""
+    return parts_in_the_limit(exact_forms()["interior"].expression, candidate.rhs, LAYERS)
+
+
 def _weights() -> Ruling:
     return weights_follow(
         sum_of_weights() * eq12.PREFACTOR**2 * sigma**2,
@@ -129,6 +135,7 @@ DERIVATION = Derivation(
     exact=at_finite_size,
     steps=steps,
     decide=decide,
+    search=search,
     claims=(
         Claim("the squared weights of Eq. 12 sum to the printed form", _weights),
         Claim(

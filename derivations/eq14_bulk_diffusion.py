@@ -27,6 +27,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     proved,
     undecided,
 )
+from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     ForceMinus,
@@ -153,6 +154,11 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     return compare_leading_order(exact_forms()["interior"].value, candidate.rhs)
 
 
+def search(candidate: sympy.Eq) -> str | None:
+    """Values at growing M where the candidate and the exact variance part."""
+    return parts_in_the_limit(exact_forms()["interior"].expression, candidate.rhs, LAYERS)
+
+
 def _weights() -> Ruling:
     ordered = weights_follow(
         sum_of_weights() * eq12.PREFACTOR**2 * sigma**2,
@@ -267,6 +273,7 @@ DERIVATION = Derivation(
     exact=at_finite_size,
     steps=steps,
     decide=decide,
+    search=search,
     claims=(
         Claim(
             "loads superpose, and one on layer l feels radii of layers ≤ l alone", _superposition

@@ -18,6 +18,7 @@ from force_diffusion.derivations.framework.record import (
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
+from force_diffusion.symbolic.algebra.signs import sign
 from force_diffusion.symbolic.as_printed import equation, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
@@ -33,7 +34,7 @@ from force_diffusion.symbolic.printing.structure import rebuilt
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import Dot, M, j, n_minus, n_plus, n_x, n_y, phi, r, sigma, z
 from force_diffusion.symbolic.variances.averages import LayerAverage, layer_average, uniform_order
-from force_diffusion.symbolic.variances.variance import leading, order, variance
+from force_diffusion.symbolic.variances.variance import grows_evenly, leading, order, variance
 
 DEVIATION = Symbol("relative_deviation", r"\frac{\sigma_f}{\langle f\rangle}", "σ_f/⟨f⟩")
 HEIGHT = Symbol("M_star", "M^{*}", "M*", positive=True)
@@ -174,19 +175,25 @@ def decide(part: int, candidate: sympy.Eq) -> Ruling:
 def _decide_for(load: str, part: int, side: sympy.Expr) -> Ruling:
     first, _ = averages()[load].leading_orders()
     try:
-        ratio = _squared_ratio(first, part, rebuilt(side))
+        ratio = _squared_ratio(first, part, rebuilt(side)).reduced()
     except NotExactError as reason:
         return undecided(str(reason))
-    if side.is_negative:
-        return refuted(f"{text(side)} is negative, which neither a deviation nor a height is")
-    others = (symbol for symbol in FIELD.generators if symbol not in (phi, n_x, n_y))
-    names = [text(symbol) for symbol in others if ratio.holds(symbol)]
+    grows = order(ratio, M)
     what = f"{load} load: leading order of the mean of σ_f²/⟨f⟩² " + (
         "over the squared right-hand side" if part == 0 else "at M equal to the right-hand side"
     )
-    if names:
-        return refuted(f"{what} is {text(ratio.to_sympy())}, which depends on {', '.join(names)}")
-    return proved(f"{what} is {text(ratio.to_sympy())}")
+    others = (symbol for symbol in FIELD.generators if symbol not in (phi, n_x, n_y))
+    limit = leading(ratio, M)
+    names = [text(symbol) for symbol in others if limit.holds(symbol)]
+    if grows or names:
+        on = ", ".join(names) or text(M)
+        return refuted(f"{what} is {text(ratio.to_sympy())}, which depends on {on}")
+    side_of_zero = sign(_dominant(rebuilt(side)))
+    if side_of_zero < 0:
+        return refuted(f"{text(side)} is negative, which neither a deviation nor a height is")
+    if not (side_of_zero and sign(limit.to_sympy()) and grows_evenly(ratio, M)):
+        return undecided(f"{text(side)} is not shown to be finite and positive for every φ")
+    return proved(f"{what} is {text(limit.to_sympy())}")
 
 
 def _squared_ratio(first: RationalFunction, part: int, side: sympy.Expr) -> RationalFunction:
@@ -194,6 +201,15 @@ def _squared_ratio(first: RationalFunction, part: int, side: sympy.Expr) -> Rati
         return first / FIELD.from_sympy(side**2)
     # the leading order is M³ times what holds no M
     return first / FIELD.generator(M) ** 3 * FIELD.from_sympy(side**3)
+
+
+def _dominant(side: sympy.Expr) -> sympy.Expr:
+    """What a product of sums and powers goes as when M grows: every sum by its leading order."""
+    if isinstance(side, sympy.Mul):
+        return sympy.Mul(*map(_dominant, side.args))
+    if isinstance(side, sympy.Pow):
+        return _dominant(side.base) ** side.exp
+    return leading(FIELD.from_sympy(side).reduced(), M).to_sympy()
 
 
 def _mean_over_z(profile: sympy.Expr) -> sympy.Expr:

@@ -1,6 +1,7 @@
 """Eq. 16: variance of the response to a point load, inside of its cone and on it."""
 
 from collections.abc import Iterable, Iterator
+from fractions import Fraction
 from functools import cache
 
 import sympy
@@ -33,6 +34,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     refuted,
     undecided,
 )
+from force_diffusion.symbolic.kernel.searches import parts_in_the_limit
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.mechanics.paths import IN_CONE, STEPS_BELOW
 from force_diffusion.symbolic.notation import Symbol
@@ -61,7 +63,12 @@ from force_diffusion.symbolic.symbols import (
     sigma,
 )
 from force_diffusion.symbolic.variances.cases import Case, Piece, first_difference, squares_by_case
-from force_diffusion.symbolic.variances.variance import leading, order, without_constant
+from force_diffusion.symbolic.variances.variance import (
+    grows_evenly,
+    leading,
+    order,
+    without_constant,
+)
 from sympy import Rational
 
 RESPONSE = Symbol(
@@ -307,10 +314,22 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     return compare(interior(), candidate.rhs)
 
 
+INSIDE_PLACES = tuple(
+    {j: Fraction(a), p: Fraction(b), q: Fraction(c)}
+    for a, b, c in ((1, 1, 1), (2, 1, 1), (3, 1, 2), (1, 2, 3), (1, 100, 1), (1, 1, 100))
+)
+
+
+def search(candidate: sympy.Eq) -> str | None:
+    """Sites inside of a growing cone where the candidate and the exact variance part."""
+    exact = interior().to_sympy()
+    return parts_in_the_limit(exact, candidate.rhs.xreplace(IN_CONE), INSIDE_PLACES)
+
+
 def compare(exact: RationalFunction, candidate: sympy.Expr) -> Ruling:
     """Rule on a candidate in l, j, k − i: exact − candidate must be of lower order than exact."""
     try:
-        difference = exact - FIELD.from_sympy(candidate.xreplace(IN_CONE))
+        difference = (exact - FIELD.from_sympy(candidate.xreplace(IN_CONE))).reduced()
     except NotExactError as reason:
         return undecided(str(reason))
     names = [text(symbol) for symbol in FIELD.generators if _is_strange(difference, symbol)]
@@ -319,6 +338,8 @@ def compare(exact: RationalFunction, candidate: sympy.Expr) -> Ruling:
     size = order(difference, *SIZES)
     shown = text(in_layers(leading(difference, *SIZES)).to_sympy())
     if size < order(exact, *SIZES):
+        if not grows_evenly(difference, *SIZES):
+            return undecided(f"the order of {shown} is not shown to hold at every site and φ")
         return proved(f"exact − printed is of order l^{size}: {shown}")
     return refuted(f"exact − candidate is of the leading order l^{size} itself: {shown}")
 
@@ -477,6 +498,7 @@ DERIVATION = Derivation(
     exact=at_finite_size,
     steps=steps,
     decide=decide,
+    search=search,
     claims=(
         Claim("the exact variance of p at every bead inside of the cone", _bead),
         Claim(

@@ -36,7 +36,7 @@ from force_diffusion.derivations.framework.record import (
 from force_diffusion.derivations.framework.runner import run, run_all
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, undecided
+from force_diffusion.symbolic.kernel.decisions import KernelError, Ruling, Verdict, undecided
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import latex_body
 from force_diffusion.symbolic.printing.text import text
@@ -417,7 +417,9 @@ base+1 or surface.
 
     def _ruled(self, part: int, candidate: sympy.Eq) -> Ruling:
         try:
-            return self._derivation.decide(part, candidate)
+            return self._derivation.rule_on(part, candidate)
+        except KernelError:
+            raise
         except Exception as failure:  # a foreign formula may be anything; no verdict is lost by it
             return undecided(f"it could not be read: {failure or type(failure).__name__}")
 

@@ -5,7 +5,14 @@ from dataclasses import dataclass, field
 
 import sympy
 from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
+from force_diffusion.symbolic.kernel.decisions import (
+    KernelError,
+    Ruling,
+    Verdict,
+    refuted,
+    undecided,
+)
+from force_diffusion.symbolic.kernel.language import unreadable, without_value
 
 
 @dataclass(frozen=True)
@@ -55,6 +62,30 @@ class Derivation:
     remarks: tuple[str, ...] = ()
     relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
     exact: Callable[[], dict[str, "ExactCase"]] | None = None  # forms at finite size, by case
+    # explicit values at which a candidate is false, or None; knows nothing of how it is decided
+    search: Callable[[sympy.Eq], str | None] | None = None
+
+    def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
+        """Rule on a candidate for one of ``printed``: decided, in the language, and searched.
+
+        Raises:
+            KernelError: it was proved, and explicit values refute it.
+        """
+        if reason := unreadable(candidate, self.printed):
+            return undecided(reason)
+        try:
+            ruling = self.decide(part, candidate)
+        except (ArithmeticError, TypeError, ValueError) as failure:
+            ruling = undecided(f"it could not be read: {failure or type(failure).__name__}")
+        proven = ruling.verdict is Verdict.PROVED
+        if proven and (reason := without_value(candidate)):
+            proven, ruling = False, undecided(reason)
+        if ruling.verdict is Verdict.REFUTED or not self.search:
+            return ruling
+        found = self.search(candidate)
+        if found and proven:
+            raise KernelError(f"Eq. {self.number} was proved, yet is false: {found}")
+        return refuted(found) if found else ruling
 
 
 @dataclass(frozen=True)

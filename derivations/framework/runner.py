@@ -30,7 +30,7 @@ def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
     for place, equation in enumerate(derivation.printed):
         name = f"printed equation, part {place + 1}" if several else "printed equation"
         watch(derivation, name)
-        yield _timed("proof", name, lambda p=place, e=equation: derivation.decide(p, e))  # type: ignore[misc]
+        yield _timed("proof", name, lambda p=place, e=equation: derivation.rule_on(p, e))  # type: ignore[misc]
     for claim in derivation.claims:
         watch(derivation, claim.name)
         yield _timed("proof", claim.name, claim.decide)
@@ -59,7 +59,7 @@ def judged_mutants(derivation: Derivation, watch: Watch = _silent) -> Iterator[M
     watch(derivation, "mutants")
     for place, equation in enumerate(derivation.printed):
         for kind, change, mutated in mutants(equation):
-            yield Mutant(kind, change, mutated, derivation.decide(place, mutated))
+            yield Mutant(kind, change, mutated, derivation.rule_on(place, mutated))
 
 
 def overall(checks: Iterable[Check], mutants: Iterable[Mutant] = ()) -> Verdict:

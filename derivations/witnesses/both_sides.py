@@ -293,3 +293,19 @@ def about(candidate: sympy.Eq, subject: sympy.Expr, load: str, points: Points) -
     if decide_identity(candidate.lhs, subject).verdict is Verdict.PROVED:
         return None
     return refute(candidate, load, points)
+
+
+def search(load: str, points: Points) -> Callable[[sympy.Eq], str | None]:
+    """What looks for an exact packing on which an equation fails."""
+
+    def fails(candidate: sympy.Eq) -> str | None:
+        for seed in range(4):
+            try:
+                found = _compare(candidate, _drawn(seed, load), points)
+            except (AbsentError, explicit.AmbiguousError):
+                return None  # what has no value shows nothing
+            if found.verdict is Verdict.DISAGREES:
+                return f"on an exact packing, {found.note}"
+        return None
+
+    return fails

@@ -166,6 +166,31 @@ class RationalFunction:
         """Decide whether this is zero, given n_x² + n_y² = 1."""
         return self.domain.vanishes(self.numerator)
 
+    def reduced(self) -> "RationalFunction":
+        """The same element with n_x and n_y at most to the first power, as functions of φ.
+
+        1, n_x, n_y and n_x n_y are independent over the functions of φ: what this leaves in the
+        numerator is unique.
+        """
+        if not (self.holds(n_x) or self.holds(n_y)):
+            return self
+        return RationalFunction(
+            self.domain, self._on_circle(self.numerator), self._on_circle(self.denominator)
+        )
+
+    def _on_circle(self, polynomial: Polynomial) -> Polynomial:
+        one, cosine = self.domain.context.constant(1), self.domain.generator(phi).numerator
+        squares = {n_x: (one - cosine) / 2, n_y: (one + cosine) / 2}
+        total = self.domain.context.constant(0)
+        for exponents, c in polynomial.to_dict().items():
+            rest, scale = list(exponents), one
+            for symbol, square in squares.items():
+                place = self.domain.position[symbol]
+                whole, rest[place] = divmod(int(rest[place]), 2)
+                scale = scale * square**whole
+            total += self.domain.context.from_dict({tuple(rest): c}) * scale
+        return total
+
     def at(self, values: Mapping[sympy.Expr, Fraction]) -> Fraction:
         """Value at a point; ``ZeroDivisionError`` where the denominator vanishes."""
         return self._value(self.numerator, values) / self._value(self.denominator, values)
@@ -218,8 +243,8 @@ class RationalFunction:
         """The same element as a SymPy quotient: factored, whole numbers within each factor."""
         if self.numerator == 0:
             return sympy.Integer(0)
-        number, powers = self._factors(self.numerator)
-        below, under = self._factors(self.denominator)
+        number, powers = self.factors(self.numerator)
+        below, under = self.factors(self.denominator)
         for factor, power in under.items():
             powers[factor] = powers.get(factor, 0) - power
         paired = min(-powers.get(1 - phi, 0), -powers.get(1 + phi, 0))
@@ -238,7 +263,7 @@ class RationalFunction:
             )
         )
 
-    def _factors(self, polynomial: Polynomial) -> tuple[sympy.Rational, dict[sympy.Expr, int]]:
+    def factors(self, polynomial: Polynomial) -> tuple[sympy.Rational, dict[sympy.Expr, int]]:
         """A number, and factors with their powers, each in the sign that a person would write."""
         content, factors = polynomial.factor()
         number = sympy.Rational(int(content.p), int(content.q))

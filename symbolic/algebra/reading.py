@@ -207,7 +207,7 @@ class Reader:
         bounds = affine.from_sympy(low), affine.from_sympy(high)
         if body.has(Braces):
             total = LinearForm()
-            for part, first, last in split_by_cases(body, index, *bounds):
+            for part, first, last in split_by_cases(body, index, *bounds, self.region):
                 inner = self._within(index, affine.to_sympy(first))
                 total = total + self._summed(inner.scalar(part), index, first, last)
             return total
@@ -238,9 +238,12 @@ class Reader:
 
 
 def split_by_cases(
-    body: sympy.Expr, index: sympy.Symbol, low: Affine, high: Affine
+    body: sympy.Expr, index: sympy.Symbol, low: Affine, high: Affine, region: Region | None = None
 ) -> list[tuple[sympy.Expr, Affine, Affine]]:
-    """Split Σ over braces {a : index ≤ e; b : index > e} into one sum for each case."""
+    """Split Σ over braces {a : index ≤ e; b : index > e} into one sum for each case.
+
+    In a region e may lie beside the sum, which then has one case.
+    """
     found = body.atoms(Braces)
     if len(found) != 1:
         raise NotExactError("more than one pair of braces in a sum")
@@ -249,6 +252,11 @@ def split_by_cases(
     if braced_index != index:
         raise NotExactError(f"braces over {braced_index} in a sum over {index}")
     last_of_first = affine.from_sympy(last)
+    if region is not None:
+        if region.nonnegative(affine.add(last_of_first, high, -1)):
+            return [(body.xreplace({braces: first}), low, high)]
+        if region.below(last_of_first, low):
+            return [(body.xreplace({braces: second}), low, high)]
     return [
         (body.xreplace({braces: first}), low, last_of_first),
         (body.xreplace({braces: second}), affine.shifted(last_of_first, 1), high),

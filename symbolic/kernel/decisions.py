@@ -20,6 +20,10 @@ from force_diffusion.symbolic.algebra.exact import Domain, NotExactError, Ration
 from force_diffusion.symbolic.algebra.reading import Reader
 
 
+class KernelError(RuntimeError):
+    """The kernel is wrong: what it proved is refuted by explicit values."""
+
+
 class Verdict(StrEnum):
     """What a decision procedure found; a witness agrees or disagrees, it never proves."""
 
@@ -179,12 +183,18 @@ def _base_components(axis: int) -> dict[sympy.Basic, sympy.Expr]:
     return {symbol: CARTESIAN.vectors[symbol][axis].to_sympy() for symbol in sy.VECTORS}
 
 
+@cache
+def _component(atom: sympy.Expr, axis: int) -> sympy.Symbol:
+    """An unknown of its own: a symbol made from the atom's text could be another atom's too."""
+    return sympy.Dummy(f"{atom}_{'xy'[axis]}")
+
+
 def cartesian(vector: sympy.Expr, axis: int) -> sympy.Expr:
     """One Cartesian component of a vector expression; unknown vectors get unknown components."""
     image = dict(_base_components(axis))
     for atom in vector.atoms(sy.SiteFunction):
         if atom.is_vector:
-            image[atom] = sympy.Symbol(f"{atom}_{'xy'[axis]}")
+            image[atom] = _component(atom, axis)
     return vector.xreplace(image)
 
 

@@ -13,6 +13,7 @@ from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, LAYER, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm
 from force_diffusion.symbolic.algebra.reading import Reader
+from force_diffusion.symbolic.algebra.signs import never_zero
 from force_diffusion.symbolic.symbols import M, j, sigma, z
 from force_diffusion.symbolic.variances.weights import Pieces, take_apart
 
@@ -54,6 +55,18 @@ def leading(value: RationalFunction, *sizes: sympy.Expr) -> RationalFunction:
     """
     sizes = sizes or (M, j)
     return _top(value.numerator, sizes) / _top(value.denominator, sizes)
+
+
+def grows_evenly(value: RationalFunction, *sizes: sympy.Expr) -> bool:
+    """Whether its order in M holds uniformly on closed parts of 0 < z < 1 and the range of φ.
+
+    It does when what the denominator goes as vanishes nowhere there.
+    """
+    below = _top(value.denominator, sizes or (M, j)).to_sympy()
+    if sizes:
+        return never_zero(below, sizes)
+    upper = sympy.Dummy("M - j", positive=True)
+    return never_zero(below.xreplace({M: j + upper}), (j, upper))
 
 
 def largest_weight(expression: sympy.Expr, region: Region) -> int:
