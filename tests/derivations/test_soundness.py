@@ -1,11 +1,14 @@
 """False statements that must not be proved, true ones that must not be refuted."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 import sympy
+from force_diffusion.derivations.framework.catalogue import load
+from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.kernel.decisions import KernelError, Ruling, Verdict, proved, refuted
 from force_diffusion.symbolic.symbols import (
     Braces,
     DeltaR,
@@ -27,7 +30,6 @@ from sympy import Eq, Mul, Pow, Rational, Sum, sqrt
 
 import force_diffusion as fd
 
-Made = sympy.Eq
 Change = Callable[[sympy.Eq], sympy.Eq]
 
 
@@ -125,10 +127,8 @@ TRUE: list[tuple[int, str, Change]] = [
 ]
 
 
-def ruling(number: int, change: Change) -> object:
+def ruling(number: int, change: Change) -> Ruling:
     equation = fd.equation(number)
-    from force_diffusion.derivations.framework.catalogue import load
-
     return equation.decide(change(load(number).printed[0]))
 
 
@@ -152,3 +152,20 @@ def test_what_is_outside_of_the_language_is_undecided(number: int, change: Chang
 def test_a_true_statement_is_proved(number: int, change: Change) -> None:
     found = ruling(number, change)
     assert found.verdict is Verdict.PROVED, found
+
+
+@pytest.mark.parametrize("number", [1, 3, 6, 9, 11, 13, 14, 16])
+def test_a_kernel_that_proves_all_stops_the_run(number: int) -> None:
+    with pytest.raises(KernelError, match="is false"):
+        run(replace(load(number), decide=lambda *_: proved("of course")))
+
+
+def test_a_kernel_that_refutes_all_proves_nothing() -> None:
+    outcome = run(replace(load(3), decide=lambda *_: refuted("never")))
+    assert outcome.verdict is Verdict.REFUTED
+
+
+def test_an_order_that_fails_at_one_place_is_refuted_by_values() -> None:
+    found = ruling(13, plus(7 * M**3 / (1 + M**2 * (2 * z - 1) ** 2)))
+    assert found.verdict is Verdict.REFUTED
+    assert "1/2" in found.note
