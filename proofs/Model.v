@@ -151,3 +151,38 @@ Definition single (k l : Z) (load : R) (i j : Z) : vector :=
 Definition surface (M : Z) (load : R) (_ j : Z) : vector :=
   if (j =? M)%Z then downwards load else zero.
 Definition bulk (weight : R) (_ _ : Z) : vector := downwards weight.
+
+(** ** Random radii *)
+
+(** Beads at most W from i = 0: where the radii's second moments are given. *)
+Definition within (W M i j : Z) : Prop := bead M i j /\ (Z.abs i <= W)%Z.
+
+(** A law of the radii, as far as it matters: an expectation that is linear on a class of functions
+    of the radii; those of the window have mean 0, are uncorrelated and have the variance σ².
+    Independent radii of any distribution with that mean and variance have such an expectation. *)
+Record law (W M : Z) (sigma : R) := {
+  integrable : (radii -> R) -> Prop;
+  expect : (radii -> R) -> R;
+  integrable_constant : forall c, integrable (fun _ => c);
+  integrable_sum : forall f g, integrable f -> integrable g -> integrable (fun rho => f rho + g rho);
+  integrable_multiple : forall c f, integrable f -> integrable (fun rho => c * f rho);
+  expect_constant : forall c, expect (fun _ => c) = c;
+  expect_sum : forall f g, integrable f -> integrable g ->
+    expect (fun rho => f rho + g rho) = expect f + expect g;
+  expect_multiple : forall c f, integrable f -> expect (fun rho => c * f rho) = c * expect f;
+  radii_integrable : forall i j, within W M i j -> integrable (fun rho => rho i j);
+  products_integrable : forall i j k l, within W M i j -> within W M k l ->
+    integrable (fun rho => rho i j * rho k l);
+  mean_radius : forall i j, within W M i j -> expect (fun rho => rho i j) = 0;
+  second_moments : forall i j k l, within W M i j -> within W M k l ->
+    expect (fun rho => rho i j * rho k l) = if ((i =? k) && (j =? l))%bool%Z then sigma ^ 2 else 0
+}.
+Arguments integrable {W M sigma}.
+Arguments expect {W M sigma}.
+
+Definition variance {W M sigma} (L : law W M sigma) (f : radii -> R) : R :=
+  expect L (fun rho => (f rho - expect L f) ^ 2).
+
+(** f is g to first order in δr, where δr = ρ: value and slope of g, added. *)
+Definition linearised (g : radii -> R -> R) (f : radii -> R) : Prop :=
+  forall rho, exists v d, expands (g rho) v d /\ f rho = v + d.
