@@ -64,6 +64,12 @@ Ltac sum_induction low high :=
   [let n := fresh "n" in let H := fresh "Hn" in intros n H; rewrite ?Sum_empty by lia
   |let n := fresh "n" in let H := fresh "Hn" in let IH := fresh "IH" in intros n H IH].
 
+Lemma Sum_zero low high f : (forall m, (low <= m <= high)%Z -> f m = 0) -> Sum low high f = 0.
+Proof.
+  pattern high. apply (Sum_induction low); intros n Hn; [intros _; apply Sum_empty; lia|].
+  intros IH H. rewrite Sum_last, IH, H by (intros; try apply H; lia). ring.
+Qed.
+
 Lemma Sum_plus low high f g :
   Sum low high (fun m => f m + g m) = Sum low high f + Sum low high g.
 Proof. sum_induction low high; [ring|]. rewrite !(Sum_last low n) by lia. rewrite IH. ring. Qed.
@@ -71,19 +77,25 @@ Proof. sum_induction low high; [ring|]. rewrite !(Sum_last low n) by lia. rewrit
 Lemma Sum_scale low high a f : Sum low high (fun m => a * f m) = a * Sum low high f.
 Proof. sum_induction low high; [ring|]. rewrite !(Sum_last low n) by lia. rewrite IH. ring. Qed.
 
+Lemma Sum_times low high a f : Sum low high (fun m => f m * a) = Sum low high f * a.
+Proof. rewrite (Rmult_comm _ a), <- Sum_scale. apply Sum_eq; auto. intros. ring. Qed.
+
+Lemma Sum_swap low high low' high' (f : Z -> Z -> R) :
+  Sum low high (fun m => Sum low' high' (fun n => f m n)) =
+  Sum low' high' (fun n => Sum low high (fun m => f m n)).
+Proof.
+  sum_induction low high.
+  - symmetry. apply Sum_zero. intros. apply Sum_empty. lia.
+  - rewrite (Sum_last low n) by lia. rewrite IH, <- Sum_plus. apply Sum_eq; auto.
+    intros m Hm. rewrite (Sum_last low n) by lia. reflexivity.
+Qed.
+
 Lemma Sum_over low high a f : Sum low high (fun m => f m / a) = Sum low high f / a.
 Proof. unfold Rdiv. rewrite <- (Rmult_comm (/ a)), <- Sum_scale. apply Sum_eq; auto. intros. ring. Qed.
 
 Lemma Sum_minus low high f g :
   Sum low high (fun m => f m - g m) = Sum low high f - Sum low high g.
 Proof. sum_induction low high; [ring|]. rewrite !(Sum_last low n) by lia. rewrite IH. ring. Qed.
-
-Lemma Sum_zero low high f : (forall m, (low <= m <= high)%Z -> f m = 0) -> Sum low high f = 0.
-Proof.
-  intros H. rewrite (Sum_eq low high low high f (fun _ => 0 * 0)); auto.
-  - rewrite Sum_scale. ring.
-  - intros m Hm. rewrite (H m Hm). ring.
-Qed.
 
 Lemma Sum_first low high f : (low <= high)%Z -> Sum low high f = f low + Sum (low + 1) high f.
 Proof.
