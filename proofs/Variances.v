@@ -1,0 +1,360 @@
+(** Variances of the contact forces: what Eqs. 12-15 rest on, with explicit error bounds. *)
+
+From Coq Require Import ZArith Reals Lia Lra List.
+From ForceDiffusion Require Import Model Sums FirstOrder Geometry Forces Random Weights.
+
+Open Scope R_scope.
+Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
+
+(** (σ/r)²/(1 − φ²)², the unit of the variances. *)
+Definition unit_of (G : lattice) (sigma : R) : R :=
+  (sigma / r G) ^ 2 / (1 - phi G ^ 2) ^ 2.
+
+Lemma unit_positive G sigma : 0 < sigma -> 0 < unit_of G sigma.
+Proof.
+  intros H. pose proof (r_pos G). pose proof (divisor_positive G).
+  unfold unit_of. apply Rdiv_lt_0_compat; apply pow_lt; [apply Rdiv_lt_0_compat; lra|].
+  replace (phi G ^ 2) with (phi G * phi G) by ring. lra.
+Qed.
+
+(** A force a (1 + change), the change being given by weights of radii. *)
+Definition linear_force (G : lattice) (M i j : Z) (a : R) (w : weights) (rho : radii) : R :=
+  a * (1 + whole M (layers i j w) rho / (2 * r G * (1 - phi G * phi G))).
+
+Section Variances.
+  Variable G : lattice.
+  Variables M W : Z.
+  Variable sigma : R.
+  Hypothesis spread : 0 < sigma.
+  Variable L : law W M sigma.
+  Variable X : radii -> centres.
+  Variable F : radii -> forces.
+  Hypothesis P : forall rho, packing G M rho (X rho).
+  Local Notation unit := (unit_of G sigma).
+
+  Section Contact.
+    Variables i j : Z.
+    Hypothesis at_contact : contact M i j.
+    Hypothesis no_boundary : (Z.abs i + M + 2 <= W)%Z.
+
+    (** Its mean, and its variance relative to that. *)
+    Lemma relative_variance a w : a <> 0 ->
+      let f := linear_force G M i j a w in
+      expect L f = a /\ variance L f / expect L f ^ 2 = unit / 4 * squares M (layers i j w).
+    Proof.
+      intros Ha f. pose proof (r_pos G). pose proof (divisor_positive G).
+      destruct (form_variance W M sigma L (layers i j w)
+        (layers_inside W M i j w at_contact no_boundary) a (a / (2 * r G * (1 - phi G * phi G))) f)
+        as [E V].
+      { intros rho. unfold f, linear_force. field. lra. }
+      split; [exact E|]. rewrite V, E. unfold unit_of. field. repeat split; try lra.
+    Qed.
+
+    Lemma bound_in_units s p b : Rabs (s - p) <= b -> Rabs (unit / 4 * s - unit / 4 * p) <= unit / 4 * b.
+    Proof.
+      intros H. pose proof (unit_positive G sigma spread).
+      rewrite <- Rmult_minus_distr_l, Rabs_mult, (Rabs_right (unit / 4)) by lra.
+      apply Rmult_le_compat_l; [lra|exact H].
+    Qed.
+
+    Local Notation height := (IZR M).
+    Local Notation above := (IZR (M - j)).
+
+    Lemma size : 1 <= height /\ 1 <= above <= height /\ height = IZR j + above /\ 0 <= IZR j /\
+      height <= height * height.
+    Proof.
+      assert (H1 : 1 <= IZR M) by (apply (IZR_le 1); site).
+      assert (1 * IZR M <= IZR M * IZR M) by (apply Rmult_le_compat_r; lra).
+      repeat split; try lra; try (apply (IZR_le 1); site); try (apply IZR_le; site);
+        try (apply (IZR_le 0); site). rewrite minus_IZR. ring.
+    Qed.
+
+    (** Eq. 13. *)
+    Definition surface_linear f := linear_force G M i j (f / (2 * n_y G)) (surface_weights G j M).
+
+    Theorem surface_variance f : 0 < f ->
+      (forall rho, carries M (X rho) (surface M f) (F rho)) ->
+      let f1 := surface_linear f in
+      linearised (fun rho => f_plus (F rho) i j) f1 /\ expect L f1 = f / (2 * n_y G) /\
+        Rabs (variance L f1 / expect L f1 ^ 2 - unit * (2 * (above * above) * (2 * IZR j + height)))
+          <= 56 * (height * height) * unit.
+    Proof.
+      intros Hf C. pose proof (n_y_pos G) as Hy. pose proof (r_pos G). pose proof (divisor_positive G).
+      assert (Ha : f / (2 * n_y G) <> 0) by (apply Rgt_not_eq, Rdiv_lt_0_compat; lra).
+      intros f1. destruct (relative_variance _ (surface_weights G j M) Ha) as [E V]. split; [|split; [exact E|]].
+      - intros rho. destruct (surface_force G M rho (X rho) (P rho) (F rho) f (C rho) j ltac:(site) i
+          at_contact) as [Ep _].
+        exists (f / (2 * n_y G)), (f / (2 * n_y G) * surface_plus G rho M i j). split; [exact Ep|].
+        unfold f1, surface_linear, linear_force, whole.
+        rewrite <- (surface_in_layers G rho i j ltac:(site) M M) by site. field. lra.
+      - unfold f1, surface_linear. rewrite V. destruct size as (H1 & [H2 H3] & H4 & H5 & H6).
+        pose proof (squares_near M i j _ _ ltac:(site)
+          (surface_near_main G j M M ltac:(site) ltac:(lia))) as N.
+        rewrite braces_squares in N by site.
+        replace (unit * (2 * (above * above) * (2 * IZR j + height)))
+          with (unit / 4 * (8 * (above * above) * (2 * IZR j + height))) by field.
+        eapply Rle_trans; [apply (bound_in_units _ _ (222 * (height * height)))|].
+        + apply Rabs_def2' in N.
+          assert (above * above <= height * height) by (apply Rmult_le_compat; lra).
+          assert (0 <= above * above) by (apply Rle_0_sqr).
+          replace (8 * (above * above) * (2 * IZR j + height))
+            with (24 * IZR j * (above * above) + 8 * (above * above) * above) by (rewrite H4; ring).
+          apply Rabs_le. lra.
+        + pose proof (unit_positive G sigma spread).
+          assert (0 <= unit * (height * height)) by (apply Rmult_le_pos; [lra|apply Rle_0_sqr]). lra.
+    Qed.
+
+    (** Eq. 14. *)
+    Definition bulk_linear g :=
+      linear_force G M i j (above * (g / (2 * n_y G))) (averaged j M (surface_weights G j)).
+
+    Theorem bulk_variance g : 0 < g ->
+      (forall rho, carries M (X rho) (bulk g) (F rho)) ->
+      let f1 := bulk_linear g in
+      linearised (fun rho => f_plus (F rho) i j) f1 /\
+        expect L f1 = above * (g / (2 * n_y G)) /\
+        Rabs (variance L f1 / expect L f1 ^ 2 - unit * (3 / 10 * (above * above) * (4 * IZR j + height)))
+          <= 56 * (height * height) * unit.
+    Proof.
+      intros Hg C. pose proof (n_y_pos G) as Hy. pose proof (r_pos G). pose proof (divisor_positive G).
+      destruct size as (H1 & [H2 H3] & H4 & H5 & H6).
+      assert (Hgy : 0 < g / (2 * n_y G)) by (apply Rdiv_lt_0_compat; lra).
+      assert (Ha : above * (g / (2 * n_y G)) <> 0).
+      { apply Rgt_not_eq. apply Rmult_lt_0_compat; lra. }
+      intros f1. destruct (relative_variance _ (averaged j M (surface_weights G j)) Ha) as [E V].
+      split; [|split; [exact E|]].
+      - intros rho. destruct (bulk_force G M rho (X rho) (P rho) (F rho) g (C rho) j ltac:(site) i
+          at_contact) as [Ep _].
+        exists (above * (g / (2 * n_y G))),
+          (g / (2 * n_y G) * Sum (j + 1) M (fun l => surface_plus G rho l i j)). split; [exact Ep|].
+        unfold f1, bulk_linear, linear_force, whole.
+        rewrite <- (bulk_in_layers G rho i j M) by site. field. lra.
+      - unfold f1, bulk_linear. rewrite V.
+        pose proof (squares_near M i j _ _ ltac:(site) (bulk_near_main G j M ltac:(site))) as N.
+        rewrite mean_braces_squares in N by site.
+        replace (unit * (3 / 10 * (above * above) * (4 * IZR j + height)))
+          with (unit / 4 * (6 / 5 * (above * above) * (4 * IZR j + height))) by field.
+        eapply Rle_trans; [apply (bound_in_units _ _ (222 * (height * height)))|].
+        + apply Rabs_def2' in N.
+          replace (IZR j * ((above + 1) * (above + 1)) / 4 +
+            (above * above - 1) * (3 * (above * above) - 2) / (60 * above))
+            with (IZR j * (above * above) / 4 + (2 * (IZR j * above) + IZR j) / 4
+              + (3 * (above * above * above) - 5 * above) / 60 + / above / 30) in N by (field; lra).
+          assert (0 < / above) by (apply Rinv_0_lt_compat; lra).
+          assert (/ above <= 1) by (rewrite <- Rinv_1; apply Rinv_le_contravar; lra).
+          assert (0 <= (IZR j - above) * (IZR j - above)) by apply Rle_0_sqr.
+          assert (0 <= IZR j * above) by (apply Rmult_le_pos; lra).
+          assert (4 * (IZR j * above) <= height * height) by (rewrite H4; lra).
+          replace (6 / 5 * (above * above) * (4 * IZR j + height))
+            with (6 * IZR j * (above * above) + 6 / 5 * (above * above) * above)
+            by (rewrite H4; field).
+          apply Rabs_le. lra.
+        + pose proof (unit_positive G sigma spread).
+          assert (0 <= unit * (height * height)) by (apply Rmult_le_pos; [lra|apply Rle_0_sqr]). lra.
+    Qed.
+
+    (** Eq. 12: the force less the weights of Eq. 12, squared. *)
+    Definition by_braces (rho : radii) : R :=
+      - (1 / (r G * (1 - phi G * phi G)) * Sum 1 M (fun m => braces_at j M m *
+        (2 * rho (i - j + m)%Z m - rho (i - j + m - 2)%Z m - rho (i - j + m + 2)%Z m))).
+
+    Theorem braces_miss :
+      expect L (fun rho => (surface_plus G rho M i j - by_braces rho) ^ 2)
+        <= 53 * (height * height) * unit.
+    Proof.
+      pose proof (r_pos G). pose proof (divisor_positive G).
+      destruct size as (H1 & _ & _ & _ & _).
+      set (w := less_main (surface_weights G j M) (braces_at j M)).
+      destruct (form_variance W M sigma L (layers i j w)
+        (layers_inside W M i j w at_contact no_boundary) 0 (1 / (2 * r G * (1 - phi G * phi G)))
+        (fun rho => surface_plus G rho M i j - by_braces rho)) as [E V].
+      { intros rho. rewrite Rplus_0_l. unfold whole, w.
+        rewrite (Sum_eq 0 M 0 M _ _ eq_refl eq_refl (fun m _ => less_main_weigh i j _ _ m rho)).
+        rewrite Sum_plus, <- (surface_in_layers G rho i j ltac:(site) M M) by site.
+        rewrite (Sum_first 0 M (fun m => on (1 <=? m)%Z _)) by site.
+        replace (0 + 1)%Z with 1%Z by lia.
+        rewrite (Sum_eq 1 M 1 M (fun m => on (1 <=? m)%Z _) (fun m => 2 * (braces_at j M m *
+          (2 * rho (i - j + m)%Z m - rho (i - j + m - 2)%Z m - rho (i - j + m + 2)%Z m)))); auto.
+        - unfold on, by_braces. rewrite Sum_scale. cbn [Z.leb Z.compare]. field. lra.
+        - intros m Hm. unfold on. replace (1 <=? m)%Z with true by lia. reflexivity. }
+      unfold variance in V. rewrite E in V.
+      replace (fun rho => (surface_plus G rho M i j - by_braces rho - 0) ^ 2)
+        with (fun rho => (surface_plus G rho M i j - by_braces rho) ^ 2) in V
+        by (apply FunctionalExtensionality.functional_extensionality; intros; ring).
+      rewrite V.
+      pose proof (squares_near M i j w (fun _ => 0) ltac:(site)
+        (less_main_near M _ _ ltac:(site) (surface_near_main G j M M ltac:(site) ltac:(lia)))) as N.
+      rewrite (Sum_zero 1 M) in N by (intros; ring).
+      apply Rabs_def2' in N. pose proof (unit_positive G sigma spread) as U.
+      replace ((1 / (2 * r G * (1 - phi G * phi G))) ^ 2 * (sigma ^ 2 * squares M (layers i j w)))
+        with (unit / 4 * squares M (layers i j w)) by (unfold unit_of; field; lra).
+      apply (Rle_trans _ (unit / 4 * (210 * (height * height)))).
+      - apply Rmult_le_compat_l; lra.
+      - assert (0 <= unit * (height * height)) by (apply Rmult_le_pos; [lra|apply Rle_0_sqr]). lra.
+    Qed.
+  End Contact.
+
+  (** ** The mean over all layers, one contact of each *)
+
+  Section Average.
+    Variable across : Z -> Z.
+    Hypothesis contacts : forall j, (0 <= j < M)%Z -> contact M (across j) j /\
+      (Z.abs (across j) + M + 2 <= W)%Z.
+    Hypothesis high : (1 <= M)%Z.
+    Local Notation height := (IZR M).
+
+    Lemma layers_counted (v profile : Z -> R) total :
+      (forall j, (0 <= j < M)%Z -> Rabs (v j - unit * profile j) <= 56 * (height * height) * unit) ->
+      Rabs (Sum 0 (M - 1) profile - height * total) <= height * (height * height) ->
+      Rabs (Sum 0 (M - 1) v / height - unit * total) <= 57 * (height * height) * unit.
+    Proof.
+      intros H T. pose proof (unit_positive G sigma spread) as U.
+      assert (One : 1 <= height) by (apply (IZR_le 1); exact high).
+      replace (Sum 0 (M - 1) v / height - unit * total) with
+        ((Sum 0 (M - 1) (fun j => v j - unit * profile j)
+          + unit * (Sum 0 (M - 1) profile - height * total)) / height)
+        by (rewrite Sum_minus, Sum_scale; field; lra).
+      unfold Rdiv. rewrite Rabs_mult, (Rabs_right (/ height)) by (apply Rle_ge, Rlt_le, Rinv_0_lt_compat; lra).
+      apply (Rmult_le_reg_r height); [lra|]. rewrite Rmult_assoc, Rinv_l, Rmult_1_r by lra.
+      eapply Rle_trans; [apply Rabs_triang|].
+      rewrite (Rabs_mult unit), (Rabs_right unit) by lra.
+      assert (A : Rabs (Sum 0 (M - 1) (fun j => v j - unit * profile j))
+        <= height * (56 * (height * height) * unit)).
+      { eapply Rle_trans; [apply Sum_abs|].
+        eapply Rle_trans; [apply (Sum_le _ _ _ (fun _ => 56 * (height * height) * unit)); intros; apply H; lia|].
+        rewrite Sum_const by lia. replace (M - 1 - 0 + 1)%Z with M by lia. lra. }
+      apply (Rmult_le_compat_l unit) in T; [|lra]. lra.
+    Qed.
+
+    Definition mean_square (f : Z -> radii -> R) : R :=
+      Sum 0 (M - 1) (fun j => variance L (f j) / expect L (f j) ^ 2) / height.
+
+    (** Sums over j of polynomials in j, as a certificate: differences and the empty sum. *)
+    Lemma Sum_by (f g : Z -> R) n : (0 <= n)%Z -> g 0%Z = 0 ->
+      (forall m, (0 <= m)%Z -> g (m + 1)%Z = g m + f m) -> Sum 0 (n - 1) f = g n.
+    Proof.
+      intros H E S. pattern n. apply (up_from _ 0); [| |exact H].
+      - rewrite Sum_empty by lia. symmetry. exact E.
+      - intros m Hm IH. replace (m + 1 - 1)%Z with m by lia. rewrite Sum_last, IH, S by lia. reflexivity.
+    Qed.
+
+    Theorem surface_average f : 0 < f ->
+      (forall rho, carries M (X rho) (surface M f) (F rho)) ->
+      let f1 j := surface_linear (across j) j f in
+      (forall j, (0 <= j < M)%Z -> linearised (fun rho => f_plus (F rho) (across j) j) (f1 j)) /\
+      Rabs (mean_square f1 - unit * (height * height * height)) <= 57 * (height * height) * unit.
+    Proof.
+      intros Hf C f1. assert (One : 1 <= height) by (apply (IZR_le 1); exact high).
+      assert (V : forall j, (0 <= j < M)%Z -> _) by
+        (intros j Hj; exact (surface_variance (across j) j (proj1 (contacts j Hj)) (proj2 (contacts j Hj)) f Hf C)).
+      split; [intros j Hj; apply (V j Hj)|].
+      apply (layers_counted _ (fun j => 2 * (IZR (M - j) * IZR (M - j)) * (2 * IZR j + height))).
+      - intros j Hj. apply (V j Hj).
+      - rewrite (Sum_by _ (fun n => 2 * (height * height * height * IZR n
+          - height * IZR n * (IZR n - 1) * (2 * IZR n - 1) / 2
+          + IZR n * IZR n * ((IZR n - 1) * (IZR n - 1)) / 2)) M);
+          [|lia|field|intros m Hm; rewrite minus_IZR, plus_IZR; field].
+        apply Rabs_le. assert (0 <= height * height * height)
+          by (apply Rmult_le_pos; [apply Rle_0_sqr|lra]). lra.
+    Qed.
+
+    Theorem bulk_average g : 0 < g ->
+      (forall rho, carries M (X rho) (bulk g) (F rho)) ->
+      let f1 j := bulk_linear (across j) j g in
+      (forall j, (0 <= j < M)%Z -> linearised (fun rho => f_plus (F rho) (across j) j) (f1 j)) /\
+      Rabs (mean_square f1 - unit * (1 / 5 * (height * height * height))) <= 57 * (height * height) * unit.
+    Proof.
+      intros Hg C f1. assert (One : 1 <= height) by (apply (IZR_le 1); exact high).
+      assert (V : forall j, (0 <= j < M)%Z -> _) by
+        (intros j Hj; exact (bulk_variance (across j) j (proj1 (contacts j Hj)) (proj2 (contacts j Hj)) g Hg C)).
+      split; [intros j Hj; apply (V j Hj)|].
+      apply (layers_counted _ (fun j => 3 / 10 * (IZR (M - j) * IZR (M - j)) * (4 * IZR j + height))).
+      - intros j Hj. apply (V j Hj).
+      - rewrite (Sum_by _ (fun n => 3 / 10 * (height * height * height * IZR n
+          + height * height * IZR n * (IZR n - 1)
+          - 7 * height * IZR n * (IZR n - 1) * (2 * IZR n - 1) / 6
+          + IZR n * IZR n * ((IZR n - 1) * (IZR n - 1)))) M);
+          [|lia|field|intros m Hm; rewrite minus_IZR, plus_IZR; field].
+        assert (0 <= height * height) by apply Rle_0_sqr.
+        assert (1 * (height * height) <= height * (height * height)) by (apply Rmult_le_compat_r; lra).
+        apply Rabs_le. lra.
+    Qed.
+  End Average.
+End Variances.
+
+(** ** Roots *)
+
+(** A root beside another when the squares are near. *)
+Lemma root_near s t b : 0 < t -> Rabs (s - t * t) <= b * (t * t) -> Rabs (sqrt s - t) <= b * t.
+Proof.
+  intros Ht H. apply Rabs_def2' in H.
+  destruct (Rle_dec 0 s) as [Hs|Hs].
+  - pose proof (sqrt_sqrt s Hs) as E. pose proof (sqrt_pos s) as Hq.
+    apply Rabs_le. split.
+    + apply (Rmult_le_reg_r t); [exact Ht|].
+      destruct (Rle_dec (sqrt s) t) as [Hl|Hl].
+      * assert (0 <= (t - sqrt s) * sqrt s) by (apply Rmult_le_pos; lra). lra.
+      * assert (0 <= (sqrt s - t) * t) by (apply Rmult_le_pos; lra).
+        assert (0 <= b * (t * t)) by (apply Rle_trans with (s - t * t); [rewrite <- E|lra];
+          assert (0 <= (sqrt s - t) * sqrt s) by (apply Rmult_le_pos; lra); lra). lra.
+    + apply (Rmult_le_reg_r t); [exact Ht|].
+      destruct (Rle_dec t (sqrt s)) as [Hl|Hl].
+      * assert (0 <= (sqrt s - t) * sqrt s) by (apply Rmult_le_pos; lra). lra.
+      * assert (0 <= (t - sqrt s) * t) by (apply Rmult_le_pos; lra).
+        assert (0 <= b * (t * t)) by (apply Rle_trans with (t * t - s); [rewrite <- E|lra];
+          assert (0 <= (t - sqrt s) * sqrt s) by (apply Rmult_le_pos; lra); lra). lra.
+  - rewrite sqrt_neg_0 by lra. rewrite Rminus_0_l, Rabs_Ropp, Rabs_right by lra.
+    apply (Rmult_le_reg_r t); lra.
+Qed.
+
+(** The power 3/2, squared. *)
+Lemma three_halves x : 0 < x -> Rpower x (3 / 2) * Rpower x (3 / 2) = x * x * x.
+Proof.
+  intros H. rewrite <- Rpower_plus. replace (3 / 2 + 3 / 2) with (INR 3) by (cbn; lra).
+  rewrite Rpower_pow by exact H. ring.
+Qed.
+
+(** An average of the order M³ in the unit, as a root: its constant depends on φ alone. *)
+Theorem root_of_average G M sigma k s : 0 < sigma -> (1 <= M)%Z -> 0 < k -> k <= 1 ->
+  Rabs (s - unit_of G sigma * (k * (IZR M * IZR M * IZR M))) <= 57 * (IZR M * IZR M) * unit_of G sigma ->
+  Rabs (sqrt s - sqrt k / (1 - phi G * phi G) * (Rpower (IZR M) (3 / 2) * sigma / r G))
+    <= 57 / k / IZR M * (sqrt k / (1 - phi G * phi G) * (Rpower (IZR M) (3 / 2) * sigma / r G)).
+Proof.
+  intros Hs HM Hk Hk1 H. pose proof (r_pos G). pose proof (divisor_positive G).
+  assert (One : 1 <= IZR M) by (apply (IZR_le 1); exact HM).
+  assert (Q : 0 < sqrt k) by (apply sqrt_lt_R0; exact Hk).
+  assert (Pw : 0 < Rpower (IZR M) (3 / 2)) by apply exp_pos.
+  assert (T : sqrt k / (1 - phi G * phi G) * (Rpower (IZR M) (3 / 2) * sigma / r G) *
+    (sqrt k / (1 - phi G * phi G) * (Rpower (IZR M) (3 / 2) * sigma / r G)) =
+    unit_of G sigma * (k * (IZR M * IZR M * IZR M))).
+  { transitivity ((sqrt k * sqrt k) * (Rpower (IZR M) (3 / 2) * Rpower (IZR M) (3 / 2)) * unit_of G sigma).
+    - unfold unit_of. field. lra.
+    - rewrite sqrt_sqrt, three_halves by lra. ring. }
+  apply root_near.
+  - apply Rmult_lt_0_compat; apply Rdiv_lt_0_compat; try lra. apply Rmult_lt_0_compat; lra.
+  - rewrite T. eapply Rle_trans; [exact H|]. apply Req_le. field. lra.
+Qed.
+
+Lemma constant_positive k x : 0 < k -> -(1 / 2) < x < 1 / 2 -> 0 < sqrt k / (1 - x * x).
+Proof.
+  intros Hk Hx. apply Rdiv_lt_0_compat; [apply sqrt_lt_R0, Hk|].
+  destruct (Rle_dec 0 x).
+  - assert (x * x <= 1 / 2 * (1 / 2)) by (apply Rmult_le_compat; lra). lra.
+  - assert (- x * - x <= 1 / 2 * (1 / 2)) by (apply Rmult_le_compat; lra). lra.
+Qed.
+
+(** Where c M^(3/2) σ/r is 1: a height in proportion to (σ/r)^(−2/3). *)
+Theorem critical_height c s m : 0 < c -> 0 < s -> 0 < m -> (c * (Rpower m (3 / 2) * s)) ^ 2 = 1 ->
+  m = Rpower c (- (2 / 3)) * Rpower s (- (2 / 3)).
+Proof.
+  intros Hc Hs Hm H. assert (P : 0 < Rpower m (3 / 2)) by apply exp_pos.
+  assert (Pc : 0 < c * (Rpower m (3 / 2) * s)) by (repeat apply Rmult_lt_0_compat; assumption).
+  assert (E : c * (Rpower m (3 / 2) * s) = 1).
+  { assert (Z0 : (c * (Rpower m (3 / 2) * s) - 1) * (c * (Rpower m (3 / 2) * s) + 1) = 0)
+      by (rewrite <- (Rminus_diag_eq _ _ H); ring).
+    apply Rmult_integral in Z0. destruct Z0; lra. }
+  assert (Lc : ln c + (3 / 2 * ln m + ln s) = 0).
+  { rewrite <- ln_1, <- E. rewrite !ln_mult; try assumption; try (apply Rmult_lt_0_compat; assumption).
+    rewrite ln_Rpower. reflexivity. }
+  unfold Rpower. rewrite <- exp_plus, <- (exp_ln m Hm) at 1. f_equal. lra.
+Qed.
