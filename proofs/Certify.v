@@ -4,7 +4,7 @@
     compares them. Nothing here is trusted: a tactic that goes wrong proves nothing. *)
 
 From Coq Require Export ZArith Reals Lia Lra.
-From ForceDiffusion Require Export Model Sums FirstOrder Geometry Forces.
+From ForceDiffusion Require Export Model Sums FirstOrder Geometry Forces Random Weights Variances.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
@@ -167,3 +167,72 @@ Ltac prove_11 :=
   end;
   try nonzero; unfold surface_plus, surface_minus; single_sums; same_sums; same_values;
   field; nonzero.
+
+(** ** Variances *)
+
+Lemma height_positive M i j : contact M i j -> 0 < IZR M.
+Proof. intros H. apply (IZR_lt 0). site. Qed.
+
+(** A bound on |v − q| with q = p, b = c by arithmetic is one on |v − p|. *)
+Lemma bound_is v p b q c : Rabs (v - q) <= c -> p = q -> c = b -> Rabs (v - p) <= b.
+Proof. intros H -> <-. exact H. Qed.
+
+Ltac by_arithmetic G := unfold unit_of; rewrite ?minus_IZR; field; nonzero.
+
+Ltac prove_13 :=
+  intros G M W sigma L Xs Fs P i j f_load; intros; positive_things G;
+  match goal with
+  | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, S : 0 < sigma, Hf : 0 < f_load,
+    C : forall rho, carries M (Xs rho) (surface M f_load) (Fs rho) |- _ =>
+      pose proof (height_positive M i j H);
+      destruct (surface_variance G M W sigma S L Xs Fs P i j H HW f_load Hf C) as (A & B & D);
+      exists (surface_linear G M i j f_load)
+  end;
+  split; [assumption|eapply bound_is; [eassumption|by_arithmetic G|by_arithmetic G]].
+
+Ltac prove_14 :=
+  intros G M W sigma L Xs Fs P i j m_g; intros; positive_things G;
+  match goal with
+  | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, S : 0 < sigma, Hf : 0 < m_g,
+    C : forall rho, carries M (Xs rho) (bulk m_g) (Fs rho) |- _ =>
+      pose proof (height_positive M i j H);
+      destruct (bulk_variance G M W sigma S L Xs Fs P i j H HW m_g Hf C) as (A & B & D);
+      exists (bulk_linear G M i j m_g)
+  end;
+  split; [assumption|eapply bound_is; [eassumption|by_arithmetic G|by_arithmetic G]].
+
+Lemma braces_are j M m : (0 <= j < M)%Z -> (1 <= m <= M)%Z ->
+  braces (IZR M - IZR j) (IZR M - IZR m) m j = braces_at j M m.
+Proof.
+  intros H Hm. unfold braces, braces_at, on. replace (m <=? M)%Z with true by lia.
+  rewrite <- !minus_IZR. destruct (m <=? j)%Z eqn:E; f_equal; lia.
+Qed.
+
+Ltac prove_12 :=
+  intros G M W sigma L Xs Fs P i j f_load; intros; positive_things G;
+  match goal with
+  | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, S : 0 < sigma, Hf : 0 < f_load,
+    C : forall rho, carries M (Xs rho) (surface M f_load) (Fs rho) |- _ =>
+      pose proof (height_positive M i j H);
+      exists (fun rho => surface_plus G rho M i j), (by_braces G M i j);
+      split; [|split; [|eapply Rle_trans;
+        [exact (braces_miss G M W sigma S L Xs Fs P i j H HW)|apply Req_le; by_arithmetic G]]];
+      intros rho; pose proof (P rho) as Pr; pose proof (C rho) as Cr;
+      cbv zeta; unfold second_difference;
+      [exists 0, (surface_plus G rho M i j)|exists 0, (by_braces G M i j rho)]; (split; [|ring]);
+      (eapply expands_to;
+        [expand_with ltac:(fun _ => of_forces Pr ltac:(of_surface Pr Cr))|..]);
+      cbv beta; try nonzero; no_zero_sums; try solve [field; nonzero]
+  end;
+  unfold by_braces;
+  match goal with
+  | |- context [Sum ?a ?b (fun m => braces_at ?j ?M m * @?f m)] =>
+      match goal with
+      | |- context [Sum ?c ?d ?g] =>
+          lazymatch g with context [braces] =>
+            replace (Sum c d g) with (Sum a b (fun m => braces_at j M m * f m))
+              by (apply Sum_eq; [lia|lia|intros; cbv beta; rewrite braces_are by site;
+                                 same_values; ring])
+          end
+      end
+  end; field; nonzero.

@@ -164,9 +164,11 @@ Section Laid.
     apply meeting_touches; [exact H1|lra].
   Qed.
 
-  Theorem packing_exists M : exists X, packing G M rho X.
+  Definition laid_packing (i j : Z) (e : R) : vector := laid (Z.to_nat j) i e.
+
+  Theorem laid_is_packing M : packing G M rho laid_packing.
   Proof.
-    exists (fun i j e => laid (Z.to_nat j) i e).
+    unfold laid_packing.
     assert (Up : forall j, (1 <= j)%Z -> Z.to_nat j = S (Z.to_nat (j - 1)) /\
       Z.of_nat (S (Z.to_nat (j - 1))) = j /\ Z.of_nat (Z.to_nat (j - 1)) = (j - 1)%Z) by lia.
     split.
@@ -228,9 +230,9 @@ Section Solved.
     unfold first, second, add, scale in *. cbn [x_of y_of] in *. f_equal; field; exact H.
   Qed.
 
-  Theorem forces_exist : exists F, carries M X load F.
+  Theorem passed_down_carries : carries M X load passed_down.
   Proof.
-    exists passed_down. split.
+    split.
     - intros i e. unfold passed_down. cbn [f_plus f_minus].
       replace (M <? M)%Z with false by lia. auto.
     - intros i j H Hj.
@@ -270,6 +272,15 @@ Section Solved.
       unfold minus, add, scale, zero. cbn [x_of y_of]. f_equal; ring.
   Qed.
 End Solved.
+
+(** A packing, and forces in it, for all radii at once. *)
+Theorem packings_and_forces_exist G M load : exists (Xs : radii -> centres) (Fs : radii -> forces),
+  forall rho, packing G M rho (Xs rho) /\ carries M (Xs rho) load (Fs rho).
+Proof.
+  exists (laid_packing G), (fun rho => passed_down M (laid_packing G rho) load). intros rho. split.
+  - apply laid_is_packing.
+  - apply (passed_down_carries G M rho), laid_is_packing.
+Qed.
 
 (** What Eq. 8 asks for happens: straight below a load, one force enters alone. *)
 Section Alone.

@@ -85,6 +85,11 @@ Definition contact (M i j : Z) : Prop := ((i + j) mod 2 = 0 /\ 0 <= j < M)%Z.
 Definition radii := Z -> Z -> R.
 Definition delta_r (rho : radii) (i j : Z) (e : R) : R := e * rho i j.
 
+(** Δ_ij, and the braces of Eq. 12: one value up to a layer, another above it. *)
+Definition second_difference (rho : radii) (i j : Z) (e : R) : R :=
+  2 * delta_r rho i j e - delta_r rho (i - 2) j e - delta_r rho (i + 2) j e.
+Definition braces (below above : R) (m last : Z) : R := if (m <=? last)%Z then below else above.
+
 (** The centre of bead (i, j) at a strength ε. *)
 Definition centres := Z -> Z -> R -> vector.
 
@@ -136,6 +141,10 @@ Definition balanced (X : centres) (F : forces) (load : vector) (i j : Z) (e : R)
            (scale (f_minus F (i + 1) (j - 1) e) (N_minus X (i + 1) (j - 1) e)))
       (add (scale (f_plus F i j e) (N_plus X i j e))
            (scale (f_minus F i j e) (N_minus X i j e)))) = zero.
+
+(** What the two contacts above bead (i, j) press it down with. *)
+Definition pressed_down (X : centres) (F : forces) (i j : Z) (e : R) : R :=
+  y_of (add (scale (f_plus F i j e) (N_plus X i j e)) (scale (f_minus F i j e) (N_minus X i j e))).
 
 (** Exact balance of every bead above the base; there is no contact above the surface. *)
 Record carries (M : Z) (X : centres) (load : Z -> Z -> vector) (F : forces) : Prop := {

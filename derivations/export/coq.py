@@ -6,7 +6,7 @@ which hypotheses of ``Model.v`` an equation is about. Proofs are found by tactic
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 import sympy
@@ -25,6 +25,7 @@ _SITES = {
     "DeltaR": "delta_r rho",
     "Position": "position X",
     "DeltaX": "delta_x X",
+    "SecondDifference": "second_difference rho",
     "DeltaNPlus": "delta_n_plus G X",
     "DeltaNMinus": "delta_n_minus G X",
     "ForcePlus": "f_plus F",
@@ -32,7 +33,8 @@ _SITES = {
     "Load": "single k l f_load",
 }
 _FIXED = ("Position", "Load")  # do not depend on ε
-_SCALARS = {sy.r: "r G", sy.n_x: "n_x G", sy.n_y: "n_y G", sy.phi: "phi G", sy.f_load: "f_load"}
+_SCALARS = {sy.r: "r G", sy.n_x: "n_x G", sy.n_y: "n_y G", sy.phi: "phi G"}
+_SCALARS |= {sy.f_load: "f_load", sy.sigma: "sigma", sy.z: "(IZR j / IZR M)"}
 _VECTORS = {v: f"{v.name} G" for v in (sy.n_plus, sy.n_minus, sy.b_plus, sy.b_minus)}
 _VECTORS[sy.e_y] = "e_y"
 
@@ -89,13 +91,18 @@ def real(expression: sympy.Expr) -> str:
     if expression.is_Integer:
         return str(expression) if expression >= 0 else f"- {-expression}"
     if expression.is_Rational:
-        return f"{expression.p} / {expression.q}"
+        shown = f"{abs(expression.p)} / {expression.q}"
+        return shown if expression > 0 else f"- ({shown})"
     if expression in _SCALARS:
         return _SCALARS[expression]
     if expression in sy.INDICES:
         return f"IZR {expression.in_code}"
     if isinstance(expression, sy.SiteFunction) and not expression.is_vector:
         return _site(expression)
+    if isinstance(expression, sy.Braces):
+        below, above, name, last = expression.args
+        values = f"{_atom(real(below))} {_atom(real(above))}"
+        return f"braces {values} {_atom(index(name))} {_atom(index(last))}"
     if isinstance(expression, sy.Dot):
         return f"dot {' '.join(_atom(vector(side)) for side in expression.args)}"
     if isinstance(expression, sympy.Sum):
@@ -110,6 +117,8 @@ def real(expression: sympy.Expr) -> str:
         if expression.exp < 0:
             return _product((expression,))
         return f"{_operand(expression.base)} ^ {expression.exp}"
+    if isinstance(expression, sympy.Pow) and expression.exp.is_Rational:
+        return f"Rpower {_atom(real(expression.base))} {_atom(real(expression.exp))}"
     raise NotStatedError(f"{expression} has no words in Model.v")
 
 
@@ -175,8 +184,9 @@ def vector(expression: sympy.Expr) -> str:
 
 
 _LETTERS = "".join(symbol.name for symbol in sy.INDICES)
-_SIDE = rf"(?:\d|[{_LETTERS}](?!\w))(?:\s*[+−]\s*(?:\d|[{_LETTERS}](?!\w)))*"
-_CHAIN = re.compile(rf"(?<![\w(,]){_SIDE}(?:\s*[≤<≥>=]\s*{_SIDE})+")
+_LETTER = rf"[{_LETTERS}](?!\w)"
+_SIDE = rf"(?:\d|{_LETTER})(?:\s*[+−]\s*(?:\d|{_LETTER}))*"
+_CHAIN = re.compile(rf"(?<![\w(])(?:{_LETTER}, )*{_SIDE}(?:\s*[≤<≥>=]\s*{_SIDE})+")
 _RELATIONS = {"≤": "<=", "<": "<", "≥": ">=", ">": ">", "=": "="}
 
 
@@ -187,11 +197,72 @@ def ranges(derivation: Derivation) -> Iterator[str]:
         for chain in _CHAIN.findall(assumption):
             if not re.search("[≤<≥>]", chain):
                 continue
-            sides = re.split(r"\s*([≤<≥>=])\s*", chain.replace("−", "-"))
+            *alike, chain = chain.replace("−", "-").split(", ")
+            sides = re.split(r"\s*([≤<≥>=])\s*", chain)
             if radius:
                 sides = [re.sub(r"\b([rs])\b", r"site_\1", side) for side in sides]
-            for left, relation, right in zip(sides[::2], sides[1::2], sides[2::2], strict=False):
-                yield f"({left} {_RELATIONS[relation]} {right})%Z"
+            for one in (*alike, sides[0]):
+                for left, relation, right in zip(
+                    (one, *sides[2::2]), sides[1::2], sides[2::2], strict=False
+                ):
+                    yield f"({left} {_RELATIONS[relation]} {right})%Z"
+
+
+def _spoken_of(side: sympy.Expr) -> Iterator[str]:
+    """Beads and contacts of the left-hand side: those of the packing."""
+    for site in sorted(side.atoms(sy.SiteFunction), key=str):
+        bead = isinstance(site, sy.DeltaR | sy.DeltaX | sy.Position | sy.Load)
+        at = " ".join(_atom(index(argument)) for argument in site.args)
+        yield f"{'bead' if bead else 'contact'} M {at}"
+
+
+def _to_first_order(equation: sympy.Eq) -> str:
+    of_vectors = any(map(_is_vector, equation.args))
+    left, right = map(vector if of_vectors else real, equation.args)
+    kind = "first_order_vector" if of_vectors else "first_order"
+    return f"{kind}\n    (fun {EXPANSION} => {left})\n    (fun {EXPANSION} => {right})"
+
+
+def _exactly(equation: sympy.Eq) -> str:
+    """At ε = 0, or near it where something depends on ε."""
+    left, right = map(vector, equation.args)
+    kinds = {type(site).__name__ for site in equation.atoms(sy.SiteFunction)}
+    if kinds <= set(_FIXED):
+        return f"{left} = {right}"
+    return f"near (fun {EXPANSION} =>\n    {left} = {right})"
+
+
+_OF_RHO = f"fun rho {EXPANSION} => let X := Xs rho in let F := Fs rho in"
+_UNIT = "((sigma / r G) ^ 2 / (1 - phi G ^ 2) ^ 2)"
+
+
+def _up_to_variance(size: str) -> Callable[[sympy.Eq], str]:
+    """Both sides to first order; the mean square of their difference is at most a size."""
+
+    def conclude(equation: sympy.Eq) -> str:
+        left, right = map(real, equation.args)
+        return (
+            "exists left right,\n"
+            f"    linearised ({_OF_RHO} {left}) left /\\\n"
+            f"    linearised ({_OF_RHO} {right}) right /\\\n"
+            f"    expect L (fun rho => (left rho - right rho) ^ 2) <= {size} * {_UNIT}"
+        )
+
+    return conclude
+
+
+def _near(quantity: str, is_in_words: str, size: str) -> Callable[[sympy.Eq], str]:
+    """A statistic of f, which is a quantity to first order, is the right side up to a size."""
+
+    def conclude(equation: sympy.Eq) -> str:
+        if not equation.lhs.is_Symbol:
+            raise NotStatedError(f"{equation.lhs} is no statistic")
+        return (
+            f"exists f, linearised ({_OF_RHO} {quantity}) f /\\\n"
+            f"    Rabs ({is_in_words} - {_operand(equation.rhs)}) <= {size} * {_UNIT}"
+        )
+
+    return conclude
 
 
 @dataclass(frozen=True)
@@ -202,27 +273,39 @@ class Frame:
         variables: what is quantified besides packing and indices, as binders.
         hypotheses: in the words of ``Model.v``, besides that of a packing.
         on_indices: conditions on indices besides ranges and sites.
-        example: indices for which hypotheses on indices hold, so that nothing is said of nothing.
-        exact: whether it holds exactly, near ε = 0, and not only to first order.
+        example: indices for which conditions on indices hold, so that nothing is said of nothing.
+        conclude: what an equation says, given the hypotheses.
+        random: whether the packing is one of a family, with a law of the radii.
     """
 
     variables: str = ""
     hypotheses: tuple[str, ...] = ()
     on_indices: tuple[str, ...] = ()
     example: tuple[tuple[sympy.Symbol, int], ...] = ()
-    exact: bool = False
+    conclude: Callable[[sympy.Eq], str] = _to_first_order
+    random: bool = False
 
 
 _LOADED = "(F : forces) (f_load : R)"
 _SINGLE = ("0 < f_load", "carries M X (single k l f_load) F")
 _BELOW = ((sy.M, 7), (sy.k, 6), (sy.l, 6))
+_AT = ((sy.M, 3), (sy.i, 0), (sy.j, 0))
+_FAR = "(Z.abs i + M + 2 <= W)%Z"  # no horizontal boundary is met
+_RELATIVE = "variance L f / expect L f ^ 2"
+_SPREAD = ("0 < sigma", "0 < f_load")
+
+
+def _all_carry(load: str) -> str:
+    return f"(forall rho, carries M (Xs rho) ({load}) (Fs rho))"
+
+
 FRAMES = {
-    1: Frame(example=((sy.M, 3), (sy.i, 1), (sy.j, 1)), exact=True),
+    1: Frame(example=((sy.M, 3), (sy.i, 1), (sy.j, 1)), conclude=_exactly),
     2: Frame(example=((sy.M, 3), (sy.i, 1), (sy.j, 1))),
     3: Frame(example=((sy.M, 3), (sy.i, 1), (sy.j, 1))),
-    4: Frame(example=((sy.M, 3), (sy.i, 0), (sy.j, 0))),
-    5: Frame(example=((sy.M, 3), (sy.i, 0), (sy.j, 0))),
-    6: Frame(_LOADED, _SINGLE, example=_BELOW, exact=True),
+    4: Frame(example=_AT),
+    5: Frame(example=_AT),
+    6: Frame(_LOADED, _SINGLE, example=_BELOW, conclude=_exactly),
     7: Frame(_LOADED, _SINGLE, example=_BELOW),
     8: Frame(
         "(load : Z -> Z -> vector) (F : forces)",
@@ -240,35 +323,36 @@ FRAMES = {
         (f"(2 * n = {index(2 * BRANCH_COUNT)})%Z",),
         (*_BELOW, (sy.i, 2), (sy.j, 0), (sy.n, 1)),
     ),
-    11: Frame(
-        _LOADED,
-        ("0 < f_load", "carries M X (surface M f_load) F"),
-        example=((sy.M, 3), (sy.i, 0), (sy.j, 0)),
+    11: Frame(_LOADED, ("0 < f_load", "carries M X (surface M f_load) F"), example=_AT),
+    12: Frame(
+        "(f_load : R)",
+        (_FAR, *_SPREAD, _all_carry("surface M f_load")),
+        example=_AT,
+        conclude=_up_to_variance("53 * IZR M ^ 2"),
+        random=True,
+    ),
+    13: Frame(
+        "(f_load : R)",
+        (_FAR, *_SPREAD, _all_carry("surface M f_load")),
+        ("contact M i j",),
+        _AT,
+        _near(f"f_plus F i j {EXPANSION}", _RELATIVE, "56 * IZR M ^ 2"),
+        random=True,
+    ),
+    14: Frame(
+        "(m_g : R)",
+        (_FAR, "0 < sigma", "0 < m_g", _all_carry("bulk m_g")),
+        ("contact M i j",),
+        _AT,
+        _near(f"f_plus F i j {EXPANSION}", _RELATIVE, "56 * IZR M ^ 2"),
+        random=True,
     ),
 }
 
-
-def _spoken_of(side: sympy.Expr) -> Iterator[str]:
-    """Beads and contacts of the left-hand side: those of the packing."""
-    for site in sorted(side.atoms(sy.SiteFunction), key=str):
-        bead = isinstance(site, sy.DeltaR | sy.DeltaX | sy.Position | sy.Load)
-        at = " ".join(_atom(index(argument)) for argument in site.args)
-        yield f"{'bead' if bead else 'contact'} M {at}"
-
-
-def _conclusion(frame: Frame, equation: sympy.Eq) -> str:
-    of_vectors = any(map(_is_vector, equation.args))
-    left, right = map(vector if of_vectors else real, equation.args)
-    if not frame.exact:
-        kind = "first_order_vector" if of_vectors else "first_order"
-        return f"{kind}\n    (fun {EXPANSION} => {left})\n    (fun {EXPANSION} => {right})"
-    if equation.atoms(*(kind for kind in _changing())):
-        return f"near (fun {EXPANSION} =>\n    {left} = {right})"
-    return f"{left} = {right}"
-
-
-def _changing() -> Iterator[type[sympy.Basic]]:
-    return (getattr(sy, kind) for kind in _SITES if kind not in _FIXED)
+_PACKING = "  forall (G : lattice) (M : Z) (rho : radii) (X : centres), packing G M rho X ->"
+_PACKINGS = """  forall (G : lattice) (M W : Z) (sigma : R) (L : law W M sigma)
+    (Xs : radii -> centres) (Fs : radii -> forces),
+  (forall rho, packing G M rho (Xs rho)) ->"""
 
 
 @dataclass(frozen=True)
@@ -318,16 +402,18 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
     Raises:
         NotStatedError: when there are no words for it.
     """
-    if derivation.number not in FRAMES:
-        raise NotStatedError(f"Eq. {derivation.number} has no hypotheses in Model.v yet")
-    frame, printed = FRAMES[derivation.number], derivation.printed[part]
+    printed = derivation.printed[part]
     stated = printed if equation is None else equation
     several = len(derivation.printed) > 1
     name = f"equation_{derivation.number}" + (f"_part_{part + 1}" if several else "")
+    tactic = f"prove_{derivation.number}"
+    if derivation.number not in FRAMES:
+        raise NotStatedError(f"Eq. {derivation.number} has no hypotheses in Model.v yet")
+    frame = FRAMES[derivation.number]
     on_indices = dict.fromkeys((*_spoken_of(printed.lhs), *ranges(derivation), *frame.on_indices))
     indices = " ".join(symbol.in_code for symbol, _ in frame.example if symbol != sy.M)
     hypotheses = (
-        "  forall (G : lattice) (M : Z) (rho : radii) (X : centres), packing G M rho X ->",
+        _PACKINGS if frame.random else _PACKING,
         f"  forall ({indices} : Z) {frame.variables}".rstrip() + ",",
         *(f"  {hypothesis} ->" for hypothesis in (*on_indices, *frame.hypotheses)),
     )
@@ -343,13 +429,7 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
             f"  {_all(on_indices)} -> {_all(orders)}.",
             "Proof. site. Qed.",
         ]
-    return Statement(
-        name,
-        hypotheses,
-        _conclusion(frame, stated),
-        f"prove_{derivation.number}",
-        "\n".join(companions) + "\n",
-    )
+    return Statement(name, hypotheses, frame.conclude(stated), tactic, "\n".join(companions) + "\n")
 
 
 def _all(conditions: Iterable[str]) -> str:
