@@ -4,7 +4,7 @@
     compares them. Nothing here is trusted: a tactic that goes wrong proves nothing. *)
 
 From Coq Require Export ZArith Reals Lia Lra.
-From ForceDiffusion Require Export Model Sums FirstOrder Geometry Forces Random Weights Variances.
+From ForceDiffusion Require Export Roots Model Sums FirstOrder Geometry Forces Random Weights Variances.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
@@ -236,3 +236,69 @@ Ltac prove_12 :=
           end
       end
   end; field; nonzero.
+
+Lemma root_constant k : 0 < k -> constant (fun x => sqrt k / (1 - x * x)).
+Proof. intros H x Hx. apply constant_positive; assumption. Qed.
+
+(** Eq. 15 under one load, with the constant √k/(1 − φ²). *)
+Lemma averages_are (G : lattice) (M : Z) (sigma k s p : R) :
+  0 < sigma -> (1 <= M)%Z -> 1 / 5 <= k -> k <= 1 ->
+  Rabs (s - unit_of G sigma * (k * (IZR M * IZR M * IZR M))) <= 57 * (IZR M * IZR M) * unit_of G sigma ->
+  p = root 2 (IZR M) ^ 3 * sigma / r G ->
+  Rabs (sqrt s - sqrt k / (1 - phi G * phi G) * p) <= 285 / IZR M * (sqrt k / (1 - phi G * phi G) * p).
+Proof.
+  intros Hs HM Hk Hk1 H ->. pose proof (r_pos G). pose proof (divisor_positive G).
+  assert (One : 1 <= IZR M) by (apply (IZR_le 1); exact HM).
+  eapply Rle_trans; [apply (root_of_average G M sigma k s); try assumption; lra|].
+  apply Rmult_le_compat_r.
+  - apply Rlt_le, Rmult_lt_0_compat; apply Rdiv_lt_0_compat; try lra; [apply sqrt_lt_R0; lra|].
+    apply Rmult_lt_0_compat; [apply pow_lt, root_is; [lia|lra]|lra].
+  - apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat; lra|].
+    apply (Rmult_le_reg_r k); [lra|]. replace (57 / k * k) with 57 by (field; lra). lra.
+Qed.
+
+Ltac prove_average k average :=
+  intros G M W sigma L Xs Fs P across f_load; intros; positive_things G;
+  match goal with
+  | A : forall j, (0 <= j < M)%Z -> contact M (across j) j /\ (Z.abs (across j) + M + 2 <= W)%Z,
+    HM : (1 <= M)%Z, S : 0 < sigma, Hf : 0 < f_load,
+    C : forall rho, carries M (Xs rho) _ (Fs rho) |- _ =>
+      let Lin := fresh in let B := fresh in
+      destruct (average G M W sigma S L Xs Fs P across A HM f_load Hf C) as [Lin B];
+      eexists; split; [exact Lin|];
+      unfold root_mean_square; cbv beta;
+      apply (averages_are G M sigma k); [assumption|assumption|lra|lra
+        |eapply bound_is; [exact B|field|reflexivity]|field; nonzero]
+  end.
+
+Ltac prove_15_1 :=
+  split;
+  [exists (fun x => sqrt 1 / (1 - x * x)); split; [apply root_constant; lra|];
+   prove_average 1 surface_average
+  |exists (fun x => sqrt (1 / 5) / (1 - x * x)); split; [apply root_constant; lra|];
+   prove_average (1 / 5) bulk_average].
+
+Lemma power_constant k : 0 < k -> constant (fun x => / root 3 (sqrt k / (1 - x * x)) ^ 2).
+Proof.
+  intros H x Hx. apply Rinv_0_lt_compat, pow_lt, root_is; [lia|]. apply constant_positive; assumption.
+Qed.
+
+Ltac prove_critical k :=
+  let G := fresh "G" in let sigma := fresh "sigma" in let m := fresh "m" in
+  intros G sigma m S Hm E; positive_things G;
+  let c := constr:(sqrt k / (1 - phi G * phi G)) in
+  assert (Hc : 0 < c) by (apply Rdiv_lt_0_compat; [apply sqrt_lt_R0|]; lra);
+  assert (Hs : 0 < sigma / r G) by (apply Rdiv_lt_0_compat; lra);
+  cbv beta in *;
+  (etransitivity;
+   [apply (critical_height c (sigma / r G) m Hc Hs Hm); (etransitivity; [|exact E]); field; nonzero|]);
+  ring.
+
+Ltac prove_15_2 :=
+  split;
+  [exists (fun x => sqrt 1 / (1 - x * x)), (fun x => / root 3 (sqrt 1 / (1 - x * x)) ^ 2);
+   split; [apply root_constant; lra|split; [apply power_constant; lra|split;
+     [prove_average 1 surface_average|prove_critical 1]]]
+  |exists (fun x => sqrt (1 / 5) / (1 - x * x)), (fun x => / root 3 (sqrt (1 / 5) / (1 - x * x)) ^ 2);
+   split; [apply root_constant; lra|split; [apply power_constant; lra|split;
+     [prove_average (1 / 5) bulk_average|prove_critical (1 / 5)]]]].

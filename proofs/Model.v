@@ -195,3 +195,12 @@ Definition variance {W M sigma} (L : law W M sigma) (f : radii -> R) : R :=
 (** f is g to first order in δr, where δr = ρ: value and slope of g, added. *)
 Definition linearised (g : radii -> R -> R) (f : radii -> R) : Prop :=
   forall rho, exists v d, expands (g rho) v d /\ f rho = v + d.
+
+(** σ_f²/⟨f⟩², and the root of its mean over one contact of each layer. *)
+Definition relative_variance {W M sigma} (L : law W M sigma) (f : radii -> R) : R :=
+  variance L f / expect L f ^ 2.
+Definition root_mean_square {W M sigma} (L : law W M sigma) (f : Z -> radii -> R) : R :=
+  sqrt (Sum 0 (M - 1) (fun j => relative_variance L (f j)) / IZR M).
+
+(** What proportionality may depend on: φ alone. *)
+Definition constant (c : R -> R) : Prop := forall x, - (1 / 2) < x < 1 / 2 -> 0 < c x.

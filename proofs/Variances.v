@@ -1,7 +1,7 @@
 (** Variances of the contact forces: what Eqs. 12-15 rest on, with explicit error bounds. *)
 
 From Coq Require Import ZArith Reals Lia Lra List.
-From ForceDiffusion Require Import Model Sums FirstOrder Geometry Forces Random Weights.
+From ForceDiffusion Require Import Roots Model Sums FirstOrder Geometry Forces Random Weights.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
@@ -38,16 +38,16 @@ Section Variances.
     Hypothesis no_boundary : (Z.abs i + M + 2 <= W)%Z.
 
     (** Its mean, and its variance relative to that. *)
-    Lemma relative_variance a w : a <> 0 ->
+    Lemma linear_force_variance a w : a <> 0 ->
       let f := linear_force G M i j a w in
-      expect L f = a /\ variance L f / expect L f ^ 2 = unit / 4 * squares M (layers i j w).
+      expect L f = a /\ relative_variance L f = unit / 4 * squares M (layers i j w).
     Proof.
       intros Ha f. pose proof (r_pos G). pose proof (divisor_positive G).
       destruct (form_variance W M sigma L (layers i j w)
         (layers_inside W M i j w at_contact no_boundary) a (a / (2 * r G * (1 - phi G * phi G))) f)
         as [E V].
       { intros rho. unfold f, linear_force. field. lra. }
-      split; [exact E|]. rewrite V, E. unfold unit_of. field. repeat split; try lra.
+      split; [exact E|]. unfold relative_variance. rewrite V, E. unfold unit_of. field. repeat split; try lra.
     Qed.
 
     Lemma bound_in_units s p b : Rabs (s - p) <= b -> Rabs (unit / 4 * s - unit / 4 * p) <= unit / 4 * b.
@@ -76,12 +76,12 @@ Section Variances.
       (forall rho, carries M (X rho) (surface M f) (F rho)) ->
       let f1 := surface_linear f in
       linearised (fun rho => f_plus (F rho) i j) f1 /\ expect L f1 = f / (2 * n_y G) /\
-        Rabs (variance L f1 / expect L f1 ^ 2 - unit * (2 * (above * above) * (2 * IZR j + height)))
+        Rabs (relative_variance L f1 - unit * (2 * (above * above) * (2 * IZR j + height)))
           <= 56 * (height * height) * unit.
     Proof.
       intros Hf C. pose proof (n_y_pos G) as Hy. pose proof (r_pos G). pose proof (divisor_positive G).
       assert (Ha : f / (2 * n_y G) <> 0) by (apply Rgt_not_eq, Rdiv_lt_0_compat; lra).
-      intros f1. destruct (relative_variance _ (surface_weights G j M) Ha) as [E V]. split; [|split; [exact E|]].
+      intros f1. destruct (linear_force_variance _ (surface_weights G j M) Ha) as [E V]. split; [|split; [exact E|]].
       - intros rho. destruct (surface_force G M rho (X rho) (P rho) (F rho) f (C rho) j ltac:(site) i
           at_contact) as [Ep _].
         exists (f / (2 * n_y G)), (f / (2 * n_y G) * surface_plus G rho M i j). split; [exact Ep|].
@@ -113,7 +113,7 @@ Section Variances.
       let f1 := bulk_linear g in
       linearised (fun rho => f_plus (F rho) i j) f1 /\
         expect L f1 = above * (g / (2 * n_y G)) /\
-        Rabs (variance L f1 / expect L f1 ^ 2 - unit * (3 / 10 * (above * above) * (4 * IZR j + height)))
+        Rabs (relative_variance L f1 - unit * (3 / 10 * (above * above) * (4 * IZR j + height)))
           <= 56 * (height * height) * unit.
     Proof.
       intros Hg C. pose proof (n_y_pos G) as Hy. pose proof (r_pos G). pose proof (divisor_positive G).
@@ -121,7 +121,7 @@ Section Variances.
       assert (Hgy : 0 < g / (2 * n_y G)) by (apply Rdiv_lt_0_compat; lra).
       assert (Ha : above * (g / (2 * n_y G)) <> 0).
       { apply Rgt_not_eq. apply Rmult_lt_0_compat; lra. }
-      intros f1. destruct (relative_variance _ (averaged j M (surface_weights G j)) Ha) as [E V].
+      intros f1. destruct (linear_force_variance _ (averaged j M (surface_weights G j)) Ha) as [E V].
       split; [|split; [exact E|]].
       - intros rho. destruct (bulk_force G M rho (X rho) (P rho) (F rho) g (C rho) j ltac:(site) i
           at_contact) as [Ep _].
@@ -227,7 +227,7 @@ Section Variances.
     Qed.
 
     Definition mean_square (f : Z -> radii -> R) : R :=
-      Sum 0 (M - 1) (fun j => variance L (f j) / expect L (f j) ^ 2) / height.
+      Sum 0 (M - 1) (fun j => relative_variance L (f j)) / height.
 
     (** Sums over j of polynomials in j, as a certificate: differences and the empty sum. *)
     Lemma Sum_by (f g : Z -> R) n : (0 <= n)%Z -> g 0%Z = 0 ->
@@ -308,26 +308,26 @@ Proof.
 Qed.
 
 (** The power 3/2, squared. *)
-Lemma three_halves x : 0 < x -> Rpower x (3 / 2) * Rpower x (3 / 2) = x * x * x.
+Lemma three_halves x : 0 < x -> root 2 x ^ 3 * root 2 x ^ 3 = x * x * x.
 Proof.
-  intros H. rewrite <- Rpower_plus. replace (3 / 2 + 3 / 2) with (INR 3) by (cbn; lra).
-  rewrite Rpower_pow by exact H. ring.
+  intros H. destruct (root_is 2 x ltac:(lia) H) as [_ E].
+  transitivity (root 2 x ^ 2 * root 2 x ^ 2 * root 2 x ^ 2); [ring|]. rewrite E. reflexivity.
 Qed.
 
 (** An average of the order M³ in the unit, as a root: its constant depends on φ alone. *)
 Theorem root_of_average G M sigma k s : 0 < sigma -> (1 <= M)%Z -> 0 < k -> k <= 1 ->
   Rabs (s - unit_of G sigma * (k * (IZR M * IZR M * IZR M))) <= 57 * (IZR M * IZR M) * unit_of G sigma ->
-  Rabs (sqrt s - sqrt k / (1 - phi G * phi G) * (Rpower (IZR M) (3 / 2) * sigma / r G))
-    <= 57 / k / IZR M * (sqrt k / (1 - phi G * phi G) * (Rpower (IZR M) (3 / 2) * sigma / r G)).
+  Rabs (sqrt s - sqrt k / (1 - phi G * phi G) * (root 2 (IZR M) ^ 3 * sigma / r G))
+    <= 57 / k / IZR M * (sqrt k / (1 - phi G * phi G) * (root 2 (IZR M) ^ 3 * sigma / r G)).
 Proof.
   intros Hs HM Hk Hk1 H. pose proof (r_pos G). pose proof (divisor_positive G).
   assert (One : 1 <= IZR M) by (apply (IZR_le 1); exact HM).
   assert (Q : 0 < sqrt k) by (apply sqrt_lt_R0; exact Hk).
-  assert (Pw : 0 < Rpower (IZR M) (3 / 2)) by apply exp_pos.
-  assert (T : sqrt k / (1 - phi G * phi G) * (Rpower (IZR M) (3 / 2) * sigma / r G) *
-    (sqrt k / (1 - phi G * phi G) * (Rpower (IZR M) (3 / 2) * sigma / r G)) =
+  assert (Pw : 0 < root 2 (IZR M) ^ 3) by (apply pow_lt, root_is; [lia|lra]).
+  assert (T : sqrt k / (1 - phi G * phi G) * (root 2 (IZR M) ^ 3 * sigma / r G) *
+    (sqrt k / (1 - phi G * phi G) * (root 2 (IZR M) ^ 3 * sigma / r G)) =
     unit_of G sigma * (k * (IZR M * IZR M * IZR M))).
-  { transitivity ((sqrt k * sqrt k) * (Rpower (IZR M) (3 / 2) * Rpower (IZR M) (3 / 2)) * unit_of G sigma).
+  { transitivity ((sqrt k * sqrt k) * (root 2 (IZR M) ^ 3 * root 2 (IZR M) ^ 3) * unit_of G sigma).
     - unfold unit_of. field. lra.
     - rewrite sqrt_sqrt, three_halves by lra. ring. }
   apply root_near.
@@ -343,18 +343,26 @@ Proof.
   - assert (- x * - x <= 1 / 2 * (1 / 2)) by (apply Rmult_le_compat; lra). lra.
 Qed.
 
-(** Where c M^(3/2) σ/r is 1: a height in proportion to (σ/r)^(−2/3). *)
-Theorem critical_height c s m : 0 < c -> 0 < s -> 0 < m -> (c * (Rpower m (3 / 2) * s)) ^ 2 = 1 ->
-  m = Rpower c (- (2 / 3)) * Rpower s (- (2 / 3)).
+(** Where c m^(3/2) s is 1: a height in proportion to s^(−2/3). *)
+Theorem critical_height c s m : 0 < c -> 0 < s -> 0 < m -> (c * (root 2 m ^ 3 * s)) ^ 2 = 1 ->
+  m = / root 3 c ^ 2 * / root 3 s ^ 2.
 Proof.
-  intros Hc Hs Hm H. assert (P : 0 < Rpower m (3 / 2)) by apply exp_pos.
-  assert (Pc : 0 < c * (Rpower m (3 / 2) * s)) by (repeat apply Rmult_lt_0_compat; assumption).
-  assert (E : c * (Rpower m (3 / 2) * s) = 1).
-  { assert (Z0 : (c * (Rpower m (3 / 2) * s) - 1) * (c * (Rpower m (3 / 2) * s) + 1) = 0)
-      by (rewrite <- (Rminus_diag_eq _ _ H); ring).
+  intros Hc Hs Hm H.
+  destruct (root_is 2 m ltac:(lia) Hm) as [Pa Ea]. destruct (root_is 3 c ltac:(lia) Hc) as [Pu Eu].
+  destruct (root_is 3 s ltac:(lia) Hs) as [Pv Ev].
+  set (a := root 2 m) in *. set (u := root 3 c) in *. set (v := root 3 s) in *.
+  assert (Px : 0 < u * a * v) by (repeat apply Rmult_lt_0_compat; assumption).
+  assert (P3 : 0 < (u * a * v) ^ 3) by (apply pow_lt, Px).
+  assert (E3 : (u * a * v) ^ 3 = 1).
+  { assert (Z0 : ((u * a * v) ^ 3 - 1) * ((u * a * v) ^ 3 + 1) = 0).
+    { rewrite <- (Rminus_diag_eq _ _ H), <- Eu, <- Ev. ring. }
     apply Rmult_integral in Z0. destruct Z0; lra. }
-  assert (Lc : ln c + (3 / 2 * ln m + ln s) = 0).
-  { rewrite <- ln_1, <- E. rewrite !ln_mult; try assumption; try (apply Rmult_lt_0_compat; assumption).
-    rewrite ln_Rpower. reflexivity. }
-  unfold Rpower. rewrite <- exp_plus, <- (exp_ln m Hm) at 1. f_equal. lra.
+  assert (E1 : u * a * v = 1).
+  { set (x := u * a * v) in *. assert (Z0 : (x - 1) * (x * x + x + 1) = 0)
+      by (rewrite <- (Rminus_diag_eq _ _ E3); ring).
+    apply Rmult_integral in Z0. assert (0 < x * x) by (apply Rmult_lt_0_compat; assumption).
+    destruct Z0; lra. }
+  rewrite <- Ea. replace a with (/ u * / v); [field; lra|].
+  apply (Rmult_eq_reg_l (u * v)); [|apply Rgt_not_eq, Rmult_lt_0_compat; assumption].
+  transitivity (u * a * v); [rewrite E1; field; lra|ring].
 Qed.

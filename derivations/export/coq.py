@@ -34,6 +34,8 @@ _SITES = {
 }
 _FIXED = ("Position", "Load")  # do not depend on ε
 _SCALARS = {sy.r: "r G", sy.n_x: "n_x G", sy.n_y: "n_y G", sy.phi: "phi G"}
+_HEIGHT = sympy.Symbol("M_star", positive=True)  # the height of Eq. 15, a real number
+_SCALARS |= {_HEIGHT: "M_star"}
 _SCALARS |= {sy.f_load: "f_load", sy.sigma: "sigma", sy.z: "(IZR j / IZR M)"}
 _VECTORS = {v: f"{v.name} G" for v in (sy.n_plus, sy.n_minus, sy.b_plus, sy.b_minus)}
 _VECTORS[sy.e_y] = "e_y"
@@ -118,7 +120,8 @@ def real(expression: sympy.Expr) -> str:
             return _product((expression,))
         return f"{_operand(expression.base)} ^ {expression.exp}"
     if isinstance(expression, sympy.Pow) and expression.exp.is_Rational:
-        return f"Rpower {_atom(real(expression.base))} {_atom(real(expression.exp))}"
+        power = f"root {expression.exp.q} {_atom(real(expression.base))} ^ {abs(expression.exp.p)}"
+        return power if expression.exp > 0 else f"/ {power}"
     raise NotStatedError(f"{expression} has no words in Model.v")
 
 
@@ -291,7 +294,7 @@ _SINGLE = ("0 < f_load", "carries M X (single k l f_load) F")
 _BELOW = ((sy.M, 7), (sy.k, 6), (sy.l, 6))
 _AT = ((sy.M, 3), (sy.i, 0), (sy.j, 0))
 _FAR = "(Z.abs i + M + 2 <= W)%Z"  # no horizontal boundary is met
-_RELATIVE = "variance L f / expect L f ^ 2"
+_RELATIVE = "relative_variance L f"
 _SPREAD = ("0 < sigma", "0 < f_load")
 
 
@@ -355,6 +358,46 @@ _PACKINGS = """  forall (G : lattice) (M W : Z) (sigma : R) (L : law W M sigma)
   (forall rho, packing G M rho (Xs rho)) ->"""
 
 
+AVERAGES = 15  # the one equation about all layers together
+STATED = (*FRAMES, AVERAGES)
+"""Numbers of the equations that can be stated."""
+
+_LAYERS = """  forall (across : Z -> Z) (f_load : R),
+  (forall j, (0 <= j < M)%Z -> contact M (across j) j /\\ (Z.abs (across j) + M + 2 <= W)%Z) ->
+  (1 <= M)%Z -> 0 < sigma -> 0 < f_load ->"""
+_SOME_LAYERS = """exists (M W : Z) (across : Z -> Z), (1 <= M)%Z /\\
+  forall j, (0 <= j < M)%Z -> contact M (across j) j /\\ (Z.abs (across j) + M + 2 <= W)%Z.
+Proof. exists 3%Z, 8%Z, (fun j => j). split; [lia|]. intros j Hj. site. Qed."""
+_LOADS = ("surface M f_load", "bulk f_load")
+
+
+def _averages(derivation: Derivation, part: int, stated: sympy.Eq) -> str:
+    """Eq. 15 for both loads: in proportion, by a constant that depends on φ alone."""
+    deviation = stated.rhs if part == 0 else derivation.printed[0].rhs
+    if stated.lhs != derivation.printed[part].lhs:
+        raise NotStatedError(f"{stated.lhs} is no average")
+    in_proportion = f"(c (phi G) * {_operand(deviation)})"
+    claims = []
+    for load in _LOADS:
+        claim = (
+            f"{_PACKINGS}\n{_LAYERS}\n"
+            f"  {_all_carry(load)} ->\n"
+            "  exists f, (forall j, (0 <= j < M)%Z ->\n"
+            "      linearised (fun rho => f_plus (Fs rho) (across j) j) (f j)) /\\\n"
+            f"    Rabs (root_mean_square L f - {in_proportion}) <= 285 / IZR M * {in_proportion}"
+        )
+        if part == 0:
+            claims.append(f"(exists c, constant c /\\\n{claim})")
+        else:
+            at_height = f"c (phi G) * {_operand(deviation.xreplace({sy.M: _HEIGHT}))}"
+            claims.append(
+                f"(exists c d, constant c /\\ constant d /\\ (\n{claim}) /\\\n"
+                "  forall (G : lattice) (sigma M_star : R), 0 < sigma -> 0 < M_star ->\n"
+                f"  ({at_height}) ^ 2 = 1 -> M_star = d (phi G) * {_operand(stated.rhs)})"
+            )
+    return " /\\\n  ".join(claims)
+
+
 @dataclass(frozen=True)
 class Statement:
     """One printed equation in Coq.
@@ -407,6 +450,9 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
     several = len(derivation.printed) > 1
     name = f"equation_{derivation.number}" + (f"_part_{part + 1}" if several else "")
     tactic = f"prove_{derivation.number}"
+    if derivation.number == AVERAGES:
+        some = f"Lemma {name}_is_about_something : {_SOME_LAYERS}\n"
+        return Statement(name, (), _averages(derivation, part, stated), f"{tactic}_{part + 1}", some)
     if derivation.number not in FRAMES:
         raise NotStatedError(f"Eq. {derivation.number} has no hypotheses in Model.v yet")
     frame = FRAMES[derivation.number]
