@@ -4,7 +4,7 @@
     compares them. Nothing here is trusted: a tactic that goes wrong proves nothing. *)
 
 From Coq Require Export ZArith Reals Lia Lra.
-From ForceDiffusion Require Export Roots Model Sums FirstOrder Geometry Forces Random Weights Variances.
+From ForceDiffusion Require Export Roots Model Sums FirstOrder Geometry Forces Random Weights Variances Cone.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
@@ -302,3 +302,16 @@ Ltac prove_15_2 :=
   |exists (fun x => sqrt (1 / 5) / (1 - x * x)), (fun x => / root 3 (sqrt (1 / 5) / (1 - x * x)) ^ 2);
    split; [apply root_constant; lra|split; [apply power_constant; lra|split;
      [prove_average (1 / 5) bulk_average|prove_critical (1 / 5)]]]].
+
+Ltac prove_16 :=
+  intros G M W sigma L Xs Fs P k l i j p q f_load; intros; positive_things G;
+  subst k l;
+  match goal with
+  | B : bead M i j, HW : (Z.abs i + M + 2 <= W)%Z, S : 0 < sigma, Hf : 0 < f_load,
+    C : forall rho, carries M (Xs rho) (single _ _ f_load) (Fs rho) |- _ =>
+      let A := fresh in let D := fresh in let f := fresh in
+      destruct (response_variance G M W i j p q B ltac:(site) ltac:(site) ltac:(site) HW sigma L
+        Xs Fs f_load S Hf P C) as (f & A & D);
+      exists f
+  end;
+  split; [assumption|eapply bound_is; [eassumption|by_arithmetic G|by_arithmetic G]].

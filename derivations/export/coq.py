@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import sympy
 from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.mechanics.paths import BRANCH_COUNT
+from force_diffusion.symbolic.mechanics.paths import BRANCH_COUNT, IN_CONE
 
 
 class NotStatedError(ValueError):
@@ -348,6 +348,14 @@ FRAMES = {
         ("contact M i j",),
         _AT,
         _near(f"f_plus F i j {EXPANSION}", _RELATIVE, "56 * IZR M ^ 2"),
+        random=True,
+    ),
+    16: Frame(
+        "(f_load : R)",
+        (_FAR, *_SPREAD, _all_carry("single k l f_load")),
+        (*(f"({x.in_code} = {index(at)})%Z" for x, at in IN_CONE.items()), "bead M i j", "bead M k l"),
+        ((sy.M, 3), (sy.k, 0), (sy.l, 2), (sy.i, 0), (sy.j, 0), (sy.p, 1), (sy.q, 1)),
+        _near(f"pressed_down X F i j {EXPANSION}", "variance L f / f_load ^ 2", "47"),
         random=True,
     ),
 }
