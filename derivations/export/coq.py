@@ -200,8 +200,8 @@ def ranges(derivation: Derivation) -> Iterator[str]:
         for chain in _CHAIN.findall(assumption):
             if not re.search("[≤<≥>]", chain):
                 continue
-            *alike, chain = chain.replace("−", "-").split(", ")
-            sides = re.split(r"\s*([≤<≥>=])\s*", chain)
+            *alike, last = chain.replace("−", "-").split(", ")
+            sides = re.split(r"\s*([≤<≥>=])\s*", last)
             if radius:
                 sides = [re.sub(r"\b([rs])\b", r"site_\1", side) for side in sides]
             for one in (*alike, sides[0]):
@@ -353,7 +353,11 @@ FRAMES = {
     16: Frame(
         "(f_load : R)",
         (_FAR, *_SPREAD, _all_carry("single k l f_load")),
-        (*(f"({x.in_code} = {index(at)})%Z" for x, at in IN_CONE.items()), "bead M i j", "bead M k l"),
+        (
+            *(f"({x.in_code} = {index(at)})%Z" for x, at in IN_CONE.items()),
+            "bead M i j",
+            "bead M k l",
+        ),
         ((sy.M, 3), (sy.k, 0), (sy.l, 2), (sy.i, 0), (sy.j, 0), (sy.p, 1), (sy.q, 1)),
         _near(f"pressed_down X F i j {EXPANSION}", "variance L f / f_load ^ 2", "47"),
         random=True,
@@ -460,7 +464,9 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
     tactic = f"prove_{derivation.number}"
     if derivation.number == AVERAGES:
         some = f"Lemma {name}_is_about_something : {_SOME_LAYERS}\n"
-        return Statement(name, (), _averages(derivation, part, stated), f"{tactic}_{part + 1}", some)
+        return Statement(
+            name, (), _averages(derivation, part, stated), f"{tactic}_{part + 1}", some
+        )
     if derivation.number not in FRAMES:
         raise NotStatedError(f"Eq. {derivation.number} has no hypotheses in Model.v yet")
     frame = FRAMES[derivation.number]

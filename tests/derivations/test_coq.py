@@ -35,6 +35,11 @@ def test_numbers_are_written_as_they_stand(expression: sympy.Expr, written: str)
     assert coq.real(expression) == written
 
 
+def test_powers_are_written_with_roots() -> None:
+    assert coq.real(sy.M ** sympy.Rational(3, 2)) == "root 2 (IZR M) ^ 3"
+    assert coq.real(sy.sigma ** sympy.Rational(-2, 3)) == "/ root 3 sigma ^ 2"
+
+
 def test_vectors_are_written_as_they_stand() -> None:
     weighed = times(terms(sy.DeltaR(i, j), 1), sy.b_plus)
     assert coq.vector(weighed) == "scale (delta_r rho i j e + 1) (b_plus G)"
@@ -57,9 +62,11 @@ def test_ranges_are_what_the_assumptions_say() -> None:
     assert list(coq.ranges(load(9))) == ["(k - i = l - j)%Z", "(l - j >= 1)%Z"]
     assert list(coq.ranges(load(10))) == ["(1 <= n)%Z", "(n < l - j)%Z"]
     assert list(coq.ranges(load(11))) == ["(0 <= j)%Z", "(j < M)%Z"]
+    assert list(coq.ranges(load(12))) == []  # 0 < z < 1 is of no index; every layer is meant
+    assert list(coq.ranges(load(16))) == ["(p >= 1)%Z", "(q >= 1)%Z"]
 
 
-@pytest.mark.parametrize("number", coq.FRAMES)
+@pytest.mark.parametrize("number", coq.STATED)
 def test_a_change_changes_the_statement_and_not_its_hypotheses(number: int) -> None:
     derivation = load(number)
     for part, printed in enumerate(derivation.printed):
