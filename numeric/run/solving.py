@@ -1,5 +1,6 @@
 """Contact forces and positions for radii of one's own, as arrays."""
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -25,13 +26,21 @@ class Solution:
 
     A batch of N packings adds a first axis of length N everywhere. M layers lie above the base, W
     beads in each. Bead (j, q) is the paper's (i, j) with i = 2q + j mod 2. Forces are in the unit
-    of the load's magnitude, lengths in that of the radii. Numbers are float64, or objects of a
-    longer arithmetic where one was chosen.
+    of the load's magnitude, lengths in that of the radii.
+
+    Numbers are float64, or objects of a longer arithmetic where one was chosen or a tolerance needs
+    it. A ball of python-flint prints few digits, and holds all: ``.astype(float)`` rounds an array,
+    ``forces.decimals()`` and ``positions.decimals()`` write every digit that is known.
     """
 
     forces: Outcome
     """The run behind the forces: plan, error, rows and decimals."""
     scene: Scene
+
+    @property
+    def sees_images(self) -> bool:
+        """Whether some bead bears on another by two ways around the period."""
+        return self.forces.plan.sees_images
 
     @property
     def force(self) -> Array:
@@ -78,7 +87,7 @@ class Solution:
 
     @cached_property
     def positions(self) -> Outcome:
-        """The run behind the positions, which is made when they are first asked for."""
+        """The run behind the positions and their ``accuracy``, made when first asked for."""
         ask = self.scene.ask.model_copy(update={"quantity": "positions"})
         made = self.forces.plan
         scene = self.scene.model_copy(update={"ask": ask})
@@ -96,7 +105,7 @@ class Solution:
     def _contacts(self, name: str) -> Array:
         """Rows are listed by upper beads: turn them to the columns of the lower ones."""
         *_, M, W = self._shape
-        layers = _numbers(self.forces, name).reshape(-1, M, 2, W)
+        layers = self._numbers(self.forces, name).reshape(-1, M, 2, W)
         found = np.empty((len(layers), 2, M, W), dtype=layers.dtype)
         for b, branch in enumerate(Branch):
             for j in range(M):
@@ -106,19 +115,20 @@ class Solution:
 
     def _beads(self, *names: str) -> Array:
         *batch, M, W = self._shape
-        columns = [_numbers(self.positions, name) for name in names]
+        columns = [self._numbers(self.positions, name) for name in names]
         return np.stack([column.reshape(*batch, M + 1, W) for column in columns], axis=-1)
+
+    def _numbers(self, outcome: Outcome, name: str) -> Array:
+        """Give a column; of equal radii, which are solved once, in balls, as was asked for."""
+        values = outcome.arrays[name]
+        if outcome.plan.problem.route != Route.ORDERED:
+            return values
+        values = np.tile(values, math.prod(self._shape[:-2]))
+        return values if outcome.plan.tolerance is not None else as_floats(values)
 
     def __str__(self) -> str:
         """Say what was found, how accurately, and what was done for it."""
         return str(self.forces)
-
-
-def _numbers(outcome: Outcome, name: str) -> Array:
-    """Give a column; of equal radii, which are solved in balls whatever is asked, as float64."""
-    values = outcome.arrays[name]
-    ordered = outcome.plan.problem.route == Route.ORDERED
-    return as_floats(values) if ordered and outcome.plan.tolerance is None else values
 
 
 def solve(
@@ -131,6 +141,7 @@ def solve(
     tolerance: Any = None,
     certified: bool = False,
     arithmetic: str | None = None,
+    allow_images: bool = False,
 ) -> Solution:
     """Solve periodic packings of given radii exactly: contact forces, positions and their errors.
 
@@ -138,7 +149,8 @@ def solve(
         radii: array of shape (M + 1, W), layer 0 the base; (N, M + 1, W) for N packings.
         delta_r: their deviations from ``radius``, in place of ``radii``; the same shapes.
         radius: r, the radius of the ordered packing, in the same unit; by default the mean of
-            ``radii``, and 1 where ``delta_r`` is given.
+            ``radii`` (over all N packings: changes of a packing by itself need its own), and 1
+            where ``delta_r`` is given.
         spacing: s, the distance of neighbours in the base, 2 r < s < 2√3 r; by default 3 r.
         load: ``SurfaceLoad()`` by default, ``BulkLoad()`` or ``PointLoad(at=(k, l))``.
         tolerance: error allowed, relative to the largest change; the first of float64, long double
@@ -146,6 +158,8 @@ def solve(
         certified: with a tolerance, only a rigorous bound will do.
         arithmetic: "float64" (the default), "longdouble", "mpmath N" or "balls N" with N decimal
             digits; not with a tolerance, which chooses it.
+        allow_images: let W be as small as M or smaller, so that a bead bears on one by two ways
+            around the period; without it such an array, a transposed one perhaps, is refused.
 
     Raises:
         SceneError: an argument is not allowed; the message names it, and what is allowed.
@@ -171,6 +185,13 @@ def solve(
     shape = given.values.shape
     if shape[-2] < 2:
         raise SceneError(given.name, None, f"shape {shape}: a packing has at least 2 layers")
+    if shape[-1] < shape[-2] and not allow_images:
+        raise SceneError(
+            given.name,
+            None,
+            f"shape {shape}: {shape[-2]} layers of {shape[-1]} beads bear on their own periodic "
+            "images; layers come before columns: if that is what it is, say allow_images=True",
+        )
     if radius is None:
         radius = Fraction(float(given.values.mean())) if delta_r is None else 1
     scene = Scene(
@@ -179,7 +200,7 @@ def solve(
             width=shape[-1],
             radius=radius,
             spacing=spacing,
-            allow_images=True,
+            allow_images=allow_images,
         ),
         disorder=given,
         load=SurfaceLoad() if load is None else load,

@@ -19,6 +19,7 @@ from force_diffusion.derivations.commands.cli import _GIVEN
 from force_diffusion.derivations.commands.output import OutputError, output
 from force_diffusion.derivations.export.manifest import LARGEST, read_manifest
 
+import force_diffusion as fd
 from force_diffusion.__main__ import main
 
 ROOT = Path(__file__).parents[2]
@@ -323,12 +324,10 @@ def scene(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def _unsolved(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("framework.runner.run", "commands.scenes._solved", "commands.figures._made",
-                 "commands.report._made",
-                 "commands.ensemble._solved"):  # fmt: skip
+    for name in ("framework.runner.run", "commands.scenes._solved", "commands.figures._made"):
         monkeypatch.setattr(f"force_diffusion.derivations.{name}", None)
-    for name in ("cost.study.cost", "stability.study.stability"):
-        monkeypatch.setattr(f"force_diffusion.numeric.studies.{name}", None)
+    for name in ("derive", "report", "figure", "ensemble", "cost", "stability"):
+        monkeypatch.setattr(fd, name, None)
 
 
 COMMANDS = {

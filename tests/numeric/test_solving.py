@@ -59,7 +59,7 @@ def unit(step: Array, period: float) -> Array:
 def test_every_bead_is_in_balance(delta: Array, s: float, r: float, bulk: bool) -> None:
     load = fd.BulkLoad() if bulk else fd.SurfaceLoad()
     delta = delta * 1e-6
-    solution = fd.solve(delta_r=r * delta, radius=r, spacing=s * r, load=load)
+    solution = fd.solve(delta_r=r * delta, radius=r, spacing=s * r, load=load, allow_images=True)
     weights = np.zeros(delta.shape)
     weights[-1] = 1
     if bulk:
@@ -150,3 +150,10 @@ def test_a_bead_that_cannot_rest_is_named() -> None:
     radii[1, 2] = 5
     with pytest.raises(fd.ForceDiffusionError, match=r"bead \(\d+, \d\)"):
         fd.solve(radii, radius=1, spacing=3)
+
+
+@pytest.mark.parametrize("shape", [(13, 4), (13, 12), (2, 13, 4)])
+def test_an_array_that_may_be_transposed_is_refused(shape: tuple[int, ...]) -> None:
+    with pytest.raises(fd.SceneError, match=r"13 layers of \d+ beads.*allow_images=True"):
+        fd.solve(np.ones(shape))
+    assert fd.solve(np.ones(shape), allow_images=True).force.shape[-2:] == (12, shape[-1])
