@@ -83,7 +83,8 @@ DEEP = Region({j: 6, M: j + 6})
 BASE_TERM = times((M - j - 1) / (2 * r * (1 - phi**2)), SecondDifference(i - j, 0))
 """The largest of the dropped terms: half a Δ on the base for each branch."""
 
-LEADING_ORDER = 3  # of the variance of Eq. 11, as a power of M
+NOTHING = order(FIELD.zero)
+"""What ``order`` gives for a variance that vanishes."""
 
 
 class UnequalMeansError(ValueError):
@@ -116,13 +117,23 @@ def variance_ignored(candidate: sympy.Eq) -> tuple[int, sympy.Expr]:
     mean = form.sites.get(NO_SITE, FIELD.zero)
     if not mean.is_zero():
         raise UnequalMeansError(text(mean.to_sympy()))
-    difference = take_apart(form, DEEP).sum_of_squares() * FIELD.from_sympy(sigma**2)
-    difference = difference.reduced()
-    if difference.is_zero():
-        return order(difference), sympy.Integer(0)
-    if not grows_evenly(difference):
+    return _variance_order(form)
+
+
+def variance_kept(candidate: sympy.Eq) -> int:
+    """Order in M of the variance of the left side."""
+    return _variance_order(_left_form(candidate.lhs))[0]
+
+
+def _variance_order(form: LinearForm) -> tuple[int, sympy.Expr]:
+    """Order in M at fixed z, which holds at every z and φ, and its coefficient."""
+    found = take_apart(form, DEEP).sum_of_squares() * FIELD.from_sympy(sigma**2)
+    found = found.reduced()
+    if found.is_zero():
+        return order(found), sympy.Integer(0)
+    if not grows_evenly(found):
         raise NotExactError("the order in M is not shown to hold at every z and φ")
-    return order(difference), at_fixed_z(difference)
+    return order(found), at_fixed_z(found)
 
 
 def dropped_variance() -> sympy.Expr:
@@ -162,23 +173,31 @@ def steps() -> Iterator[Step]:
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Left less right side, f⁺ being Eq. 11, has mean zero and a variance below order M³."""
+    """Left less right side, f⁺ being Eq. 11, has mean zero, and varies less than the left side.
+
+    Less by an order in M, that is: M³ of the variance is kept, M² dropped. An equation times what
+    depends on M has other orders, and the same ratio.
+    """
     try:
         power, coefficient = variance_ignored(candidate)
+        kept = variance_kept(candidate)
     except UnequalMeansError as mean:
         return refuted(f"left minus right has the mean {mean}, not zero")
     except VanishingDivisorError as reason:
         return refuted(f"it has no value everywhere, as Eq. 11 has: {reason}")
     except (NotExactError, UndeterminedError, ValueError) as reason:
         return undecided(str(reason))
-    if power < LEADING_ORDER:
+    if kept == NOTHING:
+        return undecided("the left-hand side does not fluctuate: there is nothing to compare with")
+    if power == NOTHING:
+        return proved(f"the sides are equal; a variance of order M^{kept} is kept")
+    found = f"{text(coefficient)} · M^{power}"
+    if power < kept:
         return proved(
-            f"what is dropped has a variance of order M^{power}, against M³ kept: "
-            f"{text(coefficient)} · M^{power}"
+            f"what is dropped has a variance of order M^{power}, against M^{kept} kept: {found}"
         )
     return refuted(
-        f"the difference from Eq. 11 has a variance of order M^{power}, not below M³: "
-        f"{text(coefficient)} · M^{power}"
+        f"the difference from Eq. 11 has a variance of order M^{power}, not below M^{kept}: {found}"
     )
 
 

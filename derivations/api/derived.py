@@ -105,7 +105,10 @@ def derive(
 
     Raises:
         NoSuchFormError: there is no equation of such a number.
+        TypeError: ``numbers`` is a single one.
     """
+    if isinstance(numbers, int | str):
+        raise TypeError(f"derive takes several numbers: derive([{numbers}])")
     wanted = modules() if numbers is None else [equation(number).number for number in numbers]
     outcomes = []
     tell = notice or (lambda _: None)

@@ -379,7 +379,7 @@ def system_of(name: str) -> NumberSystem:
     >>> [system_of(name).name for name in ("float64", "mpmath 50", "balls 50")]
     ['float64', 'mpmath, 50 digits', 'arb balls, 167 bits']
     """
-    kind, _, digits = name.partition(" ")
+    kind, _, digits = str(name).partition(" ")
     if name in (FLOAT64.name, LONGDOUBLE.name):
         return FLOAT64 if name == FLOAT64.name else LONGDOUBLE
     if kind in ("mpmath", "balls") and digits.isdecimal() and 15 <= int(digits) <= MOST_DIGITS:

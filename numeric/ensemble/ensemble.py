@@ -49,9 +49,9 @@ def ensemble(
     default six times the largest σ_f of theory. ``progress`` is told how many packings are done,
     and the half-width at the last look.
 
-    Raises ``ArgumentError``, ``SceneError``, ``StoreError`` for a file that can't serve,
-    ``StoreFailedError`` where it can't be written, ``RealisationError`` for a packing that can't be
-    built, and ``WorkersError``. What a store holds by then stays good.
+    Raises ``TypeError`` for what is no scene, ``ArgumentError``, ``SceneError``, ``StoreError`` for
+    a file that can't serve, ``StoreFailedError`` where it can't be written, ``RealisationError``
+    for a packing that can't be built, and ``WorkersError``. What a store holds by then stays good.
 
     >>> import force_diffusion as fd
     >>> scene = fd.Scene(
@@ -65,6 +65,10 @@ def ensemble(
     >>> bool((abs(found.std / found.first_order_std - 1) < found.half_width).all())
     True
     """
+    if not isinstance(scene, Scene):
+        raise TypeError(
+            f"ensemble takes a scene, not {type(scene).__name__}: Scene(…) or read_scene(path)"
+        )
     size = _size(scene, realisations)
     if until is not None and not 0 < until < 1:
         raise ArgumentError("until", f"{until:g}", "must lie between 0 and 1, such as 0.01")

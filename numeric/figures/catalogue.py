@@ -52,7 +52,7 @@ class Data(Protocol):
 
 
 class NoSuchFigureError(ForceDiffusionError, ValueError):
-    """There is no such figure, or it can't be made so; the message says what is allowed."""
+    """There is no such figure, or not so; the message says what is allowed."""
 
 
 @dataclass(frozen=True)
@@ -144,7 +144,7 @@ def figure(
     heights: Sequence[int] = HEIGHTS,
     realisations: int | None = None,
     seed: int = 1,
-    beside: Collection[str] = (),
+    beside: str | Collection[str] = (),
     notice: Notice = lambda _: None,
     command: str | None = None,
 ) -> PaperFigure:
@@ -177,6 +177,7 @@ def figure(
     """
     if str(name) not in FIGURES:
         raise NoSuchFigureError(f"there is no figure {name}: give 1, 2, 3, 4, 'pf' or 'chains'")
+    beside = (beside,) if isinstance(beside, str) else tuple(beside)
     for model in beside:
         if MODELS.get(model) != str(name):
             raise NoSuchFigureError(

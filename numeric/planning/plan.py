@@ -119,7 +119,7 @@ class Choice:
         }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Plan:
     """What will be done; ``choice`` says what a tolerance led to, None without one."""
 
@@ -163,6 +163,8 @@ class Plan:
     def __str__(self) -> str:
         """Say what would be done, what is left out, and why."""
         return "\n".join(plan_lines(self.data()))
+
+    __repr__ = __str__
 
 
 def _rounded(seconds: float | None) -> float | None:

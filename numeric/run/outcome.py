@@ -34,7 +34,7 @@ class Missed:
     why: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Outcome:
     """A finished run.
 
@@ -163,6 +163,8 @@ class Outcome:
     def __str__(self) -> str:
         """Say what was found, how accurately, and what was done for it."""
         return "\n".join(outcome_lines(self.data()))
+
+    __repr__ = __str__
 
     def _repr_html_(self) -> str:
         """Show the first rows as a table in a notebook."""

@@ -20,7 +20,7 @@ from .outcome import Outcome
 from .running import read_tolerance, run
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Solution:
     """Periodic packings on an ordered base, solved exactly; shapes are for a single packing.
 
@@ -129,6 +129,8 @@ class Solution:
     def __str__(self) -> str:
         """Say what was found, how accurately, and what was done for it."""
         return str(self.forces)
+
+    __repr__ = __str__
 
 
 def solve(

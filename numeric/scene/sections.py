@@ -133,10 +133,17 @@ class Disorder(Section):
 
 def _radii(value: object) -> Array:
     """Hold a copy of an array of finite numbers."""
+    if np.ma.isMaskedArray(value):
+        raise ValueError("must have no masked entries: fill them in")
     try:
-        values = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ValueError("must be an array of numbers, all rows equally long") from None
+        given = np.asarray(value)
+        if given.dtype.kind not in "iufO":  # no text, no times, no truth values, nothing complex
+            raise ValueError
+        values = np.array(given, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError("must be an array of real numbers, all rows equally long") from None
+    if not values.size:
+        raise ValueError(f"is empty: its shape is {values.shape}")
     if values.ndim not in (2, 3):
         raise ValueError("must be an array of shape (layers, W), or (packings, layers, W)")
     if not np.isfinite(values).all():

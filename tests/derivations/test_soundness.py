@@ -37,6 +37,10 @@ def on_the_right(change: Callable[[sympy.Expr], sympy.Expr]) -> Change:
     return lambda printed: Eq(printed.lhs, change(printed.rhs), evaluate=False)
 
 
+def sides(change: Callable[[sympy.Expr, sympy.Expr], tuple[sympy.Expr, sympy.Expr]]) -> Change:
+    return lambda printed: Eq(*change(printed.lhs, printed.rhs), evaluate=False)
+
+
 def over_itself(divisor: sympy.Expr) -> Change:
     """The right-hand side times a/a, which has no value where a = 0."""
     one = Mul(divisor, Pow(divisor, -1, evaluate=False), evaluate=False)
@@ -92,6 +96,14 @@ FALSE: list[tuple[int, str, Change]] = [
     (6, "nothing at φ = 0", lambda eq: Eq(phi * eq.lhs, 0, evaluate=False)),
     *((n, "divided by the index", plus(Sum(DeltaR(i, m) / m, (m, 1, j)))) for n in (11, 12)),
     (3, "divided by the index", plus(Sum(DeltaR(i, m) / m, (m, 1, j)) * sy.b_plus)),
+    (12, "over M², of the wrong sign", sides(lambda a, b: (a / M**2, -b / M**2))),
+    (12, "over M, five times", sides(lambda a, b: (a / M, 5 * b / M))),
+    (12, "one Δ is zero", sides(lambda a, b: (SecondDifference(i, j), sympy.S.Zero))),
+    (
+        12,
+        "a Δ is the next",
+        sides(lambda a, b: (SecondDifference(i, j), SecondDifference(i, j + 1))),
+    ),
     (16, "depends on z", plus(z)),
     (16, "as large for j = 0", plus(sy.l**2 / (1 + sy.l * phi**2))),
 ]
@@ -123,6 +135,7 @@ TRUE: list[tuple[int, str, Change]] = [
     (15, "a positive factor", lambda eq: Eq(eq.lhs, M ** Rational(3, 2) * sigma / r / (1 - phi))),
     (15, "a positive factor", lambda eq: Eq(eq.lhs, M ** Rational(3, 2) * sigma / r / n_x)),
     (12, "the full count", sum_of_deltas(Braces(M - j, M - m + 1, m, j), M)),
+    (12, "M times", sides(lambda a, b: (M * a, M * b))),
     (12, "with the force's unit", lambda eq: eq.xreplace({f_load: f_load})),
 ]
 

@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -125,7 +126,7 @@ def test_equal_radii_are_the_ordered_packing() -> None:
     [
         ({}, "give either radii or delta_r"),
         ({"radii": np.ones(4)}, "shape (layers, W)"),
-        ({"radii": [[1, 2], [3]]}, "array of numbers"),
+        ({"radii": [[1, 2], [3]]}, "array of real numbers"),
         ({"radii": np.full((3, 4), np.nan)}, "[0, 0] is not"),
         ({"radii": np.ones((1, 4))}, "at least 2 layers"),
         ({"radii": np.ones((3, 4)), "spacing": 5}, "strictly between 2 r and 2√3 r"),
@@ -157,3 +158,32 @@ def test_an_array_that_may_be_transposed_is_refused(shape: tuple[int, ...]) -> N
     with pytest.raises(fd.SceneError, match=r"13 layers of \d+ beads.*allow_images=True"):
         fd.solve(np.ones(shape))
     assert fd.solve(np.ones(shape), allow_images=True).force.shape[-2:] == (12, shape[-1])
+
+
+@pytest.mark.parametrize(
+    ("radii", "words"),
+    [
+        (np.zeros((3, 0)), "empty"),
+        (np.ones((0, 3, 4)), "empty"),
+        ([[10**400, 1], [1, 1]], "real numbers"),
+        (np.ones((2, 4)) + 1j, "real numbers"),
+        (np.ones((2, 4), dtype=bool), "real numbers"),
+        ([["1", "1"], ["1", "1"]], "real numbers"),
+        (np.ones((2, 4), dtype="datetime64[s]"), "real numbers"),
+        (np.ma.masked_array(np.ones((2, 4)), mask=np.eye(2, 4)), "masked"),
+    ],
+)
+def test_what_are_no_radii(radii: object, words: str) -> None:
+    with pytest.raises(fd.SceneError, match=words):
+        fd.solve(radii)
+
+
+def test_an_arithmetic_that_is_no_name() -> None:
+    with pytest.raises(fd.SceneError, match=r"arithmetic.*float64"):
+        fd.solve(np.ones((2, 4)), arithmetic=5)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("question", [fd.ensemble, fd.cost])
+def test_what_is_no_scene(question: Callable[[object], object]) -> None:
+    with pytest.raises(TypeError, match=r"read_scene\(path\)"):
+        question("scene.toml")

@@ -60,6 +60,10 @@ def cost(scene: Scene, notice: Notice = lambda _: None) -> CostStudy:
     >>> bool(error[way == "first-order line sums"].min() > 1e-8 > 1e-100 > error.min())
     True
     """
+    if not isinstance(scene, Scene):
+        raise TypeError(
+            f"cost takes a scene, not {type(scene).__name__}: Scene(…) or read_scene(path)"
+        )
     plan = planner.plan(scene, Fraction(1, 10))
     if plan.problem.route == Route.ORDERED:
         why = "every change is exactly zero here: there is nothing that errors could be relative to"
