@@ -11,17 +11,19 @@ import re
 import shutil
 import subprocess
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import perf_counter
 
 from force_diffusion.derivations.api.equation import equation
-from force_diffusion.derivations.export.coq import HEADER, NotStatedError, Statement, statement
+from force_diffusion.derivations.export.coq import NotStatedError, Statement, header, statement
+from force_diffusion.derivations.export.coq_packings import packing_statement
 from force_diffusion.derivations.framework.catalogue import load, modules
 from force_diffusion.derivations.framework.record import Derivation
+from force_diffusion.derivations.framework.runner import SEEDS
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic.kernel.decisions import Verdict as Proof
 from force_diffusion.symbolic.kernel.mutants import mutants as made_mutants
@@ -40,6 +42,7 @@ IN_THE_LIBRARY = frozenset({"Classical_Prop.classic"})
 
 INSTALL = "on Debian and Ubuntu: apt-get install coq; elsewhere: https://coq.inria.fr"
 LIBRARY = "ForceDiffusion"
+EXISTENCE = "Existence"  # no proof rests on it: it says that hypotheses can be fulfilled
 LIMIT = 600  # seconds for one file; the slowest takes about ten
 MUTANT_LIMIT = 30  # seconds for one changed statement
 
@@ -72,16 +75,15 @@ class Change:
 
 @dataclass(frozen=True)
 class Certificate:
-    """What came of one equation.
+    """What came of one equation, or of one exact packing.
 
     Attributes:
-        number: of the equation.
+        number: of the equation; of a packing, the seed with which it is drawn.
         verdict: Coq's.
         checker: "Coq 8.16.1"; empty where there is none.
         theorems: SHA-256 of the statement of each theorem, by name.
         axioms: what the theorems rest on.
         note: why it is not accepted.
-        seconds: how long Coq took.
         mutants: the changes tried.
     """
 
@@ -91,7 +93,6 @@ class Certificate:
     theorems: tuple[tuple[str, str], ...] = ()
     axioms: tuple[str, ...] = ()
     note: str = ""
-    seconds: float = 0.0
     mutants: tuple[Change, ...] = ()
 
     @property
@@ -103,6 +104,25 @@ class Certificate:
     def __str__(self) -> str:
         said = f"{self.verdict} by {self.checker}" if self.checker else str(self.verdict)
         return said if self.verdict is not Verdict.NOT_STATED else str(self.verdict)
+
+
+@dataclass(frozen=True)
+class Certification:
+    """All that Coq was asked.
+
+    Attributes:
+        equations: the printed equations.
+        packings: exact packings, whose Taylor coefficients ``numeric`` computes as fractions; the
+            theory must have the same. Asked about together with all equations.
+    """
+
+    equations: tuple[Certificate, ...]
+    packings: tuple[Certificate, ...] = ()
+
+    @property
+    def passed(self) -> bool:
+        """Whether all is accepted."""
+        return all(one.passed for one in (*self.equations, *self.packings))
 
 
 Notice = Callable[[str], None]
@@ -168,6 +188,7 @@ class Workshop:
 
     def check(self, names: Iterable[str]) -> str:
         """Let coqchk check compiled files and all they rest on; what went wrong, or nothing."""
+        names = (*names, EXISTENCE)
         compiled = [f"{LIBRARY}.{name}" for name in names]
         done = self._call("coqchk", "-silent", "-o", "-R", ".", LIBRARY, *compiled)
         if done.returncode:
@@ -234,15 +255,13 @@ def file_name(made: Statement) -> str:
     return f"{made.name.capitalize()}.v"
 
 
-def sources(numbers: Iterable[int]) -> dict[str, str]:
-    """Files with the statements of equations, by name; what can't be stated has none."""
-    found: dict[str, str] = {}
-    for number in numbers:
-        try:
-            found |= {file_name(made): made.source for made in statements(load(number))}
-        except NotStatedError:
-            continue
-    return found
+def sources(numbers: Iterable[int] | None = None) -> dict[str, str]:
+    """Files with the statements that ``certify`` tries; what can't be stated has none."""
+    found = [packing_statement(seed) for seed in SEEDS] if numbers is None else []
+    for number in modules() if numbers is None else numbers:
+        with suppress(NotStatedError):
+            found += statements(load(number))
+    return {file_name(made): made.source for made in found}
 
 
 def certify(
@@ -250,7 +269,7 @@ def certify(
     *,
     mutants: bool | Callable[[int], bool] = False,
     notice: Notice = _silent,
-) -> tuple[Certificate, ...]:
+) -> Certification:
     """Ask Coq about equations, all of them by default; takes about two minutes.
 
     The theory is compiled, each statement is made and proved in a file of its own, the axioms
@@ -267,39 +286,52 @@ def certify(
         NoSuchEquationError: there is no equation of that number.
     """
     wanted = list(modules()) if numbers is None else [equation(number).number for number in numbers]
+    seeds = SEEDS if numbers is None else ()
     chosen = mutants if callable(mutants) else lambda _: bool(mutants)
     with TemporaryDirectory() as folder:
         try:
             shop = Workshop(Path(folder))
         except CoqAbsentError as absent:
-            return tuple(Certificate(number, Verdict.ABSENT, note=str(absent)) for number in wanted)
+            note = str(absent)
+            return Certification(
+                *(
+                    tuple(Certificate(n, Verdict.ABSENT, note=note) for n in of)
+                    for of in (wanted, seeds)
+                )
+            )
         trouble = shop.compile_theory(notice)
         found = []
         for number in wanted:
             notice(f"Eq. {number}")
-            found.append(certificate(shop, load(number), trouble))
-        accepted = [one for one in found if one.verdict is Verdict.ACCEPTED]
+            found.append(certificate(shop, number, lambda n: statements(load(n)), trouble))
+        for seed in seeds:
+            notice(f"packing {seed}")
+            found.append(certificate(shop, seed, lambda n: [packing_statement(n)], trouble))
         notice("coqchk")
-        trouble = shop.check(name.capitalize() for one in accepted for name, _ in one.theorems)
+        trouble = shop.check(
+            name.capitalize() for one in found if one.passed for name, _ in one.theorems
+        )
         if trouble:
             found = [
-                replace(one, verdict=Verdict.NOT_ACCEPTED, note=trouble) if one in accepted else one
+                replace(one, verdict=Verdict.NOT_ACCEPTED, note=trouble) if one.passed else one
                 for one in found
             ]
+        equations, packings = found[: len(wanted)], found[len(wanted) :]
         if mutants:
-            found = [_with_mutants(shop, one, chosen, notice) for one in found]
-        return tuple(found)
+            equations = [_with_mutants(shop, one, chosen, notice) for one in equations]
+        return Certification(tuple(equations), tuple(packings))
 
 
-def certificate(shop: Workshop, derivation: Derivation, trouble: str) -> Certificate:
-    """Try the statements of one equation; ``trouble`` is what went wrong with the theory."""
-    start = perf_counter()
+def certificate(
+    shop: Workshop, number: int, made: Callable[[int], list[Statement]], trouble: str
+) -> Certificate:
+    """Try the statements of one equation or packing; ``trouble`` is what the theory has."""
     try:
-        made = statements(derivation)
+        stated = made(number)
     except NotStatedError as reason:
-        return Certificate(derivation.number, Verdict.NOT_STATED, shop.checker, note=str(reason))
+        return Certificate(number, Verdict.NOT_STATED, shop.checker, note=str(reason))
     axioms: set[str] = set()
-    for one in made:
+    for one in stated:
         if trouble:
             break
         name = file_name(one)
@@ -311,13 +343,12 @@ def certificate(shop: Workshop, derivation: Derivation, trouble: str) -> Certifi
         elif axioms - ALLOWED:
             trouble = f"it rests on {', '.join(sorted(axioms - ALLOWED))}"
     return Certificate(
-        derivation.number,
+        number,
         Verdict.NOT_ACCEPTED if trouble else Verdict.ACCEPTED,
         shop.checker,
-        tuple((one.name, sha256(one.proposition)) for one in made),
+        tuple((one.name, sha256(one.proposition)) for one in stated),
         tuple(sorted(axioms)),
         trouble,
-        perf_counter() - start,
     )
 
 
@@ -347,7 +378,7 @@ def tried(
         for part, printed in enumerate(derivation.printed)
         for mutant in made_mutants(printed)
     ]
-    tries, source = [], [HEADER]
+    tries, source = [], [header()]
     for place, (part, mutant) in enumerate(changes):
         if not chosen(place):
             continue

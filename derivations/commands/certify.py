@@ -10,7 +10,7 @@ import typer
 from force_diffusion.derivations.commands.equations import equation_number
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import noticing
-from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.derivations.framework.catalogue import load
 
 import force_diffusion as fd
 
@@ -46,29 +46,34 @@ def certify(
     """Ask Coq, an unrelated checker, whether it accepts the printed equations."""
     from force_diffusion.derivations.api import certificates
 
-    wanted = [equation_number(word) for word in numbers] if numbers else list(modules())
+    wanted = [equation_number(word) for word in numbers] if numbers else None
     files = certificates.theory() | certificates.sources(wanted)
     with output(out, "certify", [*files, CERTIFICATE], overwrite) as folder:
         with noticing() as notice:
             found = fd.certify(wanted, mutants=mutants, notice=notice)
         data = {
-            "equations": [asdict(one) for one in found],
-            "theory": {name: certificates.sha256(text) for name, text in files.items()},
+            **asdict(found),
+            "files": {name: certificates.sha256(text) for name, text in files.items()},
         }
         if folder:
             folder.write({**files, CERTIFICATE: json.dumps(data, indent=2) + "\n"})
     if as_json:
         print(json.dumps(data, indent=2))
     else:
-        counts = Counter(str(one) for one in found)
-        print(*map(_line, found), sep="\n")
+        for one in found.equations:
+            print(_line(f"Eq. {one.number:2}", one, load(one.number).title))
+        for one in found.packings:
+            print(
+                _line(f"{one.number}", one, "an exact packing's Taylor coefficients, as fractions")
+            )
+        counts = Counter(str(one) for one in found.equations)
         print(", ".join(f"{count} {verdict}" for verdict, count in counts.items()) + ".")
-    raise typer.Exit(0 if all(one.passed for one in found) else 1)
+    raise typer.Exit(0 if found.passed else 1)
 
 
-def _line(one: "Certificate") -> str:
-    """One line about an equation."""
-    said = f"Eq. {one.number:2}  {one!s:<24}  {load(one.number).title}"
+def _line(name: str, one: "Certificate", title: str) -> str:
+    """One line about an equation or a packing, and what is wrong with it."""
+    said = f"{name:<6}  {one!s:<24}  {title}"
     if one.note:
         said += f"\n    {one.note}"
     if one.mutants:

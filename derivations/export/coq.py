@@ -421,13 +421,15 @@ class Statement:
         tactic: of ``proofs/Certify.v``, which should prove it.
         companions: lemmas about the hypotheses: some indices obey them, and no sum's bounds are
             reversed under them (SymPy reads such sums in another way).
+        theory: the file of ``proofs/`` that holds the tactic.
     """
 
     name: str
     hypotheses: tuple[str, ...]
     conclusion: str
     tactic: str
-    companions: str
+    companions: str = ""
+    theory: str = "Certify"
 
     @property
     def proposition(self) -> str:
@@ -437,16 +439,18 @@ class Statement:
     @property
     def source(self) -> str:
         """A file of its own for Coq; it ends by naming the axioms that the theorem rests on."""
-        return (
-            f"{HEADER}\nTheorem {self.name} :\n{self.proposition}.\nProof. {self.tactic}. Qed.\n\n"
-            f"{self.companions}\nPrint Assumptions {self.name}.\n"
+        theorem = f"Theorem {self.name} :\n{self.proposition}.\nProof. {self.tactic}. Qed.\n"
+        return "\n".join(
+            (header(self.theory), theorem, self.companions, f"Print Assumptions {self.name}.\n")
         )
 
 
-HEADER = """From ForceDiffusion Require Import Certify.
-Open Scope R_scope.
-Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
-"""
+def header(theory: str = "Certify") -> str:
+    """What stands at the head of a file of statements."""
+    return (
+        f"From ForceDiffusion Require Import {theory}.\nOpen Scope R_scope.\n"
+        "Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.\n"
+    )
 
 
 def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = None) -> Statement:

@@ -1,16 +1,23 @@
 """Statements for Coq: what is written for what, without Coq."""
 
+import hashlib
+import json
 import re
+from pathlib import Path
 
 import pytest
 import sympy
 from force_diffusion.derivations.api import certificates
 from force_diffusion.derivations.export import coq
-from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.derivations.export.coq_packings import packing_statement
+from force_diffusion.derivations.framework.catalogue import load
+from force_diffusion.derivations.witnesses.draws import draw
+from force_diffusion.numeric.mechanics import taylor
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.mutants import mutants
 
+import force_diffusion as fd
 from force_diffusion.__main__ import main
 
 i, j, m = sy.i, sy.j, sy.m
@@ -135,5 +142,35 @@ def test_without_coq_nothing_is_accepted(
     monkeypatch.setenv("PATH", "")
     assert main(["certify"]) == 1
     printed = capsys.readouterr().out
-    assert printed.count("Coq absent") == len(modules()) + 1
+    assert "Coq absent" in printed
+    assert "accepted" not in printed
     assert "apt-get install coq" in printed
+    assert not fd.certify([3]).passed
+
+
+def test_statements_and_hashes_are_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", "")
+    assert main(["certify", "7", "--out", str(tmp_path)]) == 1
+    said = json.loads((tmp_path / "certificate.json").read_text())
+    assert [one["verdict"] for one in said["equations"]] == ["Coq absent"]
+    for name in ("Model.v", "Equation_7_part_1.v", "Equation_7_part_2.v"):
+        content = (tmp_path / name).read_bytes()
+        assert said["files"][name] == hashlib.sha256(content).hexdigest()
+    listed = json.loads((tmp_path / "manifest.json").read_text())["files"]
+    assert set(listed) == {*said["files"], "certificate.json"}
+
+
+def test_fractions_of_a_packing_are_stated() -> None:
+    made = packing_statement(20021)
+    packing = draw(20021)
+    solved = taylor.solve(
+        packing.width, packing.height, n=packing.n, rho=packing.rho, loads=packing.surface_load()
+    )
+    i, j = packing.contacts[0]
+    order_0, order_1 = solved.force(i, j, "+")
+    stated = re.search(rf"expands \(f_plus F {i} {j}\) \((.*?)\) \((.*?)\)[ )]", made.conclusion)
+    assert stated
+    assert (sympy.Rational(stated[1]), abs(sympy.Rational(stated[2].strip("-( ")))) == (
+        order_0,
+        abs(order_1),
+    )

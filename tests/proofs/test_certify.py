@@ -1,16 +1,15 @@
 """Coq's verdicts. They take minutes, so they are asked for: FORCE_DIFFUSION_TEST_COQ=required."""
 
-import json
 import os
-from pathlib import Path
+from dataclasses import replace
 
 import pytest
 from force_diffusion.derivations.api import certificates
 from force_diffusion.derivations.api.certificates import Verdict, Workshop, certify
-from force_diffusion.derivations.export.coq import HEADER
+from force_diffusion.derivations.export.coq import Statement, header
+from force_diffusion.derivations.export.coq_packings import packing_statement
 from force_diffusion.derivations.framework.catalogue import load, modules
-
-from force_diffusion.__main__ import main
+from force_diffusion.derivations.framework.runner import SEEDS
 
 pytestmark = [
     pytest.mark.skipif(
@@ -28,13 +27,27 @@ def shop(tmp_path_factory: pytest.TempPathFactory) -> Workshop:
     return made
 
 
-def test_every_equation_is_accepted() -> None:
+def test_every_equation_and_packing_is_accepted() -> None:
     found = certify()
-    assert [one.number for one in found] == list(modules())
-    for one in found:
+    assert found.passed
+    assert [one.number for one in found.equations] == list(modules())
+    assert [one.number for one in found.packings] == list(SEEDS)
+    for one in (*found.equations, *found.packings):
         assert one.verdict is Verdict.ACCEPTED, one
-        assert one.passed
         assert set(one.axioms) <= certificates.ALLOWED
+
+
+def test_another_packing_is_not_accepted(shop: Workshop) -> None:
+    true = packing_statement(SEEDS[0])
+    for number, other in (("(29 / 50)", "(29 / 51)"), ("n_x G = (20 / 29)", "n_x G = (3 / 5)")):
+        assert number in true.proposition
+        changed = replace(
+            true,
+            hypotheses=tuple(line.replace(number, other) for line in true.hypotheses),
+            conclusion=true.conclusion.replace(number, other),
+        )
+        found = certificates.certificate(shop, 0, lambda _, made=changed: [made], "")
+        assert found.verdict is Verdict.NOT_ACCEPTED
 
 
 @pytest.mark.parametrize("number", modules())
@@ -59,34 +72,28 @@ def test_changed_statements_are_not_accepted(shop: Workshop, number: int) -> Non
     ],
 )
 def test_what_is_not_proved_is_not_accepted(
-    shop: Workshop, monkeypatch: pytest.MonkeyPatch, says: str, proof: str, trouble: str
+    shop: Workshop, says: str, proof: str, trouble: str
 ) -> None:
-    made = certificates.Statement("planted", (), says, "", "")
-    source = f"{HEADER}Theorem planted : {says}.\nProof. {proof}\nPrint Assumptions planted.\n"
-    monkeypatch.setattr(type(made), "source", property(lambda _: source))
-    monkeypatch.setattr(certificates, "statements", lambda _: [made])
-    found = certificates.certificate(shop, load(1), "")
+    planted = Planted("planted", (), says, proof)
+    found = certificates.certificate(shop, 0, lambda _: [planted], "")
     assert found.verdict is Verdict.NOT_ACCEPTED
     assert trouble in found.note
 
 
-def test_a_theory_that_does_not_compile_accepts_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+class Planted(Statement):
+    """A statement with a proof that is given."""
+
+    @property
+    def source(self) -> str:
+        stated = f"Theorem {self.name} : {self.conclusion}.\nProof. {self.tactic}\n"
+        return f"{header()}{stated}Print Assumptions {self.name}.\n"
+
+
+def test_a_theory_that_does_not_compile_accepts_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     broken = {**certificates.theory(), "Model.v": "Definition r := ."}
     monkeypatch.setattr(certificates, "theory", lambda: broken)
-    (found,) = certify([1])
-    assert found.verdict is Verdict.NOT_ACCEPTED
-    assert "Model.v" in found.note
-
-
-def test_statements_and_hashes_are_written(tmp_path: Path) -> None:
-    out = tmp_path / "certificate"
-    assert main(["certify", "1", "--out", str(out)]) == 0
-    said = json.loads((out / "certificate.json").read_text())
-    (one,) = said["equations"]
-    assert one["verdict"] == "accepted"
-    assert (out / "Equation_1.v").read_text() == certificates.sources([1])["Equation_1.v"]
-    assert said["theory"]["Model.v"] == certificates.sha256((out / "Model.v").read_text())
-    listed = json.loads((out / "manifest.json").read_text())["files"]
-    assert {"Model.v", "Equation_1.v", "certificate.json"} <= set(listed)
+    found = certify([1])
+    assert not found.passed
+    (one,) = found.equations
+    assert one.verdict is Verdict.NOT_ACCEPTED
+    assert "Model.v" in one.note

@@ -1,0 +1,49 @@
+(** Packings with given fractions for radii: their values and slopes as fractions. *)
+
+From Coq Require Export List.
+From Coq Require Import ZArith Reals Lia Lra.
+From ForceDiffusion Require Export Certify.
+Export ListNotations.
+
+Open Scope R_scope.
+Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
+
+(** Radii that are listed for one period in i; 0 where none is listed. *)
+Fixpoint listed (l : list (Z * Z * R)) (i j : Z) : R :=
+  match l with
+  | nil => 0
+  | (a, b, x) :: rest => if ((i =? a) && (j =? b))%bool%Z then x else listed rest i j
+  end.
+Definition periodic (period : Z) (l : list (Z * Z * R)) : radii := fun i j => listed l (i mod period) j.
+
+Ltac fraction :=
+  unfold surface_plus, surface_minus, ordered_plus, ordered_minus, response_plus, response_minus,
+    tilt_plus, tilt_minus, along_plus, along_minus;
+  rewrite ?phi_is;
+  match goal with
+  | Hr : r ?G = _, Hx : n_x ?G = _, Hy : n_y ?G = _, E : ?rho = _ |- _ =>
+      rewrite ?Hr, ?Hx, ?Hy, ?E
+  end;
+  cbv -[IZR Rplus Rmult Rminus Ropp Rinv Rdiv]; lra.
+
+Ltac prove_packing :=
+  intros G rho X Hr Hx Hy E P;
+  lazymatch goal with P : packing _ ?M _ _ |- _ =>
+    repeat match goal with |- _ /\ _ => split end;
+    try (intros F C);
+    repeat match goal with |- _ /\ _ => split end;
+    lazymatch goal with
+    | C : carries _ _ (surface _ ?f) _ |- expands (f_plus ?F ?i ?j) _ _ =>
+        eapply expands_to; [apply (surface_force _ _ _ _ P _ _ C j); site|fraction|fraction]
+    | C : carries _ _ (surface _ ?f) _ |- expands (f_minus ?F ?i ?j) _ _ =>
+        eapply expands_to; [apply (surface_force _ _ _ _ P _ _ C j); site|fraction|fraction]
+    | C : carries _ _ (single ?k ?l ?f) _ |- expands (f_plus ?F ?i ?j) _ _ =>
+        eapply expands_to; [apply (single_force _ M _ _ P _ k l f ltac:(site) ltac:(site) C j); site
+          |fraction|fraction]
+    | C : carries _ _ (single ?k ?l ?f) _ |- expands (f_minus ?F ?i ?j) _ _ =>
+        eapply expands_to; [apply (single_force _ M _ _ P _ k l f ltac:(site) ltac:(site) C j); site
+          |fraction|fraction]
+    | |- expands _ _ _ =>
+        eapply expands_to; [expand_with ltac:(fun _ => of_packing P)|fraction|fraction]
+    end
+  end.
