@@ -4,7 +4,7 @@
     compares them. Nothing here is trusted: a tactic that goes wrong proves nothing. *)
 
 From Coq Require Export ZArith Reals Lia Lra.
-From ForceDiffusion Require Export Roots Model Sums FirstOrder Geometry Forces Random Weights Variances Cone.
+From ForceDiffusion Require Export Roots Model Sums FirstOrder Lattice Geometry Forces Random Weights Variances Cone.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.

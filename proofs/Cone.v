@@ -1,7 +1,7 @@
 (** The response to a load on one bead, inside of its cone: what Eq. 16 rests on. *)
 
 From Coq Require Import ZArith Reals Lia Lra List.
-From ForceDiffusion Require Import Model Sums FirstOrder Geometry Forces Random Weights Variances.
+From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Forces Random Weights Variances.
 Import ListNotations.
 
 Open Scope R_scope.

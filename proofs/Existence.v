@@ -1,7 +1,7 @@
 (** Nothing is said of nothing: lattices, packings of any radii, and forces for any loads exist. *)
 
 From Coq Require Import ZArith Reals Lia Lra Bool.
-From ForceDiffusion Require Import Model Sums FirstOrder Geometry Forces.
+From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Forces.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
@@ -15,33 +15,6 @@ Proof.
 Qed.
 
 (** ** Packings *)
-
-(** The point at the distances a and b from A and B, on the left of the way from A to B. *)
-Definition meeting (A B : vector) (a b : R) : vector :=
-  let d := minus B A in
-  let along := (a ^ 2 - b ^ 2 + dot d d) / (2 * dot d d) in
-  let across := sqrt (a ^ 2 / dot d d - along ^ 2) in
-  Vector (x_of A + (along * x_of d - across * y_of d)) (y_of A + (along * y_of d + across * x_of d)).
-
-Lemma meeting_touches A B a b :
-  let d := minus B A in
-  0 < dot d d -> 0 <= a ^ 2 / dot d d - ((a ^ 2 - b ^ 2 + dot d d) / (2 * dot d d)) ^ 2 ->
-  dot (minus (meeting A B a b) A) (minus (meeting A B a b) A) = a ^ 2 /\
-  dot (minus (meeting A B a b) B) (minus (meeting A B a b) B) = b ^ 2.
-Proof.
-  intros d Hd Hs. unfold meeting. fold d.
-  set (s := dot d d) in *. set (t := (a ^ 2 - b ^ 2 + s) / (2 * s)) in *.
-  set (h := sqrt (a ^ 2 / s - t ^ 2)).
-  assert (Hh : h * h = a ^ 2 / s - t ^ 2) by (apply sqrt_sqrt; exact Hs).
-  assert (Es : s = x_of d * x_of d + y_of d * y_of d) by reflexivity.
-  assert (Ts : 2 * t * s = a ^ 2 - b ^ 2 + s) by (unfold t; field; lra).
-  assert (Hhs : h * h * s = a ^ 2 - t ^ 2 * s) by (rewrite Hh; field; lra).
-  unfold dot, minus, add, scale. cbn [x_of y_of]. split.
-  - transitivity (t ^ 2 * s + h * h * s); [rewrite Es; ring|]. rewrite Hhs. ring.
-  - transitivity (t ^ 2 * s - 2 * t * s + s + h * h * s).
-    { rewrite Es. unfold d, minus, add, scale. cbn [x_of y_of]. ring. }
-    rewrite Hhs, Ts. ring.
-Qed.
 
 Section Laid.
   Variable G : lattice.
@@ -65,69 +38,6 @@ Section Laid.
     unfold pair, delta_r. eapply expands_to; [expand_with ltac:(fun _ => fail)|ring|ring].
   Qed.
 
-  (** What the meeting point of two beads of one height needs, and where it is at ε = 0. *)
-  Lemma meeting_expands (A B : R -> vector) (a b : R -> R) ax ay ax' ay' bx' by' a' b' :
-    expands (fun e => x_of (A e)) ax ax' -> expands (fun e => y_of (A e)) ay ay' ->
-    expands (fun e => x_of (B e)) (ax + 4 * r * n_x) bx' -> expands (fun e => y_of (B e)) ay by' ->
-    expands a (2 * r) a' -> expands b (2 * r) b' ->
-    (exists d, expands (fun e => x_of (meeting (A e) (B e) (a e) (b e))) (ax + 2 * r * n_x) d) /\
-    (exists d, expands (fun e => y_of (meeting (A e) (B e) (a e) (b e))) (ay + 2 * r * n_y) d) /\
-    near (fun e => 0 < dot (minus (B e) (A e)) (minus (B e) (A e)) /\
-      0 < a e ^ 2 / dot (minus (B e) (A e)) (minus (B e) (A e))
-        - ((a e ^ 2 - b e ^ 2 + dot (minus (B e) (A e)) (minus (B e) (A e)))
-           / (2 * dot (minus (B e) (A e)) (minus (B e) (A e)))) ^ 2).
-  Proof.
-    intros HAx HAy HBx HBy Ha Hb.
-    pose proof (r_pos G) as Hr. pose proof (n_x_pos G) as Hx. pose proof (n_y_pos G) as Hy.
-    pose proof (n_y_squared G) as Hn.
-    assert (Hrx : 0 < r * n_x) by (apply Rmult_lt_0_compat; assumption).
-    assert (Hsq : 0 < (4 * r * n_x) * (4 * r * n_x)) by (apply Rmult_lt_0_compat; lra).
-    assert (Dx : exists d, expands (fun e => x_of (minus (B e) (A e))) (4 * r * n_x) d).
-    { eexists. unfold minus, add, scale. cbn [x_of y_of].
-      eapply expands_to; [apply expands_plus; [exact HBx|apply expands_mult; [apply expands_const|exact HAx]]
-        |ring|reflexivity]. }
-    assert (Dy : exists d, expands (fun e => y_of (minus (B e) (A e))) 0 d).
-    { eexists. unfold minus, add, scale. cbn [x_of y_of].
-      eapply expands_to; [apply expands_plus; [exact HBy|apply expands_mult; [apply expands_const|exact HAy]]
-        |ring|reflexivity]. }
-    destruct Dx as [dx Dx]. destruct Dy as [dy Dy].
-    assert (S : exists d, expands (fun e => dot (minus (B e) (A e)) (minus (B e) (A e)))
-      ((4 * r * n_x) * (4 * r * n_x)) d).
-    { eexists. unfold dot. eapply expands_to; [apply expands_plus; apply expands_mult; eassumption
-        |ring|reflexivity]. }
-    destruct S as [s' S].
-    assert (T : exists d, expands (fun e => (a e ^ 2 - b e ^ 2 + dot (minus (B e) (A e)) (minus (B e) (A e)))
-      / (2 * dot (minus (B e) (A e)) (minus (B e) (A e)))) (1 / 2) d).
-    { eexists. eapply expands_to; [apply expands_div;
-        [|apply expands_plus; [apply expands_minus; apply expands_pow2; eassumption|exact S]
-         |apply expands_mult; [apply expands_const|exact S]]; lra|field; lra|reflexivity]. }
-    destruct T as [t' T].
-    assert (U : exists d, expands (fun e => a e ^ 2 / dot (minus (B e) (A e)) (minus (B e) (A e))
-        - ((a e ^ 2 - b e ^ 2 + dot (minus (B e) (A e)) (minus (B e) (A e)))
-           / (2 * dot (minus (B e) (A e)) (minus (B e) (A e)))) ^ 2)
-      (n_y / (2 * n_x) * (n_y / (2 * n_x))) d).
-    { eexists. eapply expands_to; [apply expands_minus;
-        [apply expands_div; [|apply expands_pow2; exact Ha|exact S]; lra|apply expands_pow2; exact T]
-        |field_simplify_eq; [ring [Hn]|lra]|reflexivity]. }
-    destruct U as [u' U].
-    assert (Hu : 0 < n_y / (2 * n_x)) by (apply Rdiv_lt_0_compat; lra).
-    assert (Huu : 0 < n_y / (2 * n_x) * (n_y / (2 * n_x))) by (apply Rmult_lt_0_compat; assumption).
-    assert (V : exists d, expands (fun e => sqrt (a e ^ 2 / dot (minus (B e) (A e)) (minus (B e) (A e))
-        - ((a e ^ 2 - b e ^ 2 + dot (minus (B e) (A e)) (minus (B e) (A e)))
-           / (2 * dot (minus (B e) (A e)) (minus (B e) (A e)))) ^ 2)) (n_y / (2 * n_x)) d).
-    { eexists. eapply expands_to; [apply expands_sqrt; [exact Huu|exact U]
-        |apply sqrt_square; lra|reflexivity]. }
-    destruct V as [v' V].
-    repeat split.
-    - eexists. unfold meeting. cbv zeta. cbn [x_of].
-      eapply expands_to; [apply expands_plus; [exact HAx|apply expands_minus; apply expands_mult; eassumption]
-        |field; lra|reflexivity].
-    - eexists. unfold meeting. cbv zeta. cbn [y_of].
-      eapply expands_to; [apply expands_plus; [exact HAy|apply expands_plus; apply expands_mult; eassumption]
-        |field; lra|reflexivity].
-    - apply near_both; eapply expands_near_positive; eassumption.
-  Qed.
-
   Lemma laid_expands n : forall i,
     (exists d, expands (fun e => x_of (laid n i e)) (2 * IZR i * r * n_x) d) /\
     (exists d, expands (fun e => y_of (laid n i e)) (2 * INR n * r * n_y) d).
@@ -138,7 +48,7 @@ Section Laid.
     - destruct (IH (i - 1)%Z) as [[? HAx] [? HAy]]. destruct (IH (i + 1)%Z) as [[? HBx] [? HBy]].
       rewrite minus_IZR in HAx. rewrite plus_IZR in HBx.
       replace (2 * (IZR i + 1) * r * n_x) with (2 * (IZR i - 1) * r * n_x + 4 * r * n_x) in HBx by ring.
-      destruct (meeting_expands _ _ _ _ _ _ _ _ _ _ _ _ HAx HAy HBx HBy
+      destruct (meeting_expands G _ _ _ _ _ _ _ _ _ _ _ _ HAx HAy HBx HBy
         (pair_expands i (Z.of_nat (S n)) (i - 1) (Z.of_nat n))
         (pair_expands i (Z.of_nat (S n)) (i + 1) (Z.of_nat n))) as [[dx Ex] [[dy Ey] _]].
       rewrite S_INR. cbn [laid]. split; eexists.
@@ -157,7 +67,7 @@ Section Laid.
     destruct (laid_expands n (i + 1)%Z) as [[? HBx] [? HBy]].
     rewrite minus_IZR in HAx. rewrite plus_IZR in HBx.
     replace (2 * (IZR i + 1) * r * n_x) with (2 * (IZR i - 1) * r * n_x + 4 * r * n_x) in HBx by ring.
-    destruct (meeting_expands _ _ _ _ _ _ _ _ _ _ _ _ HAx HAy HBx HBy
+    destruct (meeting_expands G _ _ _ _ _ _ _ _ _ _ _ _ HAx HAy HBx HBy
       (pair_expands i (Z.of_nat (S n)) (i - 1) (Z.of_nat n))
       (pair_expands i (Z.of_nat (S n)) (i + 1) (Z.of_nat n))) as [_ [_ N]].
     eapply near_then; [exact N|]. cbv beta. intros e [H1 H2]. cbn [laid].
@@ -173,8 +83,8 @@ Section Laid.
       Z.of_nat (S (Z.to_nat (j - 1))) = j /\ Z.of_nat (Z.to_nat (j - 1)) = (j - 1)%Z) by lia.
     split.
     - intros i e _. reflexivity.
-    - intros i j _. destruct (laid_expands (Z.to_nat j) i) as [[dx [_ Dx]] [dy [_ Dy]]].
-      exists dx, dy. split; assumption.
+    - intros i j _. destruct (laid_expands (Z.to_nat j) i) as [[dx Dx] [dy Dy]].
+      split; eapply expands_continuous; eassumption.
     - intros i j _ Hj. destruct (Up j Hj) as (E1 & E2 & E3).
       unfold touch. rewrite E1. pose proof (laid_touches (Z.to_nat (j - 1)) i) as T.
       rewrite E2, E3 in T. eapply near_then; [exact T|]. cbv beta. intros e [T1 _]. exact T1.

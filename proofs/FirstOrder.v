@@ -129,14 +129,22 @@ Proof.
   - apply expands_plus; [apply IH; intros; apply H'; lia|apply H'; lia].
 Qed.
 
-Lemma expands_near_positive f v d : expands f v d -> 0 < v -> near (fun e => 0 < f e).
+Lemma continuous_near_positive f : continuity_pt f 0 -> 0 < f 0 -> near (fun e => 0 < f e).
 Proof.
-  intros [<- H] Hv. pose proof (derivable_continuous_pt f 0 (exist _ d H)) as C.
-  destruct (C (f 0) Hv) as (a & Ha & Hc). exists a. split; [exact Ha|]. intros e He.
+  intros C Hv. destruct (C (f 0) Hv) as (a & Ha & Hc). exists a. split; [exact Ha|]. intros e He.
   destruct (Req_dec e 0) as [->|Hne]; [exact Hv|].
   assert (D : R_dist (f e) (f 0) < f 0).
   { apply Hc. split; [split; [exact I|auto]|]. cbn. unfold R_dist. rewrite Rminus_0_r. exact He. }
   unfold R_dist in D. apply Rabs_def2 in D. lra.
+Qed.
+
+Lemma expands_continuous f v d : expands f v d -> continuity_pt f 0.
+Proof. intros [_ H]. exact (derivable_continuous_pt f 0 (exist _ d H)). Qed.
+
+Lemma expands_near_positive f v d : expands f v d -> 0 < v -> near (fun e => 0 < f e).
+Proof.
+  intros H Hv. apply continuous_near_positive; [exact (expands_continuous _ _ _ H)|].
+  destruct H as [-> _]. exact Hv.
 Qed.
 
 Lemma expands_near_nonzero f v d : expands f v d -> v <> 0 -> near (fun e => f e <> 0).

@@ -1,7 +1,7 @@
 (** Forces to first order: how a bead passes on what it carries, and what Eqs. 6-11 rest on. *)
 
 From Coq Require Import ZArith Reals Lia Lra Bool.
-From ForceDiffusion Require Import Model Sums FirstOrder Geometry.
+From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.

@@ -1,56 +1,11 @@
 (** The geometry of a packing to first order: what Eqs. 1-5 rest on. *)
 
 From Coq Require Import ZArith Reals Lia Lra.
-From ForceDiffusion Require Import Model Sums FirstOrder.
+From ForceDiffusion Require Import Model Sums FirstOrder Lattice.
 
 Open Scope R_scope.
 
-(** Whether a site is a bead of the packing: parity and bounds. *)
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
-Ltac site := unfold bead, contact in *; lia.
-Ltac same_sites := repeat (f_equal; try lia).
-
-Section Lattice.
-  Variable G : lattice.
-  Local Notation r := (r G).
-  Local Notation n_x := (n_x G).
-  Local Notation n_y := (n_y G).
-
-  Lemma r_pos : 0 < r. Proof. apply r_positive. Qed.
-  Lemma n_x_pos : 0 < n_x. Proof. pose proof (n_x_above_half G). lra. Qed.
-  Lemma n_y_pos : 0 < n_y. Proof. pose proof (n_y_above_half G). lra. Qed.
-  Lemma n_y_squared : n_y * n_y = 1 - n_x * n_x.
-  Proof. pose proof (unit_vectors G) as H. lra. Qed.
-
-  Lemma phi_is : phi G = n_y * n_y - n_x * n_x.
-  Proof. unfold phi, dot, n_plus, n_minus. cbn. ring. Qed.
-
-  Lemma phi_above : - (1 / 2) < phi G.
-  Proof.
-    rewrite phi_is, n_y_squared. pose proof (n_y_above_half G). pose proof n_y_squared.
-    assert (1 / 2 * (1 / 2) < n_y * n_y) by (apply Rmult_gt_0_lt_compat; lra). lra.
-  Qed.
-
-  Lemma phi_below : phi G < 1 / 2.
-  Proof.
-    rewrite phi_is, n_y_squared. pose proof (n_x_above_half G).
-    assert (1 / 2 * (1 / 2) < n_x * n_x) by (apply Rmult_gt_0_lt_compat; lra). lra.
-  Qed.
-
-  Lemma one_minus_phi_squared : 1 - phi G * phi G = 4 * (n_x * n_x) * (n_y * n_y).
-  Proof. rewrite phi_is, n_y_squared. ring. Qed.
-
-  Lemma phi_squared_below : phi G * phi G < 1 / 4.
-  Proof.
-    pose proof phi_above. pose proof phi_below.
-    destruct (Rle_dec 0 (phi G)).
-    - assert (phi G * phi G <= phi G * (1 / 2)) by (apply Rmult_le_compat_l; lra). lra.
-    - assert (- phi G * - phi G <= - phi G * (1 / 2)) by (apply Rmult_le_compat_l; lra). lra.
-  Qed.
-
-  Lemma divisor_positive : 0 < 1 - phi G * phi G.
-  Proof. pose proof phi_squared_below. lra. Qed.
-End Lattice.
 
 (** ** Line sums *)
 
@@ -161,6 +116,50 @@ Section Packing.
     destruct (expands_unique _ _ _ _ _ (expands_near _ _ _ _ L N) R) as [_ E]. lra.
   Qed.
 
+  (** A bead rests where its supports' circles meet; so it moves as smoothly as they do. *)
+  Lemma rests_where_they_meet i j ax ay ax' ay' bx' by' : bead M i j -> (1 <= j)%Z ->
+    y_of (X i j 0) = ay + 2 * r * n_y -> x_of (X i j 0) = ax + 2 * r * n_x ->
+    expands (fun e => x_of (X (i - 1)%Z (j - 1)%Z e)) ax ax' ->
+    expands (fun e => y_of (X (i - 1)%Z (j - 1)%Z e)) ay ay' ->
+    expands (fun e => x_of (X (i + 1)%Z (j - 1)%Z e)) (ax + 4 * r * n_x) bx' ->
+    expands (fun e => y_of (X (i + 1)%Z (j - 1)%Z e)) ay by' ->
+    (exists d, expands (fun e => x_of (X i j e)) (ax + 2 * r * n_x) d) /\
+    (exists d, expands (fun e => y_of (X i j e)) (ay + 2 * r * n_y) d).
+  Proof.
+    intros H Hj Ey Ex Ax Ay Bx By.
+    pose proof (r_pos G) as Hr. pose proof (n_x_pos G) as Hx. pose proof (n_y_pos G) as Hy.
+    assert (Pair : forall k l, expands (fun e => (r + delta_r rho i j e) + (r + delta_r rho k l e))
+      (2 * r) (rho i j + rho k l)).
+    { intros k l. unfold delta_r. eapply expands_to; [expand_with ltac:(fun _ => fail)|ring|ring]. }
+    destruct (meeting_expands G _ _ _ _ _ _ _ _ _ _ _ _ Ax Ay Bx By (Pair (i - 1)%Z (j - 1)%Z)
+      (Pair (i + 1)%Z (j - 1)%Z)) as [[dx Dx] [[dy Dy] N]].
+    destruct (continuous _ _ _ _ P i j H) as [Cx Cy].
+    pose proof (expands_continuous _ _ _ Ax) as CAx. pose proof (expands_continuous _ _ _ Ay) as CAy.
+    pose proof (expands_continuous _ _ _ Bx) as CBx. pose proof (expands_continuous _ _ _ By) as CBy.
+    assert (S : near (fun e => 0 <
+      (x_of (X (i + 1)%Z (j - 1)%Z e) - x_of (X (i - 1)%Z (j - 1)%Z e))
+        * (y_of (X i j e) - y_of (X (i - 1)%Z (j - 1)%Z e))
+      - (y_of (X (i + 1)%Z (j - 1)%Z e) - y_of (X (i - 1)%Z (j - 1)%Z e))
+        * (x_of (X i j e) - x_of (X (i - 1)%Z (j - 1)%Z e)))).
+    { apply continuous_near_positive.
+      - apply continuity_pt_minus; apply continuity_pt_mult; apply continuity_pt_minus; assumption.
+      - destruct Ax as [-> _], Ay as [-> _], Bx as [-> _], By as [-> _]. rewrite Ex, Ey.
+        replace (_ - _) with (8 * (r * n_x) * (r * n_y)) by ring.
+        repeat apply Rmult_lt_0_compat; lra. }
+    assert (E : near (fun e => meeting (X (i - 1)%Z (j - 1)%Z e) (X (i + 1)%Z (j - 1)%Z e)
+      ((r + delta_r rho i j e) + (r + delta_r rho (i - 1) (j - 1) e))
+      ((r + delta_r rho i j e) + (r + delta_r rho (i + 1) (j - 1) e)) = X i j e)).
+    { eapply near_then; [exact (near_both _ _ (near_both _ _ N S) (near_both _ _
+        (touches_left _ _ _ _ P i j H Hj) (touches_right _ _ _ _ P i j H Hj)))|].
+      cbv beta. intros e [[[N1 _] S1] [T1 T2]]. symmetry. apply meeting_unique; try assumption.
+      unfold minus, add, scale. cbn [x_of y_of]. lra. }
+    split.
+    - exists dx. eapply expands_near; [exact Dx|]. eapply near_then; [exact E|]. cbv beta.
+      intros e ->. reflexivity.
+    - exists dy. eapply expands_near; [exact Dy|]. eapply near_then; [exact E|]. cbv beta.
+      intros e ->. reflexivity.
+  Qed.
+
   (** Value and slope of a centre, in Cartesian components of c⁺ b⁺ + c⁻ b⁻. *)
   Theorem centre_expands j : (0 <= j)%Z -> forall i, bead M i j ->
     expands (fun e => x_of (X i j e)) (2 * IZR i * r * n_x)
@@ -174,13 +173,18 @@ Section Packing.
       split; (eapply expands_near; [eapply expands_to; [apply expands_const|reflexivity|field; lra]|]);
         apply near_always; intros e; rewrite (base_is_fixed _ _ _ _ P) by exact Hi; cbn; ring.
     - intros j Hj IH i Hi.
-      destruct (differentiable _ _ _ _ P i (j + 1) Hi) as (dx & dy & Dx & Dy).
-      pose proof (ordered_position (j + 1) ltac:(lia) i Hi) as E.
-      assert (Ex : expands (fun e => x_of (X i (j + 1)%Z e)) (2 * IZR i * r * n_x) dx)
-        by (split; [rewrite E; reflexivity|exact Dx]).
-      assert (Ey : expands (fun e => y_of (X i (j + 1)%Z e)) (2 * IZR (j + 1) * r * n_y) dy)
-        by (split; [rewrite E; reflexivity|exact Dy]).
       destruct (IH (i - 1)%Z ltac:(site)) as [Lx Ly]. destruct (IH (i + 1)%Z ltac:(site)) as [Rx Ry].
+      pose proof (ordered_position (j + 1) ltac:(lia) i Hi) as E.
+      assert (D : (exists d, expands (fun e => x_of (X i (j + 1)%Z e)) (2 * IZR i * r * n_x) d) /\
+        (exists d, expands (fun e => y_of (X i (j + 1)%Z e)) (2 * IZR (j + 1) * r * n_y) d)).
+      { pose proof (rests_where_they_meet i (j + 1)) as W.
+        replace (j + 1 - 1)%Z with j in W by lia. rewrite E in W. cbn [x_of y_of] in W.
+        rewrite minus_IZR in Lx. rewrite plus_IZR in Rx. rewrite plus_IZR in W. rewrite plus_IZR.
+        replace (2 * (IZR i + 1) * r * n_x) with (2 * (IZR i - 1) * r * n_x + 4 * r * n_x) in Rx by ring.
+        destruct (W (2 * (IZR i - 1) * r * n_x) (2 * IZR j * r * n_y) _ _ _ _ Hi ltac:(lia)
+          ltac:(ring) ltac:(ring) Lx Ly Rx Ry) as [[dx Dx] [dy Dy]].
+        split; eexists; (eapply expands_to; [eassumption|ring|reflexivity]). }
+      destruct D as [[dx Ex] [dy Ey]].
       pose proof (touches_left _ _ _ _ P i (j + 1) Hi ltac:(lia)) as TL.
       pose proof (touches_right _ _ _ _ P i (j + 1) Hi ltac:(lia)) as TR.
       replace (j + 1 - 1)%Z with j in * by lia.

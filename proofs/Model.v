@@ -99,12 +99,11 @@ Definition touch (G : lattice) (rho : radii) (X : centres) (i j k l : Z) : Prop 
     ((r G + delta_r rho i j e) + (r G + delta_r rho k l e)) ^ 2).
 
 (** Discs of radii r + ε ρ on a fixed base, each in exact contact with its two supports and, in
-    the ordered packing, above them; the centres depend differentiably on ε at ε = 0. *)
+    the ordered packing, above them; the centres depend continuously on ε at ε = 0. *)
 Record packing (G : lattice) (M : Z) (rho : radii) (X : centres) : Prop := {
   base_is_fixed : forall i e, bead M i 0 -> X i 0%Z e = Vector (2 * IZR i * r G * n_x G) 0;
-  differentiable : forall i j, bead M i j -> exists dx dy,
-    derivable_pt_lim (fun e => x_of (X i j e)) 0 dx /\
-    derivable_pt_lim (fun e => y_of (X i j e)) 0 dy;
+  continuous : forall i j, bead M i j ->
+    continuity_pt (fun e => x_of (X i j e)) 0 /\ continuity_pt (fun e => y_of (X i j e)) 0;
   touches_left : forall i j, bead M i j -> (1 <= j)%Z -> touch G rho X i j (i - 1) (j - 1);
   touches_right : forall i j, bead M i j -> (1 <= j)%Z -> touch G rho X i j (i + 1) (j - 1);
   above_supports : forall i j, bead M i j -> (1 <= j)%Z ->

@@ -1,7 +1,7 @@
 (** Variances of the contact forces: what Eqs. 12-15 rest on, with explicit error bounds. *)
 
 From Coq Require Import ZArith Reals Lia Lra List.
-From ForceDiffusion Require Import Roots Model Sums FirstOrder Geometry Forces Random Weights.
+From ForceDiffusion Require Import Roots Model Sums FirstOrder Lattice Geometry Forces Random Weights.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.

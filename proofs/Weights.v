@@ -1,7 +1,7 @@
 (** The forces under surface and bulk loads as weights of single radii, layer by layer. *)
 
 From Coq Require Import ZArith Reals Lia Lra List.
-From ForceDiffusion Require Import Model Sums FirstOrder Geometry Forces Random.
+From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Forces Random.
 Import ListNotations.
 
 Open Scope R_scope.
