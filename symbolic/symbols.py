@@ -22,6 +22,10 @@ epsilon = Symbol("epsilon", r"\varepsilon", "ε", real=True)  # strength, for li
 f_load = Symbol("f_load", r"f^{\rm load}", positive=True)  # magnitude of the load on a surface bead
 m_g = Symbol("m_g", "mg", "mg", positive=True)  # weight of a bead under a bulk load
 z = Symbol("z", real=True)  # relative height j/M
+# a load in any direction, −(L⁺n⁺ + L⁻n⁻) on a bead (forces), and t = L⁻/L⁺
+L_plus = Symbol("L_plus", "L^{+}", "L⁺", positive=True)
+L_minus = Symbol("L_minus", "L^{-}", "L⁻", positive=True)
+t = Symbol("t", positive=True)
 
 # indices: beads (i, j), (k, l), (r, s); height M; summation and path indices
 i, j, k, l, m, n, p, q = (Symbol(name, integer=True) for name in "ijklmnpq")  # noqa: E741
@@ -31,7 +35,7 @@ M = Symbol("M", integer=True, positive=True)
 INDICES = (i, j, k, l, m, n, p, q, site_r, site_s, M)
 """All index symbols, in the fixed order that normal forms use."""
 
-PARAMETERS = (phi, n_x, n_y, r, spacing, sigma, epsilon, f_load, m_g, z)
+PARAMETERS = (phi, n_x, n_y, r, spacing, sigma, epsilon, f_load, m_g, z, L_plus, L_minus, t)
 """All continuous symbols, in the fixed order that exact domains use."""
 
 SCALES = (r, spacing, f_load)

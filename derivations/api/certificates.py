@@ -17,11 +17,12 @@ from enum import StrEnum
 from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 from force_diffusion.derivations.api.equation import equation
 from force_diffusion.derivations.export.coq import NotStatedError, Statement, header, statement
 from force_diffusion.derivations.export.coq_packings import packing_statement
-from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.derivations.framework.catalogue import Number, load, paper
 from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.derivations.framework.runner import SEEDS
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
@@ -87,7 +88,7 @@ class Certificate:
         mutants: the changes tried.
     """
 
-    number: int
+    number: Number
     verdict: Verdict
     checker: str = ""
     theorems: tuple[tuple[str, str], ...] = ()
@@ -255,22 +256,22 @@ def file_name(made: Statement) -> str:
     return f"{made.name.capitalize()}.v"
 
 
-def sources(numbers: Iterable[int] | None = None) -> dict[str, str]:
+def sources(numbers: Iterable[Number] | None = None) -> dict[str, str]:
     """Files with the statements that ``certify`` tries; what can't be stated has none."""
     found = [packing_statement(seed) for seed in SEEDS] if numbers is None else []
-    for number in modules() if numbers is None else numbers:
+    for number in paper() if numbers is None else numbers:
         with suppress(NotStatedError):
             found += statements(load(number))
     return {file_name(made): made.source for made in found}
 
 
 def certify(
-    numbers: Iterable[int] | None = None,
+    numbers: Iterable[Number] | None = None,
     *,
     mutants: bool | Callable[[int], bool] = False,
     notice: Notice = _silent,
 ) -> Certification:
-    """Ask Coq about equations, all of them by default; takes about two minutes.
+    """Ask Coq about equations, all of the paper's by default; takes about two minutes.
 
     The theory is compiled, each statement is made and proved in a file of its own, the axioms
     that it rests on are compared with ``ALLOWED``, and all that was accepted is checked once more
@@ -285,7 +286,9 @@ def certify(
     Raises:
         NoSuchEquationError: there is no equation of that number.
     """
-    wanted = list(modules()) if numbers is None else [equation(number).number for number in numbers]
+    wanted: list[Number] = list(paper())
+    if numbers is not None:
+        wanted = [equation(number).number for number in numbers]
     seeds = SEEDS if numbers is None else ()
     chosen = mutants if callable(mutants) else lambda _: bool(mutants)
     with TemporaryDirectory() as folder:
@@ -323,7 +326,7 @@ def certify(
 
 
 def certificate(
-    shop: Workshop, number: int, made: Callable[[int], list[Statement]], trouble: str
+    shop: Workshop, number: Number, made: Callable[[Any], list[Statement]], trouble: str
 ) -> Certificate:
     """Try the statements of one equation or packing; ``trouble`` is what the theory has."""
     try:

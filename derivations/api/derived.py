@@ -19,7 +19,7 @@ from force_diffusion.derivations.export.terminal import (
     summary_line,
     trouble_lines,
 )
-from force_diffusion.derivations.framework.catalogue import load, modules, with_premises
+from force_diffusion.derivations.framework.catalogue import Number, load, modules, with_premises
 from force_diffusion.derivations.framework.record import Outcome
 from force_diffusion.derivations.framework.runner import run_all
 from force_diffusion.symbolic.kernel.decisions import Verdict
@@ -36,7 +36,7 @@ class Derived:
     outcomes: tuple[Outcome, ...]
 
     @property
-    def verdicts(self) -> dict[int, Verdict]:
+    def verdicts(self) -> dict[Number, Verdict]:
         """``proved``, ``refuted`` or ``undecided``, by the equation's number."""
         return {one.derivation.number: one.verdict for one in self.outcomes}
 
@@ -57,7 +57,7 @@ class Derived:
     def latex(self) -> dict[str, str]:
         """LaTeX by file name: a fragment for each equation, and a document that reads them."""
         about = [(one.derivation, finding(one)) for one in self.outcomes]
-        about.sort(key=lambda pair: pair[0].number)
+        about.sort(key=lambda pair: list(modules()).index(pair[0].number))
         return {
             **{fragment_name(one): statement_latex(one) for one, _ in about},
             DOCUMENT: document(about),
@@ -82,7 +82,7 @@ class Derived:
 
 
 def derive(
-    numbers: Iterable[int] | None = None,
+    numbers: Iterable[Number] | None = None,
     *,
     notice: Callable[[str], None] | None = None,
     finished: Callable[[Outcome], None] | None = None,

@@ -24,7 +24,10 @@ from force_diffusion.derivations.export.terminal import (
     steps_text,
     summary_line,
 )
-from force_diffusion.derivations.framework.catalogue import load, modules, with_premises
+from force_diffusion.derivations.framework.catalogue import (
+    Number as EquationNumber,
+)
+from force_diffusion.derivations.framework.catalogue import allowed, load, modules, with_premises
 from force_diffusion.derivations.framework.record import (
     Check,
     Derivation,
@@ -161,7 +164,7 @@ class Steps(tuple[Step, ...]):
 
 
 class Equation(Formula):
-    """An equation of the paper; :func:`equation` gives it by its number.
+    """An equation, of the paper or beyond it; :func:`equation` gives it by its number.
 
     Most of the paper's equations are one printed line. Eqs. 7, 8 and 15 are two: ``expr`` and
     ``rhs`` are then a SymPy ``Tuple``, and :meth:`at` gives a tuple.
@@ -182,8 +185,8 @@ class Equation(Formula):
         self._derivation = derivation
 
     @property
-    def number(self) -> int:
-        """Its number in the paper.
+    def number(self) -> EquationNumber:
+        """Its number in the paper, or its label beyond it, such as "B1".
 
         >>> import force_diffusion as fd
         >>> fd.equation(13).number
@@ -431,12 +434,12 @@ base+1 or surface.
 
 
 @cache
-def _equation(number: int) -> Equation:
+def _equation(number: EquationNumber) -> Equation:
     return Equation(load(number))
 
 
-def equation(number: int) -> Equation:
-    """The equation of the paper with this number.
+def equation(number: EquationNumber) -> Equation:
+    """The equation with this number of the paper, or with this label: "B1" and so on.
 
     >>> import force_diffusion as fd
     >>> fd.equation(13).title
@@ -444,15 +447,13 @@ def equation(number: int) -> Equation:
     >>> fd.equation(99)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
     ...
-    force_diffusion...NoSuchFormError: there is no equation 99: give a number from 1 to 16
+    force_diffusion...NoSuchFormError: there is no equation 99: give a number from 1 to 16...
 
     Raises:
         NoSuchFormError: there is none.
     """
-    known = modules()
-    if not isinstance(number, Integral) or number not in known:
+    if not isinstance(number, Integral | str) or number not in modules():
         raise NoSuchFormError(
-            f"there is no equation {number!r}: give a number from {min(known)} to {max(known)}",
-            "number",
+            f"there is no equation {number!r}: give a number {allowed()}", "number"
         )
     return _equation(number)

@@ -27,7 +27,7 @@ CERTIFICATE = "certificate.json"
 def certify(
     numbers: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[N...]", help="Equations to ask about; all of them by default."),
+        typer.Argument(metavar="[N...]", help="Equations to ask about; by default the paper's."),
     ] = None,
     mutants: Annotated[
         bool,
@@ -61,7 +61,7 @@ def certify(
         print(json.dumps(data, indent=2))
     else:
         for one in found.equations:
-            print(_line(f"Eq. {one.number:2}", one, load(one.number).title))
+            print(_line(f"Eq. {one.number!s:>2}", one, load(one.number).title))
         for one in found.packings:
             print(
                 _line(f"{one.number}", one, "an exact packing's Taylor coefficients, as fractions")

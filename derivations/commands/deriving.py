@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from force_diffusion.derivations.commands.output import output
 from force_diffusion.derivations.commands.progress import Silence, display
-from force_diffusion.derivations.framework.catalogue import load, modules, with_premises
+from force_diffusion.derivations.framework.catalogue import Number, load, modules, with_premises
 
 import force_diffusion as fd
 
@@ -16,18 +16,20 @@ if TYPE_CHECKING:
     from force_diffusion.derivations.framework.record import Derivation
 
 
-def premises_first(numbers: Iterable[int]) -> "list[Derivation]":
+def premises_first(numbers: Iterable[Number]) -> "list[Derivation]":
     """The derivations of these equations and of all that they rest on."""
     return with_premises(load(number) for number in numbers)
 
 
-def watched(numbers: Iterable[int], watch: Silence) -> "Derived":
+def watched(numbers: Iterable[Number], watch: Silence) -> "Derived":
     """Derive these equations under a display."""
     with watch.showing():
         return fd.derive(numbers, notice=watch.checking, finished=watch.finished)
 
 
-def derive(numbers: Sequence[int], out: Path | None, as_json: bool, overwrite: bool = False) -> int:
+def derive(
+    numbers: Sequence[Number], out: Path | None, as_json: bool, overwrite: bool = False
+) -> int:
     """Derive these equations and their premises: 0 if all are proved, else 1.
 
     The output folder is looked at before the first proof, so that a wrong one costs no time. The
@@ -54,7 +56,7 @@ def derive(numbers: Sequence[int], out: Path | None, as_json: bool, overwrite: b
             parts |= {
                 one.derivation.number: (one.derivation, finding(one)) for one in found.outcomes
             }
-            about = [parts[number] for number in sorted(parts)]
+            about = [parts[number] for number in modules() if number in parts]
             folder.write({**found.latex(), DOCUMENT: document(about)}, [one for _, one in about])
     watch.summary(f"{found.counts()}." + (f" Written to {out}." if out else ""))
     if as_json:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from force_diffusion.derivations.commands.cli import STATUSES
 from force_diffusion.derivations.commands.output import Overwrite, out_option
-from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.catalogue import Number, allowed, modules
 
 import force_diffusion as fd
 
@@ -41,14 +41,16 @@ class Place(StrEnum):
     LEG_FORCE = "leg-force"
 
 
-def equation_number(word: str) -> int:
-    """An equation's number from outside text, which is read and never evaluated."""
+def equation_number(word: str) -> Number:
+    """An equation's number or label from outside text, which is read and never evaluated."""
     known = modules()
     if word.isascii() and word.isdigit() and len(word) < 5 and int(word) in known:
         return int(word)
+    if word.upper() in known:
+        return word.upper()
     raise typer.BadParameter(
-        f"'{word}' is not an equation of this package. Give a number from {min(known)} to "
-        f"{max(known)}; 'force-diffusion list' names them.",
+        f"'{word}' is not an equation of this package. Give a number {allowed()}; "
+        "'force-diffusion list' names them.",
         param_hint="N",
     )
 
@@ -124,7 +126,7 @@ def _written(shown: "Formula", wanted: "Equation", form: Form) -> str:
 def list_equations() -> None:
     """List the equations."""
     for one in map(fd.equation, modules()):
-        print(f"{one.number:3}  {one.name:<20}  {one.title}")
+        print(f"{one.number!s:>3}  {one.name:<20}  {one.title}")
 
 
 def register(app: typer.Typer) -> None:

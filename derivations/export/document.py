@@ -35,13 +35,13 @@ _HEAD = r"""\documentclass[10pt]{article}
 """
 
 READING = (
-    "The equations keep the numbers that they have in the paper. Proved means that an exact "
-    "decision procedure found the printed equation to follow from its assumptions; refuted, that "
-    "it found a counterexample; undecided, that it could do neither. A witness is a comparison of "
-    "another kind, with exact or high-precision numbers for packings drawn at random: it agrees "
-    "or disagrees, and proves nothing. A mutant is the printed equation with one mechanical "
-    "change, which the same procedure has to refute; one that is an equivalent rewriting is "
-    "listed with the proof that it is."
+    "The equations keep the numbers that they have in the paper; B1 and so on go beyond it. "
+    "Proved means that an exact decision procedure found the printed equation to follow from its "
+    "assumptions; refuted, that it found a counterexample; undecided, that it could do neither. A "
+    "witness is a comparison of another kind, with exact or high-precision numbers for packings "
+    "drawn at random: it agrees or disagrees, and proves nothing. A mutant is the printed "
+    "equation with one mechanical change, which the same procedure has to refute; one that is an "
+    "equivalent rewriting is listed with the proof that it is."
 )
 """What the words of a report mean."""
 
@@ -54,7 +54,8 @@ def statement_latex(derivation: Derivation) -> str:
 
 def fragment_name(derivation: Derivation) -> str:
     """File name of an equation's fragment."""
-    return f"eq{derivation.number:02}.tex"
+    number = derivation.number
+    return f"eq{number:02}.tex" if isinstance(number, int) else f"eq{number}.tex"
 
 
 def _list(kind: str, items: Iterable[str]) -> str:
@@ -116,6 +117,14 @@ def _mutants(found: FoundMutants) -> str:
     )
 
 
+def _numbered(derivation: Derivation) -> str:
+    """What lets the next display have its number."""
+    number = derivation.number
+    if isinstance(number, int):
+        return f"\\setcounter{{equation}}{{{number - 1}}}\n"
+    return f"\\renewcommand{{\\theequation}}{{{number}}}\n"
+
+
 def section_latex(derivation: Derivation, found: FoundEquation) -> str:
     """All about one equation; the statement itself is read from its fragment."""
     symbols = [f"${latex(symbol)}$: {prose_latex(words)}" for symbol, words in derivation.symbols]
@@ -125,7 +134,7 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
     return "".join(
         [
             f"\\section*{{Eq.\\ ({derivation.number}): {prose_latex(derivation.title)}}}\n",
-            f"\\setcounter{{equation}}{{{derivation.number - 1}}}\n",
+            _numbered(derivation),
             f"\\input{{{fragment_name(derivation).removesuffix('.tex')}}}%\n",
             f"Verdict: \\textbf{{{found.verdict}}}."
             + (f" Rests on Eq{plural}.\\ {rests}.\n" if rests else "\n"),

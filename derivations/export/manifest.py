@@ -58,11 +58,11 @@ class FoundMutants(_Part):
 class FoundEquation(_Part):
     """What ``derive`` found about one equation; the same on every run."""
 
-    number: int
+    number: int | str
     name: str
     title: str
     fragment: str
-    premises: tuple[int, ...]
+    premises: tuple[int | str, ...]
     verdict: Literal["proved", "refuted", "undecided"]
     checks: tuple[FoundCheck, ...]
     mutants: FoundMutants

@@ -127,7 +127,7 @@ def summary_line(outcome: Outcome) -> str:
     proofs = _count(kinds.count("proof"), "proof", "proofs")
     witnesses = _count(kinds.count("witness"), "witness", "witnesses")
     return (
-        f"{outcome.derivation.number:3}  {outcome.verdict:<9}  {outcome.derivation.title}: "
+        f"{outcome.derivation.number!s:>3}  {outcome.verdict:<9}  {outcome.derivation.title}: "
         f"{proofs}, {witnesses}, {counts_text(outcome)} ({outcome.seconds:.2f} s)"
     )
 

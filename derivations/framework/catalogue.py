@@ -1,5 +1,8 @@
 """Where the derivations are: one module per equation, known by its file name alone.
 
+The paper's equations have its numbers, 1 to 16; those of ``beyond/`` are this project's own and
+have labels, "B1" and so on.
+
 Nothing here imports SymPy until a derivation is loaded.
 """
 
@@ -7,24 +10,49 @@ import re
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from force_diffusion.derivations.framework.record import Derivation
 
+Number: TypeAlias = int | str
+"""A number of the paper, or a label such as "B1"."""
+
+_FOLDER = Path(__file__).parents[1]
 _MODULE = re.compile(r"eq(\d\d)_\w+")
+_BEYOND = re.compile(r"b(\d+)_\w+")
 
 
 @cache
-def modules() -> dict[int, str]:
-    """Equation numbers and the modules that derive them, in the paper's order."""
-    stems = sorted(path.stem for path in Path(__file__).parents[1].glob("eq*.py"))
-    return {int(found[1]): stem for stem in stems if (found := _MODULE.fullmatch(stem))}
+def modules() -> dict[Number, str]:
+    """Equation numbers and the modules that derive them: the paper's, then those beyond it."""
+    stems = sorted(path.stem for path in _FOLDER.glob("eq*.py"))
+    printed: dict[Number, str] = {
+        int(found[1]): stem for stem in stems if (found := _MODULE.fullmatch(stem))
+    }
+    beyond = sorted(
+        (int(found[1]), path.stem)
+        for path in _FOLDER.glob("beyond/b*.py")
+        if (found := _BEYOND.fullmatch(path.stem))
+    )
+    return {**printed, **{f"B{number}": f"beyond.{stem}" for number, stem in beyond}}
 
 
-def load(number: int) -> "Derivation":
+def paper() -> list[int]:
+    """The numbers of the paper's equations."""
+    return [number for number in modules() if isinstance(number, int)]
+
+
+def allowed() -> str:
+    """The numbers that there are, in words."""
+    own = [number for number in modules() if isinstance(number, str)]
+    further = f", or {own[0]} to {own[-1]}" if len(own) > 1 else f", or {own[0]}" if own else ""
+    return f"from {min(paper())} to {max(paper())}{further}"
+
+
+def load(number: Number) -> "Derivation":
     """The derivation of one equation."""
     module = import_module(f"force_diffusion.derivations.{modules()[number]}")
     derivation: Derivation = module.DERIVATION
@@ -33,7 +61,7 @@ def load(number: int) -> "Derivation":
 
 def with_premises(wanted: "Iterable[Derivation]") -> "list[Derivation]":
     """The derivations wanted and all that they rest on, premises first."""
-    ordered: dict[int, Derivation] = {}
+    ordered: dict[Number, Derivation] = {}
 
     def visit(derivation: "Derivation") -> None:
         if derivation.number not in ordered:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 import sympy
+from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.symbolic.kernel.decisions import (
     KernelError,
@@ -41,14 +42,14 @@ class Witness:
 
 @dataclass(frozen=True)
 class Derivation:
-    """One numbered equation of the paper: what is printed, why it holds, and how it is checked.
+    """One numbered equation: what is printed, why it holds, and how it is checked.
 
     ``steps`` and ``decide`` are functions so that importing a derivation proves nothing and
     costs nothing. ``decide`` rules on a candidate for the printed equations, one by one in
     ``printed``; it is the same procedure for the true equation and for its mutants.
     """
 
-    number: int
+    number: Number
     name: str
     title: str
     symbols: tuple[tuple[sympy.Basic, str], ...]

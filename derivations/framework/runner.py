@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from time import perf_counter
 
+from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome, Witness
 from force_diffusion.derivations.witnesses.draws import draw
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
@@ -78,7 +79,7 @@ def overall(checks: Iterable[Check], mutants: Iterable[Mutant] = ()) -> Verdict:
     return Verdict.PROVED
 
 
-def _open_premises(derivation: Derivation, known: Mapping[int, Verdict]) -> Iterator[Check]:
+def _open_premises(derivation: Derivation, known: Mapping[Number, Verdict]) -> Iterator[Check]:
     """What is derived from an equation is no better than that equation."""
     for premise in derivation.premises:
         verdict = known.get(premise.number, Verdict.PROVED)
@@ -88,7 +89,7 @@ def _open_premises(derivation: Derivation, known: Mapping[int, Verdict]) -> Iter
 
 
 def run(
-    derivation: Derivation, watch: Watch = _silent, known: Mapping[int, Verdict] | None = None
+    derivation: Derivation, watch: Watch = _silent, known: Mapping[Number, Verdict] | None = None
 ) -> Outcome:
     """Everything about one equation.
 
@@ -108,7 +109,7 @@ def run(
 
 def run_all(derivations: Iterable[Derivation], watch: Watch = _silent) -> Iterator[Outcome]:
     """Run derivations in their order, premises first, each with the verdicts found before."""
-    known: dict[int, Verdict] = {}
+    known: dict[Number, Verdict] = {}
     for derivation in derivations:
         outcome = run(derivation, watch, known)
         known[derivation.number] = outcome.verdict

@@ -62,7 +62,7 @@ class Truth:
     """Every lattice quantity of one packing, solved exactly under one set of loads."""
 
     def __init__(self, packing: SmallPacking, load: str):
-        """Solve a packing; ``load`` is "none", "single" (one bead) or "surface"."""
+        """Solve a packing; ``load`` is "none", "single" (one bead), "surface" or "tilted"."""
         from force_diffusion.numeric.mechanics import taylor
 
         self.packing = packing
@@ -70,6 +70,7 @@ class Truth:
             "none": {},
             "single": {packing.loaded: (Fraction(0), -packing.load)},
             "surface": packing.surface_load(),
+            "tilted": packing.tilted_load(),
         }[load]
         self.solved = taylor.solve(
             packing.width, packing.height, n=packing.n, rho=packing.rho, loads=self.loads, order=1
@@ -217,6 +218,13 @@ def each_contact(packing: SmallPacking) -> Iterator[Values]:
     """Yield lower beads (i, j) of the chosen contacts, with M and the load."""
     for across, layer in packing.contacts:
         yield {sy.i: across, sy.j: layer, sy.M: packing.height, sy.f_load: packing.load}
+
+
+def each_tilted(packing: SmallPacking) -> Iterator[Values]:
+    """Yield the same, with the components of the load that is not vertical."""
+    plus, minus = packing.components
+    for at in each_contact(packing):
+        yield {**at, sy.L_plus: plus, sy.L_minus: minus, sy.t: minus / plus}
 
 
 def loaded_bead(packing: SmallPacking) -> Iterator[Values]:

@@ -43,6 +43,17 @@ class SmallPacking:
             for across in range(parity, 2 * self.width, 2)
         }
 
+    @property
+    def components(self) -> tuple[Fraction, Fraction]:
+        """L⁺ and L⁻ of a load −(L⁺n⁺ + L⁻n⁻) that is not vertical."""
+        return self.load, self.load * Fraction(self.loaded[1], self.height + 1)
+
+    def tilted_load(self) -> dict[Site, tuple[Fraction, Fraction]]:
+        """Return that load on every bead of the surface, in Cartesian components."""
+        plus, minus = self.components
+        force = ((minus - plus) * self.n[0], -(plus + minus) * self.n[1])
+        return dict.fromkeys(self.surface_load(), force)
+
 
 def draw(seed: int) -> SmallPacking:
     """Draw a small packing, the same for the same seed."""

@@ -44,20 +44,26 @@ def zero_outside(packing: SmallPacking) -> Ruling:
 
 
 def weights_of_forces(
-    height: int, n: tuple[Fraction, Fraction], load: str
+    height: int,
+    n: tuple[Fraction, Fraction],
+    load: str,
+    *,
+    ratio: Fraction = Fraction(1),
+    branch: str = "+",
 ) -> list[dict[Site, Fraction]]:
-    """Exact first-order weights of f⁺_ij/⟨f⟩ for every layer j, from the exact packing.
+    """Exact first-order weights of f^±_ij/⟨f^±⟩ for every layer j, from the exact packing.
 
     One bead of each layer in turn is enlarged; by translation the response of every contact of a
-    layer is the weight of a bead at the opposite offset. ``load`` is "surface" or "bulk". Keys
-    are (offset i' − i, layer of the bead); the list is indexed by j.
+    layer is the weight of a bead at the opposite offset. ``load`` is "surface" or "bulk",
+    ``ratio`` is t = L⁻/L⁺. Keys are (offset i' − i, layer of the bead); the list is indexed by j.
     """
     from force_diffusion.numeric.mechanics import taylor
 
     width = height + 2
     carrying = range(1, height + 1) if load == "bulk" else (height,)
     loads = {
-        (across, layer): (Fraction(0), -2 * n[1])  # each gives an ordered force of one
+        # each adds 1 to the ordered f⁺ and t to f⁻ below it
+        (across, layer): ((ratio - 1) * n[0], -(1 + ratio) * n[1])
         for layer in carrying
         for across in range(layer % 2, 2 * width, 2)
     }
@@ -67,7 +73,7 @@ def weights_of_forces(
         solved = taylor.solve(width, height, n=n, rho=rho, loads=loads, order=1)
         for layer in range(height):
             for across in range(layer % 2, 2 * width, 2):
-                ordered, slope = solved.force(across, layer, "+")
+                ordered, slope = solved.force(across, layer, branch)
                 if slope:
                     offset = (source % 2 - across + width) % (2 * width) - width
                     weights[layer][offset, source] = slope / ordered
@@ -98,14 +104,25 @@ def dropped_weights(
 
 
 def variances(
-    forms: dict[str, ClosedForm], load: str, packing: SmallPacking, *, up_to: int = 4
+    forms: dict[str, ClosedForm],
+    load: str,
+    packing: SmallPacking,
+    *,
+    up_to: int = 4,
+    ratio: Fraction = Fraction(1),
+    branch: str = "+",
 ) -> Ruling:
-    """Exact closed forms against sums of squared weights of exact packings, all j < M ≤ up_to."""
-    values = {**explicit.geometry(*packing.n, Fraction(1)), sy.sigma: 1}
+    """Exact closed forms against sums of squared weights of exact packings, all j < M ≤ up_to.
+
+    ``ratio`` is t = L⁻/L⁺; for f⁻ the forms hold with 1/t in its place.
+    """
+    share = ratio if branch == "+" else 1 / ratio
+    values = {**explicit.geometry(*packing.n, Fraction(1)), sy.sigma: 1, sy.t: share}
 
     def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
         weights = {
-            height: weights_of_forces(height, packing.n, load) for height in range(1, up_to + 1)
+            height: weights_of_forces(height, packing.n, load, ratio=ratio, branch=branch)
+            for height in range(1, up_to + 1)
         }
         for height, layer, case in packings(up_to):
             closed = value_at(forms, height, layer, case)

@@ -11,6 +11,7 @@ from . import (
     chains,
     comparison,
     diffusion,
+    directions,
     distribution,
     notation,
     response,
@@ -135,6 +136,12 @@ FIGURES = {
     "chains": _Figure(
         "chains", "Force chains", lambda o: chains.contacts(o.seed, o.notice), chains.draw
     ),
+    "B2": _Figure(
+        "figureB2",
+        "Fluctuation of the forces under a load at an angle",
+        lambda o: directions.sweep(o.realisations or 400, o.seed, o.notice),
+        directions.draw,
+    ),
 }
 
 
@@ -158,12 +165,13 @@ def figure(
     >>> fd.figure(7)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
     ...
-    force_diffusion...NoSuchFigureError: there is no figure 7: give 1, 2, 3, 4, 'pf' or 'chains'
+    force_diffusion...NoSuchFigureError: there is no figure 7: give 1, 2, 3, 4, 'pf', 'chains'...
 
     Args:
-        name: 1 to 4 as in the paper, "pf" (density of the forces) or "chains" (force chains).
+        name: 1 to 4 as in the paper, "pf" (density of the forces), "chains" (force chains), or the
+            number of an equation beyond the paper that has a figure.
         heights: M of the packings of figure 3.
-        realisations: packings of each ensemble of figures 3, 4 and pf; ≥ 16.
+        realisations: packings of each ensemble of figures 3, 4, pf and B2; ≥ 16.
         seed: seed of all radii.
         beside: "q-model" (beside figure 3) or "double-y" (beside figure 4).
         notice: told what is made next.
@@ -176,7 +184,8 @@ def figure(
         MissingLibraryError: there is no matplotlib.
     """
     if str(name) not in FIGURES:
-        raise NoSuchFigureError(f"there is no figure {name}: give 1, 2, 3, 4, 'pf' or 'chains'")
+        *names, last = (key if key.isdigit() else repr(key) for key in FIGURES)
+        raise NoSuchFigureError(f"there is no figure {name}: give {', '.join(names)} or {last}")
     beside = (beside,) if isinstance(beside, str) else tuple(beside)
     for model in beside:
         if MODELS.get(model) != str(name):

@@ -66,7 +66,14 @@ GEOMETRIES = (
 )
 """Two rational lattices, with φ of either sign, on which counterexamples are looked for."""
 
-_OTHERS = {sy.sigma: Fraction(3, 7), sy.f_load: Fraction(11, 5), sy.m_g: Fraction(13, 9)}
+_OTHERS = {
+    sy.sigma: Fraction(3, 7),
+    sy.f_load: Fraction(11, 5),
+    sy.m_g: Fraction(13, 9),
+    sy.L_plus: Fraction(5, 3),
+    sy.L_minus: Fraction(7, 11),
+    sy.t: Fraction(21, 55),
+}
 
 
 def _samples(

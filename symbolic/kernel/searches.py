@@ -24,7 +24,7 @@ DIRECTIONS = tuple(
 )
 
 Place = Mapping[sympy.Symbol, Fraction]
-_OTHERS = {sy.sigma: Fraction(3, 7), sy.r: Fraction(7, 3)}
+_OTHERS = {sy.sigma: Fraction(3, 7), sy.r: Fraction(7, 3), sy.t: Fraction(21, 55)}
 
 
 def _geometries(candidate: sympy.Expr) -> Iterator[explicit.Values]:

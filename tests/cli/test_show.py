@@ -48,7 +48,7 @@ def test_sympy_is_not_imported(arguments: list[str]) -> None:
 def test_list_names_every_equation(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["list"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert [int(line.split()[0]) for line in lines] == NUMBERS
+    assert [line.split()[0] for line in lines] == [str(number) for number in NUMBERS]
     assert "surface_diffusion" in lines[12]
 
 
@@ -91,7 +91,7 @@ def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int, place: str
     arguments = [str(number), "--exact", "--at-j", place]
     source = shown(capsys, *arguments, "--as", "sympy")
     assert source.count("\n") == 1
-    known = {"M", "i", "j", "k", "l", "phi", "sigma", "r", "S", "Sum"}
+    known = {"M", "i", "j", "k", "l", "t", "phi", "sigma", "r", "S", "Sum"}
     assert set(re.findall(r"[A-Za-z_]+", source)) <= known
     assert sympy.expand(eval(source, names()) - form.expression) == 0
 
@@ -99,6 +99,7 @@ def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int, place: str
     exec(shown(capsys, *arguments, "--as", "python"), scope)
     (function,) = (value for name, value in scope.items() if name != "__builtins__")
     values: dict[str, int | Fraction] = {"M": 9, "i": 1, "j": 4, "k": 3, "l": 12}
+    values |= {"t": Fraction(5, 3)}
     values |= {"phi": Fraction(7, 25), "sigma": Fraction(1, 3), "r": Fraction(2)}
     code = function.__code__  # type: ignore[attr-defined]
     taken = code.co_varnames[: code.co_argcount]

@@ -32,7 +32,7 @@ WRONG = [
     (["show", "13", "--at-j", "base"], "--exact"),
     (["show", "13", "--exact", "--at-j", "top"], "'top' is not one of 'interior', 'base'"),
     (["show", "13", "--exact", "--at-j", "3"], "'3' is not one of"),
-    (["show", "12", "--exact"], "13, 14, 15 or 16 has"),
+    (["show", "12", "--exact"], "13, 14, 15, 16, B2"),
     (["show", "15", "--exact", "--case", "base"], "Use surface-load or bulk-load"),
     (["show", "16", "--exact", "--case", "cone"], "'cone' is not one of"),
     (["show", "13", "--exact", "--case", "leg"], "Use interior, base, base+1 or surface"),

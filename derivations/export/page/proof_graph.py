@@ -2,19 +2,20 @@
 
 from collections.abc import Mapping, Sequence
 
+from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.record import Outcome
 from markupsafe import Markup
 
 _COLUMN, _ROW, _RADIUS = 56, 64, 17
 
 
-def depths(premises: Mapping[int, Sequence[int]]) -> dict[int, int]:
+def depths(premises: Mapping[Number, Sequence[Number]]) -> dict[Number, int]:
     """Length of the longest chain of premises below each equation, given premises first.
 
     >>> depths({1: [], 2: [1], 3: [], 4: [2, 3]})
     {1: 0, 2: 1, 3: 0, 4: 2}
     """
-    found: dict[int, int] = {}
+    found: dict[Number, int] = {}
     for number, rests_on in premises.items():
         found[number] = 1 + max((found[one] for one in rests_on), default=-1)
     return found
@@ -23,7 +24,7 @@ def depths(premises: Mapping[int, Sequence[int]]) -> dict[int, int]:
 def proof_graph(outcomes: Sequence[Outcome]) -> Markup:
     """The graph; each node is a link to its equation."""
     premises = {o.derivation.number: [p.number for p in o.derivation.premises] for o in outcomes}
-    columns: dict[int, list[int]] = {}
+    columns: dict[int, list[Number]] = {}
     for number, depth in depths(premises).items():
         columns.setdefault(depth, []).append(number)
     places = {
@@ -32,8 +33,8 @@ def proof_graph(outcomes: Sequence[Outcome]) -> Markup:
         for row, number in enumerate(numbers)
     }
     curves = [
-        _curve(places[one], places[number], upwards=number % 2 == 0)
-        for number, rests_on in premises.items()
+        _curve(places[one], places[number], upwards=place % 2 == 1)
+        for place, (number, rests_on) in enumerate(premises.items())
         for one in rests_on
     ]
     nodes = []

@@ -13,7 +13,7 @@ SCENE = Path(__file__).with_name("small.toml")
 Notice = Callable[[str], None]
 """Told what is measured next."""
 
-REALISATIONS = {"3": 200, "4": 2000, "pf": 2000}
+REALISATIONS = {"3": 200, "4": 2000, "pf": 2000, "B2": 200}
 """Packings in each ensemble of a figure that draws ensembles."""
 
 _PACKINGS = {"1": "One packing.", "2": "No packing: closed forms.", "chains": "One packing."} | {
@@ -44,7 +44,7 @@ def figures_part(notice: Notice) -> Part:
         id="figures",
         title="The figures",
         words=(
-            "The paper’s four figures, drawn from exact packings, and two more. Those of ensembles "
+            "The paper’s four figures, drawn from exact packings, and more. Those of ensembles "
             "are made here of fewer packings than the command makes by default.",
         ),
         figures=tuple(figures),

@@ -47,7 +47,7 @@ def test_expr_and_rhs(eq: fd.Equation) -> None:
     lines = [eq.expr] if isinstance(eq.expr, sympy.Eq) else list(eq.expr)
     sides = list(eq.rhs) if isinstance(eq.rhs, sympy.Tuple) else [eq.rhs]
     assert [line.rhs for line in lines] == sides
-    assert len(lines) == (2 if eq.number in (7, 8, 15) else 1)
+    assert len(lines) == (2 if eq.number in (7, 8, 15, "B1", "B2", "B3") else 1)
 
 
 @every_equation
@@ -266,12 +266,12 @@ def test_a_layer_that_is_fixed_may_be_left_out() -> None:
 
 @pytest.mark.parametrize("number", [0, 17, -1, "13", 13.5, None, [13]])
 def test_no_such_equation(number: Any) -> None:
-    with pytest.raises(ForceDiffusionError, match="from 1 to 16"):
+    with pytest.raises(ForceDiffusionError, match="from 1 to 16, or B1 to B"):
         fd.equation(number)
 
 
 def test_no_such_exact_form() -> None:
-    with pytest.raises(ForceDiffusionError, match="13, 14, 15 or 16 has"):
+    with pytest.raises(ForceDiffusionError, match="13, 14, 15, 16, B2"):
         fd.equation(3).exact()
     with pytest.raises(ForceDiffusionError, match=r"'Interior'. Use interior, base, base\+1"):
         fd.equation(13).exact("Interior")

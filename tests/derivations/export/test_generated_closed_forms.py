@@ -164,3 +164,29 @@ def test_the_result_is_of_the_type_of_phi(form: Callable[..., Any], kind: Any) -
     assert type(found) is type(quarter)
     exact = form(10**9, 1, Fraction(1, 4), ONE, Fraction(2))
     assert float(found) == pytest.approx(float(exact), rel=1e-5)
+
+
+AT_ANGLE = {
+    "surface": closed_forms.surface_variance_at_angle,
+    "bulk": closed_forms.bulk_variance_at_angle,
+}
+
+
+@pytest.mark.parametrize("load", AT_ANGLE)
+@pytest.mark.parametrize("height", range(1, 8))
+@pytest.mark.parametrize("ratio", [Fraction(2, 3), Fraction(7, 2), Fraction(0)])
+def test_at_an_angle_it_is_that_of_exact_packings(load: str, height: int, ratio: Fraction) -> None:
+    n = DIRECTIONS[2]
+    phi = n[1] ** 2 - n[0] ** 2
+    for layer, weights in enumerate(weights_of_forces(height, n, load, ratio=ratio)):
+        total = sum((w**2 for w in weights.values()), Fraction(0))
+        assert AT_ANGLE[load](height, layer, ratio, phi, ONE, ONE) == total
+
+
+@pytest.mark.parametrize("load", AT_ANGLE)
+def test_straight_down_is_the_vertical_form(load: str) -> None:
+    for height in range(1, 9):
+        for layer in range(height):
+            at = height, layer
+            vertical = EXACT[load](*at, Fraction(2, 7), ONE, ONE)
+            assert AT_ANGLE[load](*at, ONE, Fraction(2, 7), ONE, ONE) == vertical

@@ -14,6 +14,7 @@ from force_diffusion.numeric.figures import (
     chains,
     comparison,
     diffusion,
+    directions,
     distribution,
     notation,
     packings,
@@ -261,3 +262,21 @@ def test_the_disorder_is_that_of_the_paper() -> None:
     assert float(plan.problem.radii.relative_std()) == PAPER_STD
     assert pytest.approx(1e-6 / 12, rel=1e-15) == PAPER_STD**2
     assert Fraction(3, 4) == N_X
+
+
+def test_figure_b2_finds_theory_within_the_band_and_a_wrong_one_outside() -> None:
+    found = directions.sweep(60, 1, silent)
+    assert found.deviation() <= 1
+    assert found.band.deviation(found.exact[::-1].ravel()) > 1  # the branches exchanged
+    assert found.band.deviation(found.exact.ravel() * 1.2) > 1
+    assert directions.ratio(0) == 1
+    assert directions.ratio(-20) == pytest.approx(1 / directions.ratio(20), rel=1e-14)
+    (rows,) = found.tables().values()
+    assert len(rows) == 2 * len(directions.ANGLES)
+
+
+def test_the_components_of_figure_b2_are_those_of_scenes() -> None:
+    for angle in directions.ANGLES:
+        load = LoadSpec("surface", 3, 6, Fraction(angle))
+        plus, minus = load.strength(N_X, FLOAT64).unit
+        assert float(minus / plus) == pytest.approx(directions.ratio(angle), rel=1e-14)

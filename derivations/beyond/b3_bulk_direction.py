@@ -1,0 +1,154 @@
+"""Eq. B3: variance of the contact forces under a bulk load in any direction."""
+
+from collections.abc import Iterator
+from functools import cache
+
+import sympy
+from force_diffusion.derivations import eq14_bulk_diffusion as eq14
+from force_diffusion.derivations.beyond import b1_any_direction as b1
+from force_diffusion.derivations.beyond.directions import (
+    UNIT,
+    VARIANCE_MINUS,
+    VARIANCE_PLUS,
+    decided,
+    height_is,
+    is_vertical,
+    searched,
+    witnessed,
+)
+from force_diffusion.derivations.framework.exact_cases import exact_cases, exact_steps
+from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step
+from force_diffusion.symbolic.algebra.exact import FIELD
+from force_diffusion.symbolic.as_printed import equation, power, terms, times
+from force_diffusion.symbolic.kernel.decisions import Ruling, from_test
+from force_diffusion.symbolic.symbols import ForcePlus, L_plus, M, i, j, l, phi, r, sigma, t, z
+from force_diffusion.symbolic.variances.orders import next_order_is, no_radius_dominates
+from force_diffusion.symbolic.variances.variance import ClosedForm, exact_variances
+
+
+def _printed(share: sympy.Expr) -> sympy.Expr:
+    return times(
+        3 * M**3 * share / (10 * (1 - phi**2) ** 2),
+        terms(1, -z) ** 2,
+        terms(times(4, z), 1),
+        power(times(sigma, 1 / r), 2),
+    )
+
+
+PRINTED = (
+    equation(VARIANCE_PLUS, _printed(t**2)),
+    equation(VARIANCE_MINUS, _printed(t**-2)),
+)
+
+
+def bulk_force() -> sympy.Expr:
+    """f⁺_ij over its ordered value (M − j) L⁺: Eq. B1 for a load on each layer above j."""
+    return sympy.Sum(b1.PRINTED[0].rhs.xreplace({M: l}), (l, j + 1, M)) / (M - j)
+
+
+@cache
+def exact_forms() -> dict[str, ClosedForm]:
+    """Exact variance of f⁺ over its mean squared at every layer, site by site."""
+    return exact_variances(b1.put_in_radii(bulk_force()))
+
+
+def at_finite_size() -> dict[str, ExactCase]:
+    """The exact forms for f⁺, case by case; those for f⁻ have 1/t in place of t."""
+    return exact_cases(VARIANCE_PLUS, exact_forms())
+
+
+def next_order() -> sympy.Expr:
+    """The M² term at fixed z, without (σ/r)²/(1−φ²)²."""
+    return t**2 * eq14.next_order()
+
+
+UNLOADED = phi**2 * (4 * j + phi**2) / 2 * UNIT
+"""Variance of f⁺ over its mean squared where only n⁺ is loaded, for j ≥ 1."""
+
+
+def steps() -> Iterator[Step]:
+    """Superpose the surface loads of all layers above the contact."""
+    yield Step(
+        "A load on layer l acts as the surface load of a packing of height l, as for Eq. 14. The "
+        "load −(L⁺n⁺ + L⁻n⁻) on every bead gives f⁺ the mean (M − j) L⁺, and over this mean the "
+        "average of Eq. B1 over the heights l = j+1, …, M:",
+        equation(
+            ForcePlus(i, j) / (L_plus * (M - j)),
+            times(1 / (M - j), sympy.Sum(b1.PRINTED[0].rhs.xreplace({M: l}), (l, j + 1, M))),
+        ),
+    )
+    yield Step(
+        "Every second difference comes with t for f⁺, with 1/t for f⁻: Eq. 14 times its square.",
+        sympy.Tuple(*PRINTED),
+    )
+    yield from exact_steps(VARIANCE_PLUS, exact_forms())
+    yield Step("The next order in M at fixed z, relative to (σ/r)²/(1−φ²)²:", next_order())
+
+
+def decide(part: int, candidate: sympy.Eq) -> Ruling:
+    """The exact variance less the candidate is of order M² at most."""
+    return decided(exact_forms(), part, candidate)
+
+
+def search(candidate: sympy.Eq) -> str | None:
+    """Values at growing M where the candidate and the exact variance part."""
+    return searched(exact_forms(), candidate)
+
+
+def _unloaded() -> Ruling:
+    found = exact_forms()["interior"].value.substitute({t: FIELD.zero})
+    return from_test(
+        (found - FIELD.from_sympy(UNLOADED)).is_zero(),
+        "for t = 0 the variance of f⁺ is φ²(4j + φ²)/2 (σ/r)²/(1−φ²)², as under a surface load",
+    )
+
+
+DERIVATION = Derivation(
+    number="B3",
+    name="bulk_direction",
+    title="Variance of the forces under a bulk load in any direction",
+    symbols=(
+        (t, "L⁻/L⁺ of the load −(L⁺n⁺ + L⁻n⁻) on every bead"),
+        (sigma, "standard deviation σ_δr of the radii"),
+        (r, "mean radius"),
+        (M, "height of the packing"),
+        (z, "relative height j/M"),
+        (phi, "n⁺·n⁻"),
+    ),
+    assumptions=(
+        "the radii are independent, of zero mean and variance σ²",
+        "first order in δr",
+        "every bead above the base carries the same load, whatever its radius; L⁺, L⁻ > 0",
+        "printed form: M → ∞ at fixed z and t; exact form, for f⁺: every 0 ≤ j < M. For f⁻ put "
+        "1/t in place of t",
+    ),
+    premises=(b1.DERIVATION, eq14.DERIVATION),
+    printed=PRINTED,
+    relation="∼",
+    exact=at_finite_size,
+    steps=steps,
+    decide=decide,
+    search=search,
+    claims=(
+        Claim("for t = 1 it is Eq. 14, exactly", lambda: is_vertical(exact_forms(), eq14)),
+        Claim(
+            "the next order in M",
+            lambda: next_order_is(exact_forms(), PRINTED[0].rhs, next_order()),
+        ),
+        Claim(
+            "no radius has more than O(1/M) of the variance, in any layer",
+            lambda: no_radius_dominates(b1.put_in_radii(bulk_force()), exact_forms()),
+        ),
+        Claim("as n⁻ is unloaded, f⁺ keeps the variance of its own tilt", _unloaded),
+        Claim(
+            "M* is that of a vertical load divided by t^(2/3) for f⁺ and by (1/t)^(2/3) for f⁻",
+            lambda: height_is(exact_forms(), sympy.Rational(1, 5)),
+        ),
+    ),
+    witnesses=witnessed("bulk", exact_forms),
+)
+
+if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
+    raise SystemExit(run_alone(DERIVATION))
