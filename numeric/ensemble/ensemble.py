@@ -51,7 +51,7 @@ def ensemble(
 
     Raises ``TypeError`` for what is no scene, ``ArgumentError``, ``SceneError``, ``StoreError`` for
     a file that can't serve, ``StoreFailedError`` where it can't be written, ``RealisationError``
-    for a packing that can't be built, and ``WorkersError``. What a store holds by then stays good.
+    where hardly one can be built, and ``WorkersError``. What a store holds by then stays good.
 
     >>> import force_diffusion as fd
     >>> scene = fd.Scene(
@@ -84,14 +84,19 @@ def ensemble(
     try:
         if path is not None:
             opened = open_store(path, ensemble_key(m))
-        return run(
+        found = run(
             m, size, executor, store=opened, rule=rule, confidence=confidence, progress=progress
         )
+        if opened is not None:
+            opened.check_it_is_there()
+        return found
     except WorkersError as error:
         raise WorkersError(f"{error}.{_kept(opened)}") from None
     except OSError as error:
         if path is None or error.filename != str(path):
             raise
+        if not path.exists():  # with all that was done
+            raise StoreFailedError(f"{path}: {error.strerror}: what it held is lost") from None
         raise StoreFailedError(
             f"{path} can't be written to ({error.strerror}): make room, or move it to another "
             f"place.{_kept(opened)}"

@@ -48,6 +48,11 @@ class Ensemble:
         return self.estimates.realisations
 
     @property
+    def unbuildable(self) -> int:
+        """Packings that were drawn and left out: a bead of them finds no rest."""
+        return self.estimates.sums.unbuildable
+
+    @property
     def samples(self) -> int:
         """Contacts of a group in all N packings; those of one packing are correlated."""
         return self.estimates.samples
@@ -169,6 +174,11 @@ class Ensemble:
         data: dict[str, Any] = {
             "ensemble": {
                 "realisations": self.realisations,
+                "unbuildable": self.unbuildable,
+                "unbuildable_share": self.unbuildable / self.estimates.sums.tried,
+                "first_unbuildable": self.estimates.sums.first_unbuildable
+                if self.unbuildable
+                else None,
                 "contacts_in_a_group": m.members,
                 "arithmetic": "float64, summed exactly",
             },
@@ -214,6 +224,12 @@ class Ensemble:
         data = self.data()
         lines = [f"{self.quantity}: {len(data['results'][self.quantity])} rows"]
         lines.append(f"{self.realisations} packings, {data['ensemble']['arithmetic']}")
+        if self.unbuildable:
+            lines.append(
+                f"{self.unbuildable} more, {data['ensemble']['unbuildable_share']:.2g} of all, "
+                "can't be built and are left out, the first of them realisation "
+                f"{data['ensemble']['first_unbuildable']}: what is said holds for the others"
+            )
         if math.isfinite(self.half_width):
             looks = f", looked at {self.looks} times" if self.looks else ""
             lines.append(

@@ -10,6 +10,7 @@ from .measure import Measurement
 from .result import Ensemble
 from .store import Block, Store, StoreError
 from .sums import Sums, none
+from .workers import refuse_unbuildable
 
 # Beads of a block, about: a second of work, of which a kill loses no more.
 BLOCK = 1_000_000
@@ -88,11 +89,12 @@ class _Run:
                 self.progress(self._done(), self.width)
                 if ended:
                     break
+        refuse_unbuildable(self.m, self.prefix)
         estimates = Estimates(self.m, self.prefix)
         reached = None
         look = self.look
         if self.rule is not None:
-            if self.prefix.realisations not in self.looks:
+            if self.prefix.tried not in self.looks:
                 look += 1  # the size itself is looked at last
             reached = estimates.half_width(self.confidence, look) <= self.rule.relative
         width = estimates.half_width(self.confidence, look if self.rule is not None else 0)
@@ -138,8 +140,8 @@ class _Run:
 
     def _advance(self) -> bool:
         """Take in what follows without a gap, cut by cut; say whether the ensemble is finished."""
-        while self.prefix.realisations < self.size:
-            at = self.prefix.realisations
+        while self.prefix.tried < self.size:
+            at = self.prefix.tried
             cut = self.cuts[bisect_left(self.cuts, at + 1)]
             between = [block for block in self.blocks if at <= block.first < cut]
             if sum(block.stop - block.first for block in between) < cut - at:

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from time import sleep
 from typing import Any
 
 from ..arithmetic.errors import ForceDiffusionError, NotReachedError
@@ -19,7 +20,9 @@ from .measure import Measurement
 from .scene_key import differences
 from .sums import Sums, from_bytes
 
-APPLICATION, SCHEMA = 0x46444546, 1  # "FDEF"
+APPLICATION, SCHEMA = 0x46444546, 2  # "FDEF"
+# Looks at a store that is being written to, and seconds between them.
+LOOKS, PAUSE = 20, 0.05
 _MAGIC = b"SQLite format 3\x00"
 _TABLES = (
     "CREATE TABLE about (name TEXT PRIMARY KEY, content TEXT NOT NULL, checksum TEXT NOT NULL)",
@@ -32,8 +35,21 @@ class StoreError(ForceDiffusionError, ValueError):
     """A file can't serve as the store of an ensemble: the message says why, and what to do."""
 
 
+class StoreInUseError(StoreError):
+    """Another run works on the file of an ensemble."""
+
+
 class StoreFailedError(NotReachedError):
     """The file of an ensemble can't be written to: the message says why, and what it holds."""
+
+
+def _identity(path: Path) -> tuple[int, int] | None:
+    """Say which file a name stands for now."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
 
 
 @dataclass(frozen=True)
@@ -60,6 +76,7 @@ class Store:
         """Take an open database that was checked."""
         self.path, self.about = path, about
         self._database = database
+        self._file = _identity(path)
 
     def blocks(self, m: Measurement) -> list[Block]:
         """Read and check all sums, in the order of their realisations. Raises ``StoreError``."""
@@ -67,7 +84,7 @@ class Store:
         for first, stop, content in self._rows():
             try:
                 sums = from_bytes(content, m)
-                if sums.realisations != stop - first:
+                if sums.tried != stop - first:
                     raise ValueError("it holds more or fewer realisations than it says")
             except ValueError as error:
                 raise _damaged(self.path, str(error)) from None
@@ -112,8 +129,14 @@ class Store:
                 (block.first, block.stop, content, checksum),
             )
 
+    def check_it_is_there(self) -> None:
+        """Raise ``OSError`` where the file was deleted or replaced since it was opened."""
+        if _identity(self.path) != self._file:
+            raise OSError(None, "it was deleted or replaced meanwhile", str(self.path))
+
     @contextmanager
     def _transaction(self) -> Iterator[None]:
+        self.check_it_is_there()
         try:
             self._database.execute("BEGIN IMMEDIATE")
             yield
@@ -135,6 +158,8 @@ def open_store(path: Path, key: dict[str, Any] | None) -> Store:
 
     Raises ``StoreError`` for a file that is damaged, of another kind, scene or version, or in use.
     """
+    if str(path) == ":memory:":
+        raise StoreError(f"{path} would be kept nowhere: give the name of a file")
     new = _looked_at(path, may_be_new=key is not None)
     with _reading(path):
         database = sqlite3.connect(path, timeout=0, isolation_level=None)
@@ -158,16 +183,18 @@ class StoreContent:
     """What the store of an ensemble holds; every block of it has been checked.
 
     Attributes:
-        realisations: packings in all.
+        realisations: packings in all, those that could not be built included.
         ranges: of the packings' numbers, (first, stop).
         sizes_asked_for: numbers of realisations that have been asked for.
         ensemble: the scene's sections that set the ensemble, as a scene file has them.
+        in_use: whether a run works on it now; then this is what it held a moment ago.
     """
 
     realisations: int
     ranges: tuple[tuple[int, int], ...]
     sizes_asked_for: tuple[int, ...]
     ensemble: dict[str, Any]
+    in_use: bool = False
 
     def data(self) -> dict[str, Any]:
         """What JSON can hold."""
@@ -175,7 +202,7 @@ class StoreContent:
 
     def __str__(self) -> str:
         lines = [
-            f"{self.realisations} realisations",
+            f"{self.realisations} realisations{', and a run works on it' if self.in_use else ''}",
             f"sizes asked for: {', '.join(map(str, self.sizes_asked_for))}",
         ]
         for section, keys in self.ensemble.items():
@@ -196,15 +223,38 @@ def read_store(path: str | Path) -> StoreContent:
     force_diffusion...StoreError: nowhere.sqlite: there is no such store
 
     Raises:
-        StoreError: there is no such file, or it is damaged, of another kind or version, or in use.
+        StoreError: there is no such file, or it is damaged, or of another kind or version.
     """
-    opened = open_store(Path(path), None)
+    try:
+        return _content(open_store(Path(path), None), in_use=False)
+    except StoreInUseError:
+        pass
+    for _ in range(LOOKS):  # between two transactions the file is whole
+        with suppress(StoreError):
+            return _content(_peeked(Path(path)), in_use=True)
+        sleep(PAUSE)
+    return _content(_peeked(Path(path)), in_use=True)
+
+
+def _content(opened: Store, *, in_use: bool) -> StoreContent:
     try:
         ranges = tuple((first, stop) for first, stop in opened.ranges())
     finally:
         opened.close()
     total = sum(stop - first for first, stop in ranges)
-    return StoreContent(total, ranges, tuple(opened.about.ends), opened.about.key)
+    return StoreContent(total, ranges, tuple(opened.about.ends), opened.about.key, in_use)
+
+
+def _peeked(path: Path) -> Store:
+    """Open a store that another run has locked, to read it as it is; all of it is checked."""
+    with _reading(path):
+        uri = f"{path.absolute().as_uri()}?immutable=1"
+        database = sqlite3.connect(uri, uri=True, isolation_level=None)
+    try:
+        return Store(path, database, _checked(path, database, None))
+    except BaseException:
+        database.close()
+        raise
 
 
 def _looked_at(path: Path, *, may_be_new: bool) -> bool:
@@ -236,7 +286,7 @@ def _reading(path: Path) -> Iterator[None]:
     except sqlite3.Error as error:
         code = (getattr(error, "sqlite_errorcode", None) or 0) & 0xFF
         if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
-            raise StoreError(
+            raise StoreInUseError(
                 f"{path} is in use: another run works on it. Wait for its end, or give another name"
             ) from None
         if code in (sqlite3.SQLITE_CANTOPEN, sqlite3.SQLITE_READONLY, sqlite3.SQLITE_PERM):
@@ -288,6 +338,11 @@ def _checked(path: Path, database: sqlite3.Connection, key: dict[str, Any] | Non
         raise _damaged(path, "it does not say what it holds")
     about = About(found["ensemble"], tuple(found["ends"]))
     if key is not None and about.key != key:
+        if not database.execute("SELECT count(*) FROM sums").fetchone()[0]:
+            about = About(key, ())  # of a run that failed before it had anything to keep
+            with database:
+                _write_about(database, about)
+            return about
         raise StoreError(
             f"{path} holds another ensemble: {differences(about.key, key)}. "
             "Give another name for this one"

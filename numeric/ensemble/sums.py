@@ -27,7 +27,7 @@ from ..statistics.exact_sum import (
 )
 from .measure import Measurement
 
-_COUNT = struct.Struct("<q")
+_COUNTS = struct.Struct("<3q")
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +38,8 @@ class Sums:
     Σ a², Σ ab, Σ b²; ``pairs`` (V (V + 1)/2,): Σ x_s x_t for s ≤ t, where x are the b of a profile
     and else the a. a is in units of 2^unit, b in 4^unit. ``tensile`` (G,): contacts that pull.
     ``bins`` (2, B + 2): counts, and their squares, which lie below, in and above the bins.
+    ``unbuildable`` packings more were left out, since no forces can hold them or no bead rests;
+    ``first_unbuildable`` is the lowest number of one, −1 where there is none.
     """
 
     realisations: int
@@ -48,6 +50,13 @@ class Sums:
     pairs: ExactSum
     tensile: Array
     bins: Array
+    unbuildable: int = 0
+    first_unbuildable: int = -1
+
+    @property
+    def tried(self) -> int:
+        """Packings that were summed up or left out."""
+        return self.realisations + self.unbuildable
 
     def __add__(self, other: "Sums") -> "Sums":
         """Merge the sums of other realisations."""
@@ -60,14 +69,17 @@ class Sums:
             self.pairs + other.pairs,
             self.tensile + other.tensile,
             self.bins + other.bins,
-        )
+            self.unbuildable + other.unbuildable,
+            min(filter(lambda k: k >= 0, (self.first_unbuildable, other.first_unbuildable)),
+                default=-1),
+        )  # fmt: skip
 
     def to_bytes(self) -> bytes:
         """Write as bytes; equal sums give equal bytes."""
         counts = np.concatenate([self.tensile, self.bins.reshape(-1)]).astype("<i8")
         exact = (self.change, self.square, self.means, self.products, self.pairs)
-        parts = [_COUNT.pack(self.realisations), counts.tobytes(), *(s.to_bytes() for s in exact)]
-        return b"".join(parts)
+        head = _COUNTS.pack(self.realisations, self.unbuildable, self.first_unbuildable)
+        return b"".join([head, counts.tobytes(), *(s.to_bytes() for s in exact)])
 
 
 def _shapes(m: Measurement) -> list[tuple[int, ...]]:
@@ -89,12 +101,12 @@ def none(m: Measurement) -> Sums:
 def from_bytes(content: bytes, m: Measurement) -> Sums:
     """Read what ``to_bytes`` wrote. Raises ``ValueError`` where it is nothing of the kind."""
     counts = m.groups + 2 * _bins(m)
-    at = _COUNT.size + 8 * counts
+    at = _COUNTS.size + 8 * counts
     if len(content) < at:
         raise ValueError("sums end early")
-    (realisations,) = _COUNT.unpack_from(content)
-    whole = np.frombuffer(content[_COUNT.size : at], "<i8").astype(np.int64)
-    if realisations < 0 or (whole < 0).any():
+    realisations, unbuildable, first = _COUNTS.unpack_from(content)
+    whole = np.frombuffer(content[_COUNTS.size : at], "<i8").astype(np.int64)
+    if realisations < 0 or unbuildable < 0 or (first < 0) != (not unbuildable) or (whole < 0).any():
         raise ValueError("sums count less than nothing")
     exact = []
     view = memoryview(content)
@@ -106,7 +118,9 @@ def from_bytes(content: bytes, m: Measurement) -> Sums:
         raise ValueError("sums go on after their end")
     change, square, means, products, pairs = exact
     tensile, bins = whole[: m.groups], whole[m.groups :].reshape(2, -1)
-    return Sums(realisations, change, square, means, products, pairs, tensile, bins)
+    return Sums(
+        realisations, change, square, means, products, pairs, tensile, bins, unbuildable, first
+    )
 
 
 def measured(m: Measurement, realisations: Sequence[int], work: Work | None = None) -> Sums:

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from multiprocessing import active_children, connection, get_context, parent_process
 
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
@@ -14,7 +14,7 @@ from ..disorder.radii import RadiusError
 from ..mechanics.forces import NotStandingError
 from ..mechanics.packing import UnbuildableError
 from .measure import Measurement
-from .sums import Sums, from_bytes, measured
+from .sums import Sums, from_bytes, measured, none
 
 # Pools in a row that may die without finishing anything.
 PATIENCE = 3
@@ -22,7 +22,7 @@ _TROUBLE = (UnbuildableError, NotStandingError, RadiusError)
 
 
 class RealisationError(ForceDiffusionError, ValueError):
-    """A realisation can't be solved; the message says which, and why."""
+    """Hardly a realisation can be built; the message says which can't, and why."""
 
 
 class WorkersError(ForceDiffusionError, RuntimeError):
@@ -32,17 +32,34 @@ class WorkersError(ForceDiffusionError, RuntimeError):
 
 
 def solve_block(m: Measurement, first: int, stop: int) -> bytes:
-    """Sum up realisations first … stop − 1. Raises ``RealisationError``."""
+    """Sum up realisations first … stop − 1; those that can't be built are left out and counted."""
+    return _without_unbuildable(m, first, stop).to_bytes()
+
+
+def _without_unbuildable(m: Measurement, first: int, stop: int) -> Sums:
+    """Find them by halving: sums merge exactly, however they were cut."""
     try:
-        return measured(m, range(first, stop)).to_bytes()
+        return measured(m, range(first, stop))
+    except _TROUBLE:
+        if stop - first == 1:
+            return replace(none(m), unbuildable=1, first_unbuildable=first)
+    middle = (first + stop) // 2
+    return _without_unbuildable(m, first, middle) + _without_unbuildable(m, middle, stop)
+
+
+def refuse_unbuildable(m: Measurement, sums: Sums) -> None:
+    """Raise ``RealisationError`` where no two packings are left, and say why one can't be built."""
+    if sums.realisations >= 2:
+        return
+    first, why = sums.first_unbuildable, ""
+    try:
+        measured(m, [first])
     except _TROUBLE as error:
-        for k in range(first, stop):
-            try:
-                measured(m, [k])
-            except _TROUBLE as own:
-                # of one argument: the errors of the sweeps could not be sent between processes
-                raise RealisationError(f"realisation {k}: {own}") from None
-        raise RealisationError(str(error)) from None
+        why = str(error)
+    raise RealisationError(
+        f"{sums.unbuildable} of {sums.tried} packings can't be built, and statistics need two: "
+        f"realisation {first}: {why}"
+    )
 
 
 class InProcess:

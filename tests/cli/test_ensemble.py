@@ -138,10 +138,15 @@ def test_scenes_without_an_ensemble(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert status == 2
     assert 'ask.quantity = "base_reactions"' in err
     path = tmp_path / "wild.toml"
-    path.write_text(SMALL.replace('"uniform", relative_std = 1e-4', '"normal", relative_std = 0.4'))
+    path.write_text(SMALL.replace('"uniform", relative_std = 1e-4', '"normal", relative_std = 9'))
     status, _, err = call(capsys, path)
     assert status == 2
-    assert "wild.toml: realisation" in err
+    assert "wild.toml: 40 of 40 packings can't be built" in err
+    assert "realisation 0: bead (" in err
+    path.write_text(SMALL.replace('"uniform", relative_std = 1e-4', '"normal", relative_std = 0.2'))
+    status, out, _ = call(capsys, path)
+    assert status == 0
+    assert "can't be built and are left out, the first of them realisation" in out
     assert main(["ensemble-status", str(tmp_path / "none")]) == 2
 
 

@@ -50,7 +50,7 @@ def test_a_worker_is_killed_in_the_middle(local: Any, monkeypatch: pytest.Monkey
 
 
 def test_what_a_worker_finds_wrong_is_told(local: Any) -> None:
-    wild = case("profile", kind="normal", relative_std="=0.25")
+    wild = case("profile", kind="normal", relative_std="=0.4")
     with pytest.raises(RealisationError, match=r"realisation \d+: bead \("):
         run.run(wild, 60, Cluster(local.scheduler_address))
 

@@ -2,10 +2,12 @@
 
 import random
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.disorder.radii import RadiusError
 from force_diffusion.numeric.ensemble import run, workers
 from force_diffusion.numeric.ensemble.measure import Measurement
 from force_diffusion.numeric.ensemble.result import Ensemble
@@ -14,6 +16,8 @@ from force_diffusion.numeric.ensemble.scene_key import ensemble_key
 from force_diffusion.numeric.ensemble.store import Block, Store, StoreError, open_store
 from force_diffusion.numeric.ensemble.sums import Sums, measured
 from force_diffusion.numeric.ensemble.workers import InProcess, Pool, RealisationError, WorkersError
+from force_diffusion.numeric.mechanics.forces import NotStandingError
+from force_diffusion.numeric.mechanics.packing import UnbuildableError
 from force_diffusion.numeric.statistics.confidence import Rule
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -195,12 +199,39 @@ def test_a_rule_that_is_not_met() -> None:
     assert fixed.half_width < found.half_width
 
 
-def test_a_packing_that_can_not_be_built_is_named() -> None:
-    wild = case("profile", kind="normal", relative_std="=0.25")
-    with pytest.raises(RealisationError, match=r"realisation \d+: bead \("):
+def test_packings_that_can_not_be_built_are_left_out_and_counted() -> None:
+    wild = case("profile", kind="normal", relative_std="=0.16")
+    bad = []
+    for k in range(60):
+        try:
+            measured(wild, [k])
+        except (UnbuildableError, RadiusError, NotStandingError):
+            bad.append(k)
+    assert 5 < len(bad) < 55
+    good = [k for k in range(60) if k not in bad]
+    for executor in (InProcess(), Pool(1)):
+        sums = run.run(wild, 60, executor).estimates.sums
+        assert (sums.realisations, sums.unbuildable, sums.tried) == (len(good), len(bad), 60)
+        assert sums.first_unbuildable == bad[0]
+        assert replace(sums, unbuildable=0, first_unbuildable=-1).to_bytes() == (
+            measured(wild, good).to_bytes()
+        )
+
+
+def test_where_hardly_a_packing_can_be_built_one_is_named() -> None:
+    wild = case("profile", kind="normal", relative_std="=0.4")
+    with pytest.raises(RealisationError, match=r"60 of 60 .* realisation 0: bead \("):
         run.run(wild, 60, InProcess())
-    with pytest.raises(RealisationError, match=r"realisation \d+: bead \("):
-        run.run(wild, 60, Pool(1))
+
+
+def test_a_store_remembers_what_could_not_be_built(tmp_path: Path) -> None:
+    wild = case("profile", kind="normal", relative_std="=0.16")
+    whole = run.run(wild, 60, InProcess()).estimates.sums
+    path = tmp_path / "ensemble.fd"
+    for size in (20, 60):
+        found = on_file(path, wild, size, InProcess())
+    assert found.solved == 40
+    assert found.estimates.sums.to_bytes() == whole.to_bytes()
 
 
 @pytest.mark.parametrize("name", CASES)

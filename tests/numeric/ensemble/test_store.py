@@ -5,19 +5,29 @@ import signal
 import sqlite3
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.numeric.ensemble.measure import Measurement
 from force_diffusion.numeric.ensemble.run import run
 from force_diffusion.numeric.ensemble.scene_key import ensemble_key
-from force_diffusion.numeric.ensemble.store import StoreError, open_store
-from force_diffusion.numeric.ensemble.sums import measured
-from force_diffusion.numeric.ensemble.workers import InProcess
+from force_diffusion.numeric.ensemble.store import (
+    StoreError,
+    StoreFailedError,
+    open_store,
+    read_store,
+)
+from force_diffusion.numeric.ensemble.sums import Sums, measured
+from force_diffusion.numeric.ensemble.workers import InProcess, RealisationError
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.numeric.ensemble.cases import case
+import force_diffusion as fd
+from tests.numeric.ensemble.cases import PROFILE, case
 from tests.numeric.ensemble.test_run import on_file
+from tests.numeric.scenes import scene
 
 ROOT = Path(__file__).parents[3]
 M = case("profile")
@@ -106,7 +116,7 @@ def changed(path: Path, *statements: str) -> None:
 @pytest.mark.parametrize(
     ("statement", "says"),
     [
-        ("PRAGMA user_version = 2", "layout 2 of another version"),
+        ("PRAGMA user_version = 3", "layout 3 of another version"),
         ("DELETE FROM about WHERE name = 'ends'", "does not say"),
         ("UPDATE about SET content = '[7]' WHERE name = 'ends'", "checksum"),
         ("UPDATE sums SET stop = 31 WHERE first = 0", "checksum"),
@@ -177,7 +187,7 @@ def test_a_second_process_is_refused_while_one_works(tmp_path: Path) -> None:
         [sys.executable, "-c", program, str(path)],
         cwd=ROOT, capture_output=True, text=True, check=False,
     )  # fmt: skip
-    assert "StoreError" in done.stderr
+    assert "StoreInUseError" in done.stderr
     assert "in use" in done.stderr
     mine.close()
     open_store(path, KEY).close()
@@ -267,3 +277,56 @@ def held_by(path: Path) -> int:
     copy.unlink()
     Path(f"{copy}-journal").unlink(missing_ok=True)
     return sum(stop - first for first, stop in ranges)
+
+
+class Failing:
+    def results(
+        self, m: Measurement, tasks: Iterator[tuple[int, int]]
+    ) -> Iterator[tuple[int, int, Sums]]:
+        raise RealisationError("none can be built")
+
+
+def test_a_store_that_holds_nothing_serves_the_next_scene(tmp_path: Path) -> None:
+    path = tmp_path / "ensemble.fd"
+    wild = case("profile", kind="normal", relative_std="=0.9")
+    with pytest.raises(ForceDiffusionError):
+        on_file(path, wild, SIZE, Failing())
+    assert on_file(path, M, SIZE, InProcess()).estimates.sums.to_bytes() == WHOLE
+    assert read_store(path).ensemble == KEY
+
+
+def test_a_running_store_can_be_looked_at(tmp_path: Path) -> None:
+    path = tmp_path / "ensemble.fd"
+    on_file(path, M, SIZE, InProcess())
+    running = open_store(path, KEY)
+    try:
+        found = read_store(path)
+        assert (found.in_use, found.realisations) == (True, SIZE)
+        assert "a run works on it" in str(found)
+        with pytest.raises(StoreError, match="in use"):
+            open_store(path, KEY)
+    finally:
+        running.close()
+    assert not read_store(path).in_use
+
+
+@pytest.mark.parametrize("how", ["deleted", "replaced"])
+def test_a_store_that_vanishes_is_told(how: str, tmp_path: Path) -> None:
+    path = tmp_path / "ensemble.fd"
+    done = []
+
+    def vanish(count: int, width: float | None) -> None:
+        done.append(count)
+        if count == 300:  # after the last block
+            path.unlink()
+            if how == "replaced":
+                path.write_bytes(b"")
+
+    with pytest.raises(StoreFailedError, match="deleted or replaced"):
+        fd.ensemble(scene(PROFILE), 300, store=path, progress=vanish)
+    assert done[-1] == 300
+
+
+def test_a_store_in_memory_is_none() -> None:
+    with pytest.raises(StoreError, match="name of a file"):
+        fd.ensemble(scene(PROFILE), 30, store=":memory:")
