@@ -9,10 +9,9 @@ import flint
 
 from ..arithmetic.decimals import short
 from ..arithmetic.errors import UndecidedError
-from ..arithmetic.systems import Balls, midpoint
+from ..arithmetic.systems import MOST_BITS, Balls, midpoint
 from ..mechanics.forces import NotStandingError
 from ..mechanics.work import Work
-from ..planning.budget import MOST_BITS
 from ..planning.expected_error import initial_bits
 from ..planning.plan import CERTIFY, Plan
 from ..quantities.answer import Answer, answer

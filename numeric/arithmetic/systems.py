@@ -246,6 +246,10 @@ class BigFloat:
         yield
 
 
+# No balls of more bits are tried: what they leave open stays open.
+MOST_BITS = 8192
+
+
 @dataclass(frozen=True)
 class Balls:
     """Arb balls: every operation gives a rigorous enclosure, at ``bits`` of working precision."""

@@ -11,6 +11,7 @@ import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -162,12 +163,21 @@ class MeasuredRadii:
 
     def relative_std(self) -> Fraction:
         """Give the root of the measured mean square of δr/r, to 15 digits; 0 only if all are 0."""
+        return self._relative_std
+
+    @cached_property  # a plan asks for it again and again
+    def _relative_std(self) -> Fraction:
         values = [v for v in self.rho.values() if v]
         if not values:
             return Fraction(0)
         largest = max(map(abs, values))
         square = math.fsum(float(v / largest) ** 2 for v in values) / len(self.rho)
         return largest * Fraction(math.sqrt(square))
+
+    @cached_property
+    def least(self) -> Fraction:
+        """The smallest |δr|/r that is not 0; 0 if all are 0."""
+        return min((abs(v) for v in self.rho.values() if v), default=Fraction(0))
 
     def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
         """Look the radii up; a bead that the file lacks raises ``RadiusError``."""
@@ -199,6 +209,10 @@ class ArrayRadii:
 
     def relative_std(self) -> Fraction:
         """Give the root of the mean square of δr/r; 0 only if all are 0."""
+        return self._relative_std
+
+    @cached_property
+    def _relative_std(self) -> Fraction:
         deltas = (self.values - float(self.origin)) / float(self.radius)
         largest = float(np.abs(deltas).max(initial=0))
         if not largest:

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
-from ..arithmetic.systems import Array, NumberSystem, zeros
+from ..arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem, zeros
 from ..lattice.branch import Branch, Contact, PerBranch
 from ..lattice.layers import Layer, pick
 from .packing import SolvedPacking
@@ -140,14 +140,15 @@ def first_tension(
     """Name the leftmost contact (i, j, branch) below ``layer`` that surely pulls, or None.
 
     ``plus`` and ``minus`` are pairs (force, change). Raises ``UndecidedError`` where balls leave a
-    sign open; what floats leave open counts as holding.
+    sign open; what floats leave open counts as holding, and what balls of the most bits do: a force
+    that is exactly zero has no sign.
     """
     for (force, change), branch in ((plus, Branch.PLUS), (minus, Branch.MINUS)):
         pulls, undecided = pulling(force, change, system)
         if pulls.any():
             q = int(np.argwhere(pulls)[0][-1])
             return Contact(layer.first + 2 * q - branch.side, layer.j - 1, branch)
-        if undecided.any() and system.dtype is object:
+        if undecided.any() and isinstance(system, Balls) and system.bits < MOST_BITS:
             raise UndecidedError(f"layer {layer.j}: balls are too wide for the sign of a force")
     return None
 

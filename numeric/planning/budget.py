@@ -8,8 +8,6 @@ from ..scene.sections import SceneError
 # the plan; measured, rounded up. The rest is the interpreter with its libraries.
 FLOAT_BEAD, BALL_BEAD, ANSWER_ROW, FILE_LINE, PLAN_LAYER = 450, 2200, 1700, 600, 900
 INTERPRETER = 100_000_000
-# No arithmetic of more bits is tried.
-MOST_BITS = 8192
 LONGEST = 24 * 3600.0
 
 

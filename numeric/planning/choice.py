@@ -15,6 +15,7 @@ from ..arithmetic.decimals import short
 from ..arithmetic.systems import (
     FLOAT64,
     LONGDOUBLE,
+    MOST_BITS,
     Balls,
     BigFloat,
     NumberSystem,
@@ -22,7 +23,6 @@ from ..arithmetic.systems import (
 from ..mechanics.problem import Problem, Route
 from ..scene.sections import SceneError
 from ..theory.critical_height import critical_height
-from . import budget
 from .expected_error import expected, initial_bits, usual_units
 from .outline import Outline
 from .plan import Candidate, Choice, Method, Plan
@@ -144,8 +144,8 @@ def _why_not(
         return "balls of as many digits take less time, and certify"
     if problem.stop_at_tension:
         return "where the sweep stops hangs on the signs of forces, which only balls decide"
-    if method.system.bits > budget.MOST_BITS:
-        return f"{budget.MOST_BITS} bits are the most"
+    if method.system.bits > MOST_BITS:
+        return f"{MOST_BITS} bits are the most"
     highest = critical_height(problem.radii.relative_std())
     if problem.route == Route.EXACT and problem.height > highest * SOUND:
         return f"the height is above M*/2 = {highest / 2:.3g}, where rounding errors grow with it"

@@ -24,7 +24,7 @@ def check(scene: Scene, radii: Radii, load: LoadSpec) -> None:
     disorder = radii.relative_std()
     if isinstance(radii, MeasuredRadii):
         assert scene.disorder is not None
-        disorder = min((abs(v) for v in radii.rho.values() if v), default=Fraction(0))
+        disorder = radii.least
         if disorder and disorder < LEAST:
             raise SceneError(
                 "disorder.file",

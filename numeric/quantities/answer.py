@@ -5,12 +5,18 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..arithmetic.systems import NumberSystem
+from ..disorder.radii import ArrayRadii, RadiusError
 from ..lattice.branch import Contact
-from ..mechanics.engine import packings
+from ..mechanics.engine import chunk_size, packings
+from ..mechanics.forces import NotStandingError
+from ..mechanics.packing import UnbuildableError
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route
 from ..mechanics.work import Work
 from .base import Quantity, Table
+
+# What the sweeps raise for a packing that can't be built.
+UNBUILDABLE = (UnbuildableError, NotStandingError, RadiusError)
 
 
 @dataclass(frozen=True)
@@ -48,10 +54,37 @@ def answer(
     with system.active():
         gatherer = quantity.gatherer(problem, system)
         solved_all = packings(problem, realisations, system, work, physical, plainly=plainly)
-        for solved, chunk in solved_all:
-            if solved.forces is not None and stopped is None:
-                stopped = solved.forces.stopped
-            gatherer.add(solved, chunk)
+        done = 0
+        try:
+            for solved, chunk in solved_all:
+                if solved.forces is not None and stopped is None:
+                    stopped = solved.forces.stopped
+                gatherer.add(solved, chunk)
+                done += len(chunk)
+        except UNBUILDABLE as error:
+            if len(realisations) > 1:
+                error.add_note(_which(problem, realisations[done:], system, plainly))
+            raise
         table = gatherer.table()
         bins = None if work.repeating else quantity.bins_of(table, system)
-    return Answer(table, bins, physical, stopped)
+    if physical is not None and physical.first_tensile is not None:
+        physical.first_tensile = _at_home(quantity, physical.first_tensile)
+    return Answer(table, bins, physical, None if stopped is None else _at_home(quantity, stopped))
+
+
+def _at_home(quantity: Quantity, contact: Contact) -> Contact:
+    """Name a contact by the column within the period, as rows do."""
+    return contact._replace(i=quantity.home(contact.i))
+
+
+def _which(
+    problem: Problem, realisations: Sequence[int], system: NumberSystem, plainly: bool
+) -> str:
+    """Name the first packing that can't be built, of those that were solved together."""
+    word = "packing" if isinstance(problem.radii, ArrayRadii) else "realisation"
+    for k in realisations[: chunk_size(problem, system)]:
+        try:
+            list(packings(problem, [k], system, plainly=plainly))
+        except UNBUILDABLE:
+            return f"{word} {k}"
+    return f"of {word}s {realisations[0]} on"

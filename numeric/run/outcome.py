@@ -175,26 +175,55 @@ def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     """Say whether an exact packing is one that beads could make."""
     highest = critical_height(plan.problem.radii.relative_std())
     pulls = found.tensile + found.undecided_signs
+    problem = plan.problem
+    width, height = problem.width, problem.height
+    whole = (
+        width is not None
+        and problem.region.beads == width * (height + 1)
+        and found.contacts == 2 * width * height * problem.realisations
+    )
     data: dict[str, Any] = {
         "physical": found.sound,
+        "whole": whole,
         "smallest_gap": found.smallest_gap,
         "smallest_gap_between": None if found.between is None else [list(s) for s in found.between],
         "overlaps": found.overlaps,
         "tensile_contacts": found.tensile if found.forces_known else None,
         "undecided": found.undecided_gaps + found.undecided_signs,
         "contacts": found.contacts if found.forces_known else None,
-        "height": plan.problem.height,
+        "height": height,
         "critical_height": highest if math.isfinite(highest) else None,
     }
-    if pulls and plan.problem.load.loaded is not None:
+    loaded = problem.load.loaded
+    if pulls and loaded is not None and (width is None or len(loaded) < width):
         data["note"] = (
             "loads on single beads pull contacts inside their cones: such a packing stands when "
             "other loads press these contacts more"
         )
     if found.first_tensile is not None:
-        home = plan.quantity.home(found.first_tensile.i)
-        data["first_tensile"] = found.first_tensile._replace(i=home)._asdict()
+        data["first_tensile"] = found.first_tensile._asdict()
     return data
+
+
+def _physical_line(p: dict[str, Any]) -> str:
+    """Say whether a packing is physical, of how much of it that is known, and why."""
+    words = "NOT physical"
+    if p["physical"]:
+        words = "physical" if p["whole"] else "physical, of what was looked at"
+    elif not p["overlaps"] and not p["tensile_contacts"]:
+        words = "open whether it is physical"
+    elif not p["overlaps"] and "note" in p:
+        words = "not physical by itself, as below any load on single beads"
+    gap = "none" if p["smallest_gap"] is None else f"{p['smallest_gap']:.6g} r"
+    pulling = "forces not asked for"
+    if p["contacts"] is not None:
+        pulling = f"{p['tensile_contacts']} of {p['contacts']} contacts are tensile"
+    open_signs = f", {p['undecided']} signs open" if p["undecided"] else ""
+    highest = "none" if p["critical_height"] is None else f"{p['critical_height']:.4g}"
+    return (
+        f"{words}: smallest gap {gap}, {p['overlaps']} overlaps, {pulling}{open_signs}; "
+        f"M = {p['height']}, M* = {highest}"
+    )
 
 
 def _bound(bound: float | Fraction) -> float | str | None:
@@ -221,14 +250,7 @@ def summary_lines(data: dict[str, Any]) -> list[str]:
         f"error {shown}, {kind}, in {accuracy['arithmetic']}; bits lost {accuracy['bits_lost']}",
     ]
     if "physical" in data:
-        p = data["physical"]
-        words = "physical" if p["physical"] else "NOT physical"
-        gap = "none" if p["smallest_gap"] is None else f"{p['smallest_gap']:.6g} r"
-        lines.append(
-            f"{words}: smallest gap {gap}, {p['overlaps']} overlaps, "
-            f"{p['tensile_contacts']} tensile contacts; "
-            f"M = {p['height']}, M* = {p['critical_height']}"
-        )
+        lines.append(_physical_line(data["physical"]))
     if "stopped_at_tension" in data:
         contact = data["stopped_at_tension"]
         where = f"i = {contact['i']}, j = {contact['j']}, branch {contact['branch']}"

@@ -13,7 +13,7 @@ from typing import Any
 from ..accuracy.accuracy import Accuracy, ToleranceError
 from ..accuracy.enclosed import enclosed
 from ..accuracy.repeated import repeated, shortfall
-from ..arithmetic.decimals import exact
+from ..arithmetic.decimals import exact, parse
 from ..mechanics.forces import NotStandingError
 from ..mechanics.packing import UnbuildableError
 from ..mechanics.work import Progress, Work
@@ -82,7 +82,7 @@ def _squares_vanish(plan: Plan) -> bool:
 def read_tolerance(value: Any) -> Fraction:
     """Give a tolerance as a fraction. Raises ``SceneError``."""
     try:
-        asked = exact(value)
+        asked = parse(value) if isinstance(value, str) else exact(value)
     except ValueError as error:
         raise SceneError("tolerance", value, str(error)) from None
     if not 0 < asked < 1:

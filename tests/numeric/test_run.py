@@ -10,12 +10,15 @@ from typing import Any
 import pytest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.disorder.radii import RadiusError
+from force_diffusion.numeric.mechanics.packing import UnbuildableError
 from force_diffusion.numeric.quantities.answer import answer as answered
 from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.run.running import run
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+import force_diffusion as fd
 from tests.numeric.scenes import answer, basic, planned, scene, scenes, site
 
 SMALL = {
@@ -383,3 +386,64 @@ def test_a_scene_gives_the_same_numbers_twice() -> None:
 def test_run_takes_a_plan_and_says_so() -> None:
     with pytest.raises(TypeError, match=r"read_scene\(path\)\.run\(\)"):
         run("scene.toml")  # type: ignore[arg-type]
+
+
+def test_a_stop_names_a_contact_within_the_period() -> None:
+    sections = basic(12, 8, quantity="contact_forces")
+    sections["packing"]["allow_images"] = True
+    sections["effects"] = {"stop_at_tension": True}
+    sections["disorder"]["relative_std"] = "=0.03"
+    seen = set()
+    for seed in range(60):
+        sections["disorder"]["seed"] = seed
+        try:
+            found = answer(sections)
+        except UnbuildableError:
+            continue
+        if found.stopped is None:
+            continue
+        assert found.physical is not None
+        assert found.physical.first_tensile == found.stopped
+        assert found.data()["stopped_at_tension"]["i"] == found.stopped.i
+        rows = [r for r in found.rows() if r["j"] == found.stopped.j and r["force"] < 0]
+        named = (found.stopped.i, found.stopped.branch)
+        assert named in {(r["i"], r["branch"]) for r in rows}
+        seen.add(found.stopped.i)
+    assert len(seen) > 5
+
+
+def test_a_sign_that_no_precision_settles_stays_open(tmp_path: Path) -> None:
+    """Equal radii below a point load: inside its cone the forces are exactly zero."""
+    rows = [
+        f"{i},{j},{'0.02' if (i, j) == (31, 1) else '0.01'}"
+        for j in range(4)
+        for i in range(j % 2, 40, 2)
+    ]
+    (tmp_path / "radii.csv").write_text("\n".join(["i,j,delta_r", *rows]) + "\n")
+    found = fd.Scene(
+        packing=fd.Packing(height=3, width=20),
+        disorder=fd.Disorder(kind="file", file="radii.csv"),
+        load=fd.PointLoad(at=(11, 3)),
+        effects=fd.Effects(stop_at_tension=True),
+        ask=fd.Ask(quantity="contact_forces", tolerance=1e-12),
+        folder=tmp_path,
+    ).run()
+    assert found.accuracy.certified
+    assert found.stopped is None
+    assert found.physical is not None
+    assert found.physical.undecided_signs > 0
+    assert found.physical.tensile == 0
+    assert "open whether it is physical" in str(found)
+
+
+def test_a_realisation_that_can_not_be_built_is_named() -> None:
+    sections = basic(6, 8, quantity="contact_forces")
+    sections["disorder"] |= {"kind": "normal", "relative_std": "=0.08"}
+    sections["ask"]["realisations"] = 30
+    with pytest.raises((UnbuildableError, RadiusError)) as caught:
+        answer(sections)
+    (note,) = caught.value.__notes__
+    k = int(note.removeprefix("realisation "))
+    assert k > 0
+    sections["ask"]["realisations"] = k
+    assert len(answer(sections).rows()) == k * 6 * 8 * 2  # those before it can

@@ -12,12 +12,11 @@ from fractions import Fraction
 from functools import partial
 
 from ...arithmetic.errors import UndecidedError
-from ...arithmetic.systems import Array, Balls, NumberSystem
+from ...arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem
 from ...disorder.radii import DrawnRadii, rows_of
 from ...lattice.layers import whole
 from ...mechanics.forces import NotStandingError
 from ...mechanics.packing import UnbuildableError
-from ...planning.budget import MOST_BITS
 from ...theory.critical_height import critical_height
 from .forms import (
     SEED,

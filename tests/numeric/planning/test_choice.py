@@ -4,11 +4,13 @@ import itertools
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import pytest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Hardware, midpoint
+from force_diffusion.numeric.planning import sources
 from force_diffusion.numeric.planning.plan import Candidate, Plan
 from force_diffusion.numeric.run import run
 from force_diffusion.numeric.run.outcome import Outcome
@@ -17,6 +19,7 @@ from force_diffusion.numeric.studies.cost import ways
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+import force_diffusion as fd
 from tests.numeric.scenes import basic, planned, scenes
 from tests.numeric.test_run import numbers
 
@@ -243,3 +246,19 @@ def test_an_estimate_that_misses_gives_way(monkeypatch: pytest.MonkeyPatch) -> N
     assert "error is still" in outcome.missed[0].why
     assert outcome.accuracy.certified
     assert outcome.data()["choice"]["missed"][0]["arithmetic"] == "float64"
+
+
+def test_radii_from_a_file_are_looked_through_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A plan asks for their scatter again and again; each look takes as long as an answer."""
+    looks = []
+
+    class Counted(dict[tuple[int, int], Fraction]):
+        def values(self) -> Any:
+            looks.append(1)
+            return super().values()
+
+    found = sources.read_radii
+    monkeypatch.setattr(sources, "read_radii", lambda *a, **k: Counted(found(*a, **k)))
+    measured = fd.read_scene(Path(__file__).parents[3] / "scenes" / "measured.toml")
+    measured.run("1e-12")
+    assert len(looks) == 2  # for the scatter, and for the smallest
