@@ -1,28 +1,52 @@
-"""Hypothesis strategies for small packings; they shrink to equal radii and few layers."""
+"""Hypothesis strategies for small packings; they shrink to equal radii, few layers, and one place.
+
+The base vectors are rational, and so is every first-order change.
+"""
 
 from fractions import Fraction
 
-from force_diffusion.derivations.witnesses.draws import DIRECTIONS, SmallPacking
+from force_diffusion.derivations.witnesses.draws import SmallPacking
 from hypothesis import strategies as st
 
-rationals = st.builds(Fraction, st.integers(-9, 9), st.integers(1, 9))
+HIGHEST = 8
 
 
 @st.composite
-def small_packings(draw: st.DrawFn, max_height: int = 5) -> SmallPacking:
-    """A packing that is wider than high, one loaded bead, and contacts to look at."""
-    height = draw(st.integers(2, max_height))
-    width = height + draw(st.integers(1, 3))
+def directions(draw: st.DrawFn) -> tuple[Fraction, Fraction]:
+    """A rational unit vector (n_x, n_y) with ½ < n_x < √3/2, φ of either sign."""
+    half = draw(st.fractions(Fraction(3, 11), Fraction(4, 7), max_denominator=20))  # tan of half
+    return 2 * half / (1 + half**2), (1 - half**2) / (1 + half**2)
+
+
+@st.composite
+def small_packings(draw: st.DrawFn, *, least_width: str = "height + 1") -> SmallPacking:
+    """A packing of up to eight layers, one loaded bead, and contacts to look at.
+
+    ``least_width``: "height + 1", so that first-order formulas see no image; "level", so that the
+    one load sees none of its own below it; or "1", down to strips as narrow as they get.
+    """
+    height = draw(st.integers(2, HIGHEST))
+    level = draw(st.integers(2, height))
+    least = {"height + 1": height + 1, "level": level, "1": 1}[least_width]
+    width = draw(st.integers(least, height + 2))
     sites = [
         (across, layer) for layer in range(height + 1) for across in range(layer % 2, 2 * width, 2)
     ]
-    lower = [site for site in sites if site[1] < height]
+    radii = draw(st.lists(st.integers(-9, 9), min_size=len(sites), max_size=len(sites)))
+    lower = st.sampled_from([site for site in sites if site[1] < height])
     return SmallPacking(
         width,
         height,
-        draw(st.sampled_from(DIRECTIONS)),
-        draw(st.dictionaries(st.sampled_from(sites), rationals)),
+        draw(directions()),
+        {site: Fraction(value) for site, value in zip(sites, radii, strict=True) if value},
         load=draw(st.builds(Fraction, st.integers(1, 9), st.integers(1, 9))),
-        loaded=draw(st.sampled_from([site for site in sites if site[1] >= 2])),
-        contacts=tuple(draw(st.lists(st.sampled_from(lower), min_size=1, max_size=4))),
+        loaded=draw(st.sampled_from([site for site in sites if site[1] == level])),
+        contacts=tuple(draw(st.lists(lower, min_size=1, max_size=3))),
     )
+
+
+@st.composite
+def deep_contacts(draw: st.DrawFn) -> tuple[int, int]:
+    """Height M and layer j of a contact with j/M from 1/8 to 7/8, high enough to measure orders."""
+    height = draw(st.integers(24, 48))
+    return height, draw(st.integers(-(-height // 8), height * 7 // 8))
