@@ -3,11 +3,20 @@
 import signal
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
-# quick by default; `pytest --hypothesis-profile=thorough` for ten thousand examples each
-settings.register_profile("quick", max_examples=20, deadline=None, derandomize=True)
-settings.register_profile("thorough", max_examples=10_000, deadline=None)
+# Each run draws anew; a failure is replayed from .hypothesis, or with what is printed beside it.
+# .ci/run says which seed it has drawn: with it, and the same profile, all examples are the same.
+EXAMPLES = {"quick": 20, "ci": 200, "thorough": 10_000}
+for profile, examples in EXAMPLES.items():
+    settings.register_profile(
+        profile,
+        max_examples=examples,
+        deadline=None,
+        derandomize=False,
+        print_blob=True,
+        suppress_health_check=[HealthCheck.too_slow],  # says more about the machine
+    )
 settings.load_profile("quick")
 
 # A shell that starts the tests in the background has them ignore interrupts, and so would every
