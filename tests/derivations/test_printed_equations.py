@@ -8,7 +8,7 @@ height. Each mechanical change of an equation, each sign included, has to make t
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
-from functools import cache
+from functools import lru_cache
 from itertools import pairwise
 
 import mpmath
@@ -269,7 +269,7 @@ CASES = {(height, layer): case for height, layer, case in packings(HIGHEST)}
 contacts = st.sampled_from(sorted(CASES))
 
 
-@cache
+@lru_cache(256)
 def strip_weights(
     height: int, source: int, n: Direction, kind: str
 ) -> tuple[dict[tuple[int, int], Fraction], ...]:

@@ -1,7 +1,7 @@
 """Weights of single radii in a contact force at any height, in floats, by ``numeric`` alone."""
 
 from fractions import Fraction
-from functools import cache
+from functools import lru_cache
 from types import SimpleNamespace
 
 import numpy as np
@@ -16,7 +16,7 @@ Site = tuple[int, int]
 FLOATS = SimpleNamespace(scalar=float, number=float)
 
 
-@cache
+@lru_cache(1000)
 def of_force(
     height: int, layer: int, n: tuple[Fraction, Fraction], load: str, branch: str = "+"
 ) -> dict[Site, float]:
