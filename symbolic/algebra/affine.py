@@ -19,6 +19,7 @@ Affine = tuple[int, ...]
 _POSITION = {symbol: number for number, symbol in enumerate(INDICES)}
 _SIZE = len(INDICES) + 1
 ZERO: Affine = (0,) * _SIZE
+_EXCESS = {symbol: sympy.Dummy(f"{symbol} in excess", nonnegative=True) for symbol in INDICES}
 _SIMPLE = {1: operator.add, -1: operator.sub}
 
 
@@ -125,6 +126,15 @@ class Region:
             if c:
                 value = add(value, bound, c)
         return value
+
+    def in_excess(
+        self, expression: sympy.Expr
+    ) -> tuple[sympy.Expr, tuple[sympy.Symbol, ...], tuple[sympy.Symbol, ...]]:
+        """Any expression in the excesses; then what is positive, and what is not negative."""
+        image: dict[sympy.Basic, sympy.Expr] = {}
+        for symbol, bound in self.lower_bounds.items():
+            image[symbol] = bound.xreplace(image) + _EXCESS[symbol]
+        return expression.xreplace(image), (), tuple(_EXCESS[symbol] for symbol in image)
 
     def nonnegative(self, value: Affine) -> bool:
         """Decide value ≥ 0 everywhere in the region (unbounded symbols must be absent)."""

@@ -8,6 +8,7 @@ from force_diffusion.symbolic.algebra.affine import Affine, Region
 from force_diffusion.symbolic.algebra.bases import LINE_SUM, Basis
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
+from force_diffusion.symbolic.algebra.signs import never_zero
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import (
     INDICES,
@@ -18,21 +19,13 @@ from force_diffusion.symbolic.symbols import (
     MatrixTimes,
     SecondDifference,
     SiteFunction,
-    phi,
 )
 
 Vector = tuple[LinearForm, LinearForm]
 
 
-_COSINES = (-sympy.Rational(1, 2), sympy.Rational(1, 2))  # φ lies between these, by Eq. 1
-
-
 class UnsafeDivisorError(NotExactError):
     """A divisor is not shown to be different from zero everywhere in the region."""
-
-
-class VanishingDivisorError(UnsafeDivisorError):
-    """A divisor is zero for an admissible φ."""
 
 
 class UnsafeBoundsError(NotExactError):
@@ -100,25 +93,9 @@ class Reader:
     def _coefficient(self, expression: sympy.Expr) -> RationalFunction:
         if self.region is not None:
             for power in expression.atoms(sympy.Pow):
-                if power.exp.is_negative:
-                    self._assert_never_zero(power.base)
+                if power.exp.is_negative and not never_zero(*self.region.in_excess(power.base)):
+                    raise UnsafeDivisorError(f"{text(power.base)} may vanish")
         return FIELD.from_sympy(expression)
-
-    def _assert_never_zero(self, divisor: sympy.Expr) -> None:
-        """Accept positive symbols, polynomials in φ without root, index sums of one sign."""
-        if isinstance(divisor, sympy.Mul):
-            for factor in divisor.args:
-                self._assert_never_zero(factor)
-        elif isinstance(divisor, sympy.Pow) and divisor.exp.is_Integer:
-            self._assert_never_zero(divisor.base)
-        elif divisor.free_symbols == {phi}:
-            # the number of roots in an interval is decided exactly (Sturm)
-            if sympy.Poly(divisor, phi).count_roots(*_COSINES):
-                raise VanishingDivisorError(f"{text(divisor)} vanishes for a φ between −½ and ½")
-        elif not (divisor.is_positive or divisor == -1):
-            assert self.region is not None
-            if not self.region.differ(affine.from_sympy(divisor), affine.ZERO):
-                raise UnsafeDivisorError(f"{text(divisor)} may vanish for {self.region}")
 
     def _atom(self, atom: SiteFunction) -> LinearForm | Vector:
         i, j = (affine.from_sympy(index) for index in atom.args)

@@ -4,28 +4,31 @@ A sign is found exactly, by the number of real roots of a polynomial in an inter
 shown to have one sign has none.
 """
 
-from collections.abc import Collection
+from functools import cache
 
 import sympy
 from force_diffusion.symbolic.algebra.exact import Domain, NotExactError
 from force_diffusion.symbolic.symbols import n_x, n_y, phi, z
 
+Symbols = tuple[sympy.Symbol, ...]
+
 _COSINES = {n_x, n_y, phi}
 _HALF, _QUARTER = sympy.Rational(1, 2), sympy.Rational(1, 4)
 
 
-def sign(expression: sympy.Expr, positive: Collection[sympy.Symbol] = ()) -> int:
+@cache
+def sign(expression: sympy.Expr, positive: Symbols = (), nonnegative: Symbols = ()) -> int:
     """1 or −1 where the expression is that side of zero everywhere; 0 where that is not shown.
 
-    ``positive`` names further symbols that are positive.
+    ``positive`` names further symbols that are positive, ``nonnegative`` those that may be zero.
     """
     if isinstance(expression, sympy.Mul):
         product = 1
         for factor in expression.args:
-            product *= sign(factor, positive)
+            product *= sign(factor, positive, nonnegative)
         return product
     if isinstance(expression, sympy.Pow) and isinstance(expression.exp, sympy.Rational):
-        base = sign(expression.base, positive)
+        base = sign(expression.base, positive, nonnegative)
         if expression.exp.is_Integer:
             return base ** (int(expression.exp) % 2) if base else 0
         return base if base == 1 else 0
@@ -41,22 +44,24 @@ def sign(expression: sympy.Expr, positive: Collection[sympy.Symbol] = ()) -> int
         number, powers = value.factors(polynomial)
         found *= 1 if number > 0 else -1
         for factor, power in powers.items():
-            one = _of_factor(factor, positive)
+            one = _of_factor(factor, positive, nonnegative)
             found *= one ** (power % 2) if one else 0
     return found
 
 
-def never_zero(expression: sympy.Expr, positive: Collection[sympy.Symbol] = ()) -> bool:
+def never_zero(
+    expression: sympy.Expr, positive: Symbols = (), nonnegative: Symbols = ()
+) -> bool:
     """Whether it is shown to differ from zero everywhere in the domain."""
-    return sign(expression, positive) != 0
+    return sign(expression, positive, nonnegative) != 0
 
 
-def _of_factor(factor: sympy.Expr, positive: Collection[sympy.Symbol]) -> int:
+def _of_factor(factor: sympy.Expr, positive: Symbols, nonnegative: Symbols) -> int:
     if factor.free_symbols == {z}:
         return _on_interval(sympy.Poly(factor, z), sympy.S.Zero, sympy.S.One)
     if factor.free_symbols <= _COSINES:
         return _of_cosines(factor)
-    return _of_terms(factor, positive)
+    return _of_terms(factor, positive, nonnegative)
 
 
 def _on_interval(polynomial: sympy.Poly, low: sympy.Expr, high: sympy.Expr) -> int:
@@ -83,16 +88,17 @@ def _of_cosines(factor: sympy.Expr) -> int:
     return 1 if value.is_positive else -1 if value.is_negative else 0
 
 
-def _of_terms(factor: sympy.Expr, positive: Collection[sympy.Symbol]) -> int:
-    """All terms of one sign, those with an even power of φ included, and one not zero at φ = 0."""
+def _of_terms(factor: sympy.Expr, positive: Symbols, nonnegative: Symbols) -> int:
+    """All terms of one sign, even powers of φ included, and one that is not zero anywhere."""
     symbols = sorted(factor.free_symbols, key=str)
-    if not all(s in (phi, z) or s.is_positive or s in positive for s in symbols):
+    may_vanish = {phi, *nonnegative} - set(positive)
+    if not all(s in may_vanish or s == z or s.is_positive or s in positive for s in symbols):
         return 0
     found, strict = set(), False
     for powers, c in sympy.Poly(factor, *symbols).terms():
-        of_phi = dict(zip(symbols, powers, strict=True)).get(phi, 0)
-        if of_phi % 2:
+        held = {symbol: power for symbol, power in zip(symbols, powers, strict=True) if power}
+        if held.get(phi, 0) % 2:
             return 0
         found.add(1 if c > 0 else -1)
-        strict = strict or not of_phi
+        strict = strict or not may_vanish & held.keys()
     return found.pop() if strict and len(found) == 1 else 0

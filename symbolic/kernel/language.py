@@ -17,43 +17,166 @@ from force_diffusion.symbolic.printing.text import text
 SUMMATION = (sy.m, sy.n)
 """The indices that a candidate may sum over: no derivation puts anything in for them."""
 
+HIGHEST_POWER, LARGEST_BOUND = 40, 1000
+"""What is higher or larger is not read: it would take for ever."""
+
 _FORCES = (sy.ForcePlus, sy.ForceMinus)
+_COMMON = {sy.phi, sy.n_x, sy.n_y, sy.r, sy.spacing, *sy.VECTORS, *sy.INDICES}
+_LAYERS = (sy.j, sy.l, sy.site_s)
 
 
-def unreadable(candidate: sympy.Eq, printed: Collection[sympy.Eq]) -> str:
-    """Why a candidate for one of the printed equations has no meaning; "" when it has."""
-    free = set().union(*(line.free_symbols for line in printed)) | candidate.free_symbols
-    return next(chain(_zeros(candidate), _sums(candidate, free), _indices(candidate)), "")
+class OutsideError(ValueError):
+    """Something has no place in the language."""
 
 
-def without_value(candidate: sympy.Eq) -> str:
-    """Why it is not shown to have a value everywhere; "" when it is."""
-    return next(_values(candidate), "")
+def unreadable(
+    candidate: sympy.Eq, printed: Collection[sympy.Eq], named: Collection[sympy.Basic] = ()
+) -> str:
+    """Why a candidate for one of the printed equations has no meaning; "" when it has.
+
+    ``named`` are further symbols of the derivation.
+    """
+    own = set().union(*(line.free_symbols for line in printed))
+    known = _COMMON | own | {one for one in named if isinstance(one, sympy.Symbol)}
+    if sy.M in own:
+        known.add(sy.z)
+    if strange := next(_strangers(candidate, known), ""):
+        return strange
+    try:
+        sorts = [_sort(side) for side in candidate.args]
+    except OutsideError as reason:
+        return str(reason)
+    if set(sorts) == {"number", "vector"}:
+        return "a number is set equal to a vector"
+    free = own | candidate.free_symbols
+    return next(chain(_sums(candidate, free), _indices(candidate)), "")
 
 
-def _zeros(candidate: sympy.Eq) -> Iterator[str]:
-    divided = any(p.base == 0 and p.exp.is_negative for p in candidate.atoms(sympy.Pow))
-    if divided or candidate.has(sympy.zoo, sympy.nan, sympy.oo, -sympy.oo):
-        yield "it holds a division by zero"
+def in_few_symbols(candidate: sympy.Eq, printed: Collection[sympy.Eq]) -> sympy.Eq:
+    """The same statement with s = 4 r n_x put in, and z = j/M where no z is printed."""
+    image = {sy.spacing: 4 * sy.r * sy.n_x}
+    if not any(line.has(sy.z) for line in printed):
+        image[sy.z] = sy.j / sy.M
+    if not candidate.has(*image):
+        return candidate
+    left, right = (side.xreplace(image) for side in candidate.args)
+    return sympy.Eq(left, right, evaluate=False)
 
 
-def _values(candidate: sympy.Eq) -> Iterator[str]:
+def without_value(candidate: sympy.Eq, *, in_the_limit: bool) -> str:
+    """Why it is not shown to have a value everywhere; "" when it is.
+
+    In a limit at fixed z layers are above the base; elsewhere they may be the base.
+    """
+    return next(_values(candidate, in_the_limit), "")
+
+
+def _strangers(candidate: sympy.Basic, known: Collection[sympy.Basic]) -> Iterator[str]:
+    names = {symbol.name for symbol in known}
+    for symbol in sorted(candidate.atoms(sympy.Symbol) - set(known), key=str):
+        if symbol.name in names:
+            yield (
+                f"{symbol.name}: not this equation's symbol, but another of the same name; take "
+                "it from .symbols"
+            )
+        else:
+            yield f"{symbol.name} is no symbol of this equation"
+
+
+def _sort(node: sympy.Basic) -> str:
+    """Whether it is a "number", a "vector", or the "zero" that is either.
+
+    Raises:
+        OutsideError: it has no place in the language.
+    """
+    if isinstance(node, sympy.Rational):
+        return "number" if node else "zero"
+    if isinstance(node, sympy.Symbol):
+        return "vector" if node in sy.VECTORS else "number"
+    if isinstance(node, sy.SiteFunction):
+        if any(_number(index).has(sy.SiteFunction) for index in node.args):
+            raise OutsideError(f"an index of {text(node)} holds what belongs to a bead")
+        return "vector" if node.is_vector else "number"
+    if isinstance(node, sympy.Add):
+        return _one_sort(node.args)
+    if isinstance(node, sympy.Mul):
+        sorts = [_sort(factor) for factor in node.args]
+        if sorts.count("vector") > 1:
+            raise OutsideError("a product of two vectors: write it as Dot")
+        return "zero" if "zero" in sorts else max(sorts)
+    if isinstance(node, sympy.Pow):
+        return _power(_number(node.base), node.exp)
+    if isinstance(node, sympy.Sum):
+        return _sum(node)
+    if isinstance(node, sy.Braces):
+        _number(node.args[2]), _number(node.args[3])
+        return _one_sort(node.args[:2])
+    if isinstance(node, sy.Dot | sy.MatrixTimes):
+        *entries, vector = node.args
+        if isinstance(node, sy.MatrixTimes):
+            _one_sort((*entries, sympy.S.One))
+            entries = []
+        if any(_sort(part) == "number" for part in (*entries, vector)):
+            raise OutsideError(f"{type(node).__name__} of a number")
+        return "number" if isinstance(node, sy.Dot) else "vector"
+    raise OutsideError(f"{type(node).__name__} has no place in what is decided here")
+
+
+def _number(node: sympy.Basic) -> sympy.Basic:
+    if _sort(node) == "vector":
+        raise OutsideError(f"a vector, {text(node)}, where a number is needed")
+    return node
+
+
+def _one_sort(parts: Collection[sympy.Basic]) -> str:
+    sorts = {_sort(part) for part in parts} - {"zero"}
+    if len(sorts) > 1:
+        raise OutsideError("a number and a vector are added, or stand in one case distinction")
+    return sorts.pop() if sorts else "zero"
+
+
+def _power(base: sympy.Basic, exponent: sympy.Basic) -> str:
+    if not isinstance(exponent, sympy.Rational):
+        raise OutsideError(f"{text(exponent)} is an exponent, and no number")
+    if abs(exponent) > HIGHEST_POWER:
+        raise OutsideError(f"the power {exponent} is not read: {HIGHEST_POWER} is the highest")
+    if base == 0 and exponent.is_negative:
+        raise OutsideError("it holds a division by zero")
+    return "number"
+
+
+def _sum(series: sympy.Sum) -> str:
+    for limit in series.limits:
+        if len(limit) != 3:
+            raise OutsideError("a sum without a lower and an upper bound")
+        for end in limit[1:]:
+            _number(end)
+            if any(abs(number) > LARGEST_BOUND for number in end.atoms(sympy.Rational)):
+                raise OutsideError(f"a sum's bound beyond {LARGEST_BOUND} is not read")
+    return _sort(series.function)
+
+
+def _values(candidate: sympy.Eq, in_the_limit: bool) -> Iterator[str]:
     # in an unevaluated tree two equal powers are one node, and a/a keeps its divisor
     for power in sorted(candidate.atoms(sympy.Pow), key=str):
-        if not isinstance(power.exp, sympy.Rational):
-            yield f"{text(power)} has an exponent that is no number"
-        elif power.exp.is_Integer and power.exp.is_negative:
-            if not isinstance(power.base, _FORCES) and not _has_one_sign(power.base):
+        if power.exp.is_Integer and power.exp.is_negative:
+            of_force = isinstance(power.base, _FORCES)
+            if not of_force and not _has_one_sign(power.base, in_the_limit):
                 yield f"the divisor {text(power.base)} is not shown to differ from zero"
-        elif not power.exp.is_Integer and _has_one_sign(power.base) != 1:
+        elif not power.exp.is_Integer and _has_one_sign(power.base, in_the_limit) != 1:
             yield f"{text(power.base)}, of which a root is taken, is not shown to be positive"
 
 
-def _has_one_sign(base: sympy.Expr) -> int:
-    """The sign, with j between 0 and M where both stand."""
-    below = sympy.Dummy("below", positive=True)
-    image = {sy.M: sy.j + below} if base.has(sy.j) and base.has(sy.M) else {}
-    return sign(base.xreplace(image), (sy.j, below))
+def _has_one_sign(base: sympy.Expr, in_the_limit: bool) -> int:
+    """The sign, with j between 0 and M where both stand, and between 0 and l."""
+    image, positive = {}, []
+    for higher in (sy.M, sy.l):
+        if base.has(sy.j) and base.has(higher):
+            positive.append(sympy.Dummy("above", positive=True))
+            image[higher] = sy.j + positive[-1]
+    if in_the_limit:
+        positive += [sy.j, sy.l, sy.p, sy.q]
+    return sign(base.xreplace(image), tuple(positive), _LAYERS)
 
 
 def _sums(candidate: sympy.Basic, free: Collection[sympy.Basic]) -> Iterator[str]:
