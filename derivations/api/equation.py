@@ -39,7 +39,7 @@ from force_diffusion.derivations.framework.record import (
 from force_diffusion.derivations.framework.runner import run, run_all
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.decisions import KernelError, Ruling, Verdict, undecided
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, undecided
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import latex_body
 from force_diffusion.symbolic.printing.text import text
@@ -387,6 +387,9 @@ base+1 or surface.
         Args:
             candidate: a SymPy ``Eq`` in the symbols of :attr:`symbols`, or, where one line is
                 printed, an expression for the right-hand side.
+
+        Raises:
+            KernelError: the checker is at fault: it proved what explicit values refute.
         """
         if not isinstance(candidate, sympy.Eq):
             if not isinstance(candidate, sympy.Expr):
@@ -398,33 +401,12 @@ base+1 or surface.
                 sides = either([text(line.lhs) for line in self._lines])
                 return undecided(f"which line is meant? Give an Eq whose left-hand side is {sides}")
             candidate = sympy.Eq(self._lines[0].lhs, candidate, evaluate=False)
-        if strangers := self._namesakes(candidate):
-            return undecided(
-                f"{', '.join(strangers)}: not this equation's symbol, but another of the same "
-                "name; take it from .symbols"
-            )
         parts = [n for n, line in enumerate(self._lines) if line.lhs == candidate.lhs]
-        rulings = [self._ruled(part, candidate) for part in parts or range(len(self._lines))]
+        rulings = [
+            self._derivation.rule_on(part, candidate) for part in parts or range(len(self._lines))
+        ]
         ranked = {ruling.verdict: ruling for ruling in reversed(rulings)}
         return next(ranked[one] for one in Verdict if one in ranked)
-
-    def _namesakes(self, candidate: sympy.Basic) -> list[str]:
-        own = {symbol.name: symbol for symbol in (*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS)}
-        own |= {one.name: one for one in self._vocabulary.values() if isinstance(one, sympy.Symbol)}
-        mine = set(own.values()) | {sy.site_r, sy.site_s, sy.r, sy.spacing}
-        return sorted(
-            symbol.name
-            for symbol in candidate.free_symbols
-            if symbol.name in own and symbol not in mine
-        )
-
-    def _ruled(self, part: int, candidate: sympy.Eq) -> Ruling:
-        try:
-            return self._derivation.rule_on(part, candidate)
-        except KernelError:
-            raise
-        except Exception as failure:  # a foreign formula may be anything; no verdict is lost by it
-            return undecided(f"it could not be read: {failure or type(failure).__name__}")
 
     def __repr__(self) -> str:
         return f"<{self._heading}: {self.title}>"

@@ -6,14 +6,19 @@ from dataclasses import dataclass, field
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.symbolic.kernel.decisions import (
-    KernelError,
-    Ruling,
-    Verdict,
-    refuted,
-    undecided,
-)
-from force_diffusion.symbolic.kernel.language import unreadable, without_value
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra.exact import NotExactError
+from force_diffusion.symbolic.algebra.explicit import AmbiguousError
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, refuted, undecided
+from force_diffusion.symbolic.kernel.language import in_few_symbols, unreadable, without_value
+from force_diffusion.symbolic.printing.text import text
+
+
+class KernelError(ForceDiffusionError, RuntimeError):
+    """The checker is at fault: its verdict on a statement is wrong. Nothing it says then counts."""
+
+    exit_status = 1
 
 
 @dataclass(frozen=True)
@@ -72,21 +77,43 @@ class Derivation:
         Raises:
             KernelError: it was proved, and explicit values refute it.
         """
-        if reason := unreadable(candidate, self.printed):
+        if reason := unreadable(candidate, self.printed, [symbol for symbol, _ in self.symbols]):
             return undecided(reason)
+        candidate = in_few_symbols(candidate, self.printed)
         try:
             ruling = self.decide(part, candidate)
-        except (ArithmeticError, TypeError, ValueError) as failure:
-            ruling = undecided(f"it could not be read: {failure or type(failure).__name__}")
+        except (NotExactError, AmbiguousError, RecursionError) as failure:
+            ruling = undecided(str(failure))
         proven = ruling.verdict is Verdict.PROVED
-        if proven and (reason := without_value(candidate)):
+        if proven and (reason := without_value(candidate, in_the_limit=self.relation != "=")):
             proven, ruling = False, undecided(reason)
-        if ruling.verdict is Verdict.REFUTED or not self.search:
+        if ruling.verdict is Verdict.REFUTED and not self._needs_packings(part, candidate):
             return ruling
-        found = self.search(candidate)
+        found = self.search(candidate) if self.search else None
         if found and proven:
-            raise KernelError(f"Eq. {self.number} was proved, yet is false: {found}")
-        return refuted(found) if found else ruling
+            raise KernelError(
+                f"the checker is at fault: it proved {_shown(candidate)} as Eq. {self.number}, and "
+                f"that is false: {found}"
+            )
+        if found:
+            return refuted(found)
+        if ruling.verdict is Verdict.REFUTED:
+            return undecided("it differs from what is derived, yet no exact packing refutes it")
+        return ruling
+
+    def _needs_packings(self, part: int, candidate: sympy.Eq) -> bool:
+        """Whether unequal weights refute nothing, as it holds quantities that depend on others."""
+        if self.relation != "=" or not self.search:
+            return False
+        held = candidate.rhs.atoms(sy.SiteFunction)
+        if candidate.lhs == self.printed[part].lhs and candidate.rhs:
+            return not all(isinstance(one, sy.DeltaR | sy.SecondDifference) for one in held)
+        return True
+
+
+def _shown(candidate: sympy.Eq) -> str:
+    shown = f"{text(candidate.lhs)} = {text(candidate.rhs)}"
+    return shown if len(shown) <= 200 else shown[:198] + " …"
 
 
 @dataclass(frozen=True)

@@ -55,7 +55,11 @@ Vector = tuple[Dual, Dual]
 
 
 class AbsentError(ValueError):
-    """The equation speaks of a bead or contact that is not there."""
+    """The equation speaks of a bead or contact that this packing does not hold."""
+
+
+class NoSiteError(AbsentError):
+    """It speaks of one that no packing holds: i + j is odd, or no whole number."""
 
 
 class Truth:
@@ -142,7 +146,7 @@ def evaluate(expression: sympy.Expr, truth: Truth, at: Values) -> Dual | Vector:
     if isinstance(expression, sympy.Pow) and expression.atoms(sy.SiteFunction, sy.Dot):
         base = evaluate(expression.base, truth, at)
         if isinstance(base, tuple) or (base.value == 0 and expression.exp.is_negative):
-            raise explicit.AmbiguousError(f"{expression} has no value")
+            raise explicit.DivisionError(f"{expression} has no value")
         return base ** int(expression.exp)
     if isinstance(expression, sympy.Sum):
         index, low, high = expression.limits[-1]
@@ -166,8 +170,8 @@ def evaluate(expression: sympy.Expr, truth: Truth, at: Values) -> Dual | Vector:
 
 
 def _quantity(kind: str, i: Fraction, j: Fraction, truth: Truth) -> Dual | Vector:
-    if i.denominator != 1 or j.denominator != 1:
-        raise AbsentError(f"({i}, {j}) is no site")
+    if i.denominator != 1 or (i + j) % 2:
+        raise NoSiteError(f"({i}, {j}) is no site")
     try:
         return truth.quantity(kind, int(i), int(j))
     except (ValueError, IndexError) as reason:
@@ -260,10 +264,20 @@ def compare(equation: sympy.Eq, packing: SmallPacking, load: str, points: Points
     return _compare(equation, Truth(packing, load), points)
 
 
-def _compare(equation: sympy.Eq, truth: Truth, points: Points) -> Ruling:
+def _compare(
+    equation: sympy.Eq, truth: Truth, points: Points, *, where_it_is: bool = False
+) -> Ruling:
+    """Compare at every place; ``where_it_is`` passes over those that the packing does not hold."""
     count = 0
     for at in points(truth.packing):
-        left, right = (evaluate(side, truth, at) for side in equation.args)
+        try:
+            left, right = (evaluate(side, truth, at) for side in equation.args)
+        except NoSiteError:
+            raise
+        except AbsentError:
+            if where_it_is:
+                continue
+            raise
         if equation.rhs == 0 and isinstance(left, tuple):
             right = Dual(Fraction(0)), Dual(Fraction(0))
         if left != right:
@@ -286,14 +300,17 @@ def _drawn(seed: int, load: str) -> Truth:
 
 def refute(candidate: sympy.Eq, load: str, points: Points) -> Ruling:
     """Refute an equation by an exact packing on which it fails, or leave it undecided."""
+    whole = candidate.has(sy.M)  # M is the height of these packings: nothing is above it
     for seed in range(4):
         try:
-            found = _compare(candidate, _drawn(seed, load), points)
-        except (AbsentError, explicit.AmbiguousError) as reason:
+            found = _compare(candidate, _drawn(seed, load), points, where_it_is=not whole)
+        except (AbsentError, explicit.DivisionError) as reason:
             return refuted(f"on an exact packing: {reason}")
+        except explicit.AmbiguousError as reason:
+            return undecided(str(reason))
         if found.verdict is Verdict.DISAGREES:
             return refuted(f"on an exact packing, {found.note}")
-    return undecided("the left-hand side is not what has been derived, yet no packing refutes it")
+    return undecided("no exact packing refutes it, and it is not decided in this form")
 
 
 def about(candidate: sympy.Eq, subject: sympy.Expr, load: str, points: Points) -> Ruling | None:
@@ -307,13 +324,7 @@ def search(load: str, points: Points) -> Callable[[sympy.Eq], str | None]:
     """What looks for an exact packing on which an equation fails."""
 
     def fails(candidate: sympy.Eq) -> str | None:
-        for seed in range(4):
-            try:
-                found = _compare(candidate, _drawn(seed, load), points)
-            except (AbsentError, explicit.AmbiguousError):
-                return None  # what has no value shows nothing
-            if found.verdict is Verdict.DISAGREES:
-                return f"on an exact packing, {found.note}"
-        return None
+        found = refute(candidate, load, points)
+        return found.note if found.verdict is Verdict.REFUTED else None
 
     return fails

@@ -23,7 +23,11 @@ _ZERO, _ONE = Fraction(0), Fraction(1)
 
 
 class AmbiguousError(ValueError):
-    """The expression has no single value here, for instance at an excluded division by zero."""
+    """The expression has no single value here."""
+
+
+class DivisionError(AmbiguousError):
+    """It has none because it divides by zero here."""
 
 
 def geometry(n_x: Fraction, n_y: Fraction, radius: Fraction) -> dict[sympy.Symbol, Fraction | int]:
@@ -115,8 +119,10 @@ def _read(expression: sympy.Expr, values: Values) -> Weights | Vector:
         return _product([_read(factor, values) for factor in expression.args])
     if isinstance(expression, sympy.Pow):
         base, exponent = number(expression.base, values), number(expression.exp, values)
-        if exponent.denominator != 1 or (base == 0 and exponent < 0):
-            raise AmbiguousError(f"{expression} at {base}")
+        if exponent.denominator != 1:
+            raise AmbiguousError(f"{expression} is no fraction")
+        if base == 0 and exponent < 0:
+            raise DivisionError(f"{expression} at {base}")
         power = base ** int(exponent)
         return {_CONSTANT: power} if power else {}
     if isinstance(expression, sympy.Sum):

@@ -49,9 +49,7 @@ def sign(expression: sympy.Expr, positive: Symbols = (), nonnegative: Symbols = 
     return found
 
 
-def never_zero(
-    expression: sympy.Expr, positive: Symbols = (), nonnegative: Symbols = ()
-) -> bool:
+def never_zero(expression: sympy.Expr, positive: Symbols = (), nonnegative: Symbols = ()) -> bool:
     """Whether it is shown to differ from zero everywhere in the domain."""
     return sign(expression, positive, nonnegative) != 0
 

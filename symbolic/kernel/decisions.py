@@ -20,10 +20,6 @@ from force_diffusion.symbolic.algebra.exact import Domain, NotExactError, Ration
 from force_diffusion.symbolic.algebra.reading import Reader
 
 
-class KernelError(RuntimeError):
-    """The kernel is wrong: what it proved is refuted by explicit values."""
-
-
 class Verdict(StrEnum):
     """What a decision procedure found; a witness agrees or disagrees, it never proves."""
 

@@ -1,13 +1,15 @@
-"""Explicit values at which a statement about M → ∞ is false: a search that shares no code with
+"""Explicit values at which a statement about M → ∞ is false: searches that share no code with
 its decision, but for the exact form that it is compared with.
 
-Only rational functions are read, and for these what is of lower order has vanished, as a share
-of the whole, between one size and its square; both are far beyond the coefficients of any formula.
+Of rational functions, what is of lower order has vanished, as a share of the whole, between one
+size and its square; both are far beyond the coefficients of any formula. Of sums over layers the
+variance is a polynomial in the height, whose differences tell how it grows.
 """
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from itertools import product
+from functools import cache
+from itertools import pairwise, product
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
@@ -70,9 +72,9 @@ def parts_in_the_limit(
                 values[sy.z] = values[sy.j] / values[sy.M]
             try:
                 found = explicit.number(candidate, values)
-            except explicit.AmbiguousError as reason:
-                if "/0" in str(reason) or " at 0" in str(reason):
-                    return f"it has no value at {where}"
+            except explicit.DivisionError:
+                return f"it has no value at {where}"
+            except explicit.AmbiguousError:
                 return None
             true = explicit.number(exact, values)
             shares.append(abs(found - true) / true)
@@ -83,3 +85,107 @@ def parts_in_the_limit(
 
 LAYERS: tuple[Place, ...] = tuple({sy.M: Fraction(1), sy.j: z} for z in HEIGHTS)
 """Layers at fixed z, M growing."""
+
+HEIGHTS_AT = {Fraction(1, 2): range(8, 24, 2), Fraction(1, 3): range(12, 36, 3)}
+"""Heights of packings at which a layer z M is looked at; all of them in the region of the limit."""
+
+_ACROSS = 10**6  # a bead that no whole number in a formula means
+
+
+def varies_too_much(exact: sympy.Expr, candidate: sympy.Eq) -> str | None:
+    """Where a statement on one force has no value, another mean, or drops a variance of order M³.
+
+    ``exact`` is the first-order f⁺_ij in units of f_load/2n_y, in the radii. The force's own factor
+    is taken out. Weights that are polynomials in M, j and m, with bounds near 1, j or M, give a
+    variance that is a polynomial in M at fixed z: one below degree d has no differences of order d.
+    """
+    if found := _undefined(candidate):
+        return found
+    if not _is_polynomial(candidate):
+        return None
+    flat, upright, *_ = DIRECTIONS
+    for n, z in ((flat, Fraction(1, 2)), (upright, Fraction(1, 2)), (flat, Fraction(1, 3))):
+        geometry = {**_OTHERS, **explicit.geometry(*n, _OTHERS[sy.r]), sy.f_load: Fraction(1)}
+        dropped, factors = [], []
+        for height in HEIGHTS_AT[z]:
+            values = {**geometry, sy.M: height, sy.j: int(z * height), sy.i: _ACROSS}
+            where = f"M = {height}, z = {z}, φ = {geometry[sy.phi]}"
+            try:
+                total, factor = _in_radii(exact, candidate, values)
+            except explicit.AmbiguousError:
+                return None
+            if mean := total.pop(("", 0, 0), 0):
+                return f"at {where} the two sides differ by {mean} in the ordered packing"
+            dropped.append(sum((w**2 for w in total.values()), Fraction(0)))
+            factors.append(factor)
+            kept = 3 + 2 * _degree(factors)
+            if len(dropped) > kept + 1:  # one more, as the factor's degree must have shown
+                break
+        else:
+            return None
+        if any(_differences(dropped, kept)):
+            return (
+                f"at z = {z}, φ = {geometry[sy.phi]}, what is dropped varies as M^{kept} at least"
+            )
+    return None
+
+
+def _undefined(candidate: sympy.Eq) -> str | None:
+    """A φ at which a side has no value."""
+    for cosine, side in product(COSINES, candidate.args):
+        values = {**_OTHERS, sy.phi: cosine, sy.M: 22, sy.j: 11, sy.i: _ACROSS}
+        try:
+            explicit.weights(side, values)
+        except explicit.DivisionError:
+            return f"it has no value at φ = {cosine}"
+        except explicit.AmbiguousError:
+            continue
+    return None
+
+
+def _is_polynomial(candidate: sympy.Eq) -> bool:
+    """Whether indices stand in no divisor, and in bounds with small whole numbers only."""
+    indices = {*sy.INDICES}
+    powers = (power for power in candidate.atoms(sympy.Pow) if power.exp.is_negative)
+    ends = [end for one in candidate.atoms(sympy.Sum) for limit in one.limits for end in limit[1:]]
+    ends += [argument for one in candidate.atoms(sy.SiteFunction) for argument in one.args]
+    ends += [one.args[3] for one in candidate.atoms(sy.Braces)]
+    return not any(power.free_symbols & indices for power in powers) and all(
+        abs(number) <= 3 for end in ends for number in end.atoms(sympy.Rational)
+    )
+
+
+def _in_radii(
+    exact: sympy.Expr, candidate: sympy.Eq, values: explicit.Values
+) -> tuple[explicit.Weights, Fraction]:
+    """Weights of left less right side, the force put in; and the factor of that force."""
+    left, right = (explicit.weights(side, values) for side in candidate.args)
+    total = {key: left.get(key, 0) - right.get(key, 0) for key in {**left, **right}}
+    forces = [key for key in total if key[0] in ("ForcePlus", "ForceMinus") and total[key]]
+    if [key[0] for key in forces] != ["ForcePlus"]:
+        raise explicit.AmbiguousError("it is not about one force f⁺")
+    (_, across, layer), factor = forces[0], total.pop(forces[0]) / (2 * values[sy.n_y])
+    frozen = tuple(sorted(({**values, sy.i: across, sy.j: layer}).items(), key=str))
+    for key, weight in _force(exact, frozen).items():
+        total[key] = total.get(key, Fraction(0)) + factor * weight
+    return {key: Fraction(w) for key, w in total.items() if w}, Fraction(factor)
+
+
+@cache
+def _force(
+    exact: sympy.Expr, values: tuple[tuple[sympy.Symbol, Fraction], ...]
+) -> explicit.Weights:
+    return explicit.weights(exact, dict(values))
+
+
+def _degree(values: list[Fraction]) -> int:
+    """Of the polynomial that takes these values at equal steps, as far as they tell."""
+    return max(
+        order for order in range(len(values)) if order == 0 or any(_differences(values, order))
+    )
+
+
+def _differences(values: list[Fraction], order: int) -> list[Fraction]:
+    for _ in range(order):
+        values = [after - before for before, after in pairwise(values)]
+    return values

@@ -13,11 +13,17 @@ from itertools import pairwise
 
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.affine import Affine, Region
-from force_diffusion.symbolic.algebra.exact import FIELD, LAYER, RationalFunction, sum_polynomial
+from force_diffusion.symbolic.algebra.exact import (
+    FIELD,
+    LAYER,
+    NotExactError,
+    RationalFunction,
+    sum_polynomial,
+)
 from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm, Ray, Site
 
 
-class UndeterminedError(ValueError):
+class UndeterminedError(NotExactError):
     """An order relation between layers does not hold throughout the region."""
 
 
@@ -61,10 +67,10 @@ def take_apart(form: LinearForm, region: Region) -> Pieces:
 
     Raises:
         UndeterminedError: when the region does not fix the order of the breakpoints.
-        ValueError: when the form has a constant term or an endless ray.
+        NotExactError: when the form has a constant term or an endless ray.
     """
     if any(site.family == CONSTANT for site in form.sites):
-        raise ValueError("a constant has no variance: subtract it first")
+        raise NotExactError("a constant has no variance: subtract it first")
     runs = tuple(run for line in _lines(form) for run in _runs(line, form, region))
     sites = dict.fromkeys(form.sites)
     for a, one in enumerate(runs):
@@ -111,7 +117,7 @@ def _runs(line: tuple[str, int, Affine], form: LinearForm, region: Region) -> li
         if not weight.is_zero():
             runs.append(Run(ray, ray.start, affine.shifted(following.start, -1), weight))
     if not (weight + form.rays[rays[-1]]).is_zero():
-        raise ValueError("a line of the form has no end")
+        raise NotExactError("a line of the form has no end")
     return runs
 
 

@@ -26,7 +26,7 @@ every_equation = pytest.mark.parametrize("derivation", ALL, ids=lambda d: f"eq{d
 @every_equation
 def test_proved(derivation: Derivation) -> None:
     for part, equation in enumerate(derivation.printed):
-        ruling = derivation.decide(part, equation)
+        ruling = derivation.rule_on(part, equation)
         assert ruling.verdict is Verdict.PROVED, ruling.note
     for claim in derivation.claims:
         ruling = claim.decide()
@@ -38,7 +38,7 @@ def test_mutants_are_refuted(derivation: Derivation) -> None:
     refuted, equivalent = 0, []
     for part, equation in enumerate(derivation.printed):
         for _, change, mutant in mutants(equation):
-            ruling = derivation.decide(part, mutant)
+            ruling = derivation.rule_on(part, mutant)
             assert ruling.verdict in (Verdict.REFUTED, Verdict.PROVED), (change, ruling.note)
             assert ruling.note
             if ruling.verdict is Verdict.PROVED:
@@ -99,7 +99,7 @@ def test_a_factor_that_the_equation_does_not_have_is_refuted(
     derivation = ALL[number - 1]
     left, right = derivation.printed[part].args
     wrong = sympy.Eq(left, factor * right.doit(), evaluate=False)
-    assert derivation.decide(part, wrong).verdict is Verdict.REFUTED
+    assert derivation.rule_on(part, wrong).verdict is Verdict.REFUTED
 
 
 @pytest.mark.parametrize("stranger", [sy.M, sy.i, sy.z])

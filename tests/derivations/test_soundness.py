@@ -6,9 +6,10 @@ from dataclasses import replace
 import pytest
 import sympy
 from force_diffusion.derivations.framework.catalogue import load
+from force_diffusion.derivations.framework.record import KernelError
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.decisions import KernelError, Ruling, Verdict, proved, refuted
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, proved, refuted
 from force_diffusion.symbolic.symbols import (
     Braces,
     DeltaR,

@@ -24,7 +24,7 @@ def test_a_fragment_is_the_statement_alone() -> None:
     fragment = statement_latex(fakes.PREMISE)
     assert fragment.startswith(r"\begin{equation}")
     assert fragment.rstrip().endswith(r"\end{equation}")
-    assert r"\delta{\bf x}_{ij} = \delta r_{ij} + \delta r_{i-1,j}" in fragment
+    assert r"\Delta_{ij} = \delta r_{ij} + \delta r_{i-1,j}" in fragment
 
 
 def test_the_document_is_ascii_and_balanced_and_the_same_every_time() -> None:
@@ -50,7 +50,7 @@ def test_only_packages_of_the_recommended_set() -> None:
 def test_a_step_that_gives_the_printed_equation_refers_to_it() -> None:
     text = written()
     assert r"\item Add the two radii: Eq.~(1)." in text
-    assert r"\delta{\bf x}_{ij} = " not in text  # the fragment alone displays it
+    assert r"\Delta_{ij} = " not in text  # the fragment alone displays it
 
 
 def test_mutants_are_counted_in_the_document_and_listed_in_the_manifest() -> None:

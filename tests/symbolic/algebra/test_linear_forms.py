@@ -85,7 +85,7 @@ def test_parallel_lines_that_may_be_one_are_not_guessed() -> None:
 
 
 @pytest.mark.parametrize(
-    "divisor", [sy.j - 20, sy.M - sy.j - 3, sy.phi, 1 - 4 * sy.phi**2, 3 * sy.phi - 1]
+    "divisor", [sy.j - 20, sy.M - sy.j - 3, sy.phi, 1 - 16 * sy.phi**2, 3 * sy.phi - 1]
 )
 def test_a_divisor_that_may_vanish_is_undecided(divisor: sympy.Expr) -> None:
     quotient = sy.DeltaR(sy.i, sy.j) / divisor
