@@ -404,6 +404,6 @@ def tried(
         raise RuntimeError(f"{name} stopped half-way: {_last(done.stderr)}")
     for place, accepted in answers.items():
         part, mutant = changes[place]
-        ruling = derivation.decide(part, mutant.equation) if accepted else None
+        ruling = derivation.rule_on(part, mutant.equation) if accepted else None
         equivalent = ruling is not None and ruling.verdict is Proof.PROVED
         yield Change(part, mutant.change, accepted, equivalent)

@@ -54,7 +54,8 @@ COMMANDS = {
     ),
 }
 STATUSES = (
-    "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
+    "Exit status: 0 all proved, 1 something refuted or undecided, or the checker at fault, "
+    "2 wrong usage or input, "
     "3 the disk or a pipe failed, 130 interrupted."
 )
 

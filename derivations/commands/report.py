@@ -13,7 +13,8 @@ import force_diffusion as fd
 
 PAGE = "report.html"
 STATUSES = (
-    "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
+    "Exit status: 0 all proved, 1 something refuted or undecided, or the checker at fault, "
+    "2 wrong usage or input, "
     "3 the disk or a pipe failed or a package is missing, 130 interrupted."
 )
 

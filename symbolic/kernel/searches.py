@@ -133,7 +133,7 @@ def varies_too_much(exact: sympy.Expr, candidate: sympy.Eq) -> str | None:
 def _undefined(candidate: sympy.Eq) -> str | None:
     """A φ at which a side has no value."""
     for cosine, side in product(COSINES, candidate.args):
-        values = {**_OTHERS, sy.phi: cosine, sy.M: 22, sy.j: 11, sy.i: _ACROSS}
+        values: explicit.Values = {**_OTHERS, sy.phi: cosine, sy.M: 22, sy.j: 11, sy.i: _ACROSS}
         try:
             explicit.weights(side, values)
         except explicit.DivisionError:
@@ -167,7 +167,7 @@ def _in_radii(
     (_, across, layer), factor = forces[0], total.pop(forces[0]) / (2 * values[sy.n_y])
     frozen = tuple(sorted(({**values, sy.i: across, sy.j: layer}).items(), key=str))
     for key, weight in _force(exact, frozen).items():
-        total[key] = total.get(key, Fraction(0)) + factor * weight
+        total[key] = total.get(key, Fraction(0)) + Fraction(factor) * weight
     return {key: Fraction(w) for key, w in total.items() if w}, Fraction(factor)
 
 

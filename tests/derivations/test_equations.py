@@ -86,12 +86,12 @@ def test_costly_witnesses_agree(number: Number, seed: int) -> None:
 def test_a_wrong_left_hand_side_is_not_proved(number: int, left: sympy.Expr) -> None:
     derivation = ALL[number - 1]
     wrong = sympy.Eq(left, derivation.printed[0].rhs, evaluate=False)
-    assert derivation.decide(0, wrong).verdict is not Verdict.PROVED
+    assert derivation.rule_on(0, wrong).verdict is not Verdict.PROVED
 
 
 @pytest.mark.parametrize(
     ("number", "part", "factor"),
-    [(15, 0, sy.z), (15, 0, -1), (15, 0, sy.n), (15, 1, -1), (15, 1, sy.j), (16, 0, sy.z)],
+    [(15, 0, sy.z), (15, 0, -1), (15, 0, sy.n), (15, 1, -1), (15, 1, sy.j), (16, 0, sy.n)],
 )
 def test_a_factor_that_the_equation_does_not_have_is_refuted(
     number: int, part: int, factor: sympy.Expr
@@ -102,14 +102,14 @@ def test_a_factor_that_the_equation_does_not_have_is_refuted(
     assert derivation.rule_on(part, wrong).verdict is Verdict.REFUTED
 
 
-@pytest.mark.parametrize("stranger", [sy.M, sy.i, sy.z])
+@pytest.mark.parametrize("stranger", [sy.M, sy.i, sy.n])
 def test_a_term_that_stays_as_the_load_rises_but_is_not_of_the_cone_is_refuted(
     stranger: sympy.Symbol,
 ) -> None:
     derivation = ALL[15]
     left, right = derivation.printed[0].args
     wrong = sympy.Eq(left, right.doit() + stranger * (sy.sigma / sy.r) ** 2, evaluate=False)
-    assert derivation.decide(0, wrong).verdict is Verdict.REFUTED
+    assert derivation.rule_on(0, wrong).verdict is Verdict.REFUTED
 
 
 def test_a_wrong_premise_is_felt(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -254,7 +254,7 @@ def test_each_change_of_what_is_printed_fails(number: int) -> None:
         for change, mutant in changed(equation):
             if survives(number, mutant):
                 hidden.append(change)
-                assert derivation.decide(part, mutant).verdict is Verdict.PROVED, change
+                assert derivation.rule_on(part, mutant).verdict is Verdict.PROVED, change
             else:
                 fell += 1
     assert fell >= 18

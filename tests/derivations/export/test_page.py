@@ -74,7 +74,7 @@ def test_all_of_a_derivation_is_told() -> None:
     for words in ("made up &amp; simple", "Add the two radii.", "Terms compared", "a witness"):
         assert words.lower() in text.lower()
     assert text.count('class="verdict refuted">refuted') == 16  # each mutant
-    assert r"\delta{\bf x}_{ij} = \delta r_{ij} + \delta r_{i-1,j}" in text
+    assert r"\Delta_{ij} = \delta r_{ij} + \delta r_{i-1,j}" in text
     assert "Rests on no other equation." in text
     assert 'href="#eq-1"' in made(fakes.PREMISE, fakes.CONCLUSION)
 

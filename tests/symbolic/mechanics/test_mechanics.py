@@ -2,7 +2,7 @@
 
 import pytest
 import sympy
-from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.derivations.framework.catalogue import load, paper
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.mechanics.paths import (
     BRANCH_COUNT,
@@ -27,7 +27,7 @@ def test_the_path_found_ends_where_it_should() -> None:
     assert sympy.expand(path[q] - BRANCH_COUNT) == 0
 
 
-@pytest.mark.parametrize("number", [n for n in modules() if n <= 11])
+@pytest.mark.parametrize("number", [n for n in paper() if n <= 11])
 def test_twice_mirrored_is_the_same(number: int) -> None:
     for printed in load(number).printed:
         assert mirror(mirror(printed)).doit() == printed.doit()
