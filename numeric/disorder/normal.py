@@ -13,10 +13,10 @@ import numpy as np
 from ..arithmetic.systems import Array
 
 # 2/(2k + 1): the series of 2 artanh(t); |t| <= 0.172 makes the 12th term smaller than 2^-60.
-_ARTANH = [2 / (2 * k + 1) for k in range(12)]
+ARTANH = [2 / (2 * k + 1) for k in range(12)]
 # Taylor coefficients of cos and sin in y²; |y| <= π/4 makes the 10th term smaller than 2^-60.
-_COS = [(-1) ** k / math.factorial(2 * k) for k in range(10)]
-_SIN = [(-1) ** k / math.factorial(2 * k + 1) for k in range(10)]
+COS = [(-1) ** k / math.factorial(2 * k) for k in range(10)]
+SIN = [(-1) ** k / math.factorial(2 * k + 1) for k in range(10)]
 
 
 def _polynomial(coefficients: list[float], x: Array) -> Array:
@@ -33,7 +33,7 @@ def logarithm(x: Array) -> Array:
     mantissa = np.where(low, 2 * mantissa, mantissa)
     exponent = exponent - low
     t = (mantissa - 1) / (mantissa + 1)
-    return np.asarray(exponent * math.log(2) + t * _polynomial(_ARTANH, t * t))
+    return np.asarray(exponent * math.log(2) + t * _polynomial(ARTANH, t * t))
 
 
 def cosine_of_turn(turn: Array) -> Array:
@@ -41,7 +41,7 @@ def cosine_of_turn(turn: Array) -> Array:
     quarter = np.floor(4 * turn + 0.5)
     y = (turn - quarter / 4) * (2 * math.pi)
     square = y * y
-    cos, sin = _polynomial(_COS, square), y * _polynomial(_SIN, square)
+    cos, sin = _polynomial(COS, square), y * _polynomial(SIN, square)
     by_quarter = [cos, -sin, -cos, sin]
     return np.asarray(np.choose(quarter.astype(int) % 4, by_quarter))
 

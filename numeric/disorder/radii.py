@@ -23,9 +23,9 @@ from ..lattice.layers import Layer, Stack
 from .normal import normal_deviates
 
 # Columns of a slab may be negative; counters must not be.
-_OFFSET = 2**62
+OFFSET = 2**62
 # Rows with a radius below r/1000 are looked through bead by bead.
-_NEARLY = Fraction(999, 1000)
+NEARLY = Fraction(999, 1000)
 
 
 class RadiusError(ForceDiffusionError, ValueError):
@@ -114,7 +114,7 @@ class DrawnRadii:
             n = layer.count - at if self.width is None else min(layer.count - at, self.width - q)
             for row, k in enumerate(realisations):
                 key = (self.seed, k)
-                words[:, row, at : at + n] = _streams.words(q + _OFFSET, n, layer.j, key)
+                words[:, row, at : at + n] = _streams.words(q + OFFSET, n, layer.j, key)
             at += n
         return self._deviates(*words)
 
@@ -129,7 +129,7 @@ class DrawnRadii:
     def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
         """Scale the deviates; a radius that is not positive raises ``RadiusError``."""
         deviates = self._drawn(layer, realisations)
-        if deviates.size and self.std * Fraction(float(deviates.min())) < -_NEARLY:
+        if deviates.size and self.std * Fraction(float(deviates.min())) < -NEARLY:
             for row in deviates:
                 self._check_sites(row, [(i, layer.j) for i in layer.sites()])
         values = deviates[0] if len(deviates) == 1 else deviates
@@ -140,7 +140,7 @@ class DrawnRadii:
         columns = ((i - j % 2) // 2 for i, j in sites)
         if self.width is not None:
             columns = (q % self.width for q in columns)
-        low = np.fromiter((q + _OFFSET for q in columns), np.uint64, len(sites))
+        low = np.fromiter((q + OFFSET for q in columns), np.uint64, len(sites))
         high = np.fromiter((j for _, j in sites), np.uint64, len(sites))
         deviates = self._deviates(*philox(low, high, (self.seed, realisation)))
         if deviates.size and deviates.min() * float(self.std) < -0.999:

@@ -1,6 +1,7 @@
 """A scene becomes an ensemble: what is measured, who solves it, and where it is kept."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from ..arithmetic.errors import ForceDiffusionError, NotReachedError
@@ -76,7 +77,7 @@ def ensemble(
         raise ArgumentError(
             "confidence", f"{confidence:g}", "must lie between 0 and 1, such as 0.95"
         )
-    m = measurement(scene, covariance=covariance, reach=reach)
+    m = replace(measurement(scene, covariance=covariance, reach=reach), expected=size)
     executor = _executor(m, size, workers, scheduler)
     rule = None if until is None else Rule(until, confidence)
     path = None if store is None else Path(store)

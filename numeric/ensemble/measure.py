@@ -12,6 +12,7 @@ from typing import Any
 
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
+from ..lattice.branch import Branch
 from ..mechanics.problem import Problem, Route, Solved
 from ..planning.plan import Plan
 from ..planning.planner import plan
@@ -41,11 +42,13 @@ class Measurement:
     """What is measured, and how it is summed up; ``plan`` has one realisation.
 
     ``edges`` are those of the bins, float64; ``covariance`` asks for that of the groups.
+    ``expected`` is how many packings there will be; it decides who sweeps, never a number.
     """
 
     plan: Plan
     edges: tuple[float, ...]
     covariance: bool
+    expected: int = 1
 
     @property
     def problem(self) -> Problem:
@@ -98,6 +101,19 @@ class Measurement:
         Of a response the second half of the groups is vertical: f N_y, its change likewise.
         """
         return self._of.changes(self.problem, solved, realisations)
+
+    def pieces(self) -> list[tuple[int, Branch, int]] | None:
+        """Give (group, branch, layer of the upper beads) of all that a group of layers holds.
+
+        None where groups are single contacts.
+        """
+        if self.members == 1:
+            return None
+        blocks = self._of.blocks(self.problem)
+        return [
+            (group if self.groups > 1 else 0, branch, row.j)
+            for group, (branch, row) in enumerate(blocks)
+        ]
 
     def ordered(self) -> list[Fraction]:
         """Give the ordered force of each group (of a group whose forces differ, their mean)."""

@@ -12,8 +12,9 @@ from .store import Block, Store, StoreError
 from .sums import Sums, none
 from .workers import refuse_unbuildable
 
-# Beads of a block, about: a second of work, of which a kill loses no more.
-BLOCK = 1_000_000
+# Beads of a block, at most about: seconds of work, of which a kill loses no more. There are at
+# least so many blocks for workers to share.
+BLOCK, SHARES = 8_000_000, 16
 
 
 class Executor(Protocol):
@@ -108,7 +109,8 @@ class _Run:
 
     def _tasks(self) -> Iterator[tuple[int, int]]:
         """Give the ranges that are missing, in order; none lies across a cut."""
-        step = max(1, min(BLOCK // max(self.m.problem.region.beads, 1), 4096))
+        beads = max(self.m.problem.region.beads, 1)
+        step = max(1, min(BLOCK // beads, self.size // SHARES, 4096))
         known = [(block.first, block.stop) for block in self.blocks]
         at = 0
         while at < self.size:

@@ -11,11 +11,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from operator import add
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array
+from ..lattice.branch import Branch
 from ..mechanics.engine import packings as solved_packings
+from ..mechanics.forces import CompiledForces
+from ..mechanics.problem import Solved
 from ..mechanics.work import Work
 from ..statistics.exact_sum import (
     ExactSum,
@@ -26,6 +30,9 @@ from ..statistics.exact_sum import (
     total_products,
 )
 from .measure import Measurement
+
+if TYPE_CHECKING:
+    from ..statistics.compiled import Tally
 
 _COUNTS = struct.Struct("<3q")
 
@@ -124,19 +131,58 @@ def from_bytes(content: bytes, m: Measurement) -> Sums:
 
 
 def measured(m: Measurement, realisations: Sequence[int], work: Work | None = None) -> Sums:
-    """Solve realisations and sum them up; what the sweeps raise is passed on."""
+    """Solve realisations and sum them up; what the sweeps raise is passed on.
+
+    Who sums up decides no bit: exact sums have but one value.
+    """
     work = Work() if work is None else work
-    problem = replace(m.problem, realisations=len(realisations))  # decides who sweeps, no bits
+    problem = replace(m.problem, realisations=max(m.expected, len(realisations)))
     over_contacts = [none(m)]
-    packings = []
+    packings: list[Array] = []
+    tally: Tally | None = None
     with FLOAT64.active():
         for solved, chunk in solved_packings(problem, realisations, FLOAT64, work):
             with work.timed("statistics"):
-                summed, means = _over_contacts(m, *m.changes(solved, len(chunk)))
-                over_contacts.append(summed)
+                if tally is None:
+                    tally = _tally(m, solved)
+                means = None if tally is None else _tallied(tally, solved)
+                if means is None:
+                    summed, means = _over_contacts(m, *m.changes(solved, len(chunk)))
+                    over_contacts.append(summed)
                 packings.append(means)
     with work.timed("statistics"):
-        return _over_packings(m, reduce(add, over_contacts), packings)
+        if tally is not None:
+            over_contacts.append(_of_tally(m, tally))
+        summed = replace(reduce(add, over_contacts), realisations=len(realisations))
+        return _over_packings(m, summed, packings)
+
+
+def _tally(m: Measurement, solved: Solved) -> "Tally | None":
+    """Give compiled sums, the same numbers, for groups of many contacts of compiled forces."""
+    forces = solved.forces
+    table = m.pieces()
+    if table is None or not isinstance(forces, CompiledForces):
+        return None
+    from ..statistics.compiled import Tally
+
+    pieces = []
+    for group, branch, j in table:
+        if j < len(forces.rows) and len(forces.ordered[branch][j]):  # some load reaches it
+            side = 0 if branch is Branch.PLUS else 1
+            start = forces.starts[j], forces.F.start[side][j]
+            pieces.append((group, side, *start, forces.rows[j].count))
+    return Tally(np.array(pieces).reshape(-1, 5), m.groups, m.members, m.unit, m.edges)
+
+
+def _tallied(tally: "Tally", solved: Solved) -> Array | None:
+    forces = solved.forces
+    assert isinstance(forces, CompiledForces)
+    return tally.add(forces.g, forces.F.values)
+
+
+def _of_tally(m: Measurement, tally: "Tally") -> Sums:
+    change, square = tally.sums()
+    return replace(none(m), change=change, square=square, tensile=tally.tensile, bins=tally.bins)
 
 
 def _over_contacts(m: Measurement, ordered: Array, changes: Array) -> tuple[Sums, Array]:

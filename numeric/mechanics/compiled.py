@@ -1,9 +1,13 @@
-"""The float64 sweeps of whole periodic packings, compiled: bitwise the numbers of the NumPy ones.
+"""The float64 sweeps, compiled: bitwise the numbers of the NumPy ones, for packings of any shape.
 
 The same operations as in ``packing.place`` and ``forces.sweep_down``, in the same order and each
-rounded by itself: no fast-math, and LLVM is not given leave to fuse a product with a sum. So every
-result is the NumPy sweep's, bit for bit; whatever is out of the ordinary (a bead that can't rest,
-a number that is not finite) is left to the NumPy sweep, whose errors name the bead.
+rounded by itself. So every result is the NumPy sweep's, bit for bit; whatever is out of the
+ordinary (a bead that can't rest, a number that is not finite) is left to the NumPy sweep, whose
+errors name the bead.
+
+Beads lie row after row, and the rows' arrays in one piece. Which beads bear on which is the same in
+all packings of a problem: tables of *runs*, neighbouring beads whose supports are neighbours, too,
+are made once. ``Sweeps`` holds them together with the memory, which is used again.
 
 Only ``engine`` imports this file, and only for work that repays loading the compiler.
 """
@@ -14,37 +18,24 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import sqrt
-from typing import Any, TypeVar, cast
 
-import llvmlite.binding
-import numba
 import numpy as np
 
+from ..arithmetic.compiling import compiled
 from ..arithmetic.machine import cores
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
+from ..disorder import compiled as drawing
+from ..disorder.radii import DrawnRadii, Radii
+from ..lattice import runs as tables
 from ..lattice.branch import PerBranch
-from ..lattice.layers import Layer, LazyRows, Region, Stack
+from ..lattice.layers import Layer, LazyRows, Region, Stack, full_layer, pick
 from . import forces, packing
-from .forces import Forces, Loads
+from .forces import CompiledForces, Forces, Loads, Ordered
 from .packing import SolvedPacking
 from .work import Work
 
-Function = TypeVar("Function", bound=Callable[..., Any])
 
-# Rows never overlap, but LLVM has to check; it gives up vectorising at 8 comparisons by default.
-llvmlite.binding.set_option("force-diffusion", "--runtime-memory-check-threshold=512")
-
-
-def _compiled(function: Function) -> Function:
-    """Compile at the first call; keep the machine code on disk where a folder can be written."""
-    options: dict[str, Any] = {"error_model": "numpy", "nogil": True}
-    try:
-        return cast(Function, numba.njit(cache=True, **options)(function))
-    except RuntimeError:  # no place to write to
-        return cast(Function, numba.njit(**options)(function))
-
-
-@_compiled
+@compiled
 def _place(
     below: tuple[Array, Array, Array, Array],
     radii: tuple[Array, Array, Array],
@@ -111,50 +102,38 @@ def _place(
     return good
 
 
-@_compiled
-def _runs(j: int, width: int) -> tuple[tuple[int, int, int, int], tuple[int, int, int, int]]:
-    """Split layer j where its beads' neighbours are at both ends of their layer.
+@compiled
+def _deposit(base: int, runs: Array, rho: Array, block: Array, phi: float, inverse: float) -> bool:
+    """Deposit packings; say whether every bead rests.
 
-    Bead q has the neighbours q − 1 + j % 2, to the left, and q + j % 2 in the layer below and in
-    the layer above. Gives (first bead, its left and its right neighbour, beads) of two runs.
+    ``rho`` is (packings, beads), ``base`` how many beads the base has, ``runs`` the table
+    ``runs.of_supports``; filled is ``block``, (packings, 6, …): c⁺, c⁻, the δn of plus, of minus;
+    the δn of the base are not touched.
     """
-    if j % 2:
-        return (0, 0, 1, width - 1), (width - 1, width - 1, 0, 1)
-    return (1, 0, 1, width - 1), (0, width - 1, 0, 1)
-
-
-@_compiled
-def _deposit(rho: Array, block: Array, phi: float, inverse: float) -> bool:
-    """Deposit a packing; say whether every bead rests.
-
-    ``rho`` is (layers, W); filled is ``block``, (6, …): c⁺, c⁻, the δn of plus, of minus, of all
-    beads in order; the δn of layer 0 are not touched.
-    """
-    layers, width = rho.shape
-    c_plus, c_minus = block[0], block[1]
-    plus_a, plus_b, minus_a, minus_b = block[2], block[3], block[4], block[5]
     good = True
-    for q in range(width):
-        c_plus[q] = c_minus[q] = 0.0
-        good &= (1 + rho[0, q] > 0) & (rho[0, q] < np.inf)
-    for j in range(1, layers):
-        under = (j - 1) * width
-        for q, a, b, n in _runs(j, width):
-            own = slice(under + width + q, under + width + q + n)
-            at_a, at_b = slice(under + a, under + a + n), slice(under + b, under + b + n)
+    for k in range(len(rho)):
+        own_rho = rho[k]
+        c_plus, c_minus = block[k, 0], block[k, 1]
+        plus_a, plus_b = block[k, 2], block[k, 3]
+        minus_a, minus_b = block[k, 4], block[k, 5]
+        for q in range(base):
+            c_plus[q] = c_minus[q] = 0.0
+            good &= (1 + own_rho[q] > 0) & (own_rho[q] < np.inf)
+        for r in range(len(runs)):
+            q, a, b, n = runs[r, 0], runs[r, 1], runs[r, 2], runs[r, 3]
             good &= _place(
-                (c_plus[at_a], c_minus[at_a], c_plus[at_b], c_minus[at_b]),
-                (rho[j, q : q + n], rho[j - 1, a : a + n], rho[j - 1, b : b + n]),
-                (c_plus[own], c_minus[own]),
-                (plus_a[own], plus_b[own]),
-                (minus_a[own], minus_b[own]),
+                (c_plus[a : a + n], c_minus[a : a + n], c_plus[b : b + n], c_minus[b : b + n]),
+                (own_rho[q : q + n], own_rho[a : a + n], own_rho[b : b + n]),
+                (c_plus[q : q + n], c_minus[q : q + n]),
+                (plus_a[q : q + n], plus_b[q : q + n]),
+                (minus_a[q : q + n], minus_b[q : q + n]),
                 phi,
                 inverse,
             )
     return good
 
 
-@_compiled
+@compiled
 def _balance(
     F: tuple[Array, Array],
     from_right: tuple[Array, Array, Array, Array, Array],
@@ -204,7 +183,7 @@ def _balance(
     return good
 
 
-@_compiled
+@compiled
 def _order(own: Array, loads: Array, width: int, side: int) -> tuple[Array, Array]:
     """Give the ordered forces of one branch: numbers, and where each layer's W of them begin.
 
@@ -234,56 +213,71 @@ def _order(own: Array, loads: Array, width: int, side: int) -> tuple[Array, Arra
     return F, start
 
 
-@_compiled
-def _sweep_down(
-    F: tuple[Array, Array], start: tuple[Array, Array], block: Array, g: Array, width: int
-) -> bool:
-    """Sweep a packing from the highest layer down; say if all is in order.
+@compiled
+def _sweep_down(F: tuple[Array, Array], runs: Array, block: Array, g: Array, lost: Array) -> bool:
+    """Sweep packings from the highest layer down; say if all is in order.
 
-    ``F`` and where its layers ``start`` are those of ``_order``, ``block`` is that of ``_deposit``;
-    filled is ``g``, (2, …), all but layer 0, and with a layer of zeros above the highest.
+    ``F`` are the ordered forces, ``runs`` the table ``runs.of_loads``, ``block`` is that of
+    ``_deposit``; filled is ``g``, (packings, 2, …). ``lost``, (2, …), is for what the sums of a
+    layer and the one above have lost, which take turns. Beyond the last bead all have zeros.
     """
-    (F_plus, F_minus), (start_plus, start_minus) = F, start
-    g_plus, g_minus = g[0], g[1]
-    plus_a, plus_b, minus_a, minus_b = block[2], block[3], block[4], block[5]
-    # What the sums of a layer and the one above have lost, which take turns; see ``_block``.
-    lost = np.zeros((2, 2, width + (72 - width) % 512))
+    F_plus, F_minus = F
     good = True
-    top = len(start_plus) - 2
-    for q in range((top + 1) * width, (top + 2) * width):
-        g_plus[q] = g_minus[q] = 0.0
-    for j in range(top, 0, -1):
-        here, over = j * width, (j + 1) * width
-        turns = min(over, top * width)  # above the highest layer no force is there to be turned
-        new, old = j % 2, (j + 1) % 2
-        F_over_plus, F_over_minus = start_plus[j + 1], start_minus[j + 1]
-        F_plus_here, F_minus_here = start_plus[j], start_minus[j]
-        for q, a, b, n in _runs(j, width):
+    for k in range(len(block)):
+        g_plus, g_minus = g[k, 0], g[k, 1]
+        plus_a, plus_b = block[k, 2], block[k, 3]
+        minus_a, minus_b = block[k, 4], block[k, 5]
+        for r in range(len(runs)):
+            q, b, a, n = runs[r, 0], runs[r, 1], runs[r, 2], runs[r, 3]
+            here, over_b, over_a = runs[r, 4], runs[r, 5], runs[r, 6]
+            Fp, Fb, Fm, Fa = runs[r, 7], runs[r, 8], runs[r, 9], runs[r, 10]
+            new, old_b, old_a = runs[r, 11], runs[r, 12], runs[r, 13]
             good &= _balance(
+                (F_plus[Fp : Fp + n], F_minus[Fm : Fm + n]),
                 (
-                    F_plus[F_plus_here + q : F_plus_here + q + n],
-                    F_minus[F_minus_here + q : F_minus_here + q + n],
+                    F_plus[Fb : Fb + n],
+                    g_plus[b : b + n],
+                    plus_a[over_b : over_b + n],
+                    plus_b[over_b : over_b + n],
+                    lost[0, old_b : old_b + n],
                 ),
                 (
-                    F_plus[F_over_plus + b : F_over_plus + b + n],
-                    g_plus[over + b : over + b + n],
-                    plus_a[turns + b : turns + b + n],
-                    plus_b[turns + b : turns + b + n],
-                    lost[old, 0, b : b + n],
+                    F_minus[Fa : Fa + n],
+                    g_minus[a : a + n],
+                    minus_a[over_a : over_a + n],
+                    minus_b[over_a : over_a + n],
+                    lost[1, old_a : old_a + n],
                 ),
-                (
-                    F_minus[F_over_minus + a : F_over_minus + a + n],
-                    g_minus[over + a : over + a + n],
-                    minus_a[turns + a : turns + a + n],
-                    minus_b[turns + a : turns + a + n],
-                    lost[old, 1, a : a + n],
-                ),
-                (plus_a[here + q : here + q + n], plus_b[here + q : here + q + n]),
-                (minus_a[here + q : here + q + n], minus_b[here + q : here + q + n]),
-                (g_plus[here + q : here + q + n], g_minus[here + q : here + q + n]),
-                (lost[new, 0, q : q + n], lost[new, 1, q : q + n]),
+                (plus_a[here : here + n], plus_b[here : here + n]),
+                (minus_a[here : here + n], minus_b[here : here + n]),
+                (g_plus[q : q + n], g_minus[q : q + n]),
+                (lost[0, new : new + n], lost[1, new : new + n]),
             )
     return good
+
+
+def _ordered(rows: tuple[Layer, ...], width: int | None, loads: Loads) -> Ordered:
+    """Carry the loads straight down."""
+    if width is not None and all(row == full_layer(row.j, width) for row in rows):
+        (plus, at_plus), (minus, at_minus) = (
+            _order(*_stacked(of), width, side) for side, of in enumerate((loads.plus, loads.minus))
+        )
+        return Ordered((plus, minus), (at_plus, at_minus), (0, 0))
+    starts = tables.starts(rows)
+    found = []
+    for side, of in ((1, loads.plus), (-1, loads.minus)):
+        F = np.zeros(starts[-1] + tables.widest(rows))
+        above, over = np.empty(0), Layer(len(rows), 0, 0)
+        for j in range(len(rows) - 1, 0, -1):
+            row, load = rows[j], of[j]
+            if not row.count:
+                break
+            above = pick(above, over, Layer(j + 1, row.first + side, row.count), width, 0.0)
+            above = above if load is None else above + load
+            F[starts[j] : starts[j + 1]], over = above, row
+        found.append(F)
+    end = int(starts[-1])
+    return Ordered((found[0], found[1]), (starts, starts), (end, end))
 
 
 @dataclass(frozen=True)
@@ -293,28 +287,41 @@ class CompiledPacking(SolvedPacking):
     block: Array
 
 
-def _block(batch: int, quantities: int, layers: int, width: int) -> tuple[Array, Array]:
-    """Give memory, (batch, quantities, …), and how it reads: (batch, quantities, layers, W).
+def _block(batch: int, quantities: int, size: int, zeros: int) -> Array:
+    """Give memory, (batch, quantities, size and more): ``zeros`` behind what will be filled.
 
     It is one piece, since the system hands out big pieces faster. Quantities at distances that are
     multiples of 4096 bytes would compete for the same places of the cache.
     """
-    beads = layers * width
-    memory = np.empty((batch, quantities, beads + (72 - beads) % 512))
-    return memory, memory[:, :, :beads].reshape(batch, quantities, layers, width)
+    end = size + zeros
+    block = np.empty((batch, quantities, end + (72 - end) % 512))
+    block[..., size:end] = 0.0
+    return block
 
 
-def _all(function: Callable[[int], bool], batch: int) -> bool:
-    """Call ``function`` for every packing of a batch, on all cores that may be used."""
-    if batch == 1:
-        return function(0)
-    with ThreadPoolExecutor(min(batch, cores())) as pool:
-        return all(pool.map(function, range(batch)))
+def _all(function: Callable[[slice], bool], batch: int) -> bool:
+    """Call ``function`` for parts of a batch of packings, on all cores that may be used."""
+    parts = min(batch, cores())
+    if parts == 1:
+        return function(slice(0, batch))
+    cuts = [batch * part // parts for part in range(parts + 1)]
+    with ThreadPoolExecutor(parts) as pool:
+        return all(pool.map(function, map(slice, cuts[:-1], cuts[1:])))
 
 
-def _above_base(block: Array) -> LazyRows[Array]:
-    """Give the layers of a block, (…, layers, W), of which the lowest has nothing to say."""
-    return LazyRows(block.shape[-2], lambda j: block[..., j, :] if j else np.empty(0))
+def _rows(values: Array, starts: Array, lowest: int = 0) -> LazyRows[Array]:
+    """Give the rows of (…, beads), of which those below ``lowest`` have nothing to say."""
+
+    def row(j: int) -> Array:
+        return values[..., starts[j] : starts[j + 1]] if j >= lowest else np.empty(0)
+
+    return LazyRows(len(starts) - 1, row)
+
+
+def _pairs(a: Array, b: Array, starts: Array) -> LazyRows[tuple[Array, Array]]:
+    """Give the rows of δn, whose components lie in two arrays."""
+    of_a, of_b = _rows(a, starts, 1), _rows(b, starts, 1)
+    return LazyRows(len(of_a), lambda j: (of_a[j], of_b[j]))
 
 
 @lru_cache(maxsize=1)
@@ -324,6 +331,198 @@ def _metric(n_x: Fraction) -> tuple[float, float]:
     return float(m.phi), float(m.inverse_det)
 
 
+class Deposition:
+    """Deposits packings of one region, in memory that is used again for the next ones."""
+
+    def __init__(self, n_x: Fraction, region: Region) -> None:
+        """Raise ``LookupError`` where the region lacks a support."""
+        self.n_x, self.region = n_x, region
+        self.runs = tables.of_supports(region)
+        self.starts = tables.starts(region.rows)
+        self.block = np.empty((0, 6, 0))
+
+    def __call__(self, rho: Array, rows: Sequence[Array]) -> CompiledPacking | None:
+        """Deposit packings of δr/r (packings, beads), whose ``rows`` they are; None: not all rest.
+
+        What was given before is overwritten.
+        """
+        batch = len(rho)
+        if len(self.block) < batch:
+            self.block = _block(batch, 6, int(self.starts[-1]), tables.widest(self.region.rows))
+        block, base = self.block[:batch], self.region.rows[0].count
+        phi, inverse = _metric(self.n_x)
+
+        def part(of: slice) -> bool:
+            return _deposit(base, self.runs, rho[of], block[of], phi, inverse)
+
+        if not _all(part, batch):
+            return None
+        found = block[0] if rows[0].ndim == 1 else block.swapaxes(0, 1)
+        turns = [_pairs(found[m], found[m + 1], self.starts) for m in (2, 4)]
+        return CompiledPacking(
+            self.n_x,
+            FLOAT64,
+            self.region,
+            rows,
+            PerBranch(_rows(found[0], self.starts), _rows(found[1], self.starts)),
+            PerBranch(turns[0], turns[1]),
+            block,
+        )
+
+
+class Descent:
+    """Carries loads down through packings of one region, in memory that is used again."""
+
+    def __init__(self, region: Region, rows: tuple[Layer, ...], loads: Loads) -> None:
+        """``rows`` are those whose forces are balanced, ``loads`` belong to them."""
+        self.rows, self.F = rows, _ordered(rows, region.width, loads)
+        self.starts = tables.starts(rows)
+        self.runs = tables.of_loads(rows, region, self.F.start, self.F.missing)
+        self.lowest = next((j + 1 for j in range(len(rows) - 1, 0, -1) if not rows[j].count), 1)
+        self.g = np.empty((0, 2, 0))
+
+    def __call__(self, solved: CompiledPacking) -> CompiledForces | None:
+        """Balance the forces; None where not all is in order."""
+        batch, spare = len(solved.block), tables.widest(self.rows)
+        if len(self.g) < batch:
+            self.g = _block(batch, 2, int(self.starts[-1]), spare)
+        g, F = self.g[:batch], self.F
+
+        def part(of: slice) -> bool:
+            lost = _block(1, 2, 2 * spare, spare)[0]
+            return _sweep_down(F.values, self.runs, solved.block[of], g[of], lost)
+
+        if not _all(part, batch):
+            return None
+        found = g[0] if solved.rho[0].ndim == 1 else g.swapaxes(0, 1)
+        plus, minus = (self._ordered(F.values[b], F.start[b]) for b in (0, 1))
+        changes = [_rows(of, self.starts, self.lowest) for of in found]
+        return CompiledForces(
+            FLOAT64,
+            self.rows,
+            PerBranch(plus, minus),
+            PerBranch(changes[0], changes[1]),
+            F=F,
+            g=g,
+            starts=self.starts,
+        )
+
+    def _ordered(self, values: Array, start: Array) -> LazyRows[Array]:
+        """Give the rows of what ``_order`` made: they may overlap."""
+
+        def row(j: int) -> Array:
+            if j < self.lowest:
+                return np.empty(0)
+            return values[start[j] : start[j] + self.rows[j].count]
+
+        return LazyRows(len(self.rows), row)
+
+
+class Drawing:
+    """Gives radii of one region, in memory that is used again."""
+
+    def __init__(self, radii: Radii, region: Region) -> None:
+        """``radii`` are drawn here, if they are drawn at all."""
+        self.radii, self.rows = radii, region.rows
+        self.starts = tables.starts(region.rows)
+        self.runs = drawing.runs_of(radii, region.rows) if isinstance(radii, DrawnRadii) else None
+        self.rho = np.empty((0, 0))
+
+    def __call__(self, realisations: Sequence[int]) -> tuple[Array, Sequence[Array]]:
+        """Give δr/r, (packings, beads), and its rows. Raises what ``radii`` raises."""
+        batch = len(realisations)
+        if len(self.rho) < batch:
+            self.rho = np.empty((batch, int(self.starts[-1])))
+        rho, radii, runs = self.rho[:batch], self.radii, self.runs
+
+        def part(of: slice) -> bool:
+            assert isinstance(radii, DrawnRadii)
+            assert runs is not None
+            return drawing.draw(radii, runs, realisations[of], rho[of])
+
+        if runs is None or not _all(part, batch):
+            for j, row in enumerate(self.rows):
+                of = slice(self.starts[j], self.starts[j + 1])
+                rho[:, of] = radii.row(row, realisations, FLOAT64)
+        return rho, _rows(rho[0] if batch == 1 else rho, self.starts)
+
+
+class Sweeps:
+    """Draws, deposits and balances packings of one problem, in memory that is used again.
+
+    Its functions are those of ``rows_of``, ``packing.deposit`` and ``forces.sweep_down``, for one
+    batch after the other: what they gave for the last is overwritten.
+    """
+
+    def __init__(self, radii: Radii, n_x: Fraction, region: Region) -> None:
+        """Raise ``LookupError`` where the region lacks a support."""
+        self._draw, self._deposit = Drawing(radii, region), Deposition(n_x, region)
+        self._descent: tuple[Loads, Descent] | None = None
+        self._drawn: tuple[Array, Sequence[Array]] = np.empty((0, 0)), ()
+
+    def radii(self, realisations: Sequence[int]) -> Sequence[Array]:
+        """Give δr/r, row by row."""
+        self._drawn = self._draw(realisations)
+        return self._drawn[1]
+
+    def deposit(
+        self,
+        n_x: Fraction,
+        region: Region,
+        rho: Sequence[Array],
+        system: NumberSystem,
+        work: Work | None = None,
+    ) -> SolvedPacking:
+        """Deposit what was drawn last."""
+        assert rho is self._drawn[1]
+        solved = self._deposit(*self._drawn)
+        if solved is None:
+            return packing.deposit(n_x, region, rho, system, work)  # which names the bead
+        if work is not None:
+            work.did_rows("deposited", region.rows, len(solved.block))
+        return solved
+
+    def sweep_down(
+        self,
+        solved: SolvedPacking,
+        rows: tuple[Layer, ...],
+        loads: Loads,
+        *,
+        linear: bool = False,
+        stop_at_tension: bool = False,
+        work: Work | None = None,
+    ) -> Forces:
+        """Balance what was deposited last; the tables are kept for the same ``loads``."""
+        if self._descent is None or self._descent[0] is not loads:
+            self._descent = loads, Descent(solved.region, rows, loads)
+        return _swept(
+            self._descent[1], solved, loads,
+            linear=linear, stop_at_tension=stop_at_tension, work=work,
+        )  # fmt: skip
+
+
+def _swept(
+    descent: Descent,
+    solved: SolvedPacking,
+    loads: Loads,
+    *,
+    linear: bool,
+    stop_at_tension: bool,
+    work: Work | None,
+) -> Forces:
+    """Sweep down; whatever is out of the ordinary is left to the NumPy sweep."""
+    found = None
+    if isinstance(solved, CompiledPacking) and not (linear or stop_at_tension):
+        found = descent(solved)
+    if found is None:
+        return forces.sweep_down(
+            solved, descent.rows, loads, linear=linear, stop_at_tension=stop_at_tension, work=work
+        )
+    if work is not None:
+        work.did_rows("balanced", descent.rows[:0:-1], len(found.g))
+    return found
+
+
 def deposit(
     n_x: Fraction,
     region: Region,
@@ -331,48 +530,20 @@ def deposit(
     system: NumberSystem,
     work: Work | None = None,
 ) -> SolvedPacking:
-    """Do what ``packing.deposit`` does, and to the bit; compiled for whole packings in float64."""
+    """Do what ``packing.deposit`` does, and to the bit; compiled in float64."""
     shape = rho[0].shape
-    if system is not FLOAT64 or len(shape) > 2 or not region.is_whole:
+    solved = None
+    if system is FLOAT64 and len(shape) <= 2:
+        if isinstance(rho, Stack):
+            radii = rho.block.reshape(-1, region.beads)
+        else:
+            radii = np.concatenate([row.reshape(-1, row.shape[-1]) for row in rho], axis=1)
+        solved = Deposition(n_x, region)(radii, rho)
+    if solved is None:
         return packing.deposit(n_x, region, rho, system, work)
-    phi, inverse = _metric(n_x)
-    # Each packing of a batch lies in one piece: cores that write next to each other are slow.
-    if isinstance(rho, Stack):
-        radii = rho.block.reshape(-1, len(rho), shape[-1])
-    elif len(shape) == 1:
-        radii = np.concatenate(rho).reshape(1, len(rho), shape[-1])
-    else:
-        radii = np.stack(rho, axis=1)
-    batch, layers, width = radii.shape
-    block, found = _block(batch, 6, layers, width)
-
-    def one(k: int) -> bool:
-        return _deposit(radii[k], block[k], phi, inverse)
-
-    if not _all(one, batch):
-        return packing.deposit(n_x, region, rho, system, work)  # which names the bead
     if work is not None:
-        for layer in region.rows:
-            work.did("deposited", layer, batch)
-    found = found[0] if len(shape) == 1 else found.swapaxes(0, 1)
-    return CompiledPacking(
-        n_x,
-        system,
-        region,
-        rho,
-        PerBranch(Stack(found[0]), Stack(found[1])),
-        PerBranch(_pairs(found[2], found[3]), _pairs(found[4], found[5])),
-        block,
-    )
-
-
-def _pairs(a: Array, b: Array) -> LazyRows[tuple[Array, Array]]:
-    """Give the layers of δn, whose components lie in two blocks, (…, layers, W)."""
-    nothing = np.empty(0)
-    return LazyRows(
-        a.shape[-2],
-        lambda j: (a[..., j, :], b[..., j, :]) if j else (nothing, nothing),
-    )
+        work.did_rows("deposited", region.rows, len(solved.block))
+    return solved
 
 
 def sweep_down(
@@ -385,46 +556,11 @@ def sweep_down(
     work: Work | None = None,
 ) -> Forces:
     """Do what ``forces.sweep_down`` does, and to the bit; compiled on what ``deposit`` compiled."""
-    given = [_stacked(loads.plus), _stacked(loads.minus)]
-    if (
-        not isinstance(solved, CompiledPacking)
-        or linear
-        or stop_at_tension
-        or not (rows is solved.region.rows or rows == solved.region.rows)
-        or any(len(r) and r.shape[1:] != (solved.region.width,) for _, r in given)
-    ):
-        return forces.sweep_down(
-            solved, rows, loads, linear=linear, stop_at_tension=stop_at_tension, work=work
-        )
-    block = solved.block
-    batch, layers, width = len(block), len(rows), solved.rho[0].shape[-1]
-    (F_plus, start_plus), (F_minus, start_minus) = (
-        _order(own, loaded, width, side) for side, (own, loaded) in enumerate(given)
-    )
-    g, found = _block(batch, 2, layers + 1, width)
-    found = found[:, :, :layers]
-
-    def one(k: int) -> bool:
-        return _sweep_down((F_plus, F_minus), (start_plus, start_minus), block[k], g[k], width)
-
-    if not _all(one, batch):
-        return forces.sweep_down(solved, rows, loads, work=work)  # which names the bead
-    if work is not None:
-        for layer in reversed(rows[1:]):
-            work.did("balanced", layer, batch)
-    found = found[0] if solved.rho[0].ndim == 1 else found.swapaxes(0, 1)
-    return Forces(
-        solved.system,
-        rows,
-        PerBranch(_windows(F_plus, start_plus, width), _windows(F_minus, start_minus, width)),
-        PerBranch(_above_base(found[0]), _above_base(found[1])),
-    )
-
-
-def _windows(values: Array, start: Array, width: int) -> LazyRows[Array]:
-    """Give the layers of what ``_order`` made."""
-    return LazyRows(
-        len(start) - 1, lambda j: values[start[j] : start[j] + width] if j else np.empty(0)
+    if isinstance(solved, CompiledPacking) and not (linear or stop_at_tension):
+        descent = Descent(solved.region, rows, loads)
+        return _swept(descent, solved, loads, linear=False, stop_at_tension=False, work=work)
+    return forces.sweep_down(
+        solved, rows, loads, linear=linear, stop_at_tension=stop_at_tension, work=work
     )
 
 

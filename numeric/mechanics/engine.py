@@ -1,19 +1,21 @@
 """The engine: the one way in which packings are solved, whatever is asked and of how many."""
 
-from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
 
 from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import rows_of
 from ..lattice.branch import Branch
 from ..lattice.layers import Layer
 from . import first_order, packing
-from .forces import Forces, sweep_down
-from .packing import SolvedPacking
+from .forces import Loads, sweep_down
 from .physicality import PHYSICAL, Physicality
 from .plain_form import solve_plainly
 from .problem import Problem, Route, Solved
 from .work import Work
+
+if TYPE_CHECKING:
+    from .compiled import Sweeps
 
 # Beads from which on the compiled sweeps repay loading the compiler (half a second).
 COMPILED_FROM = 2_000_000
@@ -43,23 +45,26 @@ def packings(
     """Solve realisations in their order, as many at a time as is good for the arrays.
 
     Gives what was solved together and its realisations: the first axis of arrays, which a single
-    one lacks. The caller activates ``system``. ``physical`` looks at every packing. ``plainly``
-    takes the plain form. Raises what the sweeps raise for a packing that can't be built, or not be
-    decided.
+    one lacks. The next ones take the memory of the last: what is to stay has to be copied. The
+    caller activates ``system``. ``physical`` looks at every packing. ``plainly`` takes the plain
+    form. Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
     work = Work() if work is None else work
     size = chunk_size(problem, system)
+    sweeps = None if plainly else _compiled(problem, system)
+    loads = None if plainly else _loads(problem, system)
     for at in range(0, len(realisations), size):
         chunk = realisations[at : at + size]
-        solver = solve_plainly if plainly else solve
-        solved = solver(problem, chunk, system, work)
+        if plainly:
+            solved = solve_plainly(problem, chunk, system, work)
+        else:
+            solved = _solved(problem, chunk, system, work, sweeps, loads)
         if physical is not None and solved.packing is not None:
             with work.timed(PHYSICAL):
                 physical.look_at_gaps(solved.packing)
                 if solved.forces is not None:
                     physical.look_at_forces(solved.forces)
-            for layer in solved.packing.region.rows:
-                work.did("checked", layer, len(chunk))
+            work.did_rows("checked", solved.packing.region.rows, len(chunk))
         yield solved, chunk
 
 
@@ -67,6 +72,18 @@ def solve(
     problem: Problem, realisations: Sequence[int], system: NumberSystem, work: Work
 ) -> Solved:
     """Solve some realisations together; the caller activates ``system``."""
+    sweeps, loads = _compiled(problem, system), _loads(problem, system)
+    return _solved(problem, realisations, system, work, sweeps, loads)
+
+
+def _solved(
+    problem: Problem,
+    realisations: Sequence[int],
+    system: NumberSystem,
+    work: Work,
+    sweeps: "Sweeps | None",
+    loads: Loads | None,
+) -> Solved:
     if problem.route == Route.ORDERED:
         with work.timed("closed form"):
             return _ordered(problem, system)
@@ -74,24 +91,27 @@ def solve(
         return _line_sums(problem, realisations[0], system, work)
     n_x = problem.n_x
     with work.timed("radii"):
-        rho = rows_of(problem.radii, problem.region.rows, realisations, system)
-    for layer in problem.region.rows:
-        work.did("radii", layer, len(realisations))
-    deposit, sweep = _sweeps(problem, system)
+        rho = (
+            rows_of(problem.radii, problem.region.rows, realisations, system)
+            if sweeps is None
+            else sweeps.radii(realisations)
+        )
+    work.did_rows("radii", problem.region.rows, len(realisations))
     if problem.route == Route.EXACT:
+        deposit = packing.deposit if sweeps is None else sweeps.deposit
         with work.timed("deposit"):
             solved = deposit(n_x, problem.region, rho, system, work)
     else:
         with work.timed("line sums"):
             solved = first_order.displace(n_x, problem.region, rho, system, work)
-    if not problem.needs_forces:
+    if loads is None:
         return Solved(system, solved, None, None)
+    sweep = sweep_down if sweeps is None else sweeps.sweep_down
     with work.timed("balance forces"):
-        strength = problem.load.strength(n_x, system)
         forces = sweep(
             solved,
             problem.force_rows,
-            problem.load.on(problem.force_rows, strength, system),
+            loads,
             linear=problem.route == Route.FIRST_ORDER,
             stop_at_tension=problem.stop_at_tension,
             work=work,
@@ -99,19 +119,24 @@ def solve(
     return Solved(system, solved, forces, None)
 
 
-def _sweeps(
-    problem: Problem, system: NumberSystem
-) -> tuple[Callable[..., SolvedPacking], Callable[..., Forces]]:
-    """Give the sweeps: for much exact work the compiled ones, same numbers, where numba is."""
+def _loads(problem: Problem, system: NumberSystem) -> Loads | None:
+    """Give the loads, the same for all realisations; None where no sweep needs them."""
+    if not problem.needs_forces or problem.route not in {Route.EXACT, Route.FIRST_ORDER}:
+        return None
+    strength = problem.load.strength(problem.n_x, system)
+    return problem.load.on(problem.force_rows, strength, system)
+
+
+def _compiled(problem: Problem, system: NumberSystem) -> "Sweeps | None":
+    """Give the compiled sweeps, same numbers: for much exact work in float64, where numba is."""
     much = problem.region.beads * problem.realisations >= COMPILED_FROM
-    if much and system is FLOAT64 and problem.route == Route.EXACT:
-        try:
-            from . import compiled as fast
-        except ImportError:
-            pass
-        else:
-            return fast.deposit, fast.sweep_down
-    return packing.deposit, sweep_down
+    if not much or system is not FLOAT64 or problem.route != Route.EXACT:
+        return None
+    try:
+        from . import compiled
+    except ImportError:
+        return None
+    return compiled.Sweeps(problem.radii, problem.n_x, problem.region)
 
 
 def _ordered(problem: Problem, system: NumberSystem) -> Solved:

@@ -62,6 +62,30 @@ class Forces:
             yield branch, F[j], self.change[branch][j]
 
 
+@dataclass(frozen=True)
+class Ordered:
+    """Ordered forces of all packings alike: numbers, where each row's begin, and where zeros are.
+
+    Plus and minus; ``start`` (layers + 1,), of which the last is that of nothing above the highest.
+    """
+
+    values: tuple[Array, Array]
+    start: tuple[Array, Array]
+    missing: tuple[int, int]
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompiledForces(Forces):
+    """Forces of compiled sweeps: their changes lie in ``g``, (batch, 2, …), row after row.
+
+    ``F`` are the ordered ones; ``starts`` says where rows begin in ``g``.
+    """
+
+    F: Ordered
+    g: Array
+    starts: Array
+
+
 def sweep_down(
     packing: SolvedPacking,
     rows: tuple[Layer, ...],

@@ -1,6 +1,6 @@
 """What a run really did: counters that the sweeps themselves advance, clocks, and progress."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
@@ -42,6 +42,14 @@ class Work:
             self.rows.setdefault(kind, []).append(layer)
         if self.progress is not None:
             self.progress(kind, beads)
+
+    def did_rows(self, kind: str, rows: Sequence[Layer], times: int = 1) -> None:
+        """Count rows of beads at once."""
+        if self.trace:
+            for layer in rows:
+                self.did(kind, layer, times)
+        else:
+            self.did(kind, Layer(0, 0, sum(layer.count for layer in rows)), times)
 
     def uses(self, name: str) -> None:
         """Note the number system of a pass."""

@@ -1,0 +1,29 @@
+"""How loops are compiled: every operation rounded by itself, as NumPy rounds it.
+
+No fast-math, and LLVM is not given leave to fuse a product with a sum, so that compiled numbers are
+those of NumPy to the bit. Import it only where work repays loading the compiler (half a second).
+"""
+
+from collections.abc import Callable
+from typing import Any, TypeVar, cast
+
+import llvmlite.binding
+import numba
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+# Rows never overlap, but LLVM has to check; it gives up vectorising at 8 comparisons by default.
+llvmlite.binding.set_option("force-diffusion", "--runtime-memory-check-threshold=512")
+
+
+def compiled(function: Function) -> Function:
+    """Compile at the first call; keep the machine code on disk where a folder can be written.
+
+    A compiled function calls only those of its own file: the copy on disk is made anew where that
+    file has changed, and no other is looked at.
+    """
+    options: dict[str, Any] = {"error_model": "numpy", "nogil": True}
+    try:
+        return cast(Function, numba.njit(cache=True, **options)(function))
+    except RuntimeError:  # no place to write to
+        return cast(Function, numba.njit(**options)(function))
