@@ -102,6 +102,7 @@ class Measurement:
         """
         return self._of.changes(self.problem, solved, realisations)
 
+    @cached_property
     def pieces(self) -> list[tuple[int, Branch, int]] | None:
         """Give (group, branch, layer of the upper beads) of all that a group of layers holds.
 

@@ -12,9 +12,9 @@ from .store import Block, Store, StoreError
 from .sums import Sums, none
 from .workers import refuse_unbuildable
 
-# Beads of a block, at most about: seconds of work, of which a kill loses no more. There are at
-# least so many blocks for workers to share.
-BLOCK, SHARES = 8_000_000, 16
+# Beads of a block, about: a second of work at most, of which a kill loses no more; of a large
+# ensemble more, as long as there are so many blocks for workers to share.
+BLOCK, LARGE, SHARES = 1_000_000, 8_000_000, 16
 
 
 class Executor(Protocol):
@@ -110,7 +110,8 @@ class _Run:
     def _tasks(self) -> Iterator[tuple[int, int]]:
         """Give the ranges that are missing, in order; none lies across a cut."""
         beads = max(self.m.problem.region.beads, 1)
-        step = max(1, min(BLOCK // beads, self.size // SHARES, 4096))
+        large = min(LARGE // beads, self.size // SHARES)
+        step = max(1, min(max(BLOCK // beads, large), 4096))
         known = [(block.first, block.stop) for block in self.blocks]
         at = 0
         while at < self.size:

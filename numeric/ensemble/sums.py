@@ -160,14 +160,14 @@ def measured(m: Measurement, realisations: Sequence[int], work: Work | None = No
 def _tally(m: Measurement, solved: Solved) -> "Tally | None":
     """Give compiled sums, the same numbers, for groups of many contacts of compiled forces."""
     forces = solved.forces
-    table = m.pieces()
+    table = m.pieces
     if table is None or not isinstance(forces, CompiledForces):
         return None
     from ..statistics.compiled import Tally
 
     pieces = []
     for group, branch, j in table:
-        if j < len(forces.rows) and len(forces.ordered[branch][j]):  # some load reaches it
+        if forces.lowest <= j < len(forces.rows):  # some load reaches it
             side = 0 if branch is Branch.PLUS else 1
             start = forces.starts[j], forces.F.start[side][j]
             pieces.append((group, side, *start, forces.rows[j].count))

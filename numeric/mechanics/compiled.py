@@ -405,6 +405,7 @@ class Descent:
             F=F,
             g=g,
             starts=self.starts,
+            lowest=self.lowest,
         )
 
     def _ordered(self, values: Array, start: Array) -> LazyRows[Array]:

@@ -78,12 +78,14 @@ class Ordered:
 class CompiledForces(Forces):
     """Forces of compiled sweeps: their changes lie in ``g``, (batch, 2, …), row after row.
 
-    ``F`` are the ordered ones; ``starts`` says where rows begin in ``g``.
+    ``F`` are the ordered ones; ``starts`` says where rows begin in ``g``, ``lowest`` which row is
+    the lowest that forces reach.
     """
 
     F: Ordered
     g: Array
     starts: Array
+    lowest: int
 
 
 def sweep_down(

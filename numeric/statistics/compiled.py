@@ -119,17 +119,19 @@ def _carried(limbs: Array, low: int, shift: int, total: Array) -> float:
 def _counted(values: Array, edges: Array, counts: Array) -> None:
     """Count into bins: below, in, and above ``edges`` (``np.searchsorted``, side "right")."""
     bins = edges.size - 1
-    scale = bins / (edges[bins] - edges[0])
-    for q in range(values.size):
-        value = values[q]
-        at = 0
-        if value >= edges[0]:
-            at = int(min(max((value - edges[0]) * scale, 0.0), bins - 1.0)) + 1
+    first, scale = edges[0], bins / (edges[bins] - edges[0])
+    guesses = np.empty(_PIECE, np.int32)
+    for start in range(0, values.size, _PIECE):
+        part = values[start : start + _PIECE]
+        for q in range(part.size):
+            guesses[q] = np.int32(min(max((part[q] - first) * scale, -1.0), float(bins))) + 1
+        for q in range(part.size):
+            value, at = part[q], guesses[q]
             while at > 0 and value < edges[at - 1]:
                 at -= 1
             while at <= bins and value >= edges[at]:
                 at += 1
-        counts[at] += 1
+            counts[at] += 1
 
 
 @compiled

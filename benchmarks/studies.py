@@ -1,0 +1,165 @@
+"""How fast many packings are: an ensemble beside what its beads take at least.
+
+Run with ``python benchmarks/studies.py`` (needs the extra ``fast``). All times are of processors,
+but where it says wall, and come from the same run: targets are ratios. Each part takes the least of
+several rounds, in which competitors take turns. Exit status 1 when a target is missed.
+"""
+
+import argparse
+import os
+from collections.abc import Callable, Iterator
+from functools import partial
+from time import perf_counter, process_time
+from typing import Any
+
+import numpy as np
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.mechanics import engine
+from force_diffusion.numeric.mechanics.work import Work
+from force_diffusion.numeric.planning.planner import plan
+from speed import Line
+
+import force_diffusion as fd
+
+HEIGHT, WIDTH, FEWER, MORE = 256, 512, 200, 400
+BEADS = (HEIGHT + 1) * WIDTH
+
+
+def scene(quantity: str = "profile", **asked: Any) -> fd.Scene:
+    """Uniform radii under a surface load."""
+    return fd.Scene(
+        packing=fd.Packing(height=HEIGHT, width=WIDTH, spacing=3),
+        disorder=fd.Disorder(kind="uniform", relative_std=1e-6, seed=1),
+        ask=fd.Ask(quantity=quantity, **asked),
+    )
+
+
+def least(
+    tasks: dict[str, Callable[[], Any]], rounds: int, clock: Callable[[], float] = process_time
+) -> dict[str, float]:
+    """Least seconds of each task; each is warmed up once, then they take turns."""
+    spent: dict[str, list[float]] = {name: [] for name in tasks}
+    for task in tasks.values():
+        task()
+    for _ in range(rounds):
+        for name, task in tasks.items():
+            start = clock()
+            task()
+            spent[name].append(clock() - start)
+    return {name: min(times) for name, times in spent.items()}
+
+
+def both_sweeps(packings: int) -> Callable[[], None]:
+    """Deposit and balance a packing again and again, in memory that stays."""
+    from force_diffusion.numeric.mechanics.compiled import Sweeps
+
+    problem = plan(scene()).problem
+    sweeps = Sweeps(problem.radii, problem.n_x, problem.region)
+    rho = sweeps.radii(range(1))
+    strength = problem.load.strength(problem.n_x, FLOAT64)
+    loads = problem.load.on(problem.force_rows, strength, FLOAT64)
+
+    def solve() -> None:
+        for _ in range(packings):
+            solved = sweeps.deposit(problem.n_x, problem.region, rho, FLOAT64)
+            sweeps.sweep_down(solved, problem.force_rows, loads)
+
+    return solve
+
+
+def numpy_alone(packings: int) -> Callable[[], None]:
+    """Solve and sum up as without the extra ``fast``."""
+    from force_diffusion.numeric.ensemble.measure import measurement
+    from force_diffusion.numeric.ensemble.sums import measured
+
+    made = measurement(scene())
+
+    def solve() -> None:
+        threshold, engine.COMPILED_FROM = engine.COMPILED_FROM, 1 << 62
+        try:
+            measured(made, range(packings))
+        finally:
+            engine.COMPILED_FROM = threshold
+
+    return solve
+
+
+def ensemble() -> Iterator[Line]:
+    """Marginal time of an ensemble: so many packings more, beside the sweeps and the draws."""
+    more = MORE - FEWER
+    generator = np.random.Generator(np.random.Philox(1))
+    for quantity in ("profile", "histogram"):
+        asked = scene(quantity)
+        found = least(
+            {
+                "fewer": partial(fd.ensemble, asked, FEWER),
+                "more": partial(fd.ensemble, asked, MORE),
+                "sweeps": both_sweeps(more // 10),
+                "draws": lambda: [generator.random(BEADS) for _ in range(more // 10)],
+                "numpy": numpy_alone(4),
+            },
+            3,
+        )
+        marginal = (found["more"] - found["fewer"]) / more
+        sweeps, draws = (found[name] / (more // 10) for name in ("sweeps", "draws"))
+        yield Line(f"ensemble, {quantity}", 1e9 * marginal / BEADS, " ns a bead")
+        yield Line("  deposit + balance, compiled", 1e9 * sweeps / BEADS, " ns a bead")
+        yield Line("  ensemble / that", marginal / sweeps, "", "<", 3)
+        yield Line("  ensemble / as many doubles of NumPy's Philox", marginal / draws, "", "<", 10)
+        yield Line("  NumPy alone / ensemble", found["numpy"] / 4 / marginal)
+
+
+def workers() -> Iterator[Line]:
+    """Two workers against one, by the clock on the wall: two cores need to be free."""
+    asked = scene()
+    found = least(
+        {
+            f"{n} of {size}": partial(fd.ensemble, asked, size, workers=n)
+            for n in (1, 2)
+            for size in (FEWER, 5 * MORE)
+        },
+        3,
+        perf_counter,
+    )
+    one, two = (found[f"{n} of {5 * MORE}"] - found[f"{n} of {FEWER}"] for n in (1, 2))
+    yield Line(f"one worker / two, wall ({os.cpu_count()} cores)", one / two, "", ">", 1.8)
+
+
+def batch() -> Iterator[Line]:
+    """A packing of a batch on all cores, wall, beside one that is solved alone."""
+    problem = plan(scene(realisations=64)).problem
+
+    def solve(packings: int) -> None:
+        with FLOAT64.active():
+            for _ in engine.packings(problem, range(packings), FLOAT64, Work()):
+                pass
+
+    found = least({"one": partial(solve, 1), "many": partial(solve, 64)}, 9, perf_counter)
+    yield Line("single packing, wall", 1e3 * found["one"], " ms")
+    yield Line("of a batch of 64 / single, wall", found["many"] / 64 / found["one"], "", "<", 0.6)
+
+
+PARTS = {"ensemble": ensemble, "workers": workers, "batch": batch}
+
+
+def main() -> int:
+    """Measure, print the table, and compare with the targets."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--skip", nargs="*", choices=list(PARTS), default=[])
+    options = parser.parse_args()
+    print(f"Packings of {HEIGHT} layers of {WIDTH} beads, σ/r = 1e-6, surface load\n")
+    print("| measured | value | target | |")
+    print("|---|---:|---|---|")
+    missed = 0
+    for name, part in PARTS.items():
+        if name in options.skip:
+            continue
+        print(f"| **{name}** | | | |")
+        for line in part():
+            print(line, flush=True)
+            missed += not line.met
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
