@@ -15,6 +15,7 @@ from force_diffusion.numeric.ensemble.measure import Measurement, measurement
 from force_diffusion.numeric.ensemble.sums import Sums, from_bytes, measured
 from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.engine import solve
+from force_diffusion.numeric.mechanics.forces import CompiledForces
 from force_diffusion.numeric.mechanics.packing import SolvedPacking
 from force_diffusion.numeric.mechanics.problem import Route
 from force_diffusion.numeric.mechanics.work import Work
@@ -60,6 +61,25 @@ def test_compiled_and_numpy_sweeps_give_the_same_bytes(
     with FLOAT64.active():
         assert type(solve(m.problem, [0], FLOAT64, Work()).packing) is not SolvedPacking
     assert measured(m, range(3)).to_bytes() == usual
+
+
+@ALL
+@pytest.mark.parametrize("kind", ["uniform", "normal", "two-point"])
+def test_whoever_solves_gives_the_same_bytes(
+    name: str, kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("numba")
+    m = case(name, covariance=True, kind=kind)
+    usual = measured(m, range(7)).to_bytes()
+    monkeypatch.setattr(engine, "COMPILED_FROM", 1)
+    if m.problem.route == Route.EXACT:
+        with FLOAT64.active():
+            forces = solve(m.problem, [0], FLOAT64, Work()).forces
+        assert isinstance(forces, CompiledForces)
+    assert measured(m, range(7)).to_bytes() == usual
+    assert reduce(add, (measured(m, [k]) for k in (3, 0, 6, 2, 5, 1, 4))).to_bytes() == usual
+    monkeypatch.setattr(engine, "chunk_size", lambda *_: 1)
+    assert measured(m, range(7)).to_bytes() == usual
 
 
 @ALL

@@ -1,5 +1,6 @@
 """The compiled sweeps against the NumPy sweeps: every bit, every count, every error."""
 
+import re
 import sys
 from fractions import Fraction
 from typing import Any
@@ -7,10 +8,17 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Array
-from force_diffusion.numeric.lattice.branch import PerBranch
-from force_diffusion.numeric.lattice.layers import Region, whole
+from force_diffusion.numeric.disorder.radii import DrawnRadii, RadiusError, rows_of
+from force_diffusion.numeric.lattice.branch import Branch, Contact, PerBranch
+from force_diffusion.numeric.lattice.layers import Layer, Region, standing_on_base, whole
+from force_diffusion.numeric.lattice.regions import contact_rows, downward_cone, upward_cone
 from force_diffusion.numeric.mechanics import engine, forces, packing
-from force_diffusion.numeric.mechanics.forces import Forces, Loads, NotStandingError
+from force_diffusion.numeric.mechanics.forces import (
+    CompiledForces,
+    Forces,
+    Loads,
+    NotStandingError,
+)
 from force_diffusion.numeric.mechanics.packing import SolvedPacking, UnbuildableError
 from force_diffusion.numeric.mechanics.work import Work
 from hypothesis import assume, given
@@ -85,6 +93,97 @@ def test_every_bit_is_that_of_the_numpy_sweep(
     if found is not None:
         assert bits(quick) == bits(found)
         assert compiled_work == work
+
+
+@st.composite
+def regions(draw: st.DrawFn) -> tuple[Region, tuple[Layer, ...]]:
+    """Beads that decide one contact, or those below a loaded bead; of a slab or a strip."""
+    width = draw(st.none() | st.integers(1, 14))
+    top, i = draw(st.integers(1, 8)), draw(st.integers(-9, 9))
+    rows = downward_cone([(2 * i + top % 2, top)], width)
+    if draw(st.booleans()):
+        contact = Contact(2 * i, 0, draw(st.sampled_from(Branch)))
+        rows = contact_rows(contact, upward_cone(contact.upper, top, width), width)
+    return standing_on_base(rows, width), rows
+
+
+@given(st.data(), N_X, regions())
+def test_every_bit_of_any_region_is_that_of_the_numpy_sweep(
+    data: st.DataObject, n_x: Fraction, case: tuple[Region, tuple[Layer, ...]]
+) -> None:
+    region, rows = case
+    batch = data.draw(st.integers(1, 3))
+    values = data.draw(
+        arrays(np.float64, (batch, region.beads), elements=st.floats(-1, 1)).map(lambda v: v / 50)
+    )
+    if batch == 1:
+        values = values[0]
+    edges = np.cumsum([row.count for row in region.rows])[:-1]
+    rho = tuple(np.split(values, edges, axis=-1))
+    row = [st.none() | arrays(np.float64, layer.count, elements=st.floats(-3, 3)) for layer in rows]
+    loads = Loads(data.draw(st.tuples(*row)), data.draw(st.tuples(*row)))
+    solved, why = outcome(packing.deposit, n_x, region, rho, FLOAT64)
+    compiled, compiled_why = outcome(fast.deposit, n_x, region, rho, FLOAT64)
+    assert compiled_why == why
+    assume(solved is not None)
+    assert bits(compiled) == bits(solved)
+    found, why = outcome(forces.sweep_down, solved, rows, loads)
+    quick, quick_why = outcome(fast.sweep_down, compiled, rows, loads)
+    assert quick_why == why
+    if found is not None:
+        assert isinstance(quick, CompiledForces)
+        assert bits(quick) == bits(found)
+
+
+@given(
+    st.sampled_from(["uniform", "normal", "two-point"]),
+    st.integers(0, 2**63 - 1),
+    st.lists(st.integers(0, 2**62), min_size=1, max_size=3),
+    st.lists(st.tuples(st.integers(-40, 40), st.integers(0, 40)), min_size=1, max_size=4),
+    st.none() | st.integers(40, 50),
+)
+def test_every_bit_of_a_drawn_radius_is_that_of_the_numpy_draw(
+    kind: str,
+    seed: int,
+    realisations: list[int],
+    rows: list[tuple[int, int]],
+    width: int | None,
+) -> None:
+    source = DrawnRadii(kind, Fraction(1, 10**6), seed, width)
+    layers = tuple(Layer(j, 2 * i + j % 2, n) for j, (i, n) in enumerate(rows))
+    usual = np.concatenate(
+        [
+            source.row(layer, realisations, FLOAT64).reshape(len(realisations), layer.count)
+            for layer in layers
+        ],
+        axis=-1,
+    )
+    rho, found = fast.Drawing(source, Region(width, layers))(realisations)
+    assert rho.tobytes() == usual.tobytes()
+    assert [row.shape[-1] for row in found] == [n for _, n in rows]
+
+
+def test_a_drawn_radius_that_is_not_positive_is_named() -> None:
+    source = DrawnRadii("normal", Fraction(1, 3), 5, 40)
+    region = whole(40, 9)
+    with pytest.raises(RadiusError) as usual:
+        rows_of(source, region.rows, [3, 4], FLOAT64)
+    with pytest.raises(RadiusError, match=re.escape(str(usual.value))):
+        fast.Drawing(source, region)([3, 4])
+
+
+def test_memory_that_is_used_again_changes_no_bit(monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = planned(basic(6, 9, quantity="contact_forces", realisations=7))
+    monkeypatch.setattr(engine, "COMPILED_FROM", 1)
+    monkeypatch.setattr(engine, "TOGETHER", 3 * plan.problem.region.beads)
+    with FLOAT64.active():
+        found = [
+            (bits(solved.packing), bits(solved.forces))
+            for solved, _ in engine.packings(plan.problem, range(7), FLOAT64)
+        ]
+        for at, one in zip((0, 3, 6), found, strict=True):
+            alone = engine.solve(plan.problem, range(at, min(at + 3, 7)), FLOAT64, Work())
+            assert one == (bits(alone.packing), bits(alone.forces))
 
 
 @given(N_X, radii(largest=0.9), st.sampled_from([0.0, -1.0, np.nan, np.inf, 1e200]))

@@ -1,0 +1,67 @@
+"""Compiled sums against the exact ones: every digit, every rounding, every count."""
+
+import math
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.arithmetic.systems import Array
+from force_diffusion.numeric.statistics.exact_sum import rows_and_squares
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+pytest.importorskip("numba")
+from force_diffusion.numeric.statistics.compiled import Tally
+
+GROUPS = 3
+
+
+@st.composite
+def changes(draw: st.DrawFn) -> Array:
+    """Packings of three groups on two branches, (packings, 2, 3 n), over many binades."""
+    packings, n = draw(st.integers(1, 3)), draw(st.sampled_from([1, 7, 256, 300]))
+    size = 2.0 ** draw(st.sampled_from([0, -10, -300]))
+    numbers = st.floats(-1, 1, allow_subnormal=False) | st.integers(-90, 0).map(
+        lambda e: math.ldexp(1.5, e)
+    )
+    return draw(arrays(np.float64, (packings, 2, GROUPS * n), elements=numbers)) * size
+
+
+def pieces(n: int) -> Array:
+    """A group holds as many contacts of either branch."""
+    return np.array([(g, branch, g * n, g * n, n) for g in range(GROUPS) for branch in (0, 1)])
+
+
+@given(changes(), st.integers(-330, 3), st.floats(1e-3, 1))
+def test_sums_and_counts_are_the_exact_ones(g: Array, unit: int, reach: float) -> None:
+    n, packings = g.shape[2] // GROUPS, len(g)
+    edges = tuple(np.linspace(-reach, reach, 8).tolist())
+    tally = Tally(pieces(n), GROUPS, 2 * n, unit, edges)
+    F = np.linspace(0, 1, GROUPS * n)
+    means = tally.add(g, (F, F))
+    rows = g.reshape(packings, 2, GROUPS, n).transpose(2, 0, 1, 3)
+    exact = rows_and_squares(rows.reshape(-1, 2 * n))
+    if means is None:  # then nothing was added, and some number is very small
+        assert np.abs(g[g != 0]).min() < np.abs(g).max() * 2.0**-90
+        assert not tally.tensile.any()
+        return
+    assert means is not None
+    for k, (total, found) in enumerate(zip(exact, tally.sums(), strict=True)):
+        by_packing = total.reshaped(GROUPS, packings)
+        assert found == by_packing.over(1)
+        usual = by_packing.rounded(-(k + 1) * unit) / (2 * n)
+        assert means[k].tobytes() == usual.tobytes()
+    pulls = (F.reshape(GROUPS, 1, 1, n) + rows < 0).sum(axis=(1, 2, 3))
+    assert tally.tensile.tolist() == pulls.tolist()
+    places = np.searchsorted(edges, g, side="right").reshape(packings, -1)
+    counts = np.array([np.bincount(one, minlength=len(edges) + 1) for one in places])
+    assert tally.bins.tolist() == [counts.sum(axis=0).tolist(), (counts**2).sum(axis=0).tolist()]
+
+
+@pytest.mark.parametrize("odd", [np.nan, np.inf, 2.0**30, 2.0**-500])
+def test_what_is_out_of_the_ordinary_is_left_to_the_exact_sums(odd: float) -> None:
+    g = np.full((2, 2, GROUPS), odd)
+    g[0] = 1e-3
+    tally = Tally(pieces(1), GROUPS, 2, 0, ())
+    assert tally.add(g, (np.ones(GROUPS), np.ones(GROUPS))) is None
+    assert tally.sums()[0].fractions() == [0] * GROUPS
