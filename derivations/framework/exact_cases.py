@@ -9,11 +9,15 @@ from force_diffusion.symbolic.symbols import M, j
 from force_diffusion.symbolic.variances.variance import CASES, ClosedForm
 
 
-def exact_steps(variance: sympy.Expr, forms: dict[str, ClosedForm]) -> Iterator[Step]:
+def exact_steps(
+    variance: sympy.Expr,
+    forms: dict[str, ClosedForm],
+    how: str = "every radius with its weight squared",
+) -> Iterator[Step]:
     """Show the exact form of every layer, and the small packings that have one of their own."""
     where = "in the interior"
     for form in forms.values():
-        reason = f"Exact {where}, {form.validity}: every radius with its weight squared."
+        reason = f"Exact {where}, {form.validity}: {how}."
         yield Step(reason, equation(variance, form.expression))
         where = "at the edge"
     small = {(size, at): value for form in forms.values() for size, at, value in form.exceptions}

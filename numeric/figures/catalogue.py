@@ -13,6 +13,7 @@ from . import (
     diffusion,
     directions,
     distribution,
+    mean_forces,
     notation,
     response,
 )
@@ -142,6 +143,12 @@ FIGURES = {
         lambda o: directions.sweep(o.realisations or 400, o.seed, o.notice),
         directions.draw,
     ),
+    "B5": _Figure(
+        "figureB5",
+        "Mean contact forces to second order, surface and bulk load",
+        lambda o: mean_forces.simulate(o.realisations or 6000, o.seed, o.notice),
+        mean_forces.draw,
+    ),
 }
 
 
@@ -171,7 +178,7 @@ def figure(
         name: 1 to 4 as in the paper, "pf" (density of the forces), "chains" (force chains), or the
             number of an equation beyond the paper that has a figure.
         heights: M of the packings of figure 3.
-        realisations: packings of each ensemble of figures 3, 4, pf and B2; ≥ 16.
+        realisations: packings of each ensemble of figures 3, 4, pf, B2 and B5; ≥ 16.
         seed: seed of all radii.
         beside: "q-model" (beside figure 3) or "double-y" (beside figure 4).
         notice: told what is made next.

@@ -12,6 +12,7 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.export import generate_closed_forms as generator
+from force_diffusion.derivations.witnesses import second_order
 from force_diffusion.derivations.witnesses.draws import DIRECTIONS
 from force_diffusion.derivations.witnesses.squared_weights import weights_of_forces
 from force_diffusion.numeric import closed_forms
@@ -190,3 +191,15 @@ def test_straight_down_is_the_vertical_form(load: str) -> None:
             at = height, layer
             vertical = EXACT[load](*at, Fraction(2, 7), ONE, ONE)
             assert AT_ANGLE[load](*at, ONE, Fraction(2, 7), ONE, ONE) == vertical
+
+
+@pytest.mark.parametrize("height", range(1, 7))
+def test_means_are_those_of_exact_packings(height: int) -> None:
+    n = DIRECTIONS[1]
+    phi = n[1] ** 2 - n[0] ** 2
+    shifts = {"surface": closed_forms.surface_mean_shift, "bulk": closed_forms.bulk_mean_shift}
+    for load, form in shifts.items():
+        forces, places = second_order.means(height, n, load)
+        assert [form(height, layer, phi, ONE, ONE) for layer in range(height)] == list(forces)
+        sunk = [closed_forms.mean_settling(layer, phi, ONE, ONE) for layer in range(height + 1)]
+        assert sunk == [n[1] * y for _, y in places]

@@ -16,6 +16,7 @@ from force_diffusion.numeric.figures import (
     diffusion,
     directions,
     distribution,
+    mean_forces,
     notation,
     packings,
     response,
@@ -280,3 +281,15 @@ def test_the_components_of_figure_b2_are_those_of_scenes() -> None:
         load = LoadSpec("surface", 3, 6, Fraction(angle))
         plus, minus = load.strength(N_X, FLOAT64).unit
         assert float(minus / plus) == pytest.approx(directions.ratio(angle), rel=1e-14)
+
+
+def test_figure_b5_finds_theory_within_the_bands_and_wrong_ones_outside() -> None:
+    found = mean_forces.simulate(400, 1, silent)
+    for one in found.means:
+        assert one.deviation(one.exact) <= 1
+        assert one.deviation(np.zeros(mean_forces.HEIGHT)) > 5
+        assert one.deviation(1.2 * one.exact) > 1
+    surface, bulk = found.means[:2]
+    assert surface.deviation(bulk.exact) > 1
+    (rows,) = found.tables().values()
+    assert len(rows) == 4 * mean_forces.HEIGHT

@@ -1,0 +1,88 @@
+"""What Eqs. B5 and B6 have in common: the mean force of a layer, from three covariances."""
+
+from fractions import Fraction
+
+import sympy
+from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations.beyond import b4_settling as b4
+from force_diffusion.derivations.beyond.means import decide_in_field
+from force_diffusion.derivations.witnesses import second_order as witnesses
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    Verdict,
+    decide_identity,
+    from_test,
+    undecided,
+)
+from force_diffusion.symbolic.mechanics import second_order
+from force_diffusion.symbolic.mechanics.second_order import FORCE, mean_force
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.symbols import DeltaR, M, i, j, phi, r, sigma, z
+from force_diffusion.symbolic.variances.means import by_layer, covariance
+from force_diffusion.symbolic.variances.variance import ClosedForm, leading, variance
+
+SUM_OF_RADII = DeltaR(i, j) + DeltaR(i + 1, j + 1)
+"""ρ of the contact above (i, j) along n⁺."""
+
+
+def mean_forms(force: sympy.Expr) -> dict[str, ClosedForm]:
+    """⟨f⟩ over its ordered value less 1; ``force`` is f⁺ to first order in the radii."""
+    tilt = eq11.in_radii(b4.TILT)
+
+    def value(at: dict[sympy.Symbol, sympy.Expr], region: Region) -> RationalFunction:
+        nu, rho, alpha = (e.xreplace(at) for e in (tilt, SUM_OF_RADII, force - 1))
+        terms = (
+            variance(nu, region) / FIELD.from_sympy(1 - phi**2),
+            covariance(nu, rho, region) / FIELD.from_sympy(2 * r),
+            -covariance(nu, alpha, region),
+        )
+        total = terms[0] + terms[1] + terms[2]
+        return total / FIELD.from_sympy(1 + phi)
+
+    return by_layer(value)
+
+
+def decided(forms: dict[str, ClosedForm], subject: sympy.Symbol, candidate: sympy.Eq) -> Ruling:
+    """The candidate equals the mean in the interior, as a rational function of M, j and φ."""
+    mean = 1 + forms["interior"].expression
+    ruling = decide_in_field(candidate.rhs, candidate.lhs.xreplace({subject: mean}))
+    if ruling.verdict is Verdict.PROVED and not candidate.lhs.has(subject):
+        return undecided("the left-hand side does not speak of the mean force")
+    return ruling
+
+
+def searched(load: str, subject: sympy.Symbol, candidate: sympy.Eq) -> str | None:
+    """Exact packings in which the mean force is another."""
+
+    def exact(height: int, layer: int) -> Fraction:
+        return 1 + witnesses.means(height, witnesses.N, load)[0][layer]
+
+    return witnesses.fails(candidate, subject, exact, iter([(4, 2), (5, 2), (5, 3)]))
+
+
+def balance() -> Ruling:
+    """The stated ⟨α₂⟩ put into the vertical balance."""
+    left = second_order.vertical_balance().xreplace({mean_force: FORCE})
+    return decide_identity(left, sympy.Integer(0))
+
+
+def edges_are(forms: dict[str, ClosedForm], *, base: sympy.Expr, above: sympy.Expr) -> Ruling:
+    """The leading orders in M at j = 0 and j = 1, in units of (σ/r)²/[(1−φ²)(1+φ)]."""
+    unit = (sigma / r) ** 2 / ((1 - phi**2) * (1 + phi))
+    found = {"base": base, "base+1": above}
+    return from_test(
+        all(
+            (leading(forms[case].value) - FIELD.from_sympy(stated * unit)).is_zero()
+            for case, stated in found.items()
+        ),
+        f"{text(base)} at j = 0 and {text(above)} at j = 1, in units of (σ/r)²/[(1−φ²)(1+φ)]",
+    )
+
+
+def leading_is(forms: dict[str, ClosedForm], shift: sympy.Expr) -> Ruling:
+    """The leading order in M, at fixed z."""
+    found = leading(forms["interior"].value)
+    stated = FIELD.from_sympy(shift.xreplace({z: j / M}))
+    return from_test((found - stated).is_zero(), f"the shift is {text(shift)} to leading order")

@@ -1,0 +1,100 @@
+"""Second-order means of exact packings, as fractions.
+
+The coefficient of ε² is a quadratic form in the radii. In the mean over independent radii of mean 0
+only its diagonal is left: one bead at a time is enlarged, and the changes of all contacts of a
+layer are added up, which by translation is the sum over all beads for one contact.
+"""
+
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from functools import cache
+
+import sympy
+from force_diffusion.derivations.witnesses.draws import SmallPacking
+from force_diffusion.derivations.witnesses.squared_weights import compare
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.kernel.decisions import Ruling
+from force_diffusion.symbolic.variances.variance import ClosedForm, packings, value_at
+
+HIGHEST = 5
+
+
+@cache
+def means(
+    height: int, n: tuple[Fraction, Fraction], load: str
+) -> tuple[tuple[Fraction, ...], tuple[tuple[Fraction, Fraction], ...]]:
+    """Means at order σ², for r = σ = 1: of f⁺/⟨f⟩ of layers j < M, and of (δx, δy) of j ≤ M.
+
+    The packing is so wide that no exact force or position sees an image of itself.
+    """
+    from force_diffusion.numeric.mechanics import taylor
+
+    width = 2 * height + 3
+    carrying = range(1, height + 1) if load == "bulk" else (height,)
+    loads = {
+        (across, layer): (Fraction(0), -2 * n[1])
+        for layer in carrying
+        for across in range(layer % 2, 2 * width, 2)
+    }
+    forces = [Fraction(0)] * height
+    places = [(Fraction(0), Fraction(0))] * (height + 1)
+    for source in range(height + 1):
+        rho = {(source % 2, source): Fraction(1)}
+        solved = taylor.solve(width, height, n=n, rho=rho, loads=loads, order=2)
+        for layer in range(height + 1):
+            for across in range(layer % 2, 2 * width, 2):
+                x, y = solved.displacement(across, layer)
+                places[layer] = places[layer][0] + x[2], places[layer][1] + y[2]
+                if layer < height:
+                    force = solved.force(across, layer, "+")
+                    forces[layer] += force[2] / force[0]
+    return tuple(forces), tuple(places)
+
+
+def forces(forms: dict[str, ClosedForm], load: str, packing: SmallPacking) -> Ruling:
+    """Closed forms of ⟨f⟩ over its ordered value, less 1, against exact packings, all j < M ≤ 5."""
+    values = {**explicit.geometry(*packing.n, Fraction(1)), sy.sigma: 1}
+
+    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
+        for height, layer, case in packings(HIGHEST):
+            stated = explicit.number(value_at(forms, height, layer, case), values)
+            true = means(height, packing.n, load)[0][layer]
+            yield f"M = {height}, j = {layer}", stated, true
+
+    return compare(pairs())
+
+
+def positions(stated: sympy.Expr, packing: SmallPacking) -> Ruling:
+    """A closed form of ⟨δy⟩ for j ≥ 1, and ⟨δx⟩ = 0, against exact packings of M ≤ 5."""
+    values = {**explicit.geometry(*packing.n, Fraction(1)), sy.sigma: 1}
+
+    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
+        for layer, (x, y) in enumerate(means(HIGHEST, packing.n, "surface")[1]):
+            found = explicit.number(stated, {**values, sy.j: layer}) if layer else Fraction(0)
+            yield f"j = {layer}", found, y
+            yield f"j = {layer}, horizontally", Fraction(0), x
+
+    return compare(pairs())
+
+
+N = (Fraction(21, 29), Fraction(20, 29))
+
+
+def fails(
+    candidate: sympy.Eq,
+    subject: sympy.Symbol,
+    exact: Callable[[int, int], Fraction],
+    layers: Iterator[tuple[int, int]],
+) -> str | None:
+    """Where an equation of a mean, M and j fails on exact packings, r = σ = 1; None if nowhere."""
+    values = {**explicit.geometry(*N, Fraction(1)), sy.sigma: 1}
+    for height, layer in layers:
+        try:
+            at = {**values, sy.M: height, sy.j: layer, subject: exact(height, layer)}
+            left, right = (explicit.number(side, at) for side in candidate.args)
+        except explicit.AmbiguousError:
+            return None
+        if left != right:
+            return f"for M = {height}, j = {layer}, n_x = {N[0]}: {left} on the left, {right}"
+    return None

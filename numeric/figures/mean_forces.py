@@ -1,0 +1,177 @@
+"""Figure B5: how the mean contact force departs from that of the ordered packing, at order σ².
+
+Simulated are exact, nonlinear packings, each solved to first order as well: the first-order change
+has mean zero and carries nearly all of the noise, so that the difference of the two shows a shift
+far smaller than the scatter of the forces. The curves are Eqs. B5 and B6.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from .. import closed_forms
+from ..arithmetic.systems import Array
+from ..scene.sections import BulkLoad, SurfaceLoad
+from ..statistics.bands import Band, averaged, simultaneous
+from .packings import Notice, Row, changes, planned
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+HEIGHT = 12
+STD = 1e-3
+"""σ/r: what is of order σ⁴ is a share (M^(3/2) σ/r)² = 0.002 of the shift or so."""
+SPACINGS = (Fraction(12, 5), Fraction(3))
+"""s in units of r: φ = 7/25, where forces fall below z = φ, and φ = −1/8, where all rise."""
+LOADS: tuple[Literal["surface", "bulk"], ...] = ("surface", "bulk")
+LEVEL = 0.99
+
+
+def cosine(spacing: Fraction) -> float:
+    """φ of a spacing in units of r."""
+    return float(1 - 2 * (spacing / 4) ** 2)
+
+
+def theory(load: str, height: int, spacing: Fraction) -> Array:
+    """⟨f⟩ over its ordered value, less 1, in units of (σ/r)², shape (M,) (Eqs. B5, B6)."""
+    form = {"surface": closed_forms.surface_mean_shift, "bulk": closed_forms.bulk_mean_shift}[load]
+    return np.array([form(height, j, cosine(spacing), 1.0, 1.0) for j in range(height)])
+
+
+@dataclass(frozen=True)
+class Mean:
+    """One load and spacing; ``band`` estimates the shifts themselves, no logarithms, shape (M,)."""
+
+    load: str
+    spacing: Fraction
+    band: Band
+
+    @property
+    def half(self) -> Array:
+        """Half-width of the simultaneous band, in units of (σ/r)²."""
+        return self.band.half
+
+    @property
+    def exact(self) -> Array:
+        """What theory says."""
+        return theory(self.load, HEIGHT, self.spacing)
+
+    def deviation(self, curve: Array) -> float:
+        """Largest deviation of a curve in half-widths of the band: inside is ≤ 1."""
+        return float((np.abs(curve - self.band.estimate.log) / self.half).max())
+
+
+@dataclass(frozen=True)
+class MeanForces:
+    """What figure B5 shows."""
+
+    realisations: int
+    means: tuple[Mean, ...]
+
+    def tables(self) -> dict[str, list[Row]]:
+        """CSV: one row a layer."""
+        rows = []
+        for one in self.means:
+            for j in range(HEIGHT):
+                rows.append(
+                    {
+                        "load": one.load,
+                        "spacing": float(one.spacing),
+                        "phi": cosine(one.spacing),
+                        "j": j,
+                        "shift_simulated": float(one.band.estimate.log[j]),
+                        "band_half_width": float(one.half[j]),
+                        "shift_exact": float(one.exact[j]),
+                    }
+                )
+        return {"figureB5": rows}
+
+    def facts(self) -> dict[str, Any]:
+        """Verdicts and parameters."""
+        return {
+            "height": HEIGHT,
+            "realisations": self.realisations,
+            "relative_std": STD,
+            "simultaneous_level": LEVEL,
+            "largest_deviations_in_half_widths": [one.deviation(one.exact) for one in self.means],
+        }
+
+    def lines(self) -> list[str]:
+        """Say whether theory holds, and whether a mean without shift would."""
+        said = []
+        for one in self.means:
+            off, flat = one.deviation(one.exact), one.deviation(np.zeros(HEIGHT))
+            number = "B5" if one.load == "surface" else "B6"
+            where = "inside" if off <= 1 else "outside"
+            said.append(
+                f"{one.load} load, s = {float(one.spacing):g} r: Eq. {number} {where} the "
+                f"simultaneous {LEVEL:.0%} band ({off:.2f} of its half-width); no shift at all "
+                f"would be {flat:.1f} of it off"
+            )
+        return said
+
+
+def simulate(realisations: int, seed: int, notice: Notice) -> MeanForces:
+    """Solve all packings exactly and to first order."""
+    found = []
+    for spacing in SPACINGS:
+        for load in LOADS:
+            both = []
+            for geometry in ("exact", "first-order"):
+                ensemble = planned(
+                    "profile", height=HEIGHT, width=2 * HEIGHT, seed=seed, std=STD,
+                    realisations=realisations, geometry=geometry, spacing=spacing,
+                    load=SurfaceLoad() if load == "surface" else BulkLoad(),
+                )  # fmt: skip
+                what = f"figure B5, {load} load, s = {float(spacing):g} r, {geometry}"
+                each = [
+                    (g / F[:, None]).mean(axis=2).reshape(HEIGHT, 2, -1).mean(axis=1).T
+                    for F, g in changes(ensemble, range(realisations), notice, what)
+                ]
+                both.append(np.concatenate(each))
+            shift = (both[0] - both[1]) / STD**2
+            mean = shift.mean(axis=0)
+            band = simultaneous(averaged(mean, shift - mean), LEVEL, seed)
+            found.append(Mean(load, spacing, band))
+    return MeanForces(realisations, tuple(found))
+
+
+def draw(data: MeanForces) -> "Figure":
+    """Draw shifts over M for both loads; one colour a spacing."""
+    from . import style
+
+    figure = style.figure(style.PAGE, 2.6)
+    panels = dict(zip(LOADS, figure.subplots(1, 2, sharey=True), strict=True))
+    z = np.arange(HEIGHT) / HEIGHT
+    for one in data.means:
+        axes, place = panels[one.load], SPACINGS.index(one.spacing)
+        colour, marker = style.series(place)
+        phi = cosine(one.spacing)
+        fine = np.linspace(0, 1, 201)
+        rising = 2 * (fine - phi) if one.load == "surface" else 2 * fine - phi * (1 + fine)
+        unit = (1 - phi**2) * (1 + phi)
+        axes.plot(fine, rising / unit, "--", color=colour, lw=0.8)
+        axes.plot(z, one.exact / HEIGHT, color=colour)
+        axes.errorbar(
+            z, one.band.estimate.log / HEIGHT, one.half / HEIGHT, fmt=marker, color=colour,
+            mfc="white", ms=3.2, mew=0.7, elinewidth=0.7, label=rf"$\phi={phi:g}$, simulated",
+        )  # fmt: skip
+    for load, axes in panels.items():
+        axes.axhline(0, color="0.6", lw=0.6)
+        axes.set_xlim(-0.02, 1)
+        axes.set_xlabel("relative height $z=j/M$")
+        axes.set_title(f"{load} load", pad=4)
+    panels["surface"].set_ylabel(r"$(\langle f\rangle/f_{0}-1)\,/\,M(\sigma_{\delta r}/r)^2$")
+    first = panels["surface"]
+    number = {"surface": "B5", "bulk": "B6"}
+    for load, axes in panels.items():
+        own = [
+            style.line("0.35", "-", f"Eq. ({number[load]}), exact at $M={HEIGHT}$"),
+            style.line("0.35", "--", r"$M\to\infty$"),
+        ]
+        points, _ = axes.get_legend_handles_labels()
+        axes.legend(handles=[*own, *points] if axes is first else own, loc="upper left")
+    style.letter(list(panels.values()))
+    return figure

@@ -1,0 +1,95 @@
+"""Contacts and force balance to second order in the strength ε, by SymPy, for a contact along n⁺.
+
+Its first order is Eqs. 4 and 5: the separation of the two centres changes by d₁ = ρ n⁺ + 2r δn⁺,
+where ρ is the sum of both δr, and δn⁺ = ν b⁻ with ν = n⁻·δn⁺.
+"""
+
+from functools import cache
+
+import sympy
+from force_diffusion.symbolic.mechanics.contacts import radii
+from force_diffusion.symbolic.mechanics.lattice import N_PLUS
+from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.symbols import epsilon, n_x, n_y, phi, r
+
+B_PLUS = sympy.ImmutableMatrix([1 / (2 * n_x), 1 / (2 * n_y)])
+B_MINUS = sympy.ImmutableMatrix([-1 / (2 * n_x), 1 / (2 * n_y)])
+
+tilt = Symbol("nu", r"\nu", "ν", real=True)  # n⁻·δn⁺
+
+# components along n⁺ and n⁻ of the separation's second order, and of the unit vector's
+d_plus = Symbol("d_plus", r"\hat{\bf n}^{+}\!\cdot{\bf d}_{2}", "n⁺·d₂", real=True)
+d_minus = Symbol("d_minus", r"\hat{\bf n}^{-}\!\cdot{\bf d}_{2}", "n⁻·d₂", real=True)
+u_plus = Symbol("u_plus", r"\hat{\bf n}^{+}\!\cdot{\bf u}_{2}", "n⁺·u₂", real=True)
+u_minus = Symbol("u_minus", r"\hat{\bf n}^{-}\!\cdot{\bf u}_{2}", "n⁻·u₂", real=True)
+# the force over its ordered value is 1 + εα₁ + ε²α₂
+alpha_1 = Symbol("alpha_1", r"\alpha_{1}", "α₁", real=True)
+alpha_2 = Symbol("alpha_2", r"\alpha_{2}", "α₂", real=True)
+
+# means over the ensemble
+mean_square = Symbol("V", r"\langle\nu^2\rangle", "⟨ν²⟩", real=True)
+with_radii = Symbol("C_rho", r"\langle\nu\rho\rangle", "⟨νρ⟩", real=True)
+with_force = Symbol("C_alpha", r"\langle\nu\alpha_{1}\rangle", "⟨να₁⟩", real=True)
+mean_force = Symbol("A", r"\langle\alpha_{2}\rangle", "⟨α₂⟩", real=True)
+
+
+def _order_2(expression: sympy.Expr) -> sympy.Expr:
+    """The coefficient of ε²."""
+    return sympy.diff(expression, epsilon, 2).subs(epsilon, 0) / 2
+
+
+def _separation() -> sympy.ImmutableMatrix:
+    first = radii * N_PLUS + 2 * r * tilt * B_MINUS
+    return 2 * r * N_PLUS + epsilon * first + epsilon**2 * (d_plus * B_PLUS + d_minus * B_MINUS)
+
+
+@cache
+def constraint() -> sympy.Expr:
+    """Order ε² of |separation|² − (sum of the radii)², which has to vanish."""
+    apart = _separation()
+    return _order_2(apart.dot(apart) - (2 * r + epsilon * radii) ** 2)
+
+
+@cache
+def unit_vector() -> sympy.ImmutableMatrix:
+    """Order ε² of the contact's unit vector, in Cartesian components."""
+    return sympy.ImmutableMatrix((_separation() / (2 * r + epsilon * radii)).applyfunc(_order_2))
+
+
+@cache
+def momentum() -> sympy.ImmutableMatrix:
+    """Order ε² of force times unit vector, over the ordered force, in Cartesian components."""
+    unit = N_PLUS + epsilon * tilt * B_MINUS + epsilon**2 * (u_plus * B_PLUS + u_minus * B_MINUS)
+    force = 1 + epsilon * alpha_1 + epsilon**2 * alpha_2
+    return sympy.ImmutableMatrix((force * unit).applyfunc(_order_2))
+
+
+STEP = -r * tilt**2 / (1 - phi**2)
+"""n⁺·d₂, which the constraint fixes: −r |δn|²."""
+
+TURN: tuple[sympy.Expr, sympy.Expr] = (d_plus / (2 * r), (d_minus - tilt * radii) / (2 * r))
+"""n⁺·u₂ and n⁻·u₂, from the unit vector."""
+
+SETTLED = STEP.xreplace({tilt**2: mean_square})
+"""⟨n^±·d₂⟩: on average both line sums of a bead lie this much above those of the layer below."""
+
+
+@cache
+def vertical_balance() -> sympy.Expr:
+    """Mean vertical momentum of a contact at order ε², which vanishes in every layer.
+
+    The loads fix the mean vertical force that passes through a layer; both branches carry the same.
+    """
+    in_contact = sympy.expand(momentum()[1].xreplace({u_plus: TURN[0], u_minus: TURN[1]}))
+    means = {
+        tilt * alpha_1: with_force,
+        tilt * radii: with_radii,
+        alpha_2: mean_force,
+        d_plus: SETTLED,
+        d_minus: SETTLED,
+    }
+    return in_contact.subs(means)
+
+
+FORCE = (mean_square / (1 - phi**2) + with_radii / (2 * r) - with_force) / (1 + phi)
+"""⟨α₂⟩ from the vertical balance, in means of products of first-order quantities."""
