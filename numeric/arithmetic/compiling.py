@@ -5,10 +5,15 @@ those of NumPy to the bit. Import it only where work repays loading the compiler
 """
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import lru_cache
+from itertools import pairwise
 from typing import Any, TypeVar, cast
 
 import llvmlite.binding
 import numba
+
+from .machine import cores
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -27,3 +32,20 @@ def compiled(function: Function) -> Function:
         return cast(Function, numba.njit(cache=True, **options)(function))
     except RuntimeError:  # no place to write to
         return cast(Function, numba.njit(**options)(function))
+
+
+@lru_cache(maxsize=1)
+def _pool(threads: int) -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(threads)
+
+
+def on_all_cores(function: Callable[[slice], bool], batch: int) -> bool:
+    """Call a compiled ``function`` for parts of a batch, one a core; say whether all are true."""
+    threads = cores()
+    parts = min(batch, threads)
+    if parts == 1:
+        return function(slice(0, batch))
+    cuts = [batch * part // parts for part in range(parts + 1)]
+    others = [_pool(threads).submit(function, slice(*cut)) for cut in pairwise(cuts[1:])]
+    own = function(slice(0, cuts[1]))
+    return all([own, *(other.result() for other in others)])

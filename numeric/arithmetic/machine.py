@@ -2,13 +2,21 @@
 
 import os
 
+_processes = [1]
+
+
+def share_cores(processes: int) -> None:
+    """Leave the cores to so many processes alike, of which this is one."""
+    _processes[0] = processes
+
 
 def cores() -> int:
-    """Give the number of cores that may be used."""
+    """Give the number of cores that this process may use."""
     try:
-        return len(os.sched_getaffinity(0))
+        found = len(os.sched_getaffinity(0))
     except AttributeError:  # not on this system
-        return os.cpu_count() or 1
+        found = os.cpu_count() or 1
+    return max(1, found // _processes[0])
 
 
 def memory_limit() -> int:

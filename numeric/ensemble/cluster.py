@@ -1,6 +1,7 @@
 """The same blocks on a Dask cluster: one that runs somewhere, or one made on this machine."""
 
 import logging
+import sys
 from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -8,6 +9,7 @@ from typing import Any
 
 import distributed as untyped
 
+from ..arithmetic.machine import share_cores
 from .measure import Measurement
 from .scene_key import program_version
 from .sums import Sums, from_bytes
@@ -19,6 +21,7 @@ TO_ANSWER, PATIENCE = 10, 30
 
 
 def _block(m: Measurement, first: int, stop: int) -> tuple[str, bytes]:
+    share_cores(sys.maxsize)  # a thread of a worker is one core
     return program_version(), solve_block(m, first, stop)
 
 

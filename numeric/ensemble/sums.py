@@ -141,7 +141,7 @@ def measured(m: Measurement, realisations: Sequence[int], work: Work | None = No
     packings: list[Array] = []
     tally: Tally | None = None
     with FLOAT64.active():
-        for solved, chunk in solved_packings(problem, realisations, FLOAT64, work):
+        for solved, chunk in solved_packings(problem, realisations, FLOAT64, work, any_number=True):
             with work.timed("statistics"):
                 if tally is None:
                     tally = _tally(m, solved)

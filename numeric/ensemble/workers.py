@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from multiprocessing import active_children, connection, get_context, parent_process
 
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
+from ..arithmetic.machine import share_cores
 from ..disorder.radii import RadiusError
 from ..mechanics.forces import NotStandingError
 from ..mechanics.packing import UnbuildableError
@@ -63,7 +64,7 @@ def refuse_unbuildable(m: Measurement, sums: Sums) -> None:
 
 
 class InProcess:
-    """Solve one block after the other, here."""
+    """Solve one block after the other, here; compiled sweeps take all cores."""
 
     def results(
         self, m: Measurement, tasks: Iterator[tuple[int, int]]
@@ -76,8 +77,9 @@ class InProcess:
 _here: list[Measurement] = []  # what this process measures, if it is a worker
 
 
-def _start(m: Measurement) -> None:
+def _start(m: Measurement, workers: int) -> None:
     _here.append(m)
+    share_cores(workers)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent hears it, and ends us
     threading.Thread(target=_follow_parent, daemon=True).start()
 
@@ -109,7 +111,7 @@ class Pool:
         while True:
             others = active_children()
             pool = ProcessPoolExecutor(
-                self.workers, get_context("spawn"), initializer=_start, initargs=(m,)
+                self.workers, get_context("spawn"), initializer=_start, initargs=(m, self.workers)
             )
             pending: dict[tuple[int, int], Future[bytes]] = {}
             try:

@@ -12,8 +12,7 @@ are made once. ``Sweeps`` holds them together with the memory, which is used aga
 Only ``engine`` imports this file, and only for work that repays loading the compiler.
 """
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -21,8 +20,7 @@ from math import sqrt
 
 import numpy as np
 
-from ..arithmetic.compiling import compiled
-from ..arithmetic.machine import cores
+from ..arithmetic.compiling import compiled, on_all_cores
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..disorder import compiled as drawing
 from ..disorder.radii import DrawnRadii, Radii
@@ -299,16 +297,6 @@ def _block(batch: int, quantities: int, size: int, zeros: int) -> Array:
     return block
 
 
-def _all(function: Callable[[slice], bool], batch: int) -> bool:
-    """Call ``function`` for parts of a batch of packings, on all cores that may be used."""
-    parts = min(batch, cores())
-    if parts == 1:
-        return function(slice(0, batch))
-    cuts = [batch * part // parts for part in range(parts + 1)]
-    with ThreadPoolExecutor(parts) as pool:
-        return all(pool.map(function, map(slice, cuts[:-1], cuts[1:])))
-
-
 def _rows(values: Array, starts: Array, lowest: int = 0) -> LazyRows[Array]:
     """Give the rows of (…, beads), of which those below ``lowest`` have nothing to say."""
 
@@ -355,7 +343,7 @@ class Deposition:
         def part(of: slice) -> bool:
             return _deposit(base, self.runs, rho[of], block[of], phi, inverse)
 
-        if not _all(part, batch):
+        if not on_all_cores(part, batch):
             return None
         found = block[0] if rows[0].ndim == 1 else block.swapaxes(0, 1)
         turns = [_pairs(found[m], found[m + 1], self.starts) for m in (2, 4)]
@@ -392,7 +380,7 @@ class Descent:
             lost = _block(1, 2, 2 * spare, spare)[0]
             return _sweep_down(F.values, self.runs, solved.block[of], g[of], lost)
 
-        if not _all(part, batch):
+        if not on_all_cores(part, batch):
             return None
         found = g[0] if solved.rho[0].ndim == 1 else g.swapaxes(0, 1)
         plus, minus = (self._ordered(F.values[b], F.start[b]) for b in (0, 1))
@@ -441,7 +429,7 @@ class Drawing:
             assert runs is not None
             return drawing.draw(radii, runs, realisations[of], rho[of])
 
-        if runs is None or not _all(part, batch):
+        if runs is None or not on_all_cores(part, batch):
             for j, row in enumerate(self.rows):
                 of = slice(self.starts[j], self.starts[j + 1])
                 rho[:, of] = radii.row(row, realisations, FLOAT64)

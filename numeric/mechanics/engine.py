@@ -1,8 +1,11 @@
 """The engine: the one way in which packings are solved, whatever is asked and of how many."""
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.machine import cores
 from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import rows_of
 from ..lattice.branch import Branch
@@ -41,31 +44,46 @@ def packings(
     physical: Physicality | None = None,
     *,
     plainly: bool = False,
+    any_number: bool = False,
 ) -> Iterator[tuple[Solved, Sequence[int]]]:
-    """Solve realisations in their order, as many at a time as is good for the arrays.
+    """Solve realisations in their order, ``chunk_size`` at a time.
 
     Gives what was solved together and its realisations: the first axis of arrays, which a single
     one lacks. The next ones take the memory of the last: what is to stay has to be copied. The
     caller activates ``system``. ``physical`` looks at every packing. ``plainly`` takes the plain
-    form. Raises what the sweeps raise for a packing that can't be built, or not be decided.
+    form. With ``any_number`` more may come together, so that all cores have some. Raises what the
+    sweeps raise for a packing that can't be built, or not be decided.
     """
     work = Work() if work is None else work
     size = chunk_size(problem, system)
     sweeps = None if plainly else _compiled(problem, system)
     loads = None if plainly else _loads(problem, system)
-    for at in range(0, len(realisations), size):
-        chunk = realisations[at : at + size]
-        if plainly:
-            solved = solve_plainly(problem, chunk, system, work)
-        else:
-            solved = _solved(problem, chunk, system, work, sweeps, loads)
-        if physical is not None and solved.packing is not None:
-            with work.timed(PHYSICAL):
-                physical.look_at_gaps(solved.packing)
-                if solved.forces is not None:
-                    physical.look_at_forces(solved.forces)
-            work.did_rows("checked", solved.packing.region.rows, len(chunk))
-        yield solved, chunk
+    together = size if sweeps is None else size * -(-cores() // size)
+    for at in range(0, len(realisations), together):
+        batch = realisations[at : at + together]
+        parts = [slice(k, min(k + size, len(batch))) for k in range(0, len(batch), size)]
+        all_solved = None
+        if len(parts) > 1:
+            # If one can't be built, they are solved part by part, so that the first is named.
+            with suppress(ForceDiffusionError):
+                all_solved = _solved(problem, batch, system, work, sweeps, loads)
+        if any_number and all_solved is not None:
+            parts = [slice(0, len(batch))]
+        for part in parts:
+            chunk = batch[part]
+            if plainly:
+                solved = solve_plainly(problem, chunk, system, work)
+            elif all_solved is None:
+                solved = _solved(problem, chunk, system, work, sweeps, loads)
+            else:
+                solved = all_solved if len(parts) == 1 else all_solved.some(part)
+            if physical is not None and solved.packing is not None:
+                with work.timed(PHYSICAL):
+                    physical.look_at_gaps(solved.packing)
+                    if solved.forces is not None:
+                        physical.look_at_forces(solved.forces)
+                work.did_rows("checked", solved.packing.region.rows, len(chunk))
+            yield solved, chunk
 
 
 def solve(
@@ -128,9 +146,10 @@ def _loads(problem: Problem, system: NumberSystem) -> Loads | None:
 
 
 def _compiled(problem: Problem, system: NumberSystem) -> "Sweeps | None":
-    """Give the compiled sweeps, same numbers: for much exact work in float64, where numba is."""
+    """Give the compiled sweeps, same numbers: for much work in float64, where numba is."""
     much = problem.region.beads * problem.realisations >= COMPILED_FROM
-    if not much or system is not FLOAT64 or problem.route != Route.EXACT:
+    sweeps = problem.route in {Route.EXACT, Route.FIRST_ORDER}  # of the latter only the radii
+    if not (much and sweeps and system is FLOAT64):
         return None
     try:
         from . import compiled

@@ -1,7 +1,7 @@
 """What is to be solved: beads, radii, loads, and by which theory."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 from typing import Any
@@ -72,12 +72,22 @@ class Solved:
 
     def one(self, number: int) -> "Solved":
         """Give the ``number``-th realisation of those that were solved together."""
+        return self._at(number)
 
+    def some(self, of: slice) -> "Solved":
+        """Give some of those that were solved together; one alone has no axis of realisations."""
+        return self.one(of.start) if of.stop == of.start + 1 else self._at(of)
+
+    def _at(self, at: int | slice) -> "Solved":
         def of(rows: Sequence[Array]) -> LazyRows[Array]:
-            return LazyRows(len(rows), lambda j: rows[j][number] if rows[j].size else rows[j])
+            return LazyRows(len(rows), lambda j: rows[j][at] if rows[j].size else rows[j])
 
         def turns(rows: Sequence[tuple[Array, Array]]) -> LazyRows[tuple[Array, Array]]:
-            return LazyRows(len(rows), lambda j: (rows[j][0][number], rows[j][1][number]))
+            def row(j: int) -> tuple[Array, Array]:
+                a, b = rows[j]
+                return (a[at], b[at]) if a.size else (a, b)
+
+            return LazyRows(len(rows), row)
 
         packing, forces = self.packing, self.forces
         if packing is not None:
@@ -92,5 +102,11 @@ class Solved:
             )
         if forces is not None:
             change = forces.change
-            forces = replace(forces, change=PerBranch(of(change.plus), of(change.minus)))
+            forces = Forces(
+                forces.system,
+                forces.rows,
+                forces.ordered,
+                PerBranch(of(change.plus), of(change.minus)),
+                forces.stopped,
+            )
         return Solved(self.system, packing, forces, self.single)

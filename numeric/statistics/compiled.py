@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.compiling import compiled
+from ..arithmetic.compiling import compiled, on_all_cores
 from ..arithmetic.systems import Array
 from .exact_sum import BITS, ExactSum
 
@@ -211,16 +211,24 @@ class Tally:
 
         Then some number is too large, too small, or none.
         """
-        before = [one.copy() for one in (*self.totals, self.tensile)]
         means = np.zeros((2, len(self.tensile), len(g)))
         counts = np.zeros((len(g), self.bins.shape[1]), np.int64)
-        if not _tally(
-            g, g.view(np.int64), F, self.pieces, self.members, self.unit, self.edges,
-            self.totals, means, self.tensile, counts,
-        ):  # fmt: skip
-            for one, old in zip((*self.totals, self.tensile), before, strict=True):
-                one[...] = old
+        found = []
+
+        def part(of: slice) -> bool:
+            totals = np.zeros_like(self.totals[0]), np.zeros_like(self.totals[1])
+            tensile = np.zeros_like(self.tensile)
+            found.append((*totals, tensile))
+            return _tally(
+                g[of], g[of].view(np.int64), F, self.pieces, self.members, self.unit, self.edges,
+                totals, means[:, :, of], tensile, counts[of],
+            )  # fmt: skip
+
+        if not on_all_cores(part, len(g)):
             return None
+        for of_part in found:
+            for total, one in zip((*self.totals, self.tensile), of_part, strict=True):
+                np.add(total, one, out=total)
         self.bins += [counts.sum(axis=0), (counts**2).sum(axis=0)]
         return means
 
