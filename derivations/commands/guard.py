@@ -24,6 +24,7 @@ from force_diffusion.numeric.arithmetic.errors import (
     WRONG_INPUT,
     ForceDiffusionError,
     NotReachedError,
+    printable,
 )
 
 WRONG_USAGE = WRONG_INPUT
@@ -54,11 +55,9 @@ def in_range() -> Iterator[None]:
         raise NotReachedError(f"a number left the range of the arithmetic ({error})") from error
 
 
-def printable(text: str) -> str:
-    """Text from outside without what a terminal would obey: escapes, controls, broken UTF-8."""
-    return "".join(
-        c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text
-    )
+def say(text: str) -> None:
+    """Print words that may hold names from outside."""
+    print(printable(text), flush=True)
 
 
 def tell(message: str) -> None:

@@ -25,7 +25,6 @@ from typing import Annotated, Any
 
 import typer
 from force_diffusion.derivations.commands.cli import command_line
-from force_diffusion.derivations.commands.guard import printable
 from force_diffusion.derivations.export.manifest import (
     LARGEST,
     MANIFEST,
@@ -35,7 +34,7 @@ from force_diffusion.derivations.export.manifest import (
     Manifest,
     read_manifest,
 )
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
 
 
 class OutputError(ForceDiffusionError):

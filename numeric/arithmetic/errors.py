@@ -9,6 +9,17 @@ from typing import ClassVar
 WRONG_INPUT, NOT_REACHED = 2, 3
 
 
+def printable(text: str) -> str:
+    r"""Text from outside without what a terminal would obey: escapes, controls, broken UTF-8.
+
+    >>> print(printable("\x1b[2J\u2028\udcff é"))
+    \x1b[2J\u2028\udcff é
+    """
+    return "".join(
+        c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text
+    )
+
+
 class ForceDiffusionError(Exception):
     """Something that a user can mend; the message says what was wrong, where, and what to do.
 
@@ -16,6 +27,10 @@ class ForceDiffusionError(Exception):
     """
 
     exit_status: ClassVar[int] = WRONG_INPUT
+
+    def __str__(self) -> str:
+        """Give the message; what it quotes can't command a terminal."""
+        return printable(super().__str__())
 
 
 class NotReachedError(ForceDiffusionError):

@@ -13,9 +13,11 @@ from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from time import sleep
-from typing import Any
+from typing import Annotated, Any
 
-from ..arithmetic.errors import ForceDiffusionError, NotReachedError
+from pydantic import Field, JsonValue, TypeAdapter
+
+from ..arithmetic.errors import ForceDiffusionError, NotReachedError, printable
 from .measure import Measurement
 from .scene_key import differences
 from .sums import Sums, from_bytes
@@ -29,6 +31,11 @@ _TABLES = (
     "CREATE TABLE sums (first INTEGER PRIMARY KEY, stop INTEGER NOT NULL, content BLOB NOT NULL, "
     "checksum TEXT NOT NULL)",
 )
+# Bytes of what a store says of itself, and of a block: a covariance of 2048 variables has 50 MB.
+LARGEST_TEXT, LARGEST_BLOCK = 1_000_000, 500_000_000
+_Number = Annotated[int, Field(ge=0, le=10**12)]  # of a realisation
+_KEY = TypeAdapter(dict[str, dict[str, JsonValue] | None])
+_ENDS = TypeAdapter(tuple[_Number, ...])
 
 
 class StoreError(ForceDiffusionError, ValueError):
@@ -96,19 +103,19 @@ class Store:
         return [(first, stop) for first, stop, _ in self._rows()]
 
     def _rows(self) -> Iterator[tuple[int, int, bytes]]:
+        before = 0
         with _reading(self.path):
             rows = self._database.execute(
                 "SELECT first, stop, content, checksum FROM sums ORDER BY first"
-            ).fetchall()
-        before = 0
-        for first, stop, content, checksum in rows:
-            whole = isinstance(first, int) and isinstance(stop, int) and isinstance(content, bytes)
-            if not whole or checksum != _checksum(self.about.key, first, stop, content):
-                raise _damaged(self.path, "a checksum is wrong")
-            if not before <= first < stop:
-                raise _damaged(self.path, "its realisations don't follow each other")
-            before = stop
-            yield first, stop, content
+            )
+            for first, stop, content, checksum in rows:
+                whole = isinstance(stop, int) and isinstance(content, bytes)
+                if not whole or checksum != _checksum(self.about.key, first, stop, content):
+                    raise _damaged(self.path, "a checksum is wrong")
+                if not before <= first < stop:
+                    raise _damaged(self.path, "its realisations don't follow each other")
+                before = stop
+                yield first, stop, content
 
     def add_end(self, end: int) -> None:
         """Remember a size that was asked for: blocks on its two sides are never merged."""
@@ -208,7 +215,7 @@ class StoreContent:
         for section, keys in self.ensemble.items():
             given = [f"{k} = {v}" for k, v in (keys or {}).items() if v is not None]
             lines.append(f"{section}: {', '.join(given)}")
-        return "\n".join(lines)
+        return printable("\n".join(lines))
 
     __repr__ = __str__
 
@@ -283,6 +290,8 @@ def _reading(path: Path) -> Iterator[None]:
     """Turn the database's errors into messages."""
     try:
         yield
+    except UnicodeDecodeError:  # in what the database would say of it
+        raise _damaged(path, "a text in it is none") from None
     except sqlite3.Error as error:
         code = (getattr(error, "sqlite_errorcode", None) or 0) & 0xFF
         if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
@@ -315,28 +324,38 @@ def _write_about(database: sqlite3.Connection, about: About) -> None:
 
 
 def _checked(path: Path, database: sqlite3.Connection, key: dict[str, Any] | None) -> About:
+    """Look at the tables first: what another one computes, even a CHECK, must never be run."""
     with _reading(path):
+        database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST_TEXT)
         (schema,) = database.execute("PRAGMA user_version").fetchone()
         if schema != SCHEMA:
             raise StoreError(
                 f"{path} has the layout {schema} of another version of force-diffusion, and this "
                 f"one reads layout {SCHEMA}: finish it with that version, or give another name"
             )
-        if [row[0] for row in database.execute("PRAGMA integrity_check")] != ["ok"]:
-            raise _damaged(path, "the database is not in order")
-        tables = sorted(row[0] for row in database.execute("SELECT sql FROM sqlite_master "
-                                                           "WHERE sql IS NOT NULL"))  # fmt: skip
-        if tables != sorted(_TABLES):
+        written = database.execute("SELECT sql FROM sqlite_master WHERE sql IS NOT NULL")
+        if set(written.fetchmany(len(_TABLES) + 1)) != {(table,) for table in _TABLES}:
             raise _damaged(path, "its tables are not those of an ensemble")
-        rows = database.execute("SELECT name, content, checksum FROM about").fetchall()
+        rows = database.execute("SELECT name, content, checksum FROM about LIMIT 3").fetchall()
+        database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST_BLOCK)
+        if database.execute("PRAGMA integrity_check(1)").fetchall() != [("ok",)]:
+            raise _damaged(path, "the database is not in order")
     found = {}
     for name, content, checksum in rows:
-        if not isinstance(content, str) or checksum != _hash(name, content):
+        if not isinstance(name, str) or not isinstance(content, str):
+            raise _damaged(path, "a text in it is none")
+        if checksum != _hash(name, content):
             raise _damaged(path, "a checksum is wrong")
-        found[name] = json.loads(content)
+        found[name] = content
     if set(found) != {"ensemble", "ends"}:
         raise _damaged(path, "it does not say what it holds")
-    about = About(found["ensemble"], tuple(found["ends"]))
+    try:
+        about = About(
+            _KEY.validate_json(found["ensemble"], strict=True),
+            _ENDS.validate_json(found["ends"], strict=True),
+        )
+    except ValueError:
+        raise _damaged(path, "what it says of itself is not understood") from None
     if key is not None and about.key != key:
         if not database.execute("SELECT count(*) FROM sums").fetchone()[0]:
             about = About(key, ())  # of a run that failed before it had anything to keep

@@ -32,9 +32,9 @@ def sees_images(problem: Problem, lowest_layer: int) -> bool:
         return on_base and any(j and j % width == 0 for _, j in load.loaded or [])
     if problem.route == Route.EXACT:
         if contact is not None:
-            return _exact([contact.upper], load, width)
-        row = full_layer(lowest_layer, width)
-        return _exact([(i, lowest_layer) for i in row.sites()], load, width)
+            return _exact([contact.upper], load, width, contact.upper[1])
+        sites = full_layer(lowest_layer, width).sites()  # W of them, more than a memory holds
+        return _exact(((i, lowest_layer) for i in sites), load, width, lowest_layer)
     if contact is not None:
         return _first_order(contact.upper, [contact], load, width)
     highest = _highest(load)
@@ -66,9 +66,9 @@ def _above(apex: Site, load: LoadSpec, width: int) -> list[Site] | None:
     return found
 
 
-def _exact(apexes: list[Site], load: LoadSpec, width: int) -> bool:
-    """Look at the triangles below all loads that stand on one of the ``apexes`` (of one layer)."""
-    widest = 2 * _highest(load) - apexes[0][1] + 1
+def _exact(apexes: Iterable[Site], load: LoadSpec, width: int, layer: int) -> bool:
+    """Look at the triangles below all loads that stand on one of the ``apexes`` of a ``layer``."""
+    widest = 2 * _highest(load) - layer + 1
     if load.loaded is None or widest <= width:
         return widest > width
     for apex in apexes:

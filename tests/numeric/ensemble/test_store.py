@@ -1,5 +1,6 @@
 """The file: what is damaged, foreign or in use is refused with a message, and never written to."""
 
+import hashlib
 import os
 import signal
 import sqlite3
@@ -79,6 +80,25 @@ def test_flipped_sums_are_refused(sound: bytes, tmp_path: Path) -> None:
         refused(path, "damaged")
 
 
+@pytest.mark.parametrize("bit", range(8))
+def test_a_flipped_bit_where_the_tables_are_described(
+    bit: int, sound: bytes, tmp_path: Path
+) -> None:
+    """SQLite's own words then hold what is no text."""
+    path = tmp_path / "ensemble.fd"
+    path.write_bytes(sound)
+    unharmed = read_store(path)
+    start, stop = sound.index(b"tablesums") - 30, sound.index(b"checksum TEXT NOT NULL)") + 30
+    for at in range(start, stop):
+        wrong = bytearray(sound)
+        wrong[at] ^= 1 << bit
+        path.write_bytes(wrong)
+        try:
+            assert read_store(path) == unharmed  # nothing reads this bit
+        except StoreError:
+            assert path.read_bytes() == bytes(wrong)
+
+
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
 def test_a_truncated_file_is_refused(share: float, sound: bytes, tmp_path: Path) -> None:
     path = tmp_path / "ensemble.fd"
@@ -133,6 +153,74 @@ def test_a_file_that_was_tampered_with(
     path.write_bytes(sound)
     changed(path, statement)
     refused(path, says)
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("ends", "["),
+        ("ends", "null"),
+        ("ends", '["40"]'),
+        ("ends", "[1.5]"),
+        ("ends", "[true]"),
+        ("ends", "[-1]"),
+        ("ends", f"[{'9' * 5000}]"),
+        ("ends", "[" * 100_000),
+        ("ends", f"[{'1, ' * 400_000}1]"),
+        ("ensemble", "[]"),
+        ("ensemble", "null"),
+        ("ensemble", '{"packing": 3}'),
+        ("ensemble", f'{{"packing": {{"height": {"[" * 3000}{"]" * 3000}}}}}'),
+        ("ensemble", '{"packing": "\\ud800"}'),
+    ],
+)
+def test_forged_words_of_a_store_are_refused(
+    name: str, content: str, sound: bytes, tmp_path: Path
+) -> None:
+    path = tmp_path / "ensemble.fd"
+    path.write_bytes(sound)
+    checksum = hashlib.sha256(f"{name}\n{content}".encode()).hexdigest()
+    forged = f"UPDATE about SET content = '{content}', checksum = '{checksum}'"
+    changed(path, f"{forged} WHERE name = '{name}'")
+    refused(path, "damaged")
+    with pytest.raises(StoreError, match="damaged"):
+        read_store(path)
+
+
+def test_a_store_never_computes_what_its_tables_say(sound: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "ensemble.fd"
+    path.write_bytes(sound)
+    endless = (
+        "(WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) SELECT max(x) FROM c)"
+    )
+    for computed in ("CHECK (randomblob(900000000) IS NULL)", f"DEFAULT {endless}"):
+        changed(
+            path,
+            "PRAGMA writable_schema = ON",
+            f"UPDATE sqlite_master SET sql = replace(sql, 'TEXT NOT NULL', 'TEXT {computed}')",
+        )
+        program = (
+            "import sys; from force_diffusion.numeric.ensemble.store import read_store\n"
+            "read_store(sys.argv[1])"
+        )
+        done = subprocess.run(
+            [sys.executable, "-c", program, str(path)],
+            cwd=ROOT, capture_output=True, text=True, check=False, timeout=30,
+        )  # fmt: skip
+        assert "its tables are not those of an ensemble" in done.stderr
+
+
+def test_names_in_a_forged_store_do_not_command_a_terminal(sound: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "ensemble.fd"
+    path.write_bytes(sound)
+    content = '{"packing": {"height": "\\u001b[2J"}}'
+    checksum = hashlib.sha256(f"ensemble\n{content}".encode()).hexdigest()
+    changed(
+        path,
+        f"UPDATE about SET content = '{content}', checksum = '{checksum}' WHERE name = 'ensemble'",
+        "DELETE FROM sums",
+    )
+    assert r"height = \x1b[2J" in str(read_store(path))
 
 
 def test_a_file_of_another_ensemble(sound: bytes, tmp_path: Path) -> None:
