@@ -8,12 +8,14 @@ tells them.
 
 import shlex
 import sys
+from collections.abc import Sequence
 from contextvars import ContextVar
 from importlib import import_module
 from typing import Annotated, Any
 
 import typer
 from force_diffusion.derivations.export.prose import either
+from force_diffusion.numeric.arithmetic.errors import printable
 from typer.core import TyperGroup
 
 # Name: (module, what --help says: the first paragraph of the command's docstring).
@@ -62,9 +64,14 @@ STATUSES = (
 _GIVEN: ContextVar[list[str]] = ContextVar("given")
 
 
+def shell_line(words: Sequence[str]) -> str:
+    """Words as one line for a shell, which anything may hold: other text is spelled out."""
+    return printable(shlex.join(words)).replace("\n", r"\n")
+
+
 def command_line() -> str:
     """What was typed, as one line for a shell."""
-    return shlex.join(["force-diffusion", *_GIVEN.get()])
+    return shell_line(["force-diffusion", *_GIVEN.get()])
 
 
 def _application(**options: Any) -> typer.Typer:
@@ -100,7 +107,7 @@ class _Commands(TyperGroup):
         """Find the command, or say which ones exist."""
         unknown = args and not args[0].startswith("-") and args[0] not in COMMANDS
         if unknown and not ctx.resilient_parsing:  # as a shell completes a line
-            ctx.fail(f"There is no command '{args[0]}'. Use {either(list(COMMANDS))}.")
+            ctx.fail(f"There is no command '{printable(args[0])}'. Use {either(list(COMMANDS))}.")
         return super().resolve_command(ctx, args)
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from force_diffusion.derivations.commands.output import output
 from force_diffusion.derivations.commands.progress import Silence, display
 from force_diffusion.derivations.framework.catalogue import Number, load, modules, with_premises
+from force_diffusion.numeric.arithmetic.errors import printable
 
 import force_diffusion as fd
 
@@ -58,7 +59,7 @@ def derive(
             }
             about = [parts[number] for number in modules() if number in parts]
             folder.write({**found.latex(), DOCUMENT: document(about)}, [one for _, one in about])
-    watch.summary(f"{found.counts()}." + (f" Written to {out}." if out else ""))
+    watch.summary(f"{found.counts()}." + (f" Written to {printable(str(out))}." if out else ""))
     if as_json:
         print(json.dumps(found.data(), indent=2), flush=True)
     return 0 if found.proved else 1

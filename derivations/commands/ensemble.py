@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.derivations.commands.guard import about, in_range, tell
+from force_diffusion.derivations.commands.guard import about, in_range, say, tell
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.export.tables import csv_text
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
@@ -192,7 +192,7 @@ def ensemble_status(
     if as_json:
         print(json.dumps(found.data(), indent=2))
         return
-    print(f"{store}: sound, {found}")
+    say(f"{store}: sound, {found}")
 
 
 def register(app: typer.Typer) -> None:

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from force_diffusion.derivations.commands.guard import say
 from force_diffusion.derivations.commands.output import Overwrite, copied, folder_of
 
 STATUSES = "Exit status: 0 copied, 2 a file there differs, 3 the disk failed, 130 interrupted."
@@ -24,9 +25,9 @@ def examples(
     }
     new = copied(scenes, folder, overwrite)
     for name in new:
-        print(folder / name)
+        say(str(folder / name))
     if not new:
-        print(f"All {len(scenes)} files are in {folder} already.")
+        say(f"All {len(scenes)} files are in {folder} already.")
 
 
 def register(app: typer.Typer) -> None:

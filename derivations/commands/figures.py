@@ -1,12 +1,12 @@
 """The command ``figures``: a thin layer over ``fd.figure``."""
 
 import json
-import shlex
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from force_diffusion.derivations.commands.guard import about
+from force_diffusion.derivations.commands.cli import shell_line
+from force_diffusion.derivations.commands.guard import about, say
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import images, noticing
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
@@ -114,8 +114,7 @@ def figures(
     words += [] if realisations is None else ["--realisations", str(realisations)]
     words += ["--seed", str(seed)]
     words += [word for model in beside or [] for word in ("--with", model)]
-    command = shlex.join([*words, "--out", str(out)])
-    command = command if command.isprintable() else ascii(command)  # it stands in one line of CSV
+    command = shell_line([*words, "--out", str(out)])
     stems = [FIGURES[name].file for name in wanted]
     names = [file for stem in stems for file in (*images(stem), f"{stem}.csv", f"{stem}.json")]
     with noticing() as notice, output(out, "figures", names, overwrite) as folder:
@@ -129,7 +128,7 @@ def figures(
         print(json.dumps(data, indent=2))
         return
     for name, one in data["figures"].items():
-        print(f"{name}: {out / one['files'][0]}")
+        say(f"{name}: {out / one['files'][0]}")
         print("\n".join(f"  {line}" for line in one["says"]))
 
 

@@ -147,7 +147,7 @@ class Folder:
     def _made(self, content: bytes) -> Made:
         return Made(
             result_of=self._result_of,
-            command=printable(command_line()),
+            command=command_line(),
             version=version(PROGRAM),
             sha256=hashlib.sha256(content).hexdigest(),
         )

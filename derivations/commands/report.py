@@ -4,6 +4,8 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from force_diffusion.derivations.commands.cli import shell_line
+from force_diffusion.derivations.commands.guard import say
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.progress import display
 from force_diffusion.derivations.commands.shared import noticing
@@ -24,13 +26,11 @@ def report(
     overwrite: Overwrite = False,
 ) -> None:
     """Write all results as one HTML page: derivations, checks, figures, costs, stability."""
-    import shlex
-
     from force_diffusion.derivations.api.report import find_libraries
     from force_diffusion.derivations.commands.deriving import watched
 
     find_libraries()
-    command = shlex.join(["force-diffusion", "report", "--out", str(out)])
+    command = shell_line(["force-diffusion", "report", "--out", str(out)])
     with output(out, "report", [PAGE], overwrite) as folder:
         derived = watched(modules(), display(len(modules()), as_json=False))
         with noticing() as notice:
@@ -38,7 +38,7 @@ def report(
         if folder:
             folder.write({PAGE: made.html})
     size = len(made.html.encode()) / 1e6
-    print(f"{derived.counts()}. Written to {out / PAGE}, {size:.2f} MB.", flush=True)
+    say(f"{derived.counts()}. Written to {out / PAGE}, {size:.2f} MB.")
     raise typer.Exit(0 if derived.proved else 1)
 
 

@@ -9,11 +9,12 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from force_diffusion.derivations.commands.cli import shell_line
 from force_diffusion.derivations.commands.guard import about, in_range
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import drawn, images, noticing
 from force_diffusion.derivations.export.tables import csv_text
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
 
 import force_diffusion as fd
 
@@ -113,18 +114,16 @@ def cost(
     overwrite: Overwrite = False,
 ) -> None:
     """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
-    import shlex
-
     from force_diffusion.numeric.studies.cost.result import csv_rows
 
-    command = shlex.join(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
+    command = shell_line(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
     names = ["cost.json", "cost.csv", *images("cost")]
     with output(out, f"cost {scene}", names, overwrite) as folder:
         with about(scene.name), noticing() as notice:
             found = fd.cost(fd.read_scene(scene), notice)
         data = {"command": command, **found.data()}
         if folder:
-            title = scene.stem
+            title = printable(scene.stem)
             folder.write(
                 {
                     "cost.json": json.dumps(data, indent=2) + "\n",

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from force_diffusion.derivations.commands.cli import shell_line
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import drawn, images, noticing
 from force_diffusion.derivations.export.tables import csv_text
@@ -25,12 +26,10 @@ def stability(
     overwrite: Overwrite = False,
 ) -> None:
     """Measure what stability costs: errors and lost bits of both forms, time beside them."""
-    import shlex
-
     from force_diffusion.numeric.studies.stability import study
 
     where = [] if out is None else ["--out", str(out)]
-    command = shlex.join(["force-diffusion", "stability", *where])
+    command = shell_line(["force-diffusion", "stability", *where])
 
     names = ["stability.json", *study.FILES.values(), *images("stability")]
     with output(out, "stability", names, overwrite) as folder:

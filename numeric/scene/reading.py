@@ -1,6 +1,8 @@
 """Scenes from TOML files, checked before anything is computed."""
 
+import re
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TypeVar
 
@@ -11,6 +13,9 @@ LARGEST_FILE = 64_000  # bytes of a scene file; far more than any scene needs
 # Dots outside of whole-line comments: a dotted key makes a table a dot, in quadratic time.
 MOST_DOTS = 200
 S = TypeVar("S", bound=Scene)
+# Digits that Python reads of an integer.
+MOST_DIGITS = 4300
+_LONG = re.compile(rf"(?<![\w.])[0-9][0-9_]{{{MOST_DIGITS},}}", re.ASCII)
 
 
 def read_scene(path: Path, kind: type[S]) -> S:
@@ -31,6 +36,14 @@ def read_scene(path: Path, kind: type[S]) -> S:
     return parse_scene(text, kind, path.parent)
 
 
+def _lines_with_keys(text: str) -> Iterator[str]:
+    """Leave out lines that are comments; TOML ends a line at a line feed and nowhere else."""
+    strings = '"""' in text or "'''" in text  # whose lines are no comments
+    for line in text.split("\n"):
+        if strings or not line.lstrip(" \t").startswith("#"):
+            yield line
+
+
 def parse_scene(text: str, kind: type[S], folder: Path = Path()) -> S:
     """Check the text of a scene, whose files lie in ``folder``. Raises ``SceneError``.
 
@@ -41,8 +54,7 @@ def parse_scene(text: str, kind: type[S], folder: Path = Path()) -> S:
 "contact", "contact_forces", "positions", "profile", "histogram", "response", "base_reactions"; \
 did you mean "profile"?
     """
-    lines = [line for line in text.splitlines() if not line.lstrip().startswith("#")]
-    dots = sum(line.count(".") for line in lines)
+    dots = sum(line.count(".") for line in _lines_with_keys(text))
     if dots > MOST_DOTS:
         allowed = f"at most {MOST_DOTS} outside of comments: keys are at most one section deep"
         raise SceneError("scene", None, f"has {dots} dots, {allowed}")
@@ -51,8 +63,12 @@ did you mean "profile"?
     except (tomllib.TOMLDecodeError, ArithmeticError, RecursionError) as error:
         reason = "is nested too deeply" if isinstance(error, RecursionError) else str(error)
         raise SceneError("scene", None, f"is no valid TOML: {reason}") from None
-    except ValueError as error:  # an integer with thousands of digits
-        raise SceneError("scene", None, f"is no valid TOML: {error}") from None
+    except ValueError:  # Python reads no longer integer
+        found = _LONG.search(text)
+        line = text.count("\n", 0, found.start()) + 1 if found else "?"
+        raise SceneError(
+            "scene", None, f"has an integer of more than {MOST_DIGITS} digits, in line {line}"
+        ) from None
     if "folder" in raw:
         raise SceneError("folder", raw["folder"], unknown("folder", Scene))
     try:

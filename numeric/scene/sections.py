@@ -275,7 +275,7 @@ def explained(error: ValidationError, model: type[Section], values: dict[str, An
         return SceneError(key, None, f"{what} is required")
     if kind == "literal_error":
         allowed = [f'"{choice}"' for choice in get_args(model.model_fields[name].annotation)]
-        close = difflib.get_close_matches(f'"{value}"', allowed, n=1)
+        close = difflib.get_close_matches(_shown(value), allowed, n=1)
         hint = f"; did you mean {close[0]}?" if close else ""
         return SceneError(key, value, f"must be one of {', '.join(allowed)}{hint}")
     if key in _LISTS:

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import os
 import sys
 from pathlib import Path
 from typing import Any
@@ -43,6 +44,17 @@ def written(folder: Path, text: str = SCENE) -> Path:
     path = folder / "scene.toml"
     path.write_text(text)
     return path
+
+
+@pytest.mark.parametrize("name", ["$x^{$", os.fsdecode(b"\xff\x1b[2J")])
+def test_scenes_of_any_name(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path, out = tmp_path / f"{name}.toml", tmp_path / "out"
+    path.write_text(SCENE)
+    status, printed, err = call(capsys, "cost", path, "--out", out)
+    assert (status, err) == (0, "")
+    assert printed.replace("\n", "").isprintable()
+    assert (out / "cost.csv").read_text().replace("\n", "").isprintable()
+    assert (out / "cost.png").stat().st_size
 
 
 @pytest.mark.parametrize("text", [SCENE, PROFILE])

@@ -18,6 +18,7 @@ from matplotlib.text import Text
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from matplotlib.transforms import Bbox
 
+from ...arithmetic.errors import printable
 from ...figures import style
 from .rows import Row
 
@@ -72,7 +73,8 @@ def draw(study: "CostStudy", title: str) -> Figure:
         "measured error / largest |change|" + (", spaced by √digits" if stretched else "")
     )
     reference = study.reference
-    name = f"{title}: {study.quantity}" if title else study.quantity
+    words = printable(title).replace("$", r"\$")  # no formula
+    name = f"{words}: {study.quantity}" if title else study.quantity
     axes.set_title(f"{name}; reference {reference.kind}, radius {reference.radius:.1e}", loc="left")
     figure.legend(handles=_keys(lines, bool(floor)), loc="outside lower center", ncols=3)
     figure.draw_without_rendering()  # lays out, so that labels know where points are

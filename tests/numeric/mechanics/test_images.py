@@ -112,6 +112,14 @@ def test_a_point_load_sees_images_exactly_where_the_slab_differs(geometry: str) 
     assert seen == {True, False}
 
 
+def test_the_widest_strip_is_looked_at_where_its_load_is() -> None:
+    """A trillion beads of a layer are not listed."""
+    sections = basic(4, 10**12, quantity="response")
+    sections["load"] = {"kind": "point", "at": [0, 4]}
+    for geometry in ("exact", "first-order", "ordered"):
+        assert not planned({**sections, "effects": {"geometry": geometry}}).sees_images
+
+
 @pytest.mark.parametrize("geometry", ["exact", "first-order", "ordered"])
 @pytest.mark.parametrize(
     ("quantity", "load"),

@@ -129,12 +129,42 @@ def test_missing_sections_and_keys() -> None:
         ("packing = 3\n", "must be a section"),
         ("[packing\n", "no valid TOML"),
         ("a = " + "[" * 5000, "TOML"),
-        ("[packing]\nheight = 1" + "0" * 6000, "TOML"),
+        ("[packing]\nheight = 1" + "0" * 6000, "4300 digits, in line 2"),
         ("[paking]\n[packing]\nheight = 3\n[ask]\nquantity='profile'", 'mean "packing"'),
         ("folder = 'x'\n", "is unknown"),
     ]:
         with pytest.raises(SceneError, match=says):
             parse_scene(text)
+
+
+@pytest.mark.parametrize(
+    ("section", "key"), [("ask", "quantity"), ("disorder", "kind"), ("effects", "geometry")]
+)
+def test_a_number_of_thousands_of_digits_where_a_word_is_expected(section: str, key: str) -> None:
+    sections = basic()
+    sections.setdefault(section, {})[key] = "=0x" + "f" * 4000
+    with pytest.raises(SceneError, match=rf"{section}\.{key} = a number of .* must be one of"):
+        scene(sections)
+
+
+@pytest.mark.parametrize("key", ["height", "radius"])
+def test_an_integer_that_is_too_long_is_named_by_its_line(key: str) -> None:
+    text = f"# a scene\n[packing]\n{key} = {'9' * 5000}\n"
+    with pytest.raises(SceneError, match=r"integer of more than 4300 digits, in line 3$"):
+        parse_scene(text)
+
+
+@pytest.mark.parametrize(
+    "start",
+    ['"\u2028#".', '"\x85#".', 'a = {b = """\n#""", c.', "a = {b = '''\n#''', c."],
+)
+def test_dots_are_counted_wherever_they_make_tables(start: str) -> None:
+    end = "}" if "{" in start else ""
+    text = f"{start}{'.'.join('a' * 300)} = 1{end}\n"
+    with pytest.raises(SceneError, match=r"has 300 dots|has 299 dots"):
+        parse_scene(text)
+    with pytest.raises(SceneError, match="is required"):
+        parse_scene("# " + "." * 1000)
 
 
 def test_a_slab_has_no_list_of_everything() -> None:
