@@ -1,6 +1,16 @@
 """What this machine has to offer: cores and free memory."""
 
 import os
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+# Of a control group, version 1 and 2: where it is, its limit and its use.
+_GROUPS = {
+    "memory": ("memory", "memory.limit_in_bytes", "memory.usage_in_bytes"),
+    "": ("", "memory.max", "memory.current"),
+}
+_CACHE = {"inactive_file", "active_file"}  # the kernel makes room of it
 
 _processes = [1]
 
@@ -20,8 +30,50 @@ def cores() -> int:
 
 
 def memory_limit() -> int:
-    """Give the bytes that may be used: most of the free memory, 1 GB where that is unknown."""
-    try:
-        return int(0.8 * os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
-    except (ValueError, OSError, AttributeError):
-        return 10**9
+    """Give the bytes that may be used: most of what is free, 1 GB where that is unknown.
+
+    Free is what no program uses, files that the system keeps included; a container, a batch system
+    (control groups) and ``ulimit -v`` may allow less.
+    """
+    free = [*_free_of_machine(), *free_of_groups(), *_free_of_process()]
+    return max(int(0.8 * min(free)), 0) if free else 10**9
+
+
+def _free_of_machine() -> Iterator[int]:
+    with suppress(OSError):
+        for line in Path("/proc/meminfo").read_text().splitlines():
+            if line.startswith("MemAvailable:"):
+                yield 1024 * int(line.split()[1])
+                return
+    with suppress(ValueError, OSError, AttributeError):
+        yield os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+
+
+def free_of_groups(
+    own: Path = Path("/proc/self/cgroup"), root: Path = Path("/sys/fs/cgroup")
+) -> Iterator[int]:
+    """Give the free bytes of every limited control group that this process is in."""
+    with suppress(OSError):
+        for line in own.read_text().splitlines():
+            _, controllers, name = line.split(":", 2)
+            if controllers not in _GROUPS:
+                continue
+            folder, limit, used = _GROUPS[controllers]
+            top = root / folder
+            group = top / name.lstrip("/")  # as seen from outside: in a container it is not there
+            for one in {top, group, *(p for p in group.parents if top in p.parents)}:
+                with suppress(OSError, ValueError):  # no such file, or "max"
+                    allowed = int((one / limit).read_text())
+                    counts = map(str.split, (one / "memory.stat").read_text().splitlines())
+                    cache = sum(int(size) for key, size in counts if key in _CACHE)
+                    yield allowed - int((one / used).read_text()) + cache
+
+
+def _free_of_process() -> Iterator[int]:
+    with suppress(ImportError, OSError):
+        import resource  # not on Windows
+
+        limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+        if limit != resource.RLIM_INFINITY:
+            pages = int(Path("/proc/self/statm").read_text().split()[0])
+            yield limit - pages * resource.getpagesize()

@@ -1,0 +1,45 @@
+"""The memory that a plan predicts holds for every question: measured in processes of their own."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the peak is in bytes of Linux")
+
+# Answers of so many rows that they, and not the libraries, take the memory.
+DRAWN = 'disorder = {kind = "uniform", relative_std = 1e-6}\n'
+POINT = 'packing = {height = 260}\nload = {kind = "point", at = [0, 260]}\n'
+SCENES = {
+    "contact forces": 'packing = {height = 100, width = 350}\nask = {quantity = "contact_forces"}',
+    "positions": 'packing = {height = 200, width = 350}\nask = {quantity = "positions"}',
+    "base reactions": "packing = {height = 10, width = 250}\n"
+    'ask = {quantity = "base_reactions", realisations = 250}',
+    "response": POINT + 'ask = {quantity = "response"}',
+    "ordered response": POINT + 'ask = {quantity = "response"}\neffects = {geometry = "ordered"}',
+    "contact": "packing = {height = 5}\n"
+    'ask = {quantity = "contact", at = [0, 0, "+"], realisations = 50_000}',
+    "histogram": "packing = {height = 10, width = 40}\n"
+    'ask = {quantity = "histogram", bins = 100_000, realisations = 50}',
+    "profile": 'packing = {height = 300, width = 1000}\nask = {quantity = "profile"}',
+    "balls": 'packing = {height = 40, width = 90}\nask = {quantity = "contact_forces", '
+    "tolerance = 1e-30}",
+}
+PROGRAM = """
+import json, resource, sys
+from force_diffusion.__main__ import main
+assert main(["run", sys.argv[1], "--json"]) == 0
+print(1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, file=sys.stderr)
+"""
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_no_run_takes_more_than_its_plan_says(name: str, tmp_path: Path) -> None:
+    scene = tmp_path / "scene.toml"
+    scene.write_text(f"{DRAWN}{SCENES[name]}\n")
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM, str(scene)], capture_output=True, text=True, check=True
+    )
+    assert int(done.stderr) <= json.loads(done.stdout)["memory_bytes"]
