@@ -3,6 +3,6 @@
 import sys
 
 if sys.argv[:1] == ["-m"]:  # Python is about to run a module of this package as a program
-    from force_diffusion.derivations.commands.guard import end_interrupts_quietly
+    from force_diffusion.derivations.commands.interrupts import end_quietly
 
-    end_interrupts_quietly()
+    end_quietly()

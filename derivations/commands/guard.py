@@ -14,11 +14,12 @@ Told here as well: an interrupt (130), a full memory, and a file or a stream tha
 import errno
 import io
 import os
+import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from types import TracebackType
 
+from force_diffusion.derivations.commands.interrupts import INTERRUPTED, MESSAGE, came, heed
 from force_diffusion.numeric.arithmetic.errors import (
     NOT_REACHED,
     WRONG_INPUT,
@@ -29,9 +30,6 @@ from force_diffusion.numeric.arithmetic.errors import (
 
 WRONG_USAGE = WRONG_INPUT
 FAILED_OUTSIDE = NOT_REACHED
-INTERRUPTED = 130
-
-_INTERRUPTED = "interrupted; no half-written file is left."
 
 
 @contextmanager
@@ -68,23 +66,50 @@ def tell(message: str) -> None:
 def guarded(program: Callable[[], int]) -> int:
     """Run a program; return its exit status, which is that of a failure if there was one."""
     _prepare_streams()
-    try:
-        status = program()
-    except KeyboardInterrupt:
-        status = INTERRUPTED
-    except ForceDiffusionError as error:
-        status = _failed(error, str(error), error.exit_status)
-    except MemoryError as error:
-        status = _failed(error, "the memory is full; ask for less", FAILED_OUTSIDE)
-    except OSError as failure:
-        status = _outside(failure)
-    if status == INTERRUPTED:
-        tell(_INTERRUPTED)
+    with _interruptible():
+        status = _status(program)
     try:
         sys.stdout.flush()
     except OSError as failure:
         status = _outside(failure)
     return status
+
+
+@contextmanager
+def _interruptible() -> Iterator[None]:
+    came.clear()
+    before = heed("SIGINT", "SIGTERM", "SIGHUP")
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _status(program: Callable[[], int]) -> int:
+    try:
+        status = program()
+    except BaseException as error:
+        if not came and not isinstance(error, KeyboardInterrupt):
+            return _known(error)
+        status = INTERRUPTED
+    if came and status:
+        status = INTERRUPTED
+    if status == INTERRUPTED:
+        tell(MESSAGE)
+    return status
+
+
+def _known(error: BaseException) -> int:
+    """Tell an error; raise it again where it is a mistake in the program."""
+    match error:
+        case ForceDiffusionError():
+            return _failed(error, str(error), error.exit_status)
+        case MemoryError():
+            return _failed(error, "the memory is full; ask for less", FAILED_OUTSIDE)
+        case OSError():
+            return _outside(error)
+    raise error
 
 
 def _failed(error: Exception, message: str, status: int) -> int:
@@ -135,17 +160,3 @@ def _outside(failure: OSError) -> int:
         reason = failure.strerror or str(failure)
         tell(f"writing to {where} failed: {reason}. {remedy}")
     return FAILED_OUTSIDE
-
-
-def end_interrupts_quietly() -> None:
-    """See to interrupts that come while modules still load, before anything is guarded."""
-    usual = sys.excepthook
-
-    def hook(kind: type[BaseException], error: BaseException, where: TracebackType | None) -> None:
-        if issubclass(kind, KeyboardInterrupt):
-            with suppress(OSError):
-                tell(_INTERRUPTED)
-            raise SystemExit(INTERRUPTED)
-        usual(kind, error, where)
-
-    sys.excepthook = hook

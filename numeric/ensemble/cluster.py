@@ -13,7 +13,7 @@ from ..arithmetic.machine import share_cores
 from .measure import Measurement
 from .scene_key import program_version
 from .sums import Sums, from_bytes
-from .workers import WorkersError, solve_block
+from .workers import WorkersError, solve_block, without_interrupts
 
 distributed: Any = untyped  # it has no types
 # Seconds until a scheduler has to answer, and until a worker has to be there.
@@ -75,14 +75,14 @@ class Cluster:
 
     def _client(self, open_things: ExitStack) -> Any:
         if self.address is None:
-            cluster = open_things.enter_context(
-                distributed.LocalCluster(
+            with without_interrupts():  # its threads start the workers
+                made = distributed.LocalCluster(
                     n_workers=self.workers,
                     threads_per_worker=1,
                     dashboard_address=":0",
                     silence_logs=logging.ERROR,
                 )
-            )
+            cluster = open_things.enter_context(made)
             return open_things.enter_context(distributed.Client(cluster))
         try:
             client = open_things.enter_context(distributed.Client(self.address, timeout=TO_ANSWER))

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 from ..arithmetic.errors import ForceDiffusionError, NotReachedError
@@ -77,6 +78,8 @@ def ensemble(
         raise ArgumentError(
             "confidence", f"{confidence:g}", "must lie between 0 and 1, such as 0.95"
         )
+    # Loaded before the memory is shared out: in a full one its library waits for ever.
+    import_module("scipy.special")
     m = replace(measurement(scene, covariance=covariance, reach=reach), expected=size)
     executor = _executor(m, size, workers, scheduler)
     rule = None if until is None else Rule(until, confidence)

@@ -6,11 +6,12 @@ import threading
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from multiprocessing import active_children, connection, get_context, parent_process
 
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
-from ..arithmetic.machine import share_cores
+from ..arithmetic.machine import memory_limit, share_cores
 from ..disorder.radii import RadiusError
 from ..mechanics.forces import NotStandingError
 from ..mechanics.packing import UnbuildableError
@@ -19,7 +20,13 @@ from .sums import Sums, from_bytes, measured, none
 
 # Pools in a row that may die without finishing anything.
 PATIENCE = 3
+# Seconds between looks at whether any process is left.
+LOOK = 10
 _TROUBLE = (UnbuildableError, NotStandingError, RadiusError)
+
+
+class NotStartedError(Exception):
+    """The system gives no process, or no thread to look after it."""
 
 
 class RealisationError(ForceDiffusionError, ValueError):
@@ -74,13 +81,32 @@ class InProcess:
             yield first, stop, from_bytes(solve_block(m, first, stop), m)
 
 
+@contextmanager
+def without_interrupts() -> Iterator[None]:
+    """Start processes that no signal of a terminal reaches; it comes to us afterwards.
+
+    Those that load their modules could only end with a traceback, and the one that keeps account of
+    all others must see their end.
+    """
+    if not hasattr(signal, "pthread_sigmask"):  # not on this system
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGHUP})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 _here: list[Measurement] = []  # what this process measures, if it is a worker
 
 
 def _start(m: Measurement, workers: int) -> None:
+    if memory_limit() < m.plan.memory:
+        os._exit(1)  # as if killed for it: a library that gets none may wait for ever
     _here.append(m)
     share_cores(workers)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent hears it, and ends us
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # held back until now: the parent ends us
     threading.Thread(target=_follow_parent, daemon=True).start()
 
 
@@ -94,6 +120,17 @@ def _follow_parent() -> None:
 
 def _block(first: int, stop: int) -> bytes:
     return solve_block(_here[0], first, stop)
+
+
+def _submitted(pool: ProcessPoolExecutor, task: tuple[int, int]) -> Future[bytes]:
+    """Hand a block in; the first ones start the processes."""
+    try:
+        with without_interrupts():
+            return pool.submit(_block, *task)
+    except BrokenProcessPool:
+        raise
+    except (OSError, RuntimeError) as error:
+        raise NotStartedError(str(error)) from None
 
 
 @dataclass(frozen=True)
@@ -110,26 +147,35 @@ class Pool:
         deaths = 0
         while True:
             others = active_children()
-            pool = ProcessPoolExecutor(
-                self.workers, get_context("spawn"), initializer=_start, initargs=(m, self.workers)
-            )
+            with without_interrupts():
+                pool = ProcessPoolExecutor(
+                    self.workers,
+                    get_context("spawn"),
+                    initializer=_start,
+                    initargs=(m, self.workers),
+                )
             pending: dict[tuple[int, int], Future[bytes]] = {}
             try:
                 while True:
                     while len(pending) < 2 * self.workers:
-                        task = again.pop() if again else next(tasks, None)
+                        task = again[-1] if again else next(tasks, None)
                         if task is None:
                             break
-                        pending[task] = pool.submit(_block, *task)
+                        if not again:
+                            again.append(task)  # it must not be lost where no process starts
+                        pending[task] = _submitted(pool, task)
+                        again.pop()
                     if not pending:
                         return
-                    wait(pending.values(), return_when=FIRST_COMPLETED)
+                    done, _ = wait(pending.values(), LOOK, return_when=FIRST_COMPLETED)
+                    if not done and not set(active_children()).difference(others):
+                        raise BrokenProcessPool  # it died with those who would have said so
                     for task in [t for t, future in pending.items() if future.done()]:
                         content = pending[task].result()
                         del pending[task]
                         deaths = 0
                         yield *task, from_bytes(content, m)
-            except BrokenProcessPool:
+            except (BrokenProcessPool, NotStartedError):
                 deaths += 1
                 if deaths == PATIENCE:
                     raise WorkersError(

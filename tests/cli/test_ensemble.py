@@ -239,7 +239,40 @@ def test_a_full_disk_keeps_what_is_written_and_says_how_to_go_on(
     assert limited(10_000).stdout == whole.stdout
 
 
-def test_an_interrupt_says_how_to_go_on(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+LOADING = """
+import sys, time
+if "--multiprocessing-fork" in sys.argv:
+    print("loading", file=sys.stderr, flush=True)
+    time.sleep(60)
+"""
+
+
+def test_an_interrupt_while_workers_load(tmp_path: Path) -> None:
+    """As a terminal does, it comes to all of them."""
+    (tmp_path / "sitecustomize.py").write_text(LOADING)
+    with subprocess.Popen(
+        program(SCENE, "--realisations", 100_000, "--workers", 2),
+        env={**ENVIRONMENT, "PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"},
+        stderr=subprocess.PIPE, text=True, start_new_session=True,
+    ) as run:  # fmt: skip
+        assert run.stderr is not None
+        assert [run.stderr.readline() for _ in range(2)] == ["loading\n"] * 2
+        os.killpg(run.pid, signal.SIGINT)
+        try:
+            _, err = run.communicate(timeout=30)
+        finally:
+            run.kill()
+    assert run.returncode == 130
+    assert err.splitlines() == [
+        "force-diffusion: nothing was kept; with --store FILE it would have been.",
+        "force-diffusion: interrupted; no half-written file is left.",
+    ]
+
+
+@pytest.mark.parametrize("how", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_an_interrupt_says_how_to_go_on(
+    how: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     store = tmp_path / "ensemble.fd"
     arguments = [SCENE, "--realisations", 100_000, "--workers", 2, "--store", store]
     with subprocess.Popen(
@@ -251,7 +284,7 @@ def test_an_interrupt_says_how_to_go_on(tmp_path: Path, capsys: pytest.CaptureFi
             store.exists() and store.stat().st_size > 30_000
         ):
             time.sleep(0.05)
-        os.killpg(run.pid, signal.SIGINT)  # as a terminal does: to the workers too
+        os.killpg(run.pid, getattr(signal, how))  # as a terminal does: to the workers too
         try:
             _, err = run.communicate(timeout=60)
         finally:

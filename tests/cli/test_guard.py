@@ -95,6 +95,56 @@ def test_an_interrupt_while_modules_load(module: str, slow: str, tmp_path: Path)
     assert errors == "force-diffusion: interrupted; no half-written file is left.\n"
 
 
+WAITING = """
+import sys, time
+from force_diffusion.derivations.commands.guard import guarded
+
+def program():
+    print("waiting", flush=True)
+    try:
+        time.sleep(float(sys.argv[1]))
+    except KeyboardInterrupt:
+        raise ImportError("as a module may take it")
+    return 0
+
+sys.exit(guarded(program))
+"""
+
+
+def waiting(seconds: float, *before: str) -> subprocess.Popen[str]:
+    process = subprocess.Popen(
+        [*before, sys.executable, "-c", WAITING, str(seconds)],
+        env=ENVIRONMENT, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    )  # fmt: skip
+    assert process.stdout is not None
+    assert process.stdout.readline() == "waiting\n"
+    return process
+
+
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_all_that_ends_a_program_ends_it_alike(how: signal.Signals) -> None:
+    with waiting(60) as process:
+        process.send_signal(how)
+        _, errors = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert errors == "force-diffusion: interrupted; no half-written file is left.\n"
+
+
+def test_what_a_program_was_started_to_ignore_is_ignored() -> None:
+    with waiting(0.5, "nohup") as process:
+        process.send_signal(signal.SIGHUP)
+        process.communicate(timeout=20)
+    assert process.returncode == 0
+
+
+def test_signals_do_afterwards_what_they_did_before() -> None:
+    before = [signal.getsignal(how) for how in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)]
+    assert guarded(lambda: 0) == 0
+    assert [
+        signal.getsignal(how) for how in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    ] == before
+
+
 class UnreachableError(ForceDiffusionError):
     exit_status = 3
 

@@ -1,7 +1,10 @@
 """An ensemble is the same to the bit for any workers, blocks, order and interruption."""
 
 import random
+import subprocess
+import sys
 from collections.abc import Iterator
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -24,6 +27,7 @@ from hypothesis import strategies as st
 
 from tests.numeric.ensemble.cases import CASES, case
 
+ROOT = Path(__file__).parents[3]
 M = case("profile", covariance=True)
 WHOLE = measured(M, range(150)).to_bytes()
 
@@ -120,6 +124,43 @@ def test_workers_that_always_die_are_given_up(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(workers, "_start", _die)
     with pytest.raises(WorkersError, match="died 2 times"):
         run.run(M, 40, Pool(1))
+
+
+@pytest.mark.parametrize(
+    "trouble", [BrokenProcessPool("gone"), RuntimeError("can't start new thread"), OSError("fork")]
+)
+def test_a_process_that_can_not_be_started_loses_nothing(
+    trouble: Exception, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    size_of_blocks(monkeypatch, 10)
+    submit, calls = workers.ProcessPoolExecutor.submit, []
+
+    def seldom(self: Any, *arguments: Any) -> Any:
+        calls.append(arguments)
+        if len(calls) in (1, 4):
+            raise trouble
+        return submit(self, *arguments)
+
+    monkeypatch.setattr(workers.ProcessPoolExecutor, "submit", seldom)
+    assert bytes_of(run.run(M, 150, Pool(2))) == WHOLE
+    assert len(calls) > 4
+    monkeypatch.setattr(workers.ProcessPoolExecutor, "submit", lambda *_: seldom(calls.clear()))
+    with pytest.raises(WorkersError, match="died 3 times"):
+        run.run(M, 150, Pool(2))
+
+
+def test_a_worker_that_has_too_little_memory_ends_at_once() -> None:
+    program = (
+        "from force_diffusion.numeric.ensemble import workers\n"
+        "from tests.numeric.ensemble.cases import case\n"
+        "m = case('profile')\n"
+        "workers.memory_limit = lambda: m.plan.memory - 1\n"
+        "workers._start(m)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (1, "")
 
 
 def _die(m: Measurement) -> None:
