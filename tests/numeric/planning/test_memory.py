@@ -28,10 +28,11 @@ SCENES = {
     "tolerance = 1e-30}",
 }
 PROGRAM = """
-import json, resource, sys
+import sys
 from force_diffusion.__main__ import main
 assert main(["run", sys.argv[1], "--json"]) == 0
-print(1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, file=sys.stderr)
+(peak,) = (line for line in open("/proc/self/status") if line.startswith("VmHWM:"))
+print(1024 * int(peak.split()[1]), file=sys.stderr)
 """
 
 
