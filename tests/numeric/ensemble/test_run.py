@@ -155,7 +155,7 @@ def test_a_worker_that_has_too_little_memory_ends_at_once() -> None:
         "from tests.numeric.ensemble.cases import case\n"
         "m = case('profile')\n"
         "workers.memory_limit = lambda: m.plan.memory - 1\n"
-        "workers._start(m)\n"
+        "workers._start(m, 1)\n"
     )
     done = subprocess.run(
         [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=False
