@@ -1,0 +1,228 @@
+"""Scenes and stores that nobody would write: each has to end in words and a documented status.
+
+``fuzz.py --seconds 60 --seed N`` tries cases until the time is over, each in a process of its own,
+with limits on memory and time. Case K of a seed is tried again with ``--case K``; its files stay in
+the current folder. Exit status: 0 all ended well, 1 some did not.
+"""
+
+import argparse
+import io
+import os
+import resource
+import shutil
+import signal
+import sqlite3
+import sys
+import time
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+from random import Random
+
+from force_diffusion import numeric
+from force_diffusion.__main__ import main as program
+
+SCENES = sorted(Path(numeric.__file__).parents[1].joinpath("scenes").glob("*.toml"))
+PATIENCE = 20.0  # seconds in which what solves nothing has to end
+ENOUGH = 3.0  # seconds after which what solves packings is interrupted, and has to end then
+MEMORY = 4 * 2**30
+ENDED = {0, 2, 3, 130}
+QUICK = {"explain", "ensemble-status"}
+
+VALUES = [
+    "0", "-1", "1", "2", "7", "1e-3", "1e-300", "1e-5000", "1e999999999", "-0.0", "nan", "-inf",
+    "true", "[]", "[[[[1]]]]", "[0, 0]", '[0, 0, "+"]', '[-7, 1, "-"]', "{}", '""', '"surface"',
+    '"exact"', '"contact"', '"normal"', '"file"', '"../.."', '"/dev/zero"', '"radii.csv"',
+    '"\\u0000"', '"\\u001b[2J"', "1979-05-27", "1_000", "0x" + "f" * 5000, "9" * 5000,
+    "1000000000000", "18446744073709551616", "3.46410161513775458705489268301174487", "2.0", "2.1",
+]  # fmt: skip
+KEYS = [
+    "height", "width", "spacing", "radius", "allow_images", "kind", "relative_std", "seed", "file",
+    "magnitude", "angle_deg", "at", "geometry", "stop_at_tension", "quantity", "tolerance",
+    "certified", "realisations", "bins", "a.b.c.d", '"\\u2028"', "heigth",
+]  # fmt: skip
+WORDS = ["i,j,fx,fy", "i,j,delta_r", "1,1,0,-1", "0,0,1e-3", "x", "1,1,nan,1", "\x00", "9" * 400]
+
+
+def scene(random: Random, folder: Path) -> list[str]:
+    """Write an example scene with something changed, and say what is asked of it."""
+    source = random.choice(SCENES)
+    shutil.copy(source.with_name("radii.csv"), folder)
+    lines = source.read_text(encoding="utf-8").splitlines()
+    for _ in range(random.choice([1, 1, 1, 2, 3, 8])):
+        at = random.randrange(len(lines))
+        kind = random.randrange(6)
+        if kind <= 1 and "=" in lines[at]:
+            lines[at] = lines[at].split("=")[0] + f"= {random.choice(VALUES)}"
+        elif kind == 2:
+            lines.insert(at, f"{random.choice(KEYS)} = {random.choice(VALUES)}")
+        elif kind == 3:
+            del lines[at]
+            lines = lines or ["[packing]"]
+        elif kind == 4:
+            lines.insert(at, random.choice(lines))
+        else:
+            lines.insert(at, f"[{random.choice(['packing', 'disorder', 'load', 'effects', 'x'])}]")
+    content = bytearray("\n".join(lines).encode())
+    if random.random() < 0.2:
+        for _ in range(random.choice([1, 1, 5])):
+            content[random.randrange(len(content))] = random.randrange(256)
+    name = random.choice(["scene.toml"] * 5 + ["$x^{$.toml", "a\x1b[2Jb.toml", "δ.toml"])
+    (folder / name).write_bytes(content)
+    if random.random() < 0.1:
+        rows = [random.choice(WORDS) for _ in range(random.randrange(6))]
+        (folder / "radii.csv").write_text("\n".join(rows), encoding="utf-8")
+    command = random.choice(["explain", "explain", "run", "run", "ensemble", "cost"])
+    options = {
+        "explain": [[], ["--json"]],
+        "run": [[], ["--json"], ["--out", "out"], ["--tolerance", "1e-20"]],
+        "ensemble": [["--realisations", "3", "--workers", "1"]],
+        "cost": [["--out", "out"]],
+    }
+    return [command, name, *random.choice(options[command])]
+
+
+def store(random: Random, folder: Path, whole: Path) -> list[str]:
+    """Damage a store, its bytes or what it says, and look at it or go on from it."""
+    path = folder / "store"
+    shutil.copy(whole, path)
+    shutil.copy(whole.with_name("scene.toml"), folder)
+    kind = random.randrange(4)
+    if kind == 0:
+        content = bytearray(path.read_bytes())
+        for _ in range(random.choice([1, 1, 2, 20])):
+            content[random.randrange(len(content))] ^= 1 << random.randrange(8)
+        path.write_bytes(content)
+    elif kind == 1:
+        content = bytearray(path.read_bytes())
+        path.write_bytes(content[: random.randrange(len(content))] + random.randbytes(9) * 9)
+    else:
+        _forge(random, path)
+    if random.random() < 0.5:
+        return ["ensemble-status", "store", *random.choice([[], ["--json"]])]
+    return ["ensemble", "scene.toml", "--store", "store", "--workers", "1"]
+
+
+def _forge(random: Random, path: Path) -> None:
+    database = sqlite3.connect(path, isolation_level=None)
+    tables = {"about": ["name", "content", "checksum"], "sums": ["first", "stop", "content"]}
+    values = [
+        None, 0, -1, 2**63 - 1, 1.5, "", "[", "null", "[" * 50_000, '{"a": 1}', "\x1b[2J",
+        "nan", b"", b"\xff\xfe", random.randbytes(64), "9" * 5000, "x" * 10**6,
+    ]  # fmt: skip
+    statements: list[tuple[str, tuple[object, ...]]] = []
+    for _ in range(random.choice([1, 1, 3])):
+        table = random.choice(list(tables))
+        column = random.choice(tables[table])
+        statements.append(
+            random.choice(
+                [
+                    (f"UPDATE {table} SET {column} = ?", (random.choice(values),)),
+                    (f"DELETE FROM {table} WHERE rowid = ?", (random.randrange(4),)),
+                    (f"DROP TABLE {table}", ()),
+                    (f"ALTER TABLE {table} ADD COLUMN x CHECK (abs(x) > randomblob(9))", ()),
+                    ("INSERT INTO sums VALUES (?, ?, ?, ?)", (5, 3, b"", "")),
+                    (f"PRAGMA user_version = {random.randrange(-5, 5)}", ()),
+                    ("CREATE VIEW v AS SELECT * FROM v", ()),
+                ]
+            )
+        )
+    for statement, arguments in statements:
+        try:
+            database.execute(statement, arguments)
+        except (sqlite3.Error, OverflowError):
+            continue
+    database.close()
+
+
+def ended(folder: Path, command: list[str], statuses: Counter[int]) -> str:
+    """Run a command in a process of its own; say what was wrong with its end, or nothing."""
+    out, err = folder / "stdout", folder / "stderr"
+    child = os.fork()
+    if not child:
+        os.chdir(folder)
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        for stream, path in ((1, out), (2, err)):
+            os.dup2(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC), stream)
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        sys.stdout, sys.stderr = sys.__stdout__, sys.__stderr__
+        try:
+            status = program(command)
+        except SystemExit as end:
+            status = end.code if isinstance(end.code, int) else 1
+        except BaseException:
+            sys.excepthook(*sys.exc_info())
+            status = 1
+        sys.stdout.flush()
+        os._exit(status)
+    end = time.monotonic() + (PATIENCE if command[0] in QUICK else ENOUGH)
+    interrupted = False
+    while not (done := os.waitpid(child, os.WNOHANG))[0]:
+        if time.monotonic() > end:
+            os.kill(child, signal.SIGKILL if interrupted else signal.SIGINT)
+            interrupted, end = True, end + PATIENCE
+        time.sleep(0.002)
+    status = os.waitstatus_to_exitcode(done[1])
+    statuses[status] += 1
+    said = err.read_text(encoding="utf-8", errors="replace")
+    if interrupted and command[0] in QUICK:
+        return f"had no end after {PATIENCE} s"
+    if status not in ENDED or "Traceback" in said or (status in {2, 3} and not said.strip()):
+        return f"ended with status {status} and said\n{said[-2000:]}"
+    raw = {c for c in said if not c.isprintable() and c != "\n"}
+    return f"echoed {raw} raw" if raw else ""
+
+
+def whole_store(folder: Path) -> Path:
+    """A sound store, with its scene beside it."""
+    folder.mkdir()
+    text = SCENES[0].with_name("ensemble.toml").read_text(encoding="utf-8")
+    text = text.replace("height = 32", "height = 4").replace("width = 66", "width = 6")
+    (folder / "scene.toml").write_text(text, encoding="utf-8")
+    command = ["ensemble", "scene.toml", "--realisations", "300", "--store", "store"]
+    if wrong := ended(folder, [*command, "--workers", "1"], Counter()):
+        raise SystemExit(f"no store could be made: it {wrong}")
+    return folder / "store"
+
+
+def main() -> int:
+    """Try cases until the time is over."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seconds", type=float, default=60)
+    parser.add_argument("--seed", type=int, required=True)
+    parser.add_argument("--case", type=int, help="try only this one, and leave its files")
+    options = parser.parse_args()
+    print(f"seed {options.seed}", flush=True)
+    root = Path.cwd() / f"fuzz-{options.seed}"
+    root.mkdir()
+    sys.stdout, shown = io.StringIO(), sys.stdout
+    program(["explain", str(SCENES[0])])  # what every process needs is loaded once
+    sys.stdout = shown
+    whole = whole_store(root / "whole")
+    statuses: Counter[int] = Counter()
+    start, number, wrong = time.monotonic(), options.case or 0, 0
+    while number == options.case or (
+        options.case is None and time.monotonic() - start < options.seconds
+    ):
+        random = Random(f"{options.seed} {number}")
+        folder = root / str(number)
+        folder.mkdir()
+        make: Callable[[], list[str]] = (
+            (lambda: store(random, folder, whole)) if number % 3 == 0  # noqa: B023
+            else (lambda: scene(random, folder))  # noqa: B023
+        )  # fmt: skip
+        command = make()
+        if what := ended(folder, command, statuses):
+            wrong += 1
+            print(f"case {number}: {' '.join(map(repr, command))} {what}\n", flush=True)
+        if options.case is None:
+            shutil.rmtree(folder)
+        number += 1
+    print(
+        f"{number - (options.case or 0)} cases, {wrong} ended badly; again: --seed {options.seed}"
+    )
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

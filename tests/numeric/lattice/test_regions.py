@@ -1,0 +1,139 @@
+"""Dependency regions against walks from bead to bead, in strips of any width and in the slab."""
+
+from collections.abc import Iterable
+
+import pytest
+from force_diffusion.numeric.lattice.layers import Layer, whole
+from force_diffusion.numeric.lattice.regions import (
+    contact_beads,
+    contact_rows,
+    downward_cone,
+    meet,
+    triangle,
+    triangle_beads,
+    upward_cone,
+)
+from hypothesis import given
+from hypothesis import strategies as st
+
+Sites = set[tuple[int, int]]
+
+widths = st.one_of(st.none(), st.integers(1, 9))
+heights = st.integers(1, 8)
+
+
+def home(i: int, width: int | None) -> int:
+    return i if width is None else i % (2 * width)
+
+
+def walk(start: Iterable[tuple[int, int]], up: int, top: int, width: int | None) -> Sites:
+    """All beads reached by steps up (or down) to either side, within layers 0 … top."""
+    found = {(home(i, width), j) for i, j in start}
+    edge = found
+    while edge:
+        steps = {(home(i + by, width), j + up) for i, j in edge for by in (1, -1)}
+        edge = {site for site in steps if 0 <= site[1] <= top} - found
+        found = found | edge
+    return found
+
+
+def sites(rows: Iterable[Layer], width: int | None) -> Sites:
+    listed = [(home(i, width), row.j) for row in rows for i in row.sites()]
+    assert len(listed) == len(set(listed))  # no bead twice
+    return set(listed)
+
+
+@st.composite
+def beads(draw: st.DrawFn, low: int, high: int, width: int | None) -> tuple[int, int]:
+    j = draw(st.integers(low, high))
+    return 2 * draw(st.integers(-9, 9) if width is None else st.integers(0, width - 1)) + j % 2, j
+
+
+@given(st.data(), widths, st.integers(0, 8))
+def test_a_triangle_is_what_a_bead_stands_on(
+    data: st.DataObject, width: int | None, j: int
+) -> None:
+    tip = data.draw(beads(j, j, width))
+    found = triangle(*tip, width)
+    assert sites(found.rows, width) == walk([tip], -1, j, width)
+    assert [row.j for row in found.rows] == list(range(j + 1))
+    if width is None:
+        assert found.beads == triangle_beads(j)
+
+
+@given(st.data(), widths, heights)
+def test_an_upward_cone_is_what_stands_on_a_bead(
+    data: st.DataObject, width: int | None, top: int
+) -> None:
+    x = data.draw(beads(0, top, width))
+    rows = upward_cone(x, top, width)
+    assert sites(rows, width) == walk([x], 1, top, width)
+    assert len(rows) == top + 1
+
+
+@given(st.data(), widths, heights)
+def test_loads_reach_all_below_them_and_may_reach_what_lies_between(
+    data: st.DataObject, width: int | None, top: int
+) -> None:
+    loaded = data.draw(st.lists(beads(0, top, width), min_size=1, max_size=3))
+    rows = downward_cone(loaded, width)
+    reached = walk(loaded, -1, top, width)
+    assert sites(rows, width) >= reached
+    assert len(rows) == 1 + max(j for _, j in loaded)
+    if len(loaded) == 1:
+        assert sites(rows, width) == reached
+
+
+@given(st.data(), widths, heights, st.sampled_from("+-"))
+def test_a_contact_needs_what_stands_on_it_and_bears_load(
+    data: st.DataObject, width: int | None, top: int, branch: str
+) -> None:
+    """No bead more, but where images split the row that bears load."""
+    i, j = data.draw(beads(0, top - 1, width))
+    loaded = data.draw(st.lists(beads(0, top, width), min_size=1, max_size=2))
+    reach = downward_cone(loaded, width)
+    x = (i + (1 if branch == "+" else -1), j + 1)
+    needed = walk([x], 1, len(reach) - 1, width) & sites(reach, width)
+    found = sites(contact_rows((i, j, branch), reach, width), width)
+    if (home(x[0], width), x[1]) not in needed:
+        assert not found
+        return
+    assert needed <= found <= sites(reach, width)
+    if width is None or all(
+        up.count + row.count <= width or width in (up.count, row.count)
+        for up, row in zip(upward_cone(x, len(reach) - 1, width), reach, strict=True)
+    ):
+        assert found == needed
+
+
+@given(st.data(), st.integers(1, 9), heights, st.sampled_from("+-"))
+def test_under_a_surface_load_a_contact_needs_what_stands_on_it(
+    data: st.DataObject, width: int, top: int, branch: str
+) -> None:
+    i, j = data.draw(beads(0, top - 1, width))
+    x = (i + (1 if branch == "+" else -1), j + 1)
+    rows = contact_rows((i, j, branch), whole(width, top).rows, width)
+    assert sites(rows, width) == walk([x], 1, top, width)
+    supports = walk(sites(rows, width), -1, top, width)
+    if width >= 2 * top - j:
+        assert contact_beads(j, top) == len(supports)
+    else:
+        assert contact_beads(j, top) > len(supports)
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "expected"),
+    [
+        ((0, 2), (2, 3), (2, 2)),  # sites 0, 2 and 2, 4, 6: one in common
+        ((0, 3), (18, 3), (0, 2)),  # −2, 0, 2 once it is turned by 2W = 20
+        ((0, 3), (10, 2), None),
+        ((0, 0), (2, 3), None),
+        ((2, 3), (0, 0), None),
+    ],
+)
+def test_rows_meet_at_their_common_sites(
+    a: tuple[int, int], b: tuple[int, int], expected: tuple[int, int] | None
+) -> None:
+    found = meet(Layer(4, *a), Layer(4, *b), 10)
+    assert found.j == 4
+    assert (found.first, found.last) == expected if expected else not found.count
