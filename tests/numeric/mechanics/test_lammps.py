@@ -21,7 +21,7 @@ def error_of_change(stiffness: float) -> float:
         text=True,
         check=False,
     )
-    if done.returncode == MISSING:
+    if done.returncode == MISSING and os.environ.get("FORCE_DIFFUSION_TEST_LAMMPS") != "required":
         pytest.skip("LAMMPS can't be loaded")
     assert done.returncode == 0, done.stderr
     return float(done.stdout)
