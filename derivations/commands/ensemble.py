@@ -11,6 +11,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from force_diffusion.derivations.commands.guard import about, in_range, say, tell
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
+from force_diffusion.derivations.commands.shared import (
+    Quiet,
+    Written,
+    checked,
+    show,
+    sourced,
+    write,
+)
+from force_diffusion.derivations.export.answers import Format
 from force_diffusion.derivations.export.tables import csv_text
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
 
@@ -70,8 +79,10 @@ def ensemble(
         float | None,
         typer.Option(metavar="X", help="Outer edge of a histogram's bins, in units of force."),
     ] = None,
-    out: Annotated[Path | None, out_option("the result as JSON and CSV")] = None,
+    out: Annotated[Path | None, out_option("the result as JSON and a table")] = None,
+    written: Written = Format.CSV,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
+    quiet: Quiet = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Statistics over many packings, on many cores, kept in a file as they come."""
@@ -80,26 +91,26 @@ def ensemble(
         raise ForceDiffusionError(f"--scheduler and {other} exclude each other: leave one out")
     with about(scene.name):
         read = fd.read_scene(scene)
-    table = f"{read.ask.quantity}.csv"
-    names = ["result.json", table, *(["covariance.csv"] if covariance else [])]
+    checked(written, out)
+    names = [
+        "result.json",
+        f"{read.ask.quantity}.{written}",
+        *(["covariance.csv"] if covariance else []),
+    ]
     with output(out, f"ensemble {scene}", names, overwrite) as folder:
         found = _solved(
-            scene.name, read, realisations, until, store,
+            scene.name, read, realisations, until, store, quiet,
             confidence=confidence, workers=workers, scheduler=scheduler or cluster,
             covariance=covariance, reach=reach,
         )  # fmt: skip
-        data = found.data()
-        rows = data["results"][found.quantity]
+        data = found.data(rows=False)
+        data["source"] = sourced(data["source"], scene, None)  # the same, whoever solved it
         if folder:
-            files = {"result.json": json.dumps(data, indent=2) + "\n", table: csv_text(rows)}
-            if "covariance" in data:
-                files["covariance.csv"] = _matrix_text(data["covariance"])
-            folder.write(files)
-    if as_json:
-        print(json.dumps(data, indent=2))
-    else:
-        print(csv_text(rows), end="")
-        print("\n".join(f"# {line}" for line in str(found).splitlines()))
+            matrix = data.get("covariance")
+            tables = {} if matrix is None else {"covariance": _matrix_text(matrix).encode()}
+            write(folder, found, data, written, **tables)
+    lines = str(found).splitlines()
+    show(found, data, lines, as_json=as_json, quiet=quiet, folder=folder)
     if found.reached is False:
         assert until is not None
         N, width = found.realisations, found.half_width
@@ -116,6 +127,7 @@ def _solved(
     realisations: int | None,
     until: float | None,
     store: Path | None,
+    quiet: bool,
     **more: Any,
 ) -> "Ensemble":
     """Solve under a progress bar; errors name options as they are written here."""
@@ -126,7 +138,7 @@ def _solved(
     try:
         with ExitStack() as stack, in_range():
             size = scene.ask.realisations if realisations is None else realisations
-            progress = _progress(stack, size, until)
+            progress = _progress(stack, size, until, quiet)
             return fd.ensemble(
                 scene, realisations, until=until, store=store, progress=progress, **more
             )
@@ -147,10 +159,10 @@ def _solved(
 
 
 def _progress(
-    stack: ExitStack, size: int, until: float | None
+    stack: ExitStack, size: int, until: float | None, quiet: bool
 ) -> Callable[[int, float | None], None]:
     """A bar with the time left, on a terminal."""
-    if not sys.stderr.isatty():
+    if quiet or not sys.stderr.isatty():
         return lambda done, width: None
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn

@@ -113,11 +113,15 @@ class Folder:
         self,
         files: Mapping[str, str | bytes],
         equations: Sequence[FoundEquation] | None = None,
+        *,
+        seed: int | None = None,
+        inputs: Mapping[str, str] | None = None,
     ) -> None:
         """Write all files aside, then rename them into place, the manifest last.
 
-        ``equations`` take the place of those in the manifest. Raises ``OutputError`` as ``check``
-        does, and ``OSError`` that names the file where one can't be written.
+        ``equations`` take the place of those in the manifest; ``seed`` and ``inputs`` are noted
+        there. Raises ``OutputError`` as ``check`` does, and ``OSError`` that names
+        the file where one can't be written.
         """
         self.manifest = read_manifest(self.path)  # another command may have written meanwhile
         self.check(files)
@@ -127,7 +131,7 @@ class Folder:
         }
         before = self.manifest or Manifest(program=PROGRAM, files={})
         kept = {name: made for name, made in before.files.items() if self.holds(name)}
-        made = {name: self._made(content) for name, content in contents.items()}
+        made = {n: self._made(content, seed, inputs or {}) for n, content in contents.items()}
         contents[MANIFEST] = (
             Manifest(
                 program=PROGRAM,
@@ -144,12 +148,14 @@ class Folder:
             )
         write_whole(self.path, contents)
 
-    def _made(self, content: bytes) -> Made:
+    def _made(self, content: bytes, seed: int | None, inputs: Mapping[str, str]) -> Made:
         return Made(
             result_of=self._result_of,
             command=command_line(),
             version=version(PROGRAM),
             sha256=hashlib.sha256(content).hexdigest(),
+            seed=seed,
+            inputs={printable(name): digest for name, digest in inputs.items()},
         )
 
 

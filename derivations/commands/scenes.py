@@ -6,13 +6,25 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager, ExitStack, nullcontext
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-from force_diffusion.derivations.commands.cli import shell_line
-from force_diffusion.derivations.commands.guard import about, in_range
+from force_diffusion.derivations.commands.cli import command_line, shell_line
+from force_diffusion.derivations.commands.guard import about as named
+from force_diffusion.derivations.commands.guard import in_range
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
-from force_diffusion.derivations.commands.shared import drawn, images, noticing
+from force_diffusion.derivations.commands.shared import (
+    Quiet,
+    Written,
+    checked,
+    drawn,
+    images,
+    noticing,
+    show,
+    sourced,
+    write,
+)
+from force_diffusion.derivations.export.answers import Format
 from force_diffusion.derivations.export.tables import csv_text
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
 
@@ -20,6 +32,7 @@ import force_diffusion as fd
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.planning.plan import Plan
+    from force_diffusion.numeric.run.outcome import Outcome
 
 # Seconds from which on progress is shown.
 MOMENT = 1.0
@@ -57,13 +70,13 @@ def _planned(scene: Path, tolerance: str | None, certified: bool) -> "Plan":
         if not 0 < asked < 1:
             raise ForceDiffusionError(f"--tolerance = {tolerance}: must lie between 0 and 1")
     try:
-        with about(scene.name):
+        with named(scene.name):
             found = fd.read_scene(scene)
         if certified and asked is None and found.ask.tolerance is None:
             raise ForceDiffusionError(
                 "--certified needs a tolerance: give --tolerance T, such as 1e-30"
             )
-        with about(scene.name):
+        with named(scene.name):
             return found.explain(asked, certified=certified)
     except MemoryError:
         raise ForceDiffusionError(
@@ -85,26 +98,28 @@ def explain(
 
 def run(
     scene: _Scene,
-    out: Annotated[Path | None, out_option("the answer as JSON and CSV")] = None,
+    out: Annotated[Path | None, out_option("the answer as JSON and a table")] = None,
+    written: Written = Format.CSV,
     as_json: _Json = False,
+    quiet: Quiet = False,
     tolerance: _Tolerance = None,
     certified: _Certified = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Answer a scene's question."""
+    from force_diffusion.numeric.run.outcome import outcome_lines
+
+    checked(written, out)
     planned = _planned(scene, tolerance, certified)
-    quantity = planned.scene.ask.quantity
-    table = f"{quantity}.csv"
-    with output(out, f"run {scene}", ["result.json", table], overwrite) as folder:
-        data = _solved(planned, scene)
+    names = ["result.json", f"{planned.scene.ask.quantity}.{written}"]
+    with output(out, f"run {scene}", names, overwrite) as folder:
+        found = _solved(planned, scene, quiet)
+        about = found.data(rows=False)
+        about["source"] = sourced(about["source"], scene, command_line())
         if folder:
-            folder.write(
-                {
-                    "result.json": json.dumps(data, indent=2) + "\n",
-                    table: csv_text(data["results"][quantity]),
-                }
-            )
-    _show(data, as_json)
+            write(folder, found, about, written)
+    lines = outcome_lines(about, found.count)
+    show(found, about, lines, as_json=as_json, quiet=quiet, folder=folder)
 
 
 def cost(
@@ -119,7 +134,7 @@ def cost(
     command = shell_line(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
     names = ["cost.json", "cost.csv", *images("cost")]
     with output(out, f"cost {scene}", names, overwrite) as folder:
-        with about(scene.name), noticing() as notice:
+        with named(scene.name), noticing() as notice:
             found = fd.cost(fd.read_scene(scene), notice)
         data = {"command": command, **found.data()}
         if folder:
@@ -136,11 +151,11 @@ def cost(
     print(json.dumps(data, indent=2) if as_json else found)
 
 
-def _solved(planned: "Plan", scene: Path) -> dict[str, Any]:
+def _solved(planned: "Plan", scene: Path, quiet: bool) -> "Outcome":
     """Run a plan under a progress bar."""
-    bar, progress = _progress(planned)
-    with about(scene.name), in_range(), bar:
-        return fd.run(planned, progress).data()
+    bar, progress = (nullcontext(), None) if quiet else _progress(planned)
+    with named(scene.name), in_range(), bar:
+        return fd.run(planned, progress)
 
 
 def _progress(
@@ -169,17 +184,6 @@ def _progress(
         shown = perf_counter() + MOMENT / 10
 
     return stack, progress
-
-
-def _show(data: dict[str, Any], as_json: bool) -> None:
-    if as_json:
-        print(json.dumps(data, indent=2))
-        return
-    from force_diffusion.numeric.run.outcome import outcome_lines
-
-    (rows,) = data["results"].values()
-    print(csv_text(rows), end="")
-    print("\n".join(f"# {line}" for line in outcome_lines(data)))
 
 
 def register(app: typer.Typer) -> None:

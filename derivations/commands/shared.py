@@ -1,14 +1,83 @@
 """What several commands share: a line that tells how far they are, and plots if they can be."""
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
+import typer
 from force_diffusion.derivations.commands.guard import tell
+from force_diffusion.derivations.commands.output import Folder
+from force_diffusion.derivations.export import answers
+from force_diffusion.derivations.export.answers import Format
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.numeric.text import csv_bytes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+Quiet = Annotated[
+    bool,
+    typer.Option("--quiet", "-q", help="Print the rows alone; with --out, nothing."),
+]
+Written = Annotated[
+    Format,
+    typer.Option("--format", help="How --out writes the rows; npz and parquet for many of them."),
+]
+
+
+def checked(written: Format, out: Path | None) -> None:
+    """Refuse a format that can't be written, before anything is solved."""
+    if written != Format.CSV and out is None:
+        raise ForceDiffusionError(f"--format {written} is for files: give --out DIR, too")
+    answers.check(written)
+
+
+def sourced(source: dict[str, Any], scene: Path, command: str | None) -> dict[str, Any]:
+    """Say also which scene file it was, and the command that answered it."""
+    from force_diffusion.numeric.scene.source import sha256
+
+    found = {**source, "file": scene.name, "sha256": {"scene": sha256(scene), **source["sha256"]}}
+    return found if command is None else {"command": command, **found}
+
+
+def write(
+    folder: Folder, answer: answers.Answered, about: dict[str, Any], written: Format, **more: bytes
+) -> None:
+    """Write an answer and ``more`` CSV tables into a folder, and what they came from."""
+    source = about["source"]
+    folder.write(
+        answers.files_of(answer, about, written) | {f"{k}.csv": v for k, v in more.items()},
+        seed=source["seed"],
+        inputs=source["sha256"],
+    )
+
+
+def show(
+    answer: answers.Answered,
+    about: dict[str, Any],
+    lines: Iterable[str],
+    *,
+    as_json: bool,
+    quiet: bool,
+    folder: Folder | None,
+) -> None:
+    """Print JSON; or the rows, unless they are in a folder, and lines of words."""
+    if as_json:
+        _print(answers.json_bytes(answer, about))
+        return
+    if folder is None:
+        _print(csv_bytes(answer.text))
+    if not quiet:
+        mark = "# " if folder is None else ""
+        print("\n".join(f"{mark}{line}" for line in lines))
+
+
+def _print(content: bytes) -> None:
+    for at in range(0, len(content), 1_000_000):
+        print(content[at : at + 1_000_000].decode(), end="")
 
 
 @contextmanager

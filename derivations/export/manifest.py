@@ -20,12 +20,18 @@ class _Part(BaseModel):
 
 
 class Made(_Part):
-    """How a file came to be; ``result_of`` is what it answers, such as "run scene.toml"."""
+    """How a file came to be; ``result_of`` is what it answers, such as "run scene.toml".
+
+    ``seed`` is that of the radii, where they were drawn; ``inputs`` has the SHA-256 of the scene
+    and of the files that it names, by their names.
+    """
 
     result_of: str
     command: str
     version: str
     sha256: str
+    seed: int | None = None
+    inputs: dict[str, str] = {}
 
 
 class FoundCheck(_Part):

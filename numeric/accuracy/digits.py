@@ -8,7 +8,8 @@ import flint
 import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_ball
-from ..quantities.base import Table
+from ..quantities.base import RATIO, SCATTER_OF, Table
+from ..text import significant, text_of
 from .accuracy import Accuracy
 from .enclosed import most_digits
 
@@ -17,35 +18,63 @@ from .enclosed import most_digits
 SWALLOWED = 2
 
 
-def strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dict[str, list[str]]:
-    """Print the number columns, each number with the digits that its error leaves."""
-    if isinstance(system, Balls):
-        most = most_digits(system)
-        return {k: [_ball_string(v, most) for v in c] for k, c in table.numbers.items()}
-    if system is not FLOAT64:
-        return _long_strings(table, accuracy, system)
-    largest = max(
-        (float(np.abs(table.numbers[k]).max()) for k in table.small if len(table.numbers[k])),
-        default=0.0,
-    )
-    error = (
-        float(accuracy.error_bound) * largest if math.isfinite(accuracy.error_bound) else math.inf
-    )
-    return {k: _float_strings(column, error) for k, column in table.numbers.items()}
+def printed(
+    table: Table, accuracy: Accuracy, system: NumberSystem, *, sampled: bool
+) -> dict[str, Array]:
+    """Give the number columns as text (see ``text``), each number with the digits that are known.
+
+    Standard errors stand beside their columns, with three digits, and nothing where they are not
+    known. ``sampled``: whether to leave out digits that would be others in another sample.
+    """
+    numbers: dict[str, Array] = {}
+    for name, column in table.numbers.items():
+        if isinstance(system, Balls):
+            most = most_digits(system)
+            numbers[name] = text_of([_ball_string(v, most) for v in column])
+        elif system is FLOAT64:
+            numbers[name] = known_digits(column, *_errors(table, name, accuracy, sampled=sampled))
+        else:
+            numbers[name] = text_of(_long_strings(table, name, accuracy, system))
+        if name in table.errors:
+            numbers[f"{name}_error"] = of_errors(table.errors[name])
+    return numbers
 
 
-def _long_strings(table: Table, accuracy: Accuracy, system: NumberSystem) -> dict[str, list[str]]:
+def of_errors(errors: Array) -> Array:
+    """Write standard errors with three digits; nothing where there is none."""
+    text = significant(errors, np.full(len(errors), 3))
+    text[~np.isfinite(errors)] = 0
+    return text
+
+
+def _errors(
+    table: Table, name: str, accuracy: Accuracy, *, sampled: bool
+) -> tuple[Array | float, Array | float]:
+    """Give the absolute errors of a column: of its arithmetic, and of sampling (0 if unknown).
+
+    The error of σ_f/⟨f⟩ is that of σ_f over ⟨f⟩, since ⟨f⟩ is known far better.
+    """
+    largest = max((float(np.abs(table.numbers[k]).max(initial=0)) for k in table.small), default=0)
+    bound = float(accuracy.error_bound) * largest if math.isfinite(accuracy.error_bound) else np.inf
+    errors = table.errors.get(SCATTER_OF.get(name, name)) if sampled else None
+    over = np.abs(table.numbers["mean"]) if name == RATIO else 1.0
+    return bound / over, 0.0 if errors is None else np.nan_to_num(errors) / over
+
+
+def _long_strings(table: Table, name: str, accuracy: Accuracy, system: NumberSystem) -> list[str]:
     """Print numbers that a float can't hold, two digits beyond their error."""
-    exact = {k: [as_ball(value) for value in column] for k, column in table.numbers.items()}
     error, unit = flint.arb(0), flint.arb((1, 1 - system.bits))
-    for name in table.small:
-        for value in exact[name]:
-            error = error.max(abs(value))
+    for small in table.small:
+        for value in table.numbers[small]:
+            error = error.max(abs(as_ball(value)))
     bound = Fraction(accuracy.error_bound)
     error = error * flint.arb(flint.fmpq(bound.numerator, bound.denominator))
-    return {
-        k: [_two_beyond(value, error + abs(value) * unit) for value in c] for k, c in exact.items()
-    }
+    scales = table.numbers["mean"] if name == RATIO else [1.0] * table.rows
+    exact = map(as_ball, table.numbers[name])
+    return [
+        _two_beyond(value, error / abs(as_ball(scale)) + abs(value) * unit)
+        for value, scale in zip(exact, scales, strict=True)
+    ]
 
 
 def _two_beyond(value: Any, error: Any) -> str:
@@ -67,14 +96,19 @@ def _ball_string(value: Any, most: int) -> str:
     return str(value.str(most, radius=False))
 
 
-def _float_strings(column: Array, error: float) -> list[str]:
-    result = []
-    for value in column.tolist():
-        off = error + abs(value) * 2.0**-52
-        if not value or not math.isfinite(value) or not SWALLOWED * abs(value) > off:
-            result.append("0" if math.isfinite(value) else str(value))
-            continue
+def known_digits(column: Array, error: Array | float, sampling: Array | float = 0.0) -> Array:
+    """Write float64 as text, up to two digits beyond its absolute errors.
+
+    A number that the ``error`` of its arithmetic swallows is 0; ``sampling`` swallows none.
+    """
+    size = np.abs(column)
+    with np.errstate(all="ignore"):
+        off = error + size * 2.0**-52
+        known = np.isfinite(column) & (SWALLOWED * size > off)
         # two digits beyond the error: cutting the rest off adds at most a twentieth of it
-        digits = math.floor(math.log10(abs(value))) - math.floor(math.log10(off)) + 2
-        result.append(f"{value:.{min(max(digits, 1), 17)}g}")
-    return result
+        seen = np.floor(np.log10(np.maximum(off, sampling)))
+        digits = np.floor(np.log10(size)) - seen + 2
+    digits = np.where(known, np.clip(digits, 1, 17), 1).astype(np.int64)
+    text = significant(np.where(known | ~np.isfinite(column), column, 0.0), digits)
+    text[np.isnan(column)] = 0
+    return text

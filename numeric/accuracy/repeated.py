@@ -18,6 +18,7 @@ from ..arithmetic.systems import (
     Hardware,
     NumberSystem,
     as_ball,
+    as_floats,
     midpoint,
 )
 from ..mechanics.work import Work
@@ -74,7 +75,7 @@ def of_floats(table: Table, longer: Table, whole: Table, system: Hardware) -> Ac
         if not len(a):
             continue
         largest = max(largest, float(np.abs(a).max()))
-        error = max(error, float(max(abs(float(y - x)) for x, y in zip(a, b, strict=True))))
+        error = max(error, float(np.abs(as_floats(b - a)).max()))
     unit = 4 * 2.0**-system.bits  # no estimate can promise less than a few roundings
     if not largest:
         bound = math.inf if error else 0.0

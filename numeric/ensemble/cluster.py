@@ -10,8 +10,8 @@ from typing import Any
 import distributed as untyped
 
 from ..arithmetic.machine import share_cores
+from ..scene.source import program_version
 from .measure import Measurement
-from .scene_key import program_version
 from .sums import Sums, from_bytes
 from .workers import WorkersError, solve_block, without_interrupts
 

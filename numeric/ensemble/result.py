@@ -8,8 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..accuracy.digits import known_digits, of_errors
 from ..arithmetic.systems import Array
+from ..quantities.base import RATIO, SCATTER_OF
+from ..scene.source import source_of
 from ..tables import Row, html_table, rows_of
+from ..text import rows_of_text, significant, text_of
 from .estimates import Estimates, root
 
 if TYPE_CHECKING:
@@ -61,39 +65,61 @@ class Ensemble:
     def index(self) -> dict[str, Array]:
         """Columns that name the groups: j, branch, i, component; empty for a histogram."""
         labels = self.estimates.measurement.labels
-        return {name: np.array(column) for name, column in labels.items()}
+        return {name: self._sorted(column) for name, column in labels.items()}
+
+    @cached_property
+    def _order(self) -> Array:
+        """Where the rows, by j, i, branch and component, stand among the groups."""
+        labels = self.estimates.measurement.labels
+        keys = [labels[name] for name in ("component", "branch", "i", "j") if name in labels]
+        return np.lexsort(keys) if keys else np.arange(self.estimates.measurement.groups)
+
+    def _sorted(self, values: Any) -> Array:
+        return np.asarray(values)[self._order]
 
     @cached_property
     def mean(self) -> Array:
         """Mean force; of forces that differ to zeroth order already, their mean."""
         ordered = self.estimates.measurement.ordered()
         pairs = zip(ordered, self.estimates.mean, strict=True)
-        return np.array([float(F + g) for F, g in pairs])
+        return self._sorted([float(F + g) for F, g in pairs])
 
     @cached_property
     def mean_change(self) -> Array:
         """Mean of the change g = f − F from the ordered force F."""
-        return np.array([float(g) for g in self.estimates.mean])
+        return self._sorted([float(g) for g in self.estimates.mean])
 
     @property
     def mean_change_error(self) -> Array:
         """Standard error of ``mean_change``."""
-        return _floats(self.estimates.mean_error)
+        return self._sorted(_floats(self.estimates.mean_error))
 
     @cached_property
     def mean_square(self) -> Array:
         """Mean of g², the variance about the ordered force: Eqs. 13 and 14 are its theory."""
-        return np.array([float(g) for g in self.estimates.mean_square])
+        return self._sorted([float(g) for g in self.estimates.mean_square])
 
     @property
     def std(self) -> Array:
         """σ_f, the standard deviation of g about its mean."""
-        return np.array(self.estimates.std)
+        return self._sorted(self.estimates.std)
 
     @property
     def std_error(self) -> Array:
         """Standard error of ``std``; NaN where nothing varies."""
-        return _floats(self.estimates.std_error)
+        return self._sorted(_floats(self.estimates.std_error))
+
+    @property
+    def std_over_mean(self) -> Array | None:
+        """σ_f/⟨f⟩, as the paper plots it; None where a mean may be zero: only loads straight down.
+
+        Its standard error is that of ``std`` over ⟨f⟩.
+        """
+        load = self.estimates.measurement.problem.load
+        if load.loaded is not None or load.angle_deg or "component" in self.index:
+            return None
+        ratio: Array = self.std / self.mean
+        return ratio
 
     @cached_property
     def first_order_std(self) -> Array | None:
@@ -102,12 +128,12 @@ class Ensemble:
         layers, theory = m.labels.get("j"), m.theory()
         if theory is None or layers is None or "component" in m.labels:
             return None
-        return np.array([float(theory[j]) for j in layers])
+        return self._sorted([float(theory[j]) for j in layers])
 
     @property
     def tensile(self) -> Array:
         """How many contacts pull; int64."""
-        return self.estimates.sums.tensile
+        return self._sorted(self.estimates.sums.tensile)
 
     @cached_property
     def covariance(self) -> Array | None:
@@ -118,7 +144,7 @@ class Ensemble:
         """
         if not self.estimates.measurement.covariance:
             return None
-        return self.estimates.covariance()
+        return np.asarray(self.estimates.covariance()[np.ix_(self._order, self._order)])
 
     @cached_property
     def bins(self) -> dict[str, Array] | None:
@@ -151,7 +177,7 @@ class Ensemble:
 
     @cached_property
     def _groups(self) -> dict[str, Array]:
-        theory = self.first_order_std
+        theory, ratio = self.first_order_std, self.std_over_mean
         return {
             **self.index,
             "samples": np.full(len(self.mean), self.samples),
@@ -160,6 +186,7 @@ class Ensemble:
             "mean_change_error": self.mean_change_error,
             "std": self.std,
             "std_error": self.std_error,
+            **({} if ratio is None else {"std_over_mean": ratio}),
             **({} if theory is None else {"first_order_std": theory}),
             "tensile": self.tensile,
         }
@@ -168,10 +195,51 @@ class Ensemble:
         """The table row by row, ready for a data frame."""
         return rows_of(self.arrays)
 
-    def data(self) -> dict[str, Any]:
-        """Give what JSON can hold; numbers are the shortest decimals of the float64."""
+    @property
+    def count(self) -> int:
+        """How many rows there are."""
+        return len(next(iter(self.arrays.values())))
+
+    @cached_property
+    def text(self) -> dict[str, Array]:
+        """The columns as text, see ``numeric.text``: digits that another sample would have, too."""
+        return self._text_of(self.arrays)
+
+    def _text_of(self, columns: dict[str, Array]) -> dict[str, Array]:
+        found = {}
+        for name, column in columns.items():
+            if column.dtype.kind != "f":
+                found[name] = text_of(column)
+            elif name.endswith("_error"):
+                found[name] = of_errors(column)
+            elif name == "first_order_std":
+                found[name] = significant(column, np.full(len(column), 12))
+            else:
+                known = columns.get(f"{SCATTER_OF.get(name, name)}_error", np.zeros(len(column)))
+                sampling = np.nan_to_num(known) / (self.mean if name == RATIO else 1)
+                found[name] = known_digits(column, 0.0, sampling)
+        return found
+
+    @property
+    def whole_numbers(self) -> list[str]:
+        """The columns that are whole numbers: sites and counts."""
+        return [name for name, column in self.arrays.items() if column.dtype.kind == "i"]
+
+    @cached_property
+    def source(self) -> dict[str, Any]:
+        """Where it came from: program, version, scene, seed and the SHA-256 of what was read."""
+        found = source_of(self.estimates.measurement.plan.scene)
+        del found["scene"]["ask"]["realisations"]  # of the plan of one packing
+        return found
+
+    def data(self, *, rows: bool = True) -> dict[str, Any]:
+        """Give what JSON can hold; numbers have the digits that are known.
+
+        Without ``rows`` the list of results is empty: there may be millions.
+        """
         m = self.estimates.measurement
         data: dict[str, Any] = {
+            "source": self.source,
             "ensemble": {
                 "realisations": self.realisations,
                 "unbuildable": self.unbuildable,
@@ -183,7 +251,7 @@ class Ensemble:
                 "arithmetic": "float64, summed exactly",
             },
             "skipped": [{"effect": s.effect, "reason": s.reason} for s in m.plan.skipped],
-            "results": {m.quantity: [_printed(row) for row in self.rows()]},
+            "results": {m.quantity: rows_of_text(self.text, self.whole_numbers) if rows else []},
             "confidence": {
                 "level": self.confidence,
                 "largest_relative_half_width": (
@@ -194,11 +262,13 @@ class Ensemble:
             },
         }
         if self.bins:
-            data["statistics"] = _printed(rows_of(self._groups)[0])  # of all that was counted
+            whole = [name for name, column in self._groups.items() if column.dtype.kind == "i"]
+            # of all that was counted
+            (data["statistics"],) = rows_of_text(self._text_of(self._groups), whole)
         if self.covariance is not None:
             data["covariance"] = {
                 "of": "mean square change of a packing" if m.squares else "change",
-                "labels": m.labels,
+                "labels": {name: column.tolist() for name, column in self.index.items()},
                 "matrix": self.covariance.tolist(),
             }
         return data
@@ -221,8 +291,8 @@ class Ensemble:
 
     def __str__(self) -> str:
         """Say how many rows and packings there are, and how sure they are."""
-        data = self.data()
-        lines = [f"{self.quantity}: {len(data['results'][self.quantity])} rows"]
+        data = self.data(rows=False)
+        lines = [f"{self.quantity}: {self.count} rows"]
         lines.append(f"{self.realisations} packings, {data['ensemble']['arithmetic']}")
         if self.unbuildable:
             lines.append(
@@ -246,14 +316,3 @@ class Ensemble:
 
 def _floats(values: list[float | None]) -> Array:
     return np.array([math.nan if value is None else value for value in values])
-
-
-def _printed(row: Row) -> Row:
-    """Print floats; nothing stands for NaN."""
-    found = {
-        name: ("" if math.isnan(value) else repr(value)) if isinstance(value, float) else value
-        for name, value in row.items()
-    }
-    if "first_order_std" in row:
-        found["first_order_std"] = f"{row['first_order_std']:.12g}"
-    return found

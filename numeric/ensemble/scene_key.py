@@ -4,22 +4,14 @@ import hashlib
 import json
 from contextlib import suppress
 from fractions import Fraction
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from ..arithmetic.decimals import short
+from ..scene.source import program_version
 from .measure import Measurement
 
 # Keys of a scene that say how much is asked, not what.
 _NOT_IN_IT = {"ask": {"realisations", "tolerance", "bins"}}
-
-
-def program_version() -> str:
-    """Version of this package, or "unknown" where it is not installed."""
-    try:
-        return version("force-diffusion")
-    except PackageNotFoundError:
-        return "unknown"
 
 
 def ensemble_key(m: Measurement) -> dict[str, Any]:

@@ -6,7 +6,7 @@ from ..scene.sections import SceneError
 
 # Bytes that a bead takes while it is solved, a row of the answer, a line of a file and a layer of
 # the plan; measured, rounded up. The rest is the interpreter with its libraries.
-FLOAT_BEAD, BALL_BEAD, ANSWER_ROW, FILE_LINE, PLAN_LAYER = 450, 2200, 2800, 600, 900
+FLOAT_BEAD, BALL_BEAD, FLOAT_ROW, BALL_ROW, FILE_LINE, PLAN_LAYER = 450, 2200, 700, 2800, 600, 900
 INTERPRETER = 100_000_000
 LONGEST = 24 * 3600.0
 
@@ -22,7 +22,7 @@ def memory(*, beads: int, rows: int, layers: int, system: NumberSystem, file: bo
         each = BALL_BEAD * max(64 + system.bits, 128) // 128
     return (
         beads * (each + (FILE_LINE if file else 0))
-        + rows * ANSWER_ROW
+        + rows * (BALL_ROW if system.dtype is object else FLOAT_ROW)
         + layers * PLAN_LAYER
         + INTERPRETER
     )

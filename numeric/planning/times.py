@@ -4,6 +4,7 @@ Good to a factor of a few; what it decides is only between algorithms of one ari
 would take longer than a day.
 """
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from ..arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, NumberSystem
@@ -35,8 +36,9 @@ _SWEEPS = {
     ("balls", Route.FIRST_ORDER): _Times(2e-4, 7e-6, 7e-6),
     ("balls", Route.LINE_SUMS): _Times(5e-4, 5e-6, 1e-6),
 }
-# Seconds of a row of the answer: gathered, compared or certified, and printed.
-_ROWS = {"float64": 5e-6, "longdouble": 2e-5, "mpmath": 6e-5, "balls": 1e-5}
+# Seconds of a row of the answer: gathered, certified, and printed; of one that is compared only.
+_ROWS = {"float64": 1e-6, "longdouble": 2e-5, "mpmath": 6e-5, "balls": 1e-5}
+_COMPARED = {"float64": 1e-7, "longdouble": 1e-7, "mpmath": 6e-5, "balls": 1e-5}
 # Loading the compiled sweeps, and how much quicker the whole is with them.
 _COMPILER, _COMPILED = 0.7, 0.6
 
@@ -49,18 +51,23 @@ def predicted(quantity: Quantity, problem: Problem, method: Method, together: in
     seconds = _pass(quantity, problem, method.system, problem.realisations, together)
     if method.longer is not None:
         if method.repeated < problem.realisations:
-            seconds += _pass(quantity, problem, method.system, method.repeated, together)
-        seconds += _pass(quantity, problem, method.longer, method.repeated, together)
+            seconds += _pass(quantity, problem, method.system, method.repeated, together, _COMPARED)
+        seconds += _pass(quantity, problem, method.longer, method.repeated, together, _COMPARED)
     return seconds
 
 
 def _pass(
-    quantity: Quantity, problem: Problem, system: NumberSystem, n: int, together: int
+    quantity: Quantity,
+    problem: Problem,
+    system: NumberSystem,
+    n: int,
+    together: int,
+    of_row: Mapping[str, float] = _ROWS,
 ) -> float:
     family = _family(system)
     bits = system.bits / 1000 if system.dtype is object else 0.0
     rows = quantity.answer_rows(problem.region, 1 if quantity.merged else n)
-    spent = rows * _ROWS[family] * (1 + bits)
+    spent = rows * of_row[family] * (1 + bits)
     if problem.route == Route.ORDERED:
         return spent
     layer, bead, kilobit = _SWEEPS[family, problem.route]

@@ -65,7 +65,7 @@ def answer(
             if len(realisations) > 1:
                 error.add_note(_which(problem, realisations[done:], system, plainly))
             raise
-        table = gatherer.table()
+        table = gatherer.table().sorted()
         bins = None if work.repeating else quantity.bins_of(table, system)
     if physical is not None and physical.first_tensile is not None:
         physical.first_tensile = _at_home(quantity, physical.first_tensile)

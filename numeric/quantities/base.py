@@ -25,6 +25,15 @@ from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Route, Solved
 from ..scene.scene import Scene
 
+# σ_f/⟨f⟩, and the columns that scatter from sample to sample as others do, whose errors are known.
+RATIO = "std_over_mean"
+SCATTER_OF = {
+    "mean": "mean_change",
+    "force_mean": "force_mean_change",
+    "vertical_mean": "vertical_mean_change",
+    RATIO: "std",
+}
+
 
 @dataclass(frozen=True)
 class Table:
@@ -36,7 +45,7 @@ class Table:
     are statistics over packings.
     """
 
-    index: dict[str, list[Any]]
+    index: dict[str, Array]
     numbers: dict[str, Array]
     small: tuple[str, ...]
     errors: dict[str, Array] = field(default_factory=dict)
@@ -45,6 +54,18 @@ class Table:
     def rows(self) -> int:
         """How many rows there are."""
         return len(next(iter(self.numbers.values()), []))
+
+    def sorted(self) -> "Table":
+        """Give the rows by realisation, j, i and branch, as numbers, "+" before "-"."""
+        keys = [self.index[k] for k in ("branch", "i", "j", "realisation") if k in self.index]
+        if not keys:
+            return self
+        order = np.lexsort(keys)
+        if (order[1:] > order[:-1]).all():
+            return self
+        parts = (self.index, self.numbers, self.errors)
+        index, numbers, errors = ({k: v[order] for k, v in part.items()} for part in parts)
+        return Table(index, numbers, self.small, errors)
 
 
 class Gatherer(ABC):
@@ -134,9 +155,32 @@ class Quantity(ABC):
         """Count an answer into bins (low, high, count); None unless the question is about that."""
         return None
 
-    def home(self, i: int) -> int:
-        """Give a column within 0 … 2W − 1 of a periodic packing."""
+    def sites_of(self, rows: Sequence[Layer]) -> dict[str, Array]:
+        """Give the columns i and j of beads, row by row."""
+        return {
+            "i": np.concatenate([_NONE, *(self.home(_columns(row)) for row in rows)]),
+            "j": np.repeat([row.j for row in rows] or _NONE, [row.count for row in rows] or _NONE),
+        }
+
+    def contacts_of(self, blocks: "Sequence[Block]") -> dict[str, Array]:
+        """Give the columns i, j and branch of contacts, block by block, by their lower beads."""
+        lower = [Layer(row.j - 1, row.first - b.side, row.count) for b, row in blocks]
+        branches = np.array([b.value for b, _ in blocks], dtype="U1")
+        return {
+            **self.sites_of(lower),
+            "branch": np.repeat(branches, [row.count for row in lower] or _NONE),
+        }
+
+    def home(self, i: Any) -> Any:
+        """Give a column, or an array of them, within 0 … 2W − 1 of a periodic packing."""
         return i if self.width is None else i % (2 * self.width)
+
+
+_NONE = np.empty(0, dtype=np.int64)
+
+
+def _columns(row: Layer) -> Array:
+    return row.first + 2 * np.arange(row.count)
 
 
 class Listing(Gatherer):
@@ -153,14 +197,14 @@ class Listing(Gatherer):
             one = solved if len(realisations) == 1 else solved.one(number)
             part = self.quantity.rows_of(self.problem, one)
             if self.problem.realisations > 1:
-                part.index["realisation"] = [realisation] * part.rows
+                part.index["realisation"] = np.full(part.rows, realisation)
             self.parts.append(part)
 
     def table(self) -> Table:
         """Put the realisations below each other."""
         first = self.parts[0]
         return Table(
-            {k: [v for part in self.parts for v in part.index[k]] for k in first.index},
+            {k: np.concatenate([part.index[k] for part in self.parts]) for k in first.index},
             {k: np.concatenate([part.numbers[k] for part in self.parts]) for k in first.numbers},
             first.small,
         )
@@ -202,13 +246,8 @@ class ContactQuantity(Quantity):
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Give columns that name the groups, one entry a group."""
-        contacts = [
-            (self.home(i - branch.side), row.j - 1, branch.value)
-            for branch, row in self.blocks(problem)
-            for i in row.sites()
-        ]
-        names = ("i", "j", "branch")
-        return {name: [contact[k] for contact in contacts] for k, name in enumerate(names)}
+        contacts = self.contacts_of(self.blocks(problem))
+        return {name: column.tolist() for name, column in contacts.items()}
 
     def members(self, problem: Problem) -> int:
         """Count the contacts of a group."""

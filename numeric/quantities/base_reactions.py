@@ -42,7 +42,7 @@ class BaseReactions(Listed):
             change_minus = g[m] + (f[p] * b[p] + f[m] * b[m])
         cx, cy = (change_plus - change_minus) * nx, (change_plus + change_minus) * ny
         return Table(
-            {"i": [self.home(i) for i in layer.sites()], "j": [0] * layer.count},
+            self.sites_of([layer]),
             {
                 "fx": (plus - minus) * nx + cx,
                 "fy": (plus + minus) * ny + cy,

@@ -9,7 +9,7 @@ import numpy as np
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice import regions
 from ..lattice.branch import Contact
-from ..lattice.layers import Region
+from ..lattice.layers import Layer, Region
 from ..lattice.regions import Rows
 from ..mechanics import first_order
 from ..mechanics.loads import LoadSpec
@@ -81,9 +81,9 @@ class SingleContact(ContactQuantity):
         elif solved.forces is not None and len(solved.forces.ordered[branch][j + 1]):
             g = solved.forces.change[branch][j + 1][0]
             found = [(solved.forces.ordered[branch][j + 1][0] + g, g)]
-        i = self.home(self.contact.i)
+        lower = Layer(j, self.contact.i, len(found))
         return Table(
-            {"i": [i] * len(found), "j": [j] * len(found), "branch": [branch.value] * len(found)},
+            {**self.sites_of([lower]), "branch": np.array([branch.value] * len(found), dtype="U1")},
             {
                 "force": column([force for force, _ in found], solved.system),
                 "change": column([change for _, change in found], solved.system),

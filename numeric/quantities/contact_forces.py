@@ -34,11 +34,7 @@ class ContactForces(ContactQuantity, Listed):
         blocks = above_stop([Block(b, row) for row in rows for b in Branch], solved.forces)
         found = list(contact_changes(solved, blocks, 1))
         return Table(
-            {
-                "i": [self.home(i - b.side) for b, row in blocks for i in row.sites()],
-                "j": [row.j - 1 for _, row in blocks for _ in range(row.count)],
-                "branch": [b.value for b, row in blocks for _ in range(row.count)],
-            },
+            self.contacts_of(blocks),
             {
                 "force": joined(solved.system, [F + g[0] for _, F, g in found]),
                 "change": joined(solved.system, [g[0] for _, _, g in found]),

@@ -37,8 +37,8 @@ class Histogram(ContactQuantity, Listed):
         return histogram(table.numbers["change"], self.bins, system)
 
     def answer_rows(self, region: Region, realisations: int) -> int:
-        """One a bin; a change counts for a little."""
-        return (self.scene.ask.bins or 1) + realisations * (region.beads // 50)
+        """Three a bin, for its edges as decimals; a change counts for a little."""
+        return 3 * (self.scene.ask.bins or 1) + realisations * (region.beads // 50)
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give all changes of one realisation."""
@@ -70,8 +70,8 @@ class ContactHistogram(SingleContact, Histogram):
     """Changes of one contact force over many packings."""
 
     def answer_rows(self, region: Region, realisations: int) -> int:
-        """One a bin; a change counts for a little."""
-        return (self.scene.ask.bins or 1) + realisations
+        """Three a bin, for its edges as decimals; a change counts for a little."""
+        return 3 * (self.scene.ask.bins or 1) + realisations
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give the change of one realisation, with its contact."""

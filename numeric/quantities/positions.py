@@ -66,10 +66,7 @@ class Positions(Listed):
             columns["dx"].append(dx)
             columns["dy"].append(dy)
         return Table(
-            {
-                "i": [self.home(i) for layer in rows for i in layer.sites()],
-                "j": [layer.j for layer in rows for _ in range(layer.count)],
-            },
+            self.sites_of(rows),
             {name: np.concatenate(parts) for name, parts in columns.items()},
             ("dx", "dy"),
         )

@@ -13,6 +13,7 @@ from ..lattice.layers import Region, full_layer
 from ..mechanics.problem import Problem, Solved
 from ..statistics.moments import Moments, Scatter, unit_near
 from .base import (
+    RATIO,
     Block,
     ContactQuantity,
     Gatherer,
@@ -102,24 +103,25 @@ class _Moments(Gatherer):
         moments = [self.found[key][1] for key in keys]
         mean = [one.average().item() for one in moments]
         std = [one.std(self.system).item() for one in moments]
-        index: dict[str, list[Any]] = {
-            "j": [j for j, _ in keys],
-            "branch": [branch.value for _, branch in keys],
-            "samples": [one.count for one in moments],
+        index = {
+            "j": np.array([j for j, _ in keys], dtype=np.int64),
+            "branch": np.array([branch.value for _, branch in keys], dtype="U1"),
+            "samples": np.array([one.count for one in moments], dtype=np.int64),
         }
         theory = first_order_std(self.problem)
         if theory is not None:
-            index["first_order_std"] = [_printed(theory[j]) for j, _ in keys]
-        return Table(
-            index,
-            {
-                "mean": column([a + b for a, b in zip(ordered, mean, strict=True)], self.system),
-                "mean_change": column(mean, self.system),
-                "std": column(std, self.system),
-            },
-            ("mean_change", "std"),
-            {} if self.problem.stop_at_tension else self._errors(),
-        )
+            index["first_order_std"] = np.array([_printed(theory[j]) for j, _ in keys], dtype="U")
+        numbers = {
+            "mean": column([a + b for a, b in zip(ordered, mean, strict=True)], self.system),
+            "mean_change": column(mean, self.system),
+            "std": column(std, self.system),
+        }
+        if self.problem.load.loaded is None and not self.problem.load.angle_deg:  # no mean is zero
+            numbers[RATIO] = numbers["std"] / numbers["mean"]
+        small = ("mean_change", "std")
+        nothing = dict.fromkeys(small, np.full(len(keys), np.nan))
+        errors = nothing if self.problem.stop_at_tension else self._errors()
+        return Table(index, numbers, small, errors)
 
     def _errors(self) -> dict[str, Array]:
         mean, std = (error * self.unit for error in self.scatter.errors())

@@ -55,7 +55,7 @@ class Response(ContactQuantity):
 
     def both(
         self, problem: Problem, solved: Solved, realisations: int
-    ) -> tuple[dict[str, list[Any]], Array, Array, Array]:
+    ) -> tuple[dict[str, Array], Array, Array, Array]:
         """Give the contacts, F, g and the change of the vertical component f N_y.
 
         Shapes: (contacts,), (realisations, contacts) and the same.
@@ -75,11 +75,7 @@ class Response(ContactQuantity):
                 tilt = a + b
             f = F + (g if problem.route == Route.EXACT else 0)
             verticals.append((g + f * tilt.reshape(-1, row.count)) * ny)
-        contacts: dict[str, list[Any]] = {
-            "i": [self.home(i - branch.side) for (branch, row), _, _ in parts for i in row.sites()],
-            "j": [row.j - 1 for (_, row), _, _ in parts for _ in range(row.count)],
-            "branch": [branch.value for (branch, row), _, _ in parts for _ in range(row.count)],
-        }
+        contacts = self.contacts_of([block for block, _, _ in parts])
         nothing = zeros(system, realisations, 0)
         return (
             contacts,
@@ -100,7 +96,7 @@ class _Responses(Gatherer):
         self.quantity, self.problem, self.system = quantity, problem, system
         self.moments = Moments(unit_near(problem.radii.relative_std()))
         self.scatter = Scatter()
-        self.last: tuple[dict[str, list[Any]], Array, Array, Array] | None = None
+        self.last: tuple[dict[str, Array], Array, Array, Array] | None = None
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Take in realisations, one after the other."""

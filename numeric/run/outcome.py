@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..accuracy.accuracy import Accuracy
-from ..accuracy.digits import strings
+from ..accuracy.digits import printed
 from ..arithmetic.decimals import bound_string
-from ..arithmetic.systems import Array
+from ..arithmetic.systems import Array, as_floats
 from ..lattice.branch import Contact
 from ..mechanics.physicality import PHYSICAL, Physicality
 from ..mechanics.work import Work
@@ -19,6 +19,7 @@ from ..planning.plan import ESTIMATE, Plan, plan_lines
 from ..quantities.answer import Answer
 from ..statistics import histogram
 from ..tables import Row, html_table, rows_of
+from ..text import rows_of_text, text_of
 from ..theory.critical_height import critical_height
 
 if TYPE_CHECKING:
@@ -40,7 +41,8 @@ class Outcome:
 
     ``plan`` is that of the method that answered; ``missed`` are those tried before. ``answer``
     holds the numbers in the arithmetic of the run. ``accuracy`` says how large the error is,
-    relative to the largest change, and how it is known.
+    relative to the largest change, and how it is known. ``source`` says where it came from:
+    program, version, scene, seed and the SHA-256 of what was read.
     """
 
     plan: Plan
@@ -48,6 +50,7 @@ class Outcome:
     accuracy: Accuracy
     work: Work
     seconds: float
+    source: dict[str, Any]
     missed: tuple[Missed, ...] = ()
 
     @property
@@ -83,25 +86,55 @@ class Outcome:
                 "count": np.array(count, dtype=np.int64),
             }
         table = self.answer.table
-        index = {
-            name: np.array(values, dtype=np.float64 if name == "first_order_std" else None)
+        found = {
+            name: values.astype(np.float64) if name == "first_order_std" else values
             for name, values in table.index.items()
         }
-        return index | table.numbers
+        for name, values in table.numbers.items():
+            found[name] = values
+            if name in table.errors:
+                found[f"{name}_error"] = table.errors[name]
+        return found
 
     def rows(self) -> list[Row]:
         """The answer row by row, ready for a data frame; numbers as Python's int and float."""
         return rows_of(self.arrays)
 
+    @property
+    def count(self) -> int:
+        """How many rows there are."""
+        return len(next(iter(self.arrays.values()), ()))
+
+    @cached_property
+    def text(self) -> dict[str, Array]:
+        """The columns of the answer as text, see ``numeric.text``: decimals with known digits."""
+        if self.answer.bins is not None:
+            rows = histogram.printed(self.answer.bins)
+            return {name: text_of([row[name] for row in rows]) for name in ("low", "high", "count")}
+        system, table = self.plan.system, self.answer.table
+        with system.active():
+            # a tolerance asks for the digits of these very packings
+            numbers = printed(table, self.accuracy, system, sampled=self.plan.tolerance is None)
+        return {name: text_of(column) for name, column in table.index.items()} | numbers
+
+    @property
+    def whole_numbers(self) -> list[str]:
+        """The columns that are whole numbers: sites and counts."""
+        return [name for name in self.text if self.arrays[name].dtype.kind == "i"]
+
     def decimals(self) -> list[Row]:
         """The answer row by row, numbers as decimal strings with the digits that are known."""
-        if self.answer.bins is not None:
-            return histogram.printed(self.answer.bins)
-        system = self.plan.system
-        with system.active():
-            printed = strings(self.answer.table, self.accuracy, system)
-        columns = {**self.answer.table.index, **printed}
-        return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+        return rows_of_text(self.text, self.whole_numbers)
+
+    @property
+    def sampling_error(self) -> float | None:
+        """The largest standard error of a statistic, relative to the largest change; or None."""
+        table = self.answer.table
+        errors = [e[np.isfinite(e)] for e in table.errors.values()]
+        sizes = (as_floats(abs(table.numbers[k])).max(initial=0) for k in table.small)
+        largest = float(max(sizes, default=0))
+        found = max((float(e.max(initial=0)) for e in errors), default=0.0)
+        return found / largest if found and largest else None
 
     @property
     def standard_errors(self) -> dict[str, Array]:
@@ -121,9 +154,12 @@ class Outcome:
 
         return figure_of(self.plan, self.arrays, self.standard_errors)
 
-    def data(self) -> dict[str, Any]:
-        """Give what JSON can hold of it; the guide to scenes has the schema of each quantity."""
-        data = self.plan.data()
+    def data(self, *, rows: bool = True) -> dict[str, Any]:
+        """Give what JSON can hold of it; the guide to scenes has the schema of each quantity.
+
+        Without ``rows`` the list of results is empty: there may be millions.
+        """
+        data = {"source": self.source, **self.plan.data()}
         work, accuracy = self.work, self.accuracy
         visited = {
             "read radii": work.radii,
@@ -141,9 +177,10 @@ class Outcome:
             names = work.arithmetic_again if name == ESTIMATE else work.arithmetic
             step["arithmetic"] = ", then ".join(names)
             step["beads"] = visited.get(name, 0)
-        data["results"] = {self.quantity: self.decimals()}
+        data["results"] = {self.quantity: self.decimals() if rows else []}
         data["accuracy"] = {
             "error_bound": _bound(accuracy.error_bound),
+            "sampling_error": self.sampling_error,
             "certified": accuracy.certified,
             "arithmetic": accuracy.arithmetic,
             "bits_lost": accuracy.bits_lost,
@@ -162,13 +199,13 @@ class Outcome:
 
     def __str__(self) -> str:
         """Say what was found, how accurately, and what was done for it."""
-        return "\n".join(outcome_lines(self.data()))
+        return "\n".join(outcome_lines(self.data(rows=False), self.count))
 
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
         """Show the first rows as a table in a notebook."""
-        return html_table(self.decimals(), summary_lines(self.data()))
+        return html_table(self.decimals(), summary_lines(self.data(rows=False), self.count))
 
 
 def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
@@ -233,22 +270,27 @@ def _bound(bound: float | Fraction) -> float | str | None:
     return bound if math.isfinite(bound) else None
 
 
-def outcome_lines(data: dict[str, Any]) -> list[str]:
-    """Say in lines of text what a run found and did, without its rows."""
-    return [*summary_lines(data), *plan_lines(data)]
+def outcome_lines(data: dict[str, Any], rows: int) -> list[str]:
+    """Say in lines of text what a run found and did, and how many rows there are."""
+    return [*summary_lines(data, rows), *plan_lines(data)]
 
 
-def summary_lines(data: dict[str, Any]) -> list[str]:
+def summary_lines(data: dict[str, Any], rows: int) -> list[str]:
     """Say how many rows there are, how accurate they are, and what was physical."""
-    quantity, rows = next(iter(data["results"].items()))
+    (quantity,) = data["results"]
     accuracy = data["accuracy"]
     bound = accuracy["error_bound"]
     kind = "certified" if accuracy["certified"] else "estimated"
     shown = f"{bound:.2g}" if isinstance(bound, float) else bound or "unknown"
     lines = [
-        f"{quantity}: {len(rows)} rows",
+        f"{quantity}: {rows} rows",
         f"error {shown}, {kind}, in {accuracy['arithmetic']}; bits lost {accuracy['bits_lost']}",
     ]
+    if accuracy["sampling_error"] is not None:
+        lines[1] = (
+            f"error {accuracy['sampling_error']:.2g} of sampling, the largest standard error; "
+            f"of these packings {lines[1].removeprefix('error ')}"
+        )
     if "physical" in data:
         lines.append(_physical_line(data["physical"]))
     if "stopped_at_tension" in data:

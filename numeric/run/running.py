@@ -22,6 +22,7 @@ from ..planning.planner import plan
 from ..quantities.answer import Answer
 from ..scene import reading, scene
 from ..scene.sections import SceneError
+from ..scene.source import source_of
 from .outcome import Missed, Outcome
 
 
@@ -38,6 +39,7 @@ def run(plan: Plan, progress: Progress | None = None) -> Outcome:
             "Scene(…).run() a scene"
         )
     start = perf_counter()
+    source = source_of(plan.scene)
     work = Work(progress=progress)
     missed: list[Missed] = []
     if plan.choice is not None:
@@ -49,7 +51,8 @@ def run(plan: Plan, progress: Progress | None = None) -> Outcome:
     if not accuracy.certified and not accuracy.error_bound and _squares_vanish(plan):
         note = "every change is zero, or below what float64 holds: a tolerance tells which"
         accuracy = replace(accuracy, error_bound=math.inf, note=note)
-    return Outcome(plan, answer, accuracy, work, perf_counter() - start, tuple(missed))
+    seconds = perf_counter() - start
+    return Outcome(plan, answer, accuracy, work, seconds, source, tuple(missed))
 
 
 def _chosen(choice: Choice, work: Work, missed: list[Missed]) -> tuple[Plan, Answer, Accuracy]:

@@ -10,7 +10,6 @@ import numpy as np
 
 from ..accuracy.accuracy import Accuracy
 from ..arithmetic.systems import FLOAT64, Array, as_floats, system_of
-from ..lattice.branch import Branch
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Route
 from ..planning.planner import plan
@@ -103,15 +102,9 @@ class Solution:
         return (*batch, layers - 1, width)
 
     def _contacts(self, name: str) -> Array:
-        """Rows are listed by upper beads: turn them to the columns of the lower ones."""
-        *_, M, W = self._shape
-        layers = self._numbers(self.forces, name).reshape(-1, M, 2, W)
-        found = np.empty((len(layers), 2, M, W), dtype=layers.dtype)
-        for b, branch in enumerate(Branch):
-            for j in range(M):
-                lower = ((j + 1) % 2 - branch.side - j % 2) // 2  # column of the first lower bead
-                found[:, b, j] = np.roll(layers[:, j, b], lower, axis=-1)
-        return found.reshape(*self._shape[:-2], 2, M, W)
+        *batch, M, W = self._shape
+        rows = self._numbers(self.forces, name).reshape(*batch, M, W, 2)
+        return np.moveaxis(rows, -1, -3)
 
     def _beads(self, *names: str) -> Array:
         *batch, M, W = self._shape

@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
@@ -38,7 +39,7 @@ def numbers(outcome: Outcome, small_only: bool = False) -> Iterator[tuple[str, s
     for row in outcome.decimals():
         for key, value in row.items():
             wanted = key in SMALL if small_only else key not in {"branch", "first_order_std"}
-            if isinstance(value, str) and wanted:
+            if isinstance(value, str) and wanted and value and not key.endswith("_error"):
                 yield key, value
 
 
@@ -188,15 +189,62 @@ def test_realisations_are_independent_of_the_batch(quantity: str) -> None:
 
 def test_a_profile_is_the_moments_of_all_contact_forces() -> None:
     forces = answer(basic(4, 9, quantity="contact_forces", realisations=5)).decimals()
-    for row in answer(basic(4, 9, quantity="profile", realisations=5)).decimals():
+    for row in answer(basic(4, 9, quantity="profile", realisations=5)).rows():
         changes = [
             float(f["change"]) for f in forces if (f["j"], f["branch"]) == (row["j"], row["branch"])
         ]
         assert row["samples"] == len(changes) == 45
         scale = max(map(abs, changes))
-        # sums of 45 floats, printed with two digits more than the error that is stated
-        assert abs(float(row["mean_change"]) - statistics.fmean(changes)) < 1e-13 * scale
-        assert abs(float(row["std"]) - statistics.pstdev(changes)) < 1e-13 * scale
+        # sums of 45 floats
+        assert abs(row["mean_change"] - statistics.fmean(changes)) < 1e-13 * scale
+        assert abs(row["std"] - statistics.pstdev(changes)) < 1e-13 * scale
+        assert row["std_over_mean"] == pytest.approx(row["std"] / row["mean"], rel=1e-15)
+
+
+def test_statistics_have_standard_errors_and_no_digits_beyond_them() -> None:
+    found = answer(basic(4, 9, quantity="profile", realisations=50))
+    for row, printed in zip(found.rows(), found.decimals(), strict=True):
+        for name, error in (
+            ("mean", "mean_change_error"),
+            ("mean_change", "mean_change_error"),
+            ("std", "std_error"),
+        ):
+            assert float(printed[error]) == pytest.approx(row[error], rel=0.006)
+            # two digits beyond the first of the error, and what is cut off at most half of the last
+            assert abs(float(printed[name]) - row[name]) < row[error] / 20
+            assert unit_of_last_digit(printed[name]) * 1000 > row[error] / 10
+    assert found.sampling_error is not None
+    assert 0.01 < found.sampling_error < 0.5
+    assert found.data()["accuracy"]["sampling_error"] == found.sampling_error
+    assert "of sampling" in str(found)
+    alone = answer(basic(4, 9, quantity="profile"))
+    assert alone.sampling_error is None
+    assert {row["std_error"] for row in alone.decimals()} == {""}
+
+
+def test_standard_errors_cover_what_other_seeds_give() -> None:
+    """Of 40 ensembles: the spread of their σ_f is what each says of itself."""
+    sections = basic(4, 9, quantity="profile", realisations=30)
+    rows = []
+    for seed in range(40):
+        sections["disorder"]["seed"] = seed
+        rows.append(answer(sections).arrays)
+    for name in ("std", "mean_change"):
+        spread = np.std([one[name] for one in rows], axis=0, ddof=1)
+        said = np.mean([one[f"{name}_error"] for one in rows], axis=0)
+        # a standard deviation of 40 samples is known to 11 %
+        assert np.abs(spread / said - 1).max() < 0.45
+
+
+@pytest.mark.parametrize("quantity", ["contact_forces", "positions", "base_reactions", "profile"])
+def test_rows_are_sorted_as_numbers(quantity: str) -> None:
+    asked = {} if quantity == "profile" else {"realisations": 2}
+    rows = answer(basic(12, 14, quantity=quantity, **asked)).rows()
+    keys = [(r.get("realisation"), r["j"], r.get("i"), r.get("branch")) for r in rows]
+    same = [tuple(k for k in key if k is not None) for key in keys]
+    order = {"+": 0, "-": 1}
+    assert same == sorted(same, key=lambda key: [order.get(k, k) for k in key])
+    assert len(set(same)) == len(same)
 
 
 def test_a_profile_under_a_point_load_keeps_the_digits_of_its_changes() -> None:

@@ -133,7 +133,7 @@ def test_equal_radii_are_the_ordered_packing() -> None:
         ({"radii": np.ones((3, 4)), "radius": 0.1}, "near the mean radius"),
         ({"radii": np.ones((3, 4)), "load": "surface"}, "must be SurfaceLoad()"),
         ({"radii": np.ones((3, 4)), "load": fd.PointLoad(at=(1, 2))}, "i + j must be even"),
-        ({"radii": np.ones((3, 4)), "tolerance": "x"}, "must be a number"),
+        ({"radii": np.ones((3, 4)), "tolerance": "x"}, "no finite decimal number"),
         ({"radii": np.ones((3, 4)), "tolerance": 2}, "between 0 and 1"),
         ({"radii": np.ones((3, 4)), "certified": True}, "needs a tolerance"),
         ({"radii": np.ones((3, 4)), "arithmetic": "float16"}, 'must be "float64"'),

@@ -115,7 +115,7 @@ def test_a_profile_is_that_of_run() -> None:
     found = Estimates(m := case("profile"), measured(case("profile"), range(6)))
     assert m.labels == {n: [row[n] for row in outcome.decimals()] for n in ("j", "branch")}
     for name, values in (("std", found.std), ("mean_change", [float(v) for v in found.mean])):
-        meant = [float(row[name]) for row in outcome.decimals()]
+        meant = outcome.arrays[name].tolist()
         assert values == pytest.approx(meant, rel=1e-12, abs=1e-15 * max(found.std))
     assert [float(v) for v in m.ordered()] == pytest.approx([1 / math.sqrt(7 / 4)] * 8)
 
@@ -124,18 +124,14 @@ def test_a_profile_is_that_of_run() -> None:
 def test_labels_and_changes_are_those_of_run(name: str) -> None:
     m = case(name)
     outcome = run(planned(CASES[name]))
-    rows = outcome.decimals()
-    if name == "response":
-        half = m.groups // 2
-        assert m.labels["component"] == ["force"] * half + ["vertical"] * half
-        meant = [float(r["change"]) for r in rows] + [float(r["vertical_change"]) for r in rows]
-        ordered = [float(r["force"]) for r in rows] + [float(r["vertical"]) for r in rows]
-        rows = rows + rows
-    else:
-        meant = [float(r["change"]) for r in rows]
-        ordered = [float(r["force"]) for r in rows]
-    for column in ("i", "j", "branch"):
-        assert m.labels[column] == [row[column] for row in rows]
+    rows = {(r["i"], r["j"], r["branch"]): r for r in outcome.rows()}
+    assert len(rows) * (2 if name == "response" else 1) == m.groups
+    contacts = zip(m.labels["i"], m.labels["j"], m.labels["branch"], strict=True)
+    meant, ordered = [], []
+    for k, contact in enumerate(contacts):
+        vertical = "component" in m.labels and m.labels["component"][k] == "vertical"
+        meant.append(rows[contact]["vertical_change" if vertical else "change"])
+        ordered.append(rows[contact]["vertical" if vertical else "force"])
     (found,) = changes(m, range(1))
     assert found[:, 0].tolist() == pytest.approx(meant, rel=1e-9, abs=1e-16)
     total = [float(F) + g for F, g in zip(m.ordered(), found[:, 0], strict=True)]

@@ -1,0 +1,137 @@
+"""Every answer says where it came from, in every format; large ones are whole."""
+
+import csv
+import hashlib
+import json
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import force_diffusion as fd
+from force_diffusion.__main__ import main
+
+SCENES = Path(__file__).parents[2] / "scenes"
+
+
+def digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
+    status = main([str(a) for a in arguments])
+    shown = capsys.readouterr()
+    return status, shown.out, shown.err
+
+
+def numbers(path: Path) -> dict[str, Any]:
+    with path.open() as file:
+        rows = list(csv.DictReader(file))
+    return {name: [row[name] for row in rows] for name in rows[0]}
+
+
+def parquet_of(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    table = parquet.read_table(path)
+    return table.to_pydict(), json.loads(table.schema.metadata[b"force-diffusion"])
+
+
+def npz_of(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
+    with np.load(path, allow_pickle=False) as file:
+        columns = {name: file[name].tolist() for name in file.files if name != "about"}
+        return columns, json.loads(str(file["about"]))
+
+
+@pytest.mark.parametrize("command", ["run", "ensemble"])
+@pytest.mark.parametrize("written", ["csv", "npz", "parquet"])
+def test_an_answer_says_where_it_came_from(
+    command: str, written: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = SCENES / ("measured.toml" if command == "run" else "figure3.toml")
+    out = tmp_path / "out"
+    status, shown, err = call(capsys, command, scene, "--out", out, "--format", written, "--quiet")
+    assert (status, shown, err) == (0, "", "")
+    about = json.loads((out / "result.json").read_text())
+    source = about["source"]
+    assert source["version"] == version("force-diffusion")
+    assert source["scene"]["packing"]["height"] == fd.read_scene(scene).packing.height
+    assert source["scene"]["packing"]["spacing"] == ("7.2" if command == "run" else "3")
+    assert source["sha256"]["scene"] == digest(scene)
+    if command == "run":
+        assert source["sha256"]["disorder.file"] == digest(SCENES / "radii.csv")
+        assert source["seed"] is None
+        assert source["command"].startswith("force-diffusion run")
+    else:
+        assert source["seed"] == fd.read_scene(scene).disorder.seed
+    manifest = json.loads((out / "manifest.json").read_text())
+    for made in manifest["files"].values():
+        assert made["inputs"] == source["sha256"]
+        assert made.get("seed") == source["seed"]
+        assert made["command"].startswith(f"force-diffusion {command}")
+    (quantity,) = about["results"]
+    table = out / f"{quantity}.{written}"
+    if written == "csv":
+        columns = numbers(table)
+        rows = about["results"][quantity]
+        assert [{k: str(v) for k, v in row.items()} for row in rows] == [
+            dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)
+        ]
+        return
+    columns, inside = (npz_of if written == "npz" else parquet_of)(table)
+    assert inside == about
+    rows = len(next(iter(columns.values())))
+    assert about["results"] == {quantity: {"file": table.name, "rows": rows}}
+    if command == "run":
+        found = fd.read_scene(scene).run()
+        assert columns == {name: column.tolist() for name, column in found.arrays.items()}
+
+
+@pytest.mark.parametrize("written", ["npz", "parquet"])
+def test_numbers_of_longer_arithmetics_are_decimals(
+    written: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = SCENES / "one_contact.toml"
+    assert call(capsys, "run", scene, "--out", tmp_path, "--format", written, "-q")[0] == 0
+    columns, _ = (npz_of if written == "npz" else parquet_of)(tmp_path / f"contact.{written}")
+    (row,) = fd.read_scene(scene).run().decimals()
+    assert columns == {name: [value] for name, value in row.items()}
+
+
+def test_rows_are_printed_or_written_and_quiet_is_quiet(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = SCENES / "measured.toml"
+    _, whole, _ = call(capsys, "run", scene)
+    rows = [line for line in whole.splitlines() if not line.startswith("#")]
+    assert rows[0] == "i,j,branch,force,change"
+    _, alone, _ = call(capsys, "run", scene, "--quiet")
+    assert alone.splitlines() == rows
+    _, words, _ = call(capsys, "run", scene, "--out", tmp_path / "a")
+    assert "contact_forces: 48 rows" in words
+    assert rows[1] not in words
+    assert (tmp_path / "a" / "contact_forces.csv").read_text().splitlines() == rows
+    assert call(capsys, "run", scene, "--out", tmp_path / "b", "-q")[1] == ""
+
+
+def test_a_format_needs_a_folder_and_its_library(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    status, _, err = call(capsys, "run", SCENES / "measured.toml", "--format", "npz")
+    assert status == 2
+    assert "--out" in err
+    monkeypatch.setitem(__import__("sys").modules, "pyarrow", None)
+    arguments = ("run", SCENES / "measured.toml", "--out", tmp_path / "x", "--format", "parquet")
+    status, _, err = call(capsys, *arguments)
+    assert status == 2
+    assert "force-diffusion[parquet]" in err
+    assert not (tmp_path / "x").exists()
+
+
+def test_an_array_of_ones_own_is_known_by_its_hash() -> None:
+    radii = 1 + 1e-3 * np.random.default_rng(1).uniform(-1, 1, (5, 12))
+    source = fd.solve(radii).forces.source
+    assert source["sha256"] == {"disorder.radii": hashlib.sha256(radii.tobytes()).hexdigest()}
+    assert source["scene"]["disorder"] == {"kind": "given", "radii": [5, 12]}
+    assert source["seed"] is None
