@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 
 import sympy
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.follows import Known, identity, linear
+from force_diffusion.derivations.framework.record import Derivation, Step, Witness
 from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact, search
-from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.bases import CARTESIAN
 from force_diffusion.symbolic.as_printed import equation, terms, times
 from force_diffusion.symbolic.kernel.decisions import (
@@ -13,7 +13,6 @@ from force_diffusion.symbolic.kernel.decisions import (
     all_of,
     cartesian,
     decide_identity,
-    decide_linear,
 )
 from force_diffusion.symbolic.symbols import (
     Position,
@@ -48,39 +47,113 @@ def ordered_separation(across: sympy.Expr | int, layer: sympy.Expr | int) -> sym
     return sympy.ImmutableMatrix([cartesian(apart, axis) for axis in range(2)])
 
 
+TOUCHING = sympy.Tuple(
+    equation(Position(0, 0), 0),
+    equation(Position(i + 1, j + 1) - Position(i, j), 2 * r * n_plus),
+    equation(Position(i - 1, j + 1) - Position(i, j), 2 * r * n_minus),
+)
+"""What the ordered packing is: its origin, and each bead touching the two above it."""
+
+IN_SPACING = {spacing: 4 * r * n_x}
+
+
+def _squared_distance(across: sympy.Expr, up: sympy.Expr) -> sympy.Expr:
+    separation = ordered_separation(across, up)
+    return separation.dot(separation)
+
+
+def _known() -> Known:
+    return {SQUARED_DISTANCE: _squared_distance, **IN_SPACING}
+
+
+def _spacing(_: int, candidate: sympy.Eq) -> Ruling:
+    """s is the horizontal distance of two beads of one layer, which are two indices apart."""
+    apart = ordered_separation(2, 0)
+    return all_of(
+        identity({spacing: apart[0]})(0, candidate), decide_identity(apart[1], sympy.Integer(0))
+    )
+
+
 def steps() -> Iterator[Step]:
     """From touching along the two lattice directions to the range of the spacing."""
     yield Step(
         "Bead (0, 0) is the origin; each bead touches the two above it, so one step up "
-        "moves by a full diameter along n⁺ or n⁻.",
-        equation(Position(i + 1, j + 1) - Position(i, j), 2 * r * n_plus),
+        "moves by a full diameter along n⁺ or n⁻. The printed positions do so.",
+        TOUCHING,
+        linear({Position: positions}, is_vector=True, basis=CARTESIAN),
+        ("Eq. 1",),
     )
-    yield Step("Going (j+i)/2 steps along n⁺ and (j−i)/2 along n⁻ reaches bead (i, j).", PRINTED)
     yield Step(
-        "In Cartesian components the bead is at (2 r i n_x, 2 r j n_y); beads of one layer "
-        "are two indices apart, which defines the spacing s.",
+        "No other positions do: going (j+i)/2 steps along n⁺ and (j−i)/2 along n⁻ reaches bead "
+        "(i, j).",
+        PRINTED,
+        decide,
+        ("step 1",),
+    )
+    yield Step(
+        "Beads of one layer are two indices apart, which defines the spacing s.",
         equation(spacing, 4 * r * n_x),
+        _spacing,
+        ("Eq. 1",),
     )
     yield Step(
         "The squared distance of two beads that are (a, b) apart, a + b even.",
         equation(SQUARED_DISTANCE(a, b), 4 * r**2 * (a**2 * n_x**2 + b**2 * n_y**2)),
+        identity(_known()),
+        ("Eq. 1",),
     )
     yield Step(
-        "Besides the four contacts (±1, ±1), every pair has |a| ≥ 2 or |b| ≥ 2; the "
-        "tightest are (2, 0) and (0, 2). They do not overlap when both of these are "
-        "positive.",
+        "The four contacts (±1, ±1) touch.",
+        sympy.Tuple(
+            equation(SQUARED_DISTANCE(1, 1), 4 * r**2), equation(SQUARED_DISTANCE(1, -1), 4 * r**2)
+        ),
+        identity(_known()),
+        ("step 4",),
+    )
+    yield Step(
+        "Every other pair has |a| ≥ 2 or |b| ≥ 2; the tightest are (2, 0) and (0, 2). They do "
+        "not overlap when both of these are positive.",
         sympy.Tuple(
             equation(SQUARED_DISTANCE(2, 0) - 4 * r**2, spacing**2 - 4 * r**2),
             equation(SQUARED_DISTANCE(0, 2) - 4 * r**2, 12 * r**2 - spacing**2),
         ),
+        identity(_known()),
+        ("step 3", "step 4"),
+    )
+    yield Step(
+        "All others are further apart: none of the terms is negative for |a| ≥ 2 (first) or "
+        "|b| ≥ 2 (second), the last one being that of the tightest pair.",
+        sympy.Tuple(
+            equation(
+                SQUARED_DISTANCE(a, b) - 4 * r**2,
+                terms(
+                    times(4 * r**2, terms(a**2, -4), n_x**2),
+                    times(4 * r**2, b**2, n_y**2),
+                    terms(SQUARED_DISTANCE(2, 0), -4 * r**2),
+                ),
+            ),
+            equation(
+                SQUARED_DISTANCE(a, b) - 4 * r**2,
+                terms(
+                    times(4 * r**2, a**2, n_x**2),
+                    times(4 * r**2, terms(b**2, -4), n_y**2),
+                    terms(SQUARED_DISTANCE(0, 2), -4 * r**2),
+                ),
+            ),
+        ),
+        identity(_known()),
+        ("step 4",),
     )
     yield Step(
         "Hence s lies between 2r and 2√3 r, and in terms of φ = n⁺·n⁻ both bounds together "
-        "say |φ| < ½.",
+        "say |φ| < ½; and 1 − φ² is positive.",
         sympy.Tuple(
             equation(sympy.Rational(1, 2) - phi, (spacing**2 - 4 * r**2) / (8 * r**2)),
             equation(sympy.Rational(1, 2) + phi, (12 * r**2 - spacing**2) / (8 * r**2)),
+            equation(1 - phi**2, 4 * n_x**2 * n_y**2),
         ),
+        identity(_known()),
+        ("step 3",),
     )
 
 
@@ -92,61 +165,8 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     def at(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
         return candidate.rhs.xreplace({i: across, j: layer})
 
-    everywhere = Region({})
-    zero = sympy.Integer(0)
-    rulings = [
-        decide_linear(at(zero, zero), zero * n_plus, everywhere, is_vector=True, basis=CARTESIAN)
-    ]
-    for direction, step in ((n_plus, 1), (n_minus, -1)):
-        rulings.append(
-            decide_linear(
-                at(i + step, j + 1),
-                terms(at(i, j), 2 * r * direction),
-                everywhere,
-                is_vector=True,
-                basis=CARTESIAN,
-            )
-        )
-    return all_of(*rulings)
-
-
-def _squared_distance(across: sympy.Expr, up: sympy.Expr) -> sympy.Expr:
-    separation = ordered_separation(across, up)
-    return separation.dot(separation)
-
-
-def _spacing_bounds() -> Ruling:
-    in_spacing = {spacing: 4 * r * n_x}
-    return all_of(
-        decide_identity(_squared_distance(sympy.Integer(1), sympy.Integer(1)), 4 * r**2),
-        decide_identity(_squared_distance(sympy.Integer(1), sympy.Integer(-1)), 4 * r**2),
-        decide_identity(
-            _squared_distance(sympy.Integer(2), sympy.Integer(0)) - 4 * r**2,
-            (spacing**2 - 4 * r**2).xreplace(in_spacing),
-        ),
-        decide_identity(
-            _squared_distance(sympy.Integer(0), sympy.Integer(2)) - 4 * r**2,
-            (12 * r**2 - spacing**2).xreplace(in_spacing),
-        ),
-    )
-
-
-def _no_other_pair_is_closer() -> Ruling:
-    # a sum of terms that are not negative for |a| ≥ 2 (first) or |b| ≥ 2 (second)
-    gap = _squared_distance(a, b) / (4 * r**2) - 1
-    return all_of(
-        decide_identity(gap, (a**2 - 4) * n_x**2 + b**2 * n_y**2 + (4 * n_x**2 - 1)),
-        decide_identity(gap, a**2 * n_x**2 + (b**2 - 4) * n_y**2 + (4 * n_y**2 - 1)),
-    )
-
-
-def _cosine_bounds() -> Ruling:
-    half = sympy.Rational(1, 2)
-    return all_of(
-        decide_identity(half - phi, (4 * n_x**2 - 1) / 2),
-        decide_identity(half + phi, (4 * n_y**2 - 1) / 2),
-        decide_identity(1 - phi**2, 4 * n_x**2 * n_y**2),
-    )
+    holds = linear({Position: at}, is_vector=True, basis=CARTESIAN)
+    return all_of(*(holds(part, one) for part, one in enumerate(TOUCHING)))
 
 
 DERIVATION = Derivation(
@@ -170,17 +190,6 @@ DERIVATION = Derivation(
     steps=steps,
     decide=decide,
     search=search("none", each_contact),
-    claims=(
-        Claim(
-            "contacts touch; the pairs (2, 0) and (0, 2) are apart exactly for 2r < s < 2√3 r",
-            _spacing_bounds,
-        ),
-        Claim(
-            "no other pair is closer: its squared distance exceeds by non-negative terms",
-            _no_other_pair_is_closer,
-        ),
-        Claim("the same bounds are −½ < φ < ½, and 1 − φ² = 4 n_x² n_y² > 0", _cosine_bounds),
-    ),
     witnesses=(
         Witness(
             "an exact packing obeys it, both sides at orders ε⁰ and ε¹",

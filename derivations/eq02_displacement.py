@@ -1,15 +1,23 @@
 """Eq. 2: how far a deposited bead moves when its own and its supports' radii deviate."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq01_ordered_positions as eq01
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.follows import linear
+from force_diffusion.derivations.framework.record import Derivation, Step, Witness
 from force_diffusion.derivations.witnesses.both_sides import about, compare, each_bead, search
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.bases import CARTESIAN
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, decide_linear
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    all_of,
+    cartesian,
+    decide_identity,
+    decide_linear,
+)
 from force_diffusion.symbolic.mechanics import contacts
 from force_diffusion.symbolic.symbols import (
     DeltaR,
@@ -18,6 +26,7 @@ from force_diffusion.symbolic.symbols import (
     MatrixTimes,
     b_minus,
     b_plus,
+    e_y,
     i,
     j,
     n_minus,
@@ -27,7 +36,8 @@ from force_diffusion.symbolic.symbols import (
     r,
 )
 
-LEFT, RIGHT = DeltaX(i - 1, j - 1), DeltaX(i + 1, j - 1)
+SUPPORTS = ((i - 1, j - 1), (i + 1, j - 1))
+LEFT, RIGHT = (DeltaX(*support) for support in SUPPORTS)
 half = sympy.Rational(1, 2)
 
 PRINTED = equation(
@@ -49,21 +59,98 @@ def resting_on(left: sympy.Expr, right: sympy.Expr) -> sympy.Expr:
     )
 
 
+@cache
+def constraints() -> tuple[contacts.Linearised, contacts.Linearised]:
+    """What both contacts impose, SymPy differentiating: from the left support, from the right."""
+    left, right = (contacts.contact_constraint(eq01.ordered_separation(a, 1)) for a in (1, -1))
+    return left, right
+
+
+@cache
+def solved() -> sympy.Expr:
+    """δx_ij from both constraints, SymPy inverting their matrix, as a vector expression."""
+    across, up = contacts.resting(constraints(), (i, j), SUPPORTS)
+    return across * contacts.E_X + up * e_y
+
+
+ROWS = sympy.ImmutableMatrix([[n_x, n_y], [-n_x, n_y]])
+
+
+def _at_zero(part: int, candidate: sympy.Eq) -> Ruling:
+    order_0 = constraints()[part].order_0
+    return all_of(
+        decide_identity(candidate.lhs - candidate.rhs, order_0),
+        decide_identity(order_0, sympy.Integer(0)),
+    )
+
+
+def _exact(part: int, candidate: sympy.Eq) -> Ruling:
+    return decide_identity(candidate.lhs - candidate.rhs, constraints()[part].exact)
+
+
+def _derivative(part: int, candidate: sympy.Eq) -> Ruling:
+    return decide_identity(candidate.lhs - candidate.rhs, constraints()[part].order_1)
+
+
+def _component(part: int, candidate: sympy.Eq) -> Ruling:
+    """The derivative is 4r times left less right side, Δx, Δy and ρ put in."""
+    return decide_linear(
+        4 * r * (candidate.lhs - candidate.rhs),
+        contacts.of_beads(constraints()[part].order_1, (i, j), SUPPORTS[part]),
+        Region({}),
+        basis=CARTESIAN,
+    )
+
+
+def _inverse(_: int, candidate: sympy.Eq) -> Ruling:
+    """The matrix is that of the derivatives over 4r; times its inverse, with columns b^±, it is 1."""
+    matrix, exponent = candidate.lhs.as_base_exp()
+    derivatives = sympy.Matrix([constraint.order_1 for constraint in constraints()])
+    rows = derivatives.jacobian([contacts.dx, contacts.dy])
+    reciprocal = [[cartesian(b, axis) for b in (b_plus, b_minus)] for axis in range(2)]
+    compared = (
+        (4 * r * matrix, rows),
+        (matrix ** (-exponent) * candidate.rhs, sympy.eye(2)),
+        (candidate.rhs, sympy.Matrix(reciprocal)),
+    )
+    return all_of(
+        *(
+            decide_identity(one, other)
+            for left, right in compared
+            for one, other in zip(left, right, strict=True)
+        )
+    )
+
+
+def _follows(_: int, candidate: sympy.Eq) -> Ruling:
+    return linear({DeltaX(i, j): solved()}, is_vector=True, basis=CARTESIAN)(0, candidate)
+
+
 def steps() -> Iterator[Step]:
     """Differentiate both contact constraints and invert the 2×2 system."""
-    constraint = contacts.contact_constraint(eq01.ordered_separation(1, 1))
     yield Step(
-        "The bead touches its support: the squared distance of the centres is the squared "
+        "The bead touches both supports: the squared distance of the centres is the squared "
         "sum of the radii. With ε the strength of the disorder, Δx, Δy the difference of "
-        "the two displacements and ρ the sum of the two δr, this vanishes:",
-        equation(constraint.exact, 0),
+        "the two displacements and ρ the sum of the two δr, this vanishes, from the left support "
+        "and from the right:",
+        sympy.Tuple(*(equation(constraint.exact, 0) for constraint in constraints())),
+        _exact,
+        ("Eq. 1",),
     )
     yield Step(
-        "At ε = 0 it holds by Eq. 1; its derivative there must vanish too.",
-        equation(sympy.factor(constraint.order_1), 0),
+        "At ε = 0 it holds.",
+        sympy.Tuple(*(equation(constraint.order_0, 0) for constraint in constraints())),
+        _at_zero,
+        ("step 1",),
     )
     yield Step(
-        "So a contact fixes one component of the displacement.",
+        "So its derivative there must vanish too.",
+        sympy.Tuple(*(equation(sympy.factor(one.order_1), 0) for one in constraints())),
+        _derivative,
+        ("step 1",),
+    )
+    yield Step(
+        "A contact fixes one component of the displacement.",
         sympy.Tuple(
             equation(
                 Dot(n_plus, terms(DeltaX(i, j), minus(LEFT))),
@@ -74,48 +161,35 @@ def steps() -> Iterator[Step]:
                 terms(DeltaR(i, j), DeltaR(i + 1, j - 1)),
             ),
         ),
+        _component,
+        ("step 3",),
     )
     yield Step(
         "The matrix of the two contacts has the rows n⁺ and n⁻; the columns of its inverse "
         "are the reciprocal vectors b⁺ and b⁻.",
-        equation(
-            sympy.Pow(contacts.constraint_matrix(), -1, evaluate=False),
-            contacts.constraint_matrix().inv(),
-        ),
+        equation(sympy.Pow(ROWS, -1, evaluate=False), ROWS.inv()),
+        _inverse,
+        ("step 3",),
     )
-    yield Step("Applied to both right-hand sides:", equation(DeltaX(i, j), resting_on(LEFT, RIGHT)))
-    yield Step("Written out in Cartesian components, this is the printed form.", PRINTED)
+    yield Step(
+        "Applied to both right-hand sides:",
+        equation(DeltaX(i, j), resting_on(LEFT, RIGHT)),
+        _follows,
+        ("step 4", "step 5"),
+    )
+    yield Step(
+        "Written out in Cartesian components, this is the printed form.",
+        PRINTED,
+        decide,
+        ("step 4", "step 5"),
+    )
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Compare with the solved constraints, in Cartesian components."""
     if other := about(candidate, DeltaX(i, j), "none", each_bead):
         return other
-    return decide_linear(
-        candidate.rhs, resting_on(LEFT, RIGHT), Region({}), is_vector=True, basis=CARTESIAN
-    )
-
-
-def _linearisation() -> Ruling:
-    rulings = []
-    for sign in (1, -1):
-        constraint = contacts.contact_constraint(eq01.ordered_separation(sign, 1))
-        along = sign * n_x * contacts.dx + n_y * contacts.dy
-        rulings.append(decide_identity(constraint.order_0, sympy.Integer(0)))
-        rulings.append(decide_identity(constraint.order_1, 4 * r * (along - contacts.radii)))
-    return all_of(*rulings)
-
-
-def _reciprocal_vectors() -> Ruling:
-    inverse = contacts.constraint_matrix().inv()
-    b = {"+": (1 / (2 * n_x), 1 / (2 * n_y)), "-": (-1 / (2 * n_x), 1 / (2 * n_y))}
-    return all_of(
-        *(
-            decide_identity(inverse[row, column], b[branch][row])
-            for column, branch in enumerate("+-")
-            for row in range(2)
-        )
-    )
+    return _follows(0, candidate)
 
 
 DERIVATION = Derivation(
@@ -138,15 +212,6 @@ DERIVATION = Derivation(
     steps=steps,
     decide=decide,
     search=search("none", each_bead),
-    claims=(
-        Claim(
-            "the constraint holds at ε = 0 and its derivative is 4r (n·(δx − δx′) − ρ)",
-            _linearisation,
-        ),
-        Claim(
-            "the inverse of the constraint matrix has the columns b⁺ and b⁻", _reciprocal_vectors
-        ),
-    ),
     witnesses=(
         Witness(
             "an exact packing obeys it, both sides at orders ε⁰ and ε¹",

@@ -4,13 +4,25 @@ from collections.abc import Iterator
 
 import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
+from force_diffusion.derivations.framework.follows import linear
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses import remainders
 from force_diffusion.derivations.witnesses.both_sides import about, compare, each_bead, search
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, decide_linear, proved
-from force_diffusion.symbolic.symbols import DeltaR, DeltaX, b_minus, b_plus, i, j, m
+from force_diffusion.symbolic.symbols import (
+    DeltaR,
+    DeltaX,
+    Dot,
+    b_minus,
+    b_plus,
+    i,
+    j,
+    m,
+    n_minus,
+    n_plus,
+)
 
 PRINTED = equation(
     DeltaX(i, j),
@@ -46,31 +58,75 @@ def _at(candidate: sympy.Expr, across: sympy.Expr, layer: sympy.Expr) -> sympy.E
     return candidate.xreplace({i: across, j: layer})
 
 
+def _resting(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
+    """δx of a bead on its supports (Eq. 2), and on the fixed base."""
+    if layer == 0:
+        return NOTHING
+    at = {i: across, j: layer}
+    return eq02.resting_on(eq02.LEFT, eq02.RIGHT).xreplace(at).replace(DeltaX, _held)
+
+
+def _held(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
+    return NOTHING if layer == 0 else DeltaX(across, layer)
+
+
+FIRST_LAYER = terms(
+    times(terms(DeltaR(i, 1), DeltaR(i - 1, 0)), b_plus),
+    times(terms(DeltaR(i, 1), DeltaR(i + 1, 0)), b_minus),
+)
+
+
+def _first_layer(_: int, candidate: sympy.Eq) -> Ruling:
+    """Eq. 2 on the fixed base, and the printed equation there."""
+    printed = {DeltaX(i, 1): _at(PRINTED.rhs, i, sympy.Integer(1))}
+    return all_of(
+        *(linear(known, is_vector=True)(0, candidate) for known in ({DeltaX: _resting}, printed))
+    )
+
+
+def _along(across: sympy.Expr, layer: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
+    """n⁺·δx and n⁻·δx, as they are printed."""
+    along_plus, along_minus = (_at(term.args[0], across, layer) for term in PRINTED.rhs.args)
+    return along_plus, along_minus
+
+
 def steps() -> Iterator[Step]:
     """Base case on the fixed base, then one step of Eq. 2 with symbolic i and j."""
     yield Step(
-        "The base is held, δx_(i,0) = 0. A bead of layer 1 rests on two such beads; by Eq. 2",
-        equation(
-            DeltaX(i, 1),
-            terms(
-                times(terms(DeltaR(i, 1), DeltaR(i - 1, 0)), b_plus),
-                times(terms(DeltaR(i, 1), DeltaR(i + 1, 0)), b_minus),
-            ),
-        ),
+        "The base is held, δx_(i,0) = 0. A bead of layer 1 rests on two such beads. What Eq. 2 "
+        "gives is the printed equation at j = 1, where both of its sums are empty.",
+        equation(DeltaX(i, 1), FIRST_LAYER),
+        _first_layer,
+        ("Eq. 2",),
     )
-    yield Step("This is the printed equation at j = 1, where both of its sums are empty.")
+    left, right = _along(i - 1, j - 1)[0], _along(i + 1, j - 1)[1]
     yield Step(
         "Suppose that it holds in layer j − 1 ≥ 1. The support to the left lies on the "
         "same diagonal towards the base, so that n⁺·δx gains the two radii of the new "
         "contact, and likewise to the right.",
-        equation(DeltaX(i, j), eq02.resting_on(eq02.LEFT, eq02.RIGHT)),
+        sympy.Tuple(
+            equation(Dot(n_plus, DeltaX(i, j)), terms(left, DeltaR(i, j), DeltaR(i - 1, j - 1))),
+            equation(Dot(n_minus, DeltaX(i, j)), terms(right, DeltaR(i, j), DeltaR(i + 1, j - 1))),
+        ),
+        linear({DeltaX(i, j): _from_the_layer_below(PRINTED.rhs)}, LAYERS_ABOVE),
+        ("Eq. 2",),
     )
     yield Step(
         "The radius of the support is counted once by its own formula and once by the new "
         "contact: it joins the sum with the weight 2. This is the printed equation in "
         "layer j.",
         PRINTED,
+        decide,
+        ("step 1", "step 2"),
     )
+
+
+LAYERS_ABOVE = Region({j: 2})
+
+
+def _from_the_layer_below(supposed: sympy.Expr) -> sympy.Expr:
+    """δx_ij by Eq. 2, its supports having what is supposed."""
+    return eq02.resting_on(_at(supposed, i - 1, j - 1), _at(supposed, i + 1, j - 1))
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
@@ -85,10 +141,7 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
         is_vector=True,
     )
     step = decide_linear(
-        candidate.rhs,
-        eq02.resting_on(_at(candidate.rhs, i - 1, j - 1), _at(candidate.rhs, i + 1, j - 1)),
-        Region({j: 2}),
-        is_vector=True,
+        candidate.rhs, _from_the_layer_below(candidate.rhs), LAYERS_ABOVE, is_vector=True
     )
     ruling = all_of(base, step)
     if ruling.verdict is Verdict.PROVED:

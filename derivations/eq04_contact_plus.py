@@ -1,15 +1,18 @@
 """Eq. 4: the change of the direction of the contact along n⁺."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq01_ordered_positions as eq01
 from force_diffusion.derivations import eq03_extrapolation as eq03
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.follows import linear
+from force_diffusion.derivations.framework.record import Derivation, Step, Witness
 from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact, search
 from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.bases import CARTESIAN
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, decide_linear
+from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_linear
 from force_diffusion.symbolic.mechanics import contacts
 from force_diffusion.symbolic.symbols import (
     DeltaNPlus,
@@ -22,8 +25,6 @@ from force_diffusion.symbolic.symbols import (
     j,
     m,
     n_plus,
-    n_x,
-    n_y,
     r,
 )
 
@@ -61,6 +62,18 @@ def from_displacements(above: sympy.Expr, below: sympy.Expr) -> sympy.Expr:
     return terms(above, minus(below), minus(times(n_plus, terms(DeltaR(i, j), DeltaR(*ABOVE)))))
 
 
+@cache
+def change(across: sympy.Expr = i, layer: sympy.Expr = j) -> sympy.Expr:
+    """δn⁺ in the displacements and radii of its two beads: SymPy differentiates the unit vector."""
+    derivative = contacts.unit_vector_change(eq01.ordered_separation(1, 1))
+    return contacts.of_beads(derivative, ABOVE, (i, j)).xreplace({i: across, j: layer})
+
+
+def displaced(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
+    """δx by Eq. 3, and on the fixed base."""
+    return ZERO if layer == 0 else eq03.displacement(across, layer)
+
+
 def steps() -> Iterator[Step]:
     """Differentiate the exact unit vector, then put in Eq. 3."""
     yield Step(
@@ -68,53 +81,49 @@ def steps() -> Iterator[Step]:
         "contact is their separation over R + R′ = 2r + ερ; its derivative at ε = 0 is "
         "(Δx − ρ n⁺)/2r.",
         equation(times(2, r, DeltaNPlus(i, j)), from_displacements(DeltaX(*ABOVE), DeltaX(i, j))),
+        linear({DeltaNPlus: change}, is_vector=True, basis=CARTESIAN),
+        ("Eq. 1",),
+    )
+    across = Dot(n_plus, terms(DeltaX(*ABOVE), minus(DeltaX(i, j))))
+    yield Step(
+        "With Eq. 3 for both beads, for j ≥ 1, the b⁺ component of the difference is the sum of "
+        "the two radii alone, since both beads lie on one diagonal along n⁺.",
+        equation(across, terms(DeltaR(i, j), DeltaR(*ABOVE))),
+        linear({DeltaX: displaced}, Region({j: 1})),
+        ("Eq. 3",),
     )
     yield Step(
-        "With Eq. 3 for both beads, the b⁺ component of the difference is the sum of the "
-        "two radii alone, since both beads lie on one diagonal along n⁺; the b⁻ component "
-        "compares two neighbouring diagonals along n⁻.",
+        "The b⁻ component compares two neighbouring diagonals along n⁻.",
         PRINTED,
+        decide,
+        ("Eq. 3", "step 1"),
     )
     yield Step(
         "The contact's length has been used: the change is at right angles to n⁺.",
         equation(Dot(n_plus, DeltaNPlus(i, j)), 0),
+        linear({DeltaNPlus: contact_direction}, Region({j: 0})),
+        ("Eq. 4",),
     )
 
 
-def follows(
-    candidate: sympy.Expr,
-    derived: Callable[[sympy.Expr, sympy.Expr], sympy.Expr],
-    above: tuple[sympy.Expr, sympy.Expr],
-) -> Ruling:
+def follows(candidate: sympy.Eq, changed: sympy.Expr) -> Ruling:
     """Compare with Eq. 3 put into the derivative: for j ≥ 1, and on the fixed base for j = 0."""
-    upper = eq03.displacement(*above)
-    above_base = decide_linear(
-        candidate, derived(upper, eq03.displacement(i, j)), Region({j: 1}), is_vector=True
-    )
-    at_base = decide_linear(
-        candidate.xreplace({j: ZERO}),
-        derived(upper, ZERO).xreplace({j: ZERO}),
-        Region({}),
-        is_vector=True,
-    )
-    return all_of(above_base, at_base)
+    rulings = []
+    for at, region in (({}, Region({j: 1})), ({j: ZERO}, Region({}))):
+        derived = (2 * r * changed).xreplace(at).replace(DeltaX, displaced)
+        rulings.append(
+            decide_linear(
+                candidate.rhs.xreplace(at), derived, region, is_vector=True, basis=CARTESIAN
+            )
+        )
+    return all_of(*rulings)
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Compare 2r δn⁺ with the derivative of the unit vector, Eq. 3 put in."""
     if other := about(candidate, 2 * r * DeltaNPlus(i, j), "none", each_contact):
         return other
-    return follows(candidate.rhs, from_displacements, ABOVE)
-
-
-def _unit_vector() -> Ruling:
-    change = contacts.unit_vector_change(eq01.ordered_separation(1, 1))
-    expected = (contacts.dx - contacts.radii * n_x, contacts.dy - contacts.radii * n_y)
-    return all_of(*(decide_identity(2 * r * change[axis], expected[axis]) for axis in range(2)))
-
-
-def _orthogonal() -> Ruling:
-    return decide_linear(Dot(n_plus, PRINTED.rhs), sympy.Integer(0), Region({j: 0}))
+    return follows(candidate, change())
 
 
 DERIVATION = Derivation(
@@ -131,10 +140,6 @@ DERIVATION = Derivation(
     steps=steps,
     decide=decide,
     search=search("none", each_contact),
-    claims=(
-        Claim("the derivative of the exact unit vector is (δx − δx′ − ρ n⁺)/2r", _unit_vector),
-        Claim("n⁺·δn⁺ = 0: a unit vector to first order", _orthogonal),
-    ),
     witnesses=(
         Witness(
             "an exact packing obeys it, both sides at orders ε⁰ and ε¹",

@@ -1,16 +1,19 @@
 """Eq. 5: the change of the direction of the contact along n⁻, derived, and as a mirror image."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq01_ordered_positions as eq01
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq04_contact_plus as eq04
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.follows import linear
+from force_diffusion.derivations.framework.record import Derivation, Step, Witness
 from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact, search
 from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.bases import CARTESIAN
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, decide_linear
+from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.mechanics import contacts
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.symbols import (
@@ -24,8 +27,6 @@ from force_diffusion.symbolic.symbols import (
     j,
     m,
     n_minus,
-    n_x,
-    n_y,
     r,
 )
 
@@ -62,20 +63,46 @@ def from_displacements(above: sympy.Expr, below: sympy.Expr) -> sympy.Expr:
     return terms(above, minus(below), minus(times(n_minus, terms(DeltaR(i, j), DeltaR(*ABOVE)))))
 
 
+@cache
+def change(across: sympy.Expr = i, layer: sympy.Expr = j) -> sympy.Expr:
+    """δn⁻ in the displacements and radii of its two beads: SymPy differentiates the unit vector."""
+    derivative = contacts.unit_vector_change(eq01.ordered_separation(-1, 1))
+    return contacts.of_beads(derivative, ABOVE, (i, j)).xreplace({i: across, j: layer})
+
+
 def steps() -> Iterator[Step]:
     """The same derivation for the other contact, and the mirror image of Eq. 4."""
     yield Step(
         "As for Eq. 4, from the exact unit vector of the contact along n⁻:",
         equation(times(2, r, DeltaNMinus(i, j)), from_displacements(DeltaX(*ABOVE), DeltaX(i, j))),
+        linear({DeltaNMinus: change}, is_vector=True, basis=CARTESIAN),
+        ("Eq. 1",),
     )
-    yield Step("Eq. 3 put in; now the b⁻ component is the two radii alone.", PRINTED)
+    across = Dot(n_minus, terms(DeltaX(*ABOVE), minus(DeltaX(i, j))))
+    yield Step(
+        "With Eq. 3 for both beads, for j ≥ 1, now the b⁻ component is the two radii alone.",
+        equation(across, terms(DeltaR(i, j), DeltaR(*ABOVE))),
+        linear({DeltaX: eq04.displaced}, Region({j: 1})),
+        ("Eq. 3",),
+    )
+    yield Step(
+        "The b⁺ component compares two neighbouring diagonals along n⁺.",
+        PRINTED,
+        decide,
+        ("Eq. 3", "step 1"),
+    )
     yield Step(
         "It is the mirror image of Eq. 4: i → −i at every bead, n⁺ ↔ n⁻ and b⁺ ↔ b⁻ in that "
-        "equation give this one."
+        "equation give this one.",
+        equation(mirror(eq04.PRINTED.lhs), mirror(eq04.PRINTED.rhs)),
+        linear({DeltaNMinus: contact_direction}, Region({j: 0}), is_vector=True),
+        ("Eq. 4", "Eq. 5"),
     )
     yield Step(
         "Again the change is at right angles to the contact.",
         equation(Dot(n_minus, DeltaNMinus(i, j)), 0),
+        linear({DeltaNMinus: contact_direction}, Region({j: 0})),
+        ("Eq. 5",),
     )
 
 
@@ -83,21 +110,7 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Compare 2r δn⁻ with the derivative of the unit vector, Eq. 3 put in."""
     if other := about(candidate, 2 * r * DeltaNMinus(i, j), "none", each_contact):
         return other
-    return eq04.follows(candidate.rhs, from_displacements, ABOVE)
-
-
-def _unit_vector() -> Ruling:
-    change = contacts.unit_vector_change(eq01.ordered_separation(-1, 1))
-    expected = (contacts.dx + contacts.radii * n_x, contacts.dy - contacts.radii * n_y)
-    return all_of(*(decide_identity(2 * r * change[axis], expected[axis]) for axis in range(2)))
-
-
-def _mirror_image() -> Ruling:
-    return decide_linear(mirror(eq04.PRINTED.rhs), PRINTED.rhs, Region({j: 0}), is_vector=True)
-
-
-def _orthogonal() -> Ruling:
-    return decide_linear(Dot(n_minus, PRINTED.rhs), sympy.Integer(0), Region({j: 0}))
+    return eq04.follows(candidate, change())
 
 
 DERIVATION = Derivation(
@@ -114,11 +127,6 @@ DERIVATION = Derivation(
     steps=steps,
     decide=decide,
     search=search("none", each_contact),
-    claims=(
-        Claim("the derivative of the exact unit vector is (δx − δx′ − ρ n⁻)/2r", _unit_vector),
-        Claim("Eq. 5 is the mirror image of Eq. 4", _mirror_image),
-        Claim("n⁻·δn⁻ = 0: a unit vector to first order", _orthogonal),
-    ),
     witnesses=(
         Witness(
             "an exact packing obeys it, both sides at orders ε⁰ and ε¹",

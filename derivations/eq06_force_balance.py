@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.follows import identity, linear, vector_identity
+from force_diffusion.derivations.framework.record import Derivation, Step, Witness
 from force_diffusion.derivations.witnesses.both_sides import compare, loaded_bead, search
 from force_diffusion.symbolic.algebra.signs import never_zero
 from force_diffusion.symbolic.as_printed import equation, terms, times
@@ -14,22 +15,28 @@ from force_diffusion.symbolic.kernel.decisions import (
     all_of,
     cartesian,
     decide_identity,
-    decide_vector_identity,
 )
-from force_diffusion.symbolic.mechanics.balance import Solved, solve
+from force_diffusion.symbolic.mechanics.balance import (
+    FORCES,
+    ORDER_0,
+    ORDER_1,
+    Solved,
+    solve,
+)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
+    Dot,
     ForceMinus,
     ForcePlus,
     Load,
     e_y,
+    epsilon,
     f_load,
     k,
     l,
     n_minus,
     n_plus,
-    n_x,
     n_y,
     phi,
 )
@@ -50,23 +57,52 @@ x, y, X, Y = sympy.symbols("x y X Y", real=True)
 DISTANCE = sympy.sqrt((x - X) ** 2 + (y - Y) ** 2)
 
 
+ROOT = sympy.Symbol("D", positive=True)
+
+
+def _differentiated(_: int, candidate: sympy.Eq) -> Ruling:
+    """SymPy differentiates; the root is taken out, as a symbol with (x − X)² + … as its square."""
+
+    def rational(side: sympy.Expr) -> sympy.Expr:
+        return side.doit().xreplace({DISTANCE: ROOT, 1 / DISTANCE: 1 / ROOT})
+
+    difference = sympy.together(rational(candidate.lhs) - rational(candidate.rhs))
+    return decide_identity(sympy.expand(difference).subs(ROOT**2, DISTANCE**2), sympy.Integer(0))
+
+
 def steps() -> Iterator[Step]:
     """A frictionless contact pushes along the gradient of the distance of the two centres."""
+    gradient = [sympy.Derivative(DISTANCE, axis) for axis in (x, y)]
     yield Step(
-        "A frictionless contact opposes only a change of the distance of its two centres: "
-        "its force on the bead is f times the gradient of that distance, f ≥ 0 when "
-        "compressive.",
-        sympy.Tuple(DISTANCE, sympy.diff(DISTANCE, x), sympy.diff(DISTANCE, y)),
+        "A frictionless contact opposes only a change of the distance of its two centres, (X, Y) "
+        "for the support and (x, y): its force on the bead is f times the gradient of that "
+        "distance, f ≥ 0 when compressive.",
+        sympy.Tuple(
+            *(
+                equation(slope, apart / DISTANCE)
+                for slope, apart in zip(gradient, (x - X, y - Y), strict=True)
+            )
+        ),
+        _differentiated,
     )
     yield Step(
-        "That gradient is the unit vector from the support to the bead: from (k−1, l−1) "
-        "along n⁺, from (k+1, l−1) along n⁻.",
-        sympy.Tuple(terms(n_plus, DeltaNPlus(*LEFT)), terms(n_minus, DeltaNMinus(*RIGHT))),
+        "That gradient points from the support to the bead, and is a unit vector: n⁺ + δn⁺ from "
+        "(k−1, l−1), n⁻ + δn⁻ from (k+1, l−1).",
+        equation(terms(*(slope**2 for slope in gradient)), 1),
+        _differentiated,
+        ("step 1",),
     )
-    yield Step("The load and the two forces add up to zero.", PRINTED)
+    yield Step("The load and the two forces add up to zero.", PRINTED, decide, ("step 1", "step 2"))
     yield Step(
         "In the ordered packing, with the load f_load downwards, both supports carry f_load/2n_y.",
         equation(f_load / (2 * n_y) * terms(n_plus, n_minus), f_load * e_y),
+        vector_identity(),
+        ("Eq. 6",),
+    )
+    yield Step(
+        "The two directions enclose an angle with the cosine φ.",
+        equation(Dot(n_plus, n_minus), phi),
+        linear(),
     )
 
 
@@ -76,9 +112,8 @@ def pushed(direction: tuple[sympy.Expr, sympy.Expr]) -> list[sympy.Expr]:
     The centres are D apart along the unit vector ``direction``; SymPy differentiates the
     distance, then x − X = D N is put in.
     """
-    root = sympy.Symbol("D", positive=True)
-    gradient = [sympy.diff(DISTANCE, axis).xreplace({1 / DISTANCE: 1 / root}) for axis in (x, y)]
-    placed = {x: X + root * direction[0], y: Y + root * direction[1]}
+    gradient = [sympy.diff(DISTANCE, axis).xreplace({1 / DISTANCE: 1 / ROOT}) for axis in (x, y)]
+    placed = {x: X + ROOT * direction[0], y: Y + ROOT * direction[1]}
     return [sympy.expand(part.xreplace(placed)) for part in gradient]
 
 
@@ -113,24 +148,33 @@ def solved(carried: sympy.Expr, across: sympy.Expr, layer: sympy.Expr) -> Solved
     return solve(PRINTED.lhs.xreplace(at), forces, Load(k, l).xreplace(at), carried)
 
 
-def _gradient_is_unit_vector() -> Ruling:
-    # the square root is taken out: D ∂D/∂x = x − X, and the components' squares add up to one
-    gradient = [sympy.diff(DISTANCE, axis) for axis in (x, y)]
-    squared = DISTANCE**2
-    root = sympy.Symbol("D", positive=True)
-    in_root = [part.xreplace({DISTANCE: root, 1 / DISTANCE: 1 / root}) for part in gradient]
-    return all_of(
-        decide_identity(in_root[0] * root, x - X),
-        decide_identity(in_root[1] * root, y - Y),
-        decide_identity((in_root[0] ** 2 + in_root[1] ** 2) * root**2, squared),
+def solving(system: Solved, dotted: str, uses: tuple[str, ...]) -> Iterator[Step]:
+    """Three steps: the balance dotted with n⁺ and n⁻, solved, and expanded in ε."""
+    put_in = dict(zip(FORCES, system.solution, strict=True))
+
+    def is_row(part: int, candidate: sympy.Eq) -> Ruling:
+        return decide_identity(candidate.lhs - candidate.rhs, system.balance[part])
+
+    def is_solution(part: int, candidate: sympy.Eq) -> Ruling:
+        zero = sympy.Integer(0)
+        rows = (decide_identity(one.xreplace(put_in), zero) for one in system.balance)
+        return all_of(identity(put_in)(part, candidate), *rows)
+
+    at_zero = [one.subs(epsilon, 0) for one in system.solution]
+    slopes = [sympy.diff(one, epsilon).subs(epsilon, 0) for one in system.solution]
+    orders = dict(zip((*ORDER_0, *ORDER_1), (*at_zero, *slopes), strict=True))
+    yield Step(dotted, sympy.Tuple(*system.rows), is_row, uses)
+    yield Step(
+        "Solved, the adjugate of the matrix over its determinant:",
+        sympy.Tuple(*map(equation, FORCES, system.solution)),
+        is_solution,
+        ("step 1",),
     )
-
-
-def _ordered_solution() -> Ruling:
-    """The ordered forces f_load/2n_y carry the load; and n⁺·n⁻ = φ."""
-    return all_of(
-        decide_vector_identity(f_load / (2 * n_y) * (n_plus + n_minus), f_load * e_y),
-        decide_identity(n_y**2 - n_x**2, phi),
+    yield Step(
+        "Expanded in ε, the values at ε = 0 and the derivatives there:",
+        sympy.Tuple(*map(equation, orders, (*system.at_zero, *system.slope))),
+        identity(orders),
+        ("step 2",),
     )
 
 
@@ -152,13 +196,6 @@ DERIVATION = Derivation(
     steps=steps,
     decide=decide,
     search=search("single", loaded_bead),
-    claims=(
-        Claim(
-            "the gradient of the distance is the unit vector from the support to the bead",
-            _gradient_is_unit_vector,
-        ),
-        Claim("two forces f_load/2n_y along n⁺ and n⁻ carry the load f_load", _ordered_solution),
-    ),
     witnesses=(
         Witness(
             "an exact packing obeys it, both sides at orders ε⁰ and ε¹",

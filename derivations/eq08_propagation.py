@@ -5,11 +5,12 @@ from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq06_force_balance as eq06
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.follows import states
+from force_diffusion.derivations.framework.record import Derivation, Step, Witness
 from force_diffusion.derivations.witnesses.both_sides import about, compare, left_edge, search
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_linear
+from force_diffusion.symbolic.kernel.decisions import Ruling, decide_linear
 from force_diffusion.symbolic.mechanics import balance
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.symbols import (
@@ -57,23 +58,26 @@ def solved(entering: str) -> balance.Solved:
 
 def steps() -> Iterator[Step]:
     """The same 2×2 system with an incoming contact force in place of the load."""
-    system = solved("+")
-    yield Step(
+    yield from eq06.solving(
+        solved("+"),
         "Eq. 6 holds with the load replaced by the incoming force −f⁺_rs (n⁺ + δn⁺_rs). "
         "Dotted with n⁺ and n⁻, in units of f⁺_rs:",
-        sympy.Tuple(system.matrix, system.right),
-    )
-    yield Step(
-        "Inverted; the values at ε = 0 and the derivatives there are",
-        sympy.Tuple(sympy.Tuple(*system.at_zero), sympy.Tuple(*system.slope)),
+        ("Eq. 6",),
     )
     yield Step(
         "The direction of the other support drops out, since nothing leaves along it at order 0.",
         sympy.Tuple(*PRINTED),
+        decide,
+        ("step 3",),
     )
+    mirrored = [mirror(part) for part in PRINTED]
+    other = [solved("-").first_order(branch) for branch in (1, 0)]
     yield Step(
-        "For an incoming force along n⁻ the same system gives the mirror images.",
-        sympy.Tuple(*(mirror(part) for part in PRINTED)),
+        "For an incoming force along n⁻ the same system, solved in the same way, gives the mirror "
+        "images.",
+        sympy.Tuple(*mirrored),
+        states(*(equation(one.lhs, side) for one, side in zip(mirrored, other, strict=True))),
+        ("Eq. 6", "Eq. 8"),
     )
 
 
@@ -82,13 +86,6 @@ def decide(part: int, candidate: sympy.Eq) -> Ruling:
     if other := about(candidate, SUBJECTS[part], "single", left_edge):
         return other
     return decide_linear(candidate.rhs, solved("+").first_order(part), Region({}))
-
-
-def _other_orientation() -> Ruling:
-    return all_of(
-        decide_linear(mirror(PRINTED[0].rhs), solved("-").first_order(1), Region({})),
-        decide_linear(mirror(PRINTED[1].rhs), solved("-").first_order(0), Region({})),
-    )
 
 
 DERIVATION = Derivation(
@@ -107,12 +104,6 @@ DERIVATION = Derivation(
     steps=steps,
     decide=decide,
     search=search("single", left_edge),
-    claims=(
-        Claim(
-            "an incoming force along n⁻ gives both mirror images, solved for and compared",
-            _other_orientation,
-        ),
-    ),
     witnesses=(
         Witness(
             "an exact packing obeys it, both sides at orders ε⁰ and ε¹: first part",

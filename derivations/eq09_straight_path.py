@@ -4,7 +4,8 @@ from collections.abc import Iterator
 
 import sympy
 from force_diffusion.derivations import eq08_propagation as eq08
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.follows import identity, linear, states, walks
+from force_diffusion.derivations.framework.record import Derivation, Step, Witness
 from force_diffusion.derivations.witnesses.both_sides import about, compare, search, straight_below
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
@@ -12,7 +13,6 @@ from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
     all_of,
-    decide_identity,
     decide_linear,
     proved,
 )
@@ -49,48 +49,65 @@ def after(candidate: sympy.Expr, steps_down: sympy.Expr) -> sympy.Expr:
     return candidate.xreplace({i: across, j: layer})
 
 
+NO_BEAD = sympy.Integer(0)
+FIRST, SECOND = sympy.symbols("A B")
+
+
+def _step(ratio: sympy.Expr) -> sympy.Expr:
+    """What a ratio becomes at the next bead: Eq. 8, to first order."""
+    return first_order_product(after(ratio, q), eq08.straight(*straight_end(q)))
+
+
 def steps() -> Iterator[Step]:
     """Induction on the number q of beads passed."""
-    yield Step("The entry itself, q = 0: no bead has been passed, and the printed ratio is 1.")
     yield Step(
         "After q beads the contact reached has the lower bead (k−1−q, l−1−q).",
-        sympy.Tuple(*straight_end(q)),
+        sympy.Tuple(*map(equation, (i, j), straight_end(q))),
+        walks(ENTRY, dict(zip(eq08.HERE, eq08.LEFT, strict=True)), q),
+        ("Eq. 8",),
     )
     yield Step(
-        "The next bead multiplies by Eq. 8; to first order the changes add up.",
+        "The next bead multiplies by Eq. 8.",
         equation(
             ForcePlus(*straight_end(q + 1)) / ForcePlus(*straight_end(q)),
             eq08.straight(*straight_end(q)),
         ),
+        states(eq08.PRINTED[0].xreplace(dict(zip(eq08.HERE, straight_end(q), strict=True)))),
+        ("Eq. 8", "step 1"),
     )
-    yield Step("The directions in between cancel; the ends are left.", PRINTED)
+    yield Step(
+        "To first order the changes in a product add up.",
+        equation(
+            times(terms(1, epsilon * FIRST), terms(1, epsilon * SECOND)),
+            terms(1, times(epsilon, terms(FIRST, SECOND)), epsilon**2 * FIRST * SECOND),
+        ),
+        identity(),
+    )
+    yield Step(
+        "The direction in between cancels: the printed ratio at q times Eq. 8 is that at q + 1.",
+        equation(_step(PRINTED.rhs), after(PRINTED.rhs, q + 1)),
+        linear(region=Region({q: 0})),
+        ("step 2", "step 3"),
+    )
+    yield Step(
+        "At the entry itself, q = 0, the printed ratio is 1: no bead has been passed. So for every "
+        "q the ends are left.",
+        PRINTED,
+        decide,
+        ("step 4",),
+    )
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Base case q = 0 and the inductive step with symbolic q."""
     if other := about(candidate, ForcePlus(i, j) / ForcePlus(*ENTRY), "single", straight_below):
         return other
-    zero = sympy.Integer(0)
-    base = decide_linear(after(candidate.rhs, zero), sympy.Integer(1), Region({}))
-    step = decide_linear(
-        after(candidate.rhs, q + 1),
-        first_order_product(after(candidate.rhs, q), eq08.straight(*straight_end(q))),
-        Region({q: 0}),
-    )
+    base = decide_linear(after(candidate.rhs, NO_BEAD), sympy.Integer(1), Region({}))
+    step = decide_linear(after(candidate.rhs, q + 1), _step(candidate.rhs), Region({q: 0}))
     ruling = all_of(base, step)
     if ruling.verdict is Verdict.PROVED:
         return proved("base case q = 0 and inductive step with a symbolic number q of beads")
     return ruling
-
-
-def _product_rule() -> Ruling:
-    first, second = sympy.symbols("A B")
-    product = (1 + epsilon * first) * (1 + epsilon * second)
-    slope = sympy.diff(product, epsilon).subs(epsilon, 0)
-    return all_of(
-        decide_identity(product.subs(epsilon, 0), sympy.Integer(1)),
-        decide_identity(slope, first + second),
-    )
 
 
 DERIVATION = Derivation(
@@ -108,7 +125,6 @@ DERIVATION = Derivation(
     steps=steps,
     decide=decide,
     search=search("single", straight_below),
-    claims=(Claim("(1 + εA)(1 + εB) has the first-order change A + B", _product_rule),),
     witnesses=(
         Witness(
             "an exact packing obeys it, both sides at orders ε⁰ and ε¹",

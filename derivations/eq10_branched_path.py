@@ -1,16 +1,18 @@
 """Eq. 10: the contribution of a contact force along a path with exactly one branch."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq09_straight_path as eq09
+from force_diffusion.derivations.framework.follows import identity, states, walks
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.derivations.witnesses.both_sides import about, compare, inside_cone, search
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, decide_linear
+from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_linear
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.mechanics.paths import (
     BRANCH_COUNT,
@@ -54,29 +56,54 @@ def branched_plus(across: sympy.Expr, layer: sympy.Expr, count: sympy.Expr) -> s
     return mirror(PRINTED.rhs).xreplace({i: across, j: layer, n: count})
 
 
+@cache
+def _on_path() -> dict[sympy.Symbol, sympy.Expr]:
+    """(p, q) by (i, j), SymPy solving, and the branching bead that they lead to."""
+    solution = solve_for_path()
+    bead = (index.xreplace(solution) for index in straight_end(p))
+    return {**solution, n: BRANCH_COUNT, **dict(zip(eq08.HERE, bead, strict=True))}
+
+
 def steps() -> Iterator[Step]:
     """Count the paths with one branch; only the branch itself is of first order."""
     yield Step(
         "A branch is of first order in δn^± (Eq. 8), so that a first-order calculation "
         "needs the paths with no branch or with one. With p straight steps, a branch and "
         "q ≥ 1 steps along n⁻, the contact reached has the lower bead",
-        sympy.Tuple(*branched_end()),
+        sympy.Tuple(*map(equation, (i, j), branched_end())),
+        walks(straight_end(p), dict(zip(eq08.HERE, eq08.RIGHT, strict=True)), q),
+        ("Eq. 8", "Eq. 9"),
     )
     yield Step(
-        "This is (i, j) for exactly one pair (p, q): q is the paper's n.",
+        "This is (i, j) for exactly one pair (p, q): q is the paper's n, and a path exists when "
+        "q ≥ 1 and p ≥ 0, so when 1 ≤ n < l − j.",
         sympy.Tuple(
             equation(p, terms(times(sympy.Rational(1, 2), terms(l - j, k - i)), -1)),
             equation(q, times(sympy.Rational(1, 2), terms(l - j, minus(k - i)))),
+            equation(p, terms(l - j, minus(n), -1)),
         ),
+        identity(_on_path()),
+        ("step 1",),
     )
     yield Step(
-        "A path exists when q ≥ 1 and p ≥ 0, and p = (l−j) − n − 1, so when "
-        "1 ≤ n < l − j. The branch is at the bead",
-        sympy.Tuple(i - n, j + n),
+        "The branch is at the bead",
+        sympy.Tuple(equation(site_r, i - n), equation(site_s, j + n)),
+        identity(_on_path()),
+        ("step 2",),
     )
     yield Step(
-        "The straight pieces count at order 0, where they are 1 (Eq. 9); the branch is Eq. 8.",
+        "There the force along n⁻ that leaves is, by Eq. 8,",
+        equation(
+            ForceMinus(i - n + 1, j + n - 1) / ForcePlus(i - n, j + n), eq08.branching(i - n, j + n)
+        ),
+        states(eq08.PRINTED[1].xreplace({site_r: i - n, site_s: j + n})),
+        ("Eq. 8", "step 3"),
+    )
+    yield Step(
+        "The straight pieces count at order 0, where they are 1 (Eq. 9).",
         PRINTED,
+        decide,
+        ("Eq. 9", "step 4"),
     )
 
 
@@ -87,25 +114,6 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     bead = tuple(index.xreplace(BY_BRANCH) for index in straight_end(p))
     derived = eq08.branching(*bead)
     return decide_linear(candidate.rhs.xreplace(BY_BRANCH), derived, Region({n: 1, p: 0}))
-
-
-def _one_path() -> Ruling:
-    solution = solve_for_path()
-    across, layer = (index.xreplace(solution) for index in branched_end())
-    return all_of(
-        decide_identity(across, i),
-        decide_identity(layer, j),
-        decide_identity(solution[q], BRANCH_COUNT),
-        decide_identity(solution[p], (l - j) - BRANCH_COUNT - 1),
-    )
-
-
-def _branching_bead() -> Ruling:
-    solution = solve_for_path()
-    across, layer = (index.xreplace(solution) for index in straight_end(p))
-    return all_of(
-        decide_identity(across, i - BRANCH_COUNT), decide_identity(layer, j + BRANCH_COUNT)
-    )
 
 
 def _response(
@@ -178,8 +186,6 @@ DERIVATION = Derivation(
     decide=decide,
     search=search("single", inside_cone),
     claims=(
-        Claim("exactly one (p, q) leads to (i, j): q = n and p = (l−j) − n − 1 ≥ 0", _one_path),
-        Claim("its branching bead is (i − n, j + n)", _branching_bead),
         Claim(
             "Eqs. 9 and 10, and zero elsewhere, balance every bead to first order",
             balance_everywhere,

@@ -9,6 +9,7 @@ from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
+from force_diffusion.derivations.framework.follows import states
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses import remainders
 from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact, search
@@ -23,7 +24,11 @@ from force_diffusion.symbolic.kernel.decisions import (
     decide_identity,
     decide_linear,
     from_test,
+    undecided,
 )
+from force_diffusion.symbolic.mechanics.lattice import mirror
+from force_diffusion.symbolic.mechanics.paths import BRANCH_COUNT
+from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
@@ -68,6 +73,7 @@ PRINTED = equation(
     ),
 )
 
+ORDERED = f_load / (2 * n_y)
 INTERIOR = Region({j: 0, M: j + 1})
 
 STRAIGHT_LOAD = (i + M - j, M)
@@ -99,21 +105,72 @@ def contributions() -> tuple[sympy.Expr, sympy.Expr]:
     return eq09.first_order_product(*straight_factors()), branched
 
 
+TOP = (STRAIGHT_LOAD[0] - 1, M - 1)
+"""Lower bead of the contact through which the straight load comes in."""
+
+
+def _put_in(part: int, candidate: sympy.Eq) -> Ruling:
+    """Eq. 7 below the straight load, in units of the ordered force, and Eq. 9 from there."""
+    at_load = {k: STRAIGHT_LOAD[0], l: STRAIGHT_LOAD[1]}
+    split, carried = eq07.PRINTED[0].xreplace(at_load), eq09.PRINTED.xreplace(at_load)
+    in_units = equation(split.lhs / ORDERED, split.rhs / ORDERED)
+    return states(in_units, carried, region=INTERIOR)(part, candidate)
+
+
+def _load(part: int, candidate: sympy.Eq) -> Ruling:
+    """By Eq. 10, mirrored, a load at k turns n = ½[(l − j) − (i − k)] steps above the contact."""
+    mirrored = BRANCH_COUNT.xreplace({k: -k, i: -i})
+    if candidate.lhs != (k, l)[part]:
+        return undecided(f"the left-hand side is not {text((k, l)[part])}")
+    if part:
+        return decide_identity(candidate.rhs, M)
+    return decide_identity(mirrored.xreplace({k: candidate.rhs, l: M}), n)
+
+
 def steps() -> Iterator[Step]:
     """One straight path, M − j − 1 paths with one branch."""
-    _, branched = contributions()
+    split, carried = straight_factors()
+    straight, branched = contributions()
+    printed = terms(*PRINTED.rhs.args[:2]), PRINTED.rhs.args[2]
     yield Step(
         "The surface bead straight above the contact is (i+M−j, M). Its load splits by Eq. 7, and "
-        "Eq. 9 carries the force down. To first order the changes in this product add up.",
-        times(*straight_factors()),
+        "Eq. 9 carries the force down.",
+        sympy.Tuple(
+            equation(ForcePlus(*TOP) / ORDERED, split),
+            equation(ForcePlus(i, j) / ForcePlus(*TOP), carried),
+        ),
+        _put_in,
+        ("Eq. 7", "Eq. 9"),
     )
     yield Step(
-        "The force along n⁻ below the surface bead (i−M+j+2n, M) turns into the contact at "
-        "the bead (i+n, j+n): the mirror image of Eq. 10, with the ordered force as its "
-        "source. n = 1, …, M−j−1 are all such loads.",
-        branched,
+        "To first order the changes in the product of the two add up. The direction of the contact "
+        "below the straight load cancels.",
+        equation(straight, printed[0]),
+        states(equation(straight, straight), region=INTERIOR),
+        ("step 1",),
     )
-    yield Step("Added up, the direction of the contact below the straight load cancels.", PRINTED)
+    yield Step(
+        "A surface load that reaches the contact with one branch turns at the bead (i+n, j+n): "
+        "the mirror image of Eq. 10. It is the load on bead (k, l),",
+        sympy.Tuple(*map(equation, (k, l), branched_load(n))),
+        _load,
+        ("Eq. 10",),
+    )
+    mirrored = mirror(eq10.PRINTED)
+    yield Step(
+        "one for each n = 1, …, M−j−1. It brings, of the force along n⁻ below its bead,",
+        equation(mirrored.lhs, eq10.branched_plus(i, j, n)),
+        states(mirrored, region=Region({j: 0, n: 1})),
+        ("Eq. 10",),
+    )
+    yield Step(
+        "Each enters with the ordered force as its source, since the branch is of first order. "
+        "Added up over n:",
+        equation(branched, printed[1]),
+        states(equation(branched, branched), region=INTERIOR),
+        ("step 4",),
+    )
+    yield Step("Both together:", PRINTED, decide, ("step 2", "step 5"))
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:

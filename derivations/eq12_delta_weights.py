@@ -5,6 +5,7 @@ from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations.framework.follows import linear
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
@@ -177,34 +178,76 @@ def dropped_variance() -> sympy.Expr:
     return variance(exact_fluctuation() - PRINTED.rhs, DEEP).to_sympy()
 
 
+ALL_HEIGHTS = Region({j: 1, M: j + 1})
+
+
+def _sum_of(weight: sympy.Expr) -> sympy.Expr:
+    return sympy.Sum(times(weight, ON_DIAGONAL), (m, 1, M))
+
+
+def _largest_dropped(_: int, candidate: sympy.Eq) -> Ruling:
+    """What the right-hand side leaves of the left has weights of a lower order, at every site."""
+    left = in_exact_force(candidate.lhs)
+    order_left = largest_weight(left, DEEP)
+    order_rest = largest_weight(left - candidate.rhs, DEEP)
+    equal_means = NO_SITE not in Reader(DEEP).scalar(left - candidate.rhs).sites
+    return from_test(
+        equal_means and order_left == 1 and order_rest == 0,
+        "left minus right has mean zero, and weights of order 1 alone",
+        f"left minus right has weights of order M^{order_rest}, the left side of M^{order_left}",
+    )
+
+
 def steps() -> Iterator[Step]:
     """Put in Eqs. 4 and 5, keep the sums, count how often each Δ occurs."""
     yield Step(
         "The second difference of three neighbouring radii of one layer:",
         equation(SecondDifference(i, j), SecondDifference(i, j).doit()),
+        linear(),
     )
     yield Step(
         "Each term of the sum over n in Eq. 11 compares two neighbouring contacts along n⁻. By "
         "Eq. 5 it is a second difference for every layer below the branch, half of one on the "
         "base, and four radii beside the branch.",
         equation(BRANCH_TERM, times(1 / r, BRANCH_IN_RADII)),
+        lambda _, candidate: decide_linear(
+            eq11.in_radii(candidate.lhs), eq11.in_radii(candidate.rhs), Region({j: 0, n: 1})
+        ),
+        ("Eq. 11",),
     )
     yield Step(
         "Keeping the sums of Eq. 5 alone, and one more term n = M − j:",
-        minus(times(PREFACTOR, DOUBLE_SUM)),
+        equation(PRINTED.lhs, minus(times(PREFACTOR, DOUBLE_SUM))),
+        decide,
+        ("Eq. 11", "step 2"),
+        relation="≈",
     )
     yield Step(
         "Exchanging the sums, Δ in layer m occurs for n = max(1, m−j), …, M−j: M − j times "
         "for m ≤ j, and M − m + 1 times for m > j.",
-        minus(times(PREFACTOR, sympy.Sum(times(FULL_COUNT, ON_DIAGONAL), (m, 1, M)))),
+        equation(DOUBLE_SUM, _sum_of(FULL_COUNT)),
+        linear(region=ALL_HEIGHTS),
     )
     yield Step(
-        "Dropping the 1 beside M − m, which is of the order that is dropped anyway:", PRINTED
+        "The printed braces leave out Δ once for every m > j,",
+        equation(
+            _sum_of(FULL_COUNT), terms(_sum_of(BRACES), sympy.Sum(ON_DIAGONAL, (m, j + 1, M)))
+        ),
+        linear(region=ALL_HEIGHTS),
     )
     yield Step(
-        "The largest dropped term stands on the base, with a weight of order M on three "
+        "which is of the order that is dropped anyway.",
+        PRINTED,
+        decide,
+        ("step 3", "step 4", "step 5"),
+    )
+    yield Step(
+        "The largest of what is dropped stands on the base, with a weight of order M on three "
         "radii; all other dropped weights are of order 1.",
-        minus(BASE_TERM),
+        equation(terms(PRINTED.lhs, minus(PRINTED.rhs)), minus(BASE_TERM)),
+        _largest_dropped,
+        ("Eq. 11", "Eq. 12"),
+        relation="≈",
     )
 
 
@@ -237,43 +280,12 @@ def search(candidate: sympy.Eq) -> str | None:
     return varies_too_much(eq11.in_radii(eq11.PRINTED.rhs), sympy.Eq(left, right, evaluate=False))
 
 
-def _count() -> Ruling:
-    full = sympy.Sum(times(FULL_COUNT, ON_DIAGONAL), (m, 1, M))
-    return decide_linear(DOUBLE_SUM, full, Region({j: 1, M: j + 1}))
-
-
-def _braces_are_not_the_count() -> Ruling:
-    """What the printed braces leave out of the count."""
-    braces = sympy.Sum(times(BRACES, ON_DIAGONAL), (m, 1, M))
-    by = sympy.Sum(ON_DIAGONAL, (m, j + 1, M))
-    return decide_linear(DOUBLE_SUM, terms(braces, by), Region({j: 1, M: j + 1}))
-
-
-def _dropped() -> Ruling:
-    dropped = exact_fluctuation() - PRINTED.rhs
-    rest = dropped + BASE_TERM
-    orders = (
-        largest_weight(dropped, DEEP),
-        largest_weight(rest, DEEP),
-    )
+def _end_term() -> Ruling:
     end = minus(times(1 / (1 - phi**2), Dot(n_plus, DeltaNMinus(i + M - j + 1, M - 1))))
-    end_order = largest_weight(eq11.in_radii(end), DEEP)
     return from_test(
-        orders == (1, 0) and end_order == 0,
-        "dropped weights are of order M on the three base radii of ½(M−j−1)Δ and of order 1 "
-        "elsewhere; the end term of Eq. 11 has weights of order 1",
-        f"orders found: {orders}, end term {end_order}",
+        largest_weight(eq11.in_radii(end), DEEP) == 0,
+        "the end term of Eq. 11 has weights of order 1",
     )
-
-
-def _independent() -> Ruling:
-    """Δ in different layers share no radius: the squared weights add up, six for each Δ."""
-    braces = sympy.Sum(6 * (M - j) ** 2, (m, 1, j)) + sympy.Sum(6 * (M - m) ** 2, (m, j + 1, M))
-    form = sympy.Sum(times(BRACES, ON_DIAGONAL), (m, 1, M))
-    total = Reader(DEEP).scalar(braces).constant_part()
-    assert total is not None
-    difference = variance(form, DEEP) - total * FIELD.from_sympy(sigma**2)
-    return from_test(difference.is_zero(), "Var Σ wΔ = 6σ² Σ w², all weights squared site by site")
 
 
 def _one_more_term() -> Ruling:
@@ -282,19 +294,9 @@ def _one_more_term() -> Ruling:
     added = sympy.Sum(ON_DIAGONAL, (m, 1, M))
     weights = largest_weight(added, DEEP)
     return all_of(
-        decide_linear(DOUBLE_SUM, terms(shorter, added), Region({j: 1, M: j + 1})),
+        decide_linear(DOUBLE_SUM, terms(shorter, added), ALL_HEIGHTS),
         from_test(weights == 0, "the term n = M − j has weights of order 1"),
     )
-
-
-def _branch_term() -> Ruling:
-    return decide_linear(
-        eq11.in_radii(BRANCH_TERM), BRANCH_IN_RADII / r, Region({j: 0, n: 1, M: j + n})
-    )
-
-
-def _consistent() -> Ruling:
-    return all_of(_count(), _braces_are_not_the_count())
 
 
 DERIVATION = Derivation(
@@ -314,19 +316,10 @@ DERIVATION = Derivation(
     decide=decide,
     search=search,
     claims=(
-        Claim(
-            "the double sum counts M − j for m ≤ j and M − m + 1 for m > j; the printed braces "
-            "leave out Δ once for every m > j",
-            _consistent,
-        ),
-        Claim(
-            "each term of the sum over n is Δ summed below the branch, and end terms", _branch_term
-        ),
-        Claim("orders of the dropped terms", _dropped),
+        Claim("the end term of Eq. 11, which is dropped, has no weight that grows", _end_term),
         Claim(
             "the term n = M − j, which Eq. 11 does not have, is of dropped order", _one_more_term
         ),
-        Claim("Δ of different layers share no radius", _independent),
     ),
     witnesses=(
         Witness(

@@ -6,25 +6,34 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
-from force_diffusion.derivations.framework.exact_cases import exact_cases, exact_steps
+from force_diffusion.derivations.framework.exact_cases import exact_cases, variance_steps
+from force_diffusion.derivations.framework.follows import (
+    by_certificate,
+    certificate,
+    differentiated,
+    identity,
+    summed,
+    up_to,
+)
 from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step, Witness
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
-from force_diffusion.symbolic.as_printed import equation, power, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_identity, undecided
+from force_diffusion.symbolic.algebra.exact import FIELD
+from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
+from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test, undecided
 from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import M, j, m, phi, r, sigma, z
-from force_diffusion.symbolic.variances.certified_sums import certified_sum
+from force_diffusion.symbolic.symbols import M, j, m, n, phi, r, sigma, z
 from force_diffusion.symbolic.variances.orders import (
     compare_leading_order,
     edges_follow,
     next_order_is,
     no_radius_dominates,
-    weights_follow,
 )
 from force_diffusion.symbolic.variances.variance import (
     ClosedForm,
     exact_variances,
+    order,
+    variance,
 )
 
 RELATIVE_VARIANCE = Symbol(
@@ -53,26 +62,92 @@ def at_finite_size() -> dict[str, ExactCase]:
     return exact_cases(RELATIVE_VARIANCE, exact_forms())
 
 
-def sum_of_weights() -> sympy.Expr:
-    """6 Σ w² over the second differences of Eq. 12, by SymPy, each sum with its certificate."""
-    below = certified_sum((M - j) ** 2, m, sympy.Integer(1), j)
-    above = certified_sum((M - m) ** 2, m, j + 1, M)
-    return 6 * (below + above)
+UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
+
+SQUARES = Symbol("squares", r"\sum w^2", "Σw²")
+"""Sum of the squared weights of all radii in Eq. 12, its prefactor left out."""
+
+WEIGHTS = times(
+    6,
+    terms(sympy.Sum((M - j) ** 2, (m, 1, j)), sympy.Sum((M - m) ** 2, (m, j + 1, M))),
+)
+TOTAL = terms(times(2, (M - j) ** 2, terms(M, 2 * j)), minus(times(3, (M - j) ** 2)), M - j)
+"""The same in closed form."""
+
+
+def squared_weights(candidate: sympy.Eq) -> Ruling:
+    """Six times a sum over layers against the weights of Eq. 12, squared radius by radius."""
+    form = sympy.Sum(times(eq12.BRACES, eq12.ON_DIAGONAL), (m, 1, M))
+    known = (variance(form, eq12.DEEP) / FIELD.from_sympy(sigma**2)).to_sympy()
+    return summed({SQUARES: known})(0, candidate)
+
+
+def _highest_term(_: int, candidate: sympy.Eq) -> Ruling:
+    """The first term of ``TOTAL`` at z = j/M; the others are of lower order."""
+    rest = order(FIELD.from_sympy(sympy.Add(*TOTAL.args[1:])))
+    return all_of(
+        identity({z: j / M})(0, candidate),
+        from_test(rest < order(FIELD.from_sympy(TOTAL)), f"the rest is of order M^{rest}"),
+    )
 
 
 def steps() -> Iterator[Step]:
     """Six radii's worth for each Δ, the squared weights summed."""
     yield Step(
-        "Each Δ holds one radius with the weight 2 and two with the weight −1: its variance "
-        "is 6σ². Those of Eq. 12 lie in different layers and are independent.",
-        6 * (sympy.Sum((M - j) ** 2, (m, 1, j)) + sympy.Sum((M - m) ** 2, (m, j + 1, M))),
+        "Each Δ holds one radius with the weight 2 and two with the weight −1: its square sum is "
+        "6. Those of Eq. 12 lie in different layers and share no radius.",
+        equation(SQUARES, WEIGHTS),
+        lambda _, candidate: squared_weights(candidate),
+        ("Eq. 12",),
     )
-    yield Step("The sums, in closed form:", times(M - j, sympy.cancel(sum_of_weights() / (M - j))))
+    below, above = (
+        sympy.Sum(f, (m, low, n)) for f, low in (((M - j) ** 2, 1), ((M - m) ** 2, j + 1))
+    )
     yield Step(
-        "Leading order in M at fixed z = j/M, with the prefactor of Eq. 12 squared:", PRINTED
+        "Each of the two sums has a certificate: what it is up to n gains the term at n, and is "
+        "zero before the first term, at n = 0 (first) and at n = j (second).",
+        sympy.Tuple(
+            *certificate(below, n * (M - j) ** 2),
+            *certificate(above, up_to(above)),
+        ),
+        by_certificate,
     )
-    yield from exact_steps(RELATIVE_VARIANCE, exact_forms())
-    yield Step("The next order in M at fixed z, relative to (σ/r)²/(1−φ²)²:", next_order())
+    yield Step(
+        "Added up:",
+        equation(WEIGHTS, TOTAL),
+        summed(),
+        ("step 2",),
+    )
+    yield Step(
+        "The first term has the highest order. With the prefactor of Eq. 12 squared, the factor "
+        "(M − j)²(M + 2j) is the printed form at z = j/M.",
+        equation(times(eq12.PREFACTOR**2, sigma**2, TOTAL.args[0]), PRINTED.rhs),
+        _highest_term,
+        ("step 1", "step 3"),
+    )
+    yield Step(
+        "What Eq. 12 drops does not change it: the printed form is the leading order of the exact "
+        "variance, which follows.",
+        PRINTED,
+        decide,
+        ("Eq. 11", "step 4"),
+    )
+    force = eq11.in_radii(eq11.PRINTED.rhs)
+    yield from variance_steps(RELATIVE_VARIANCE, eq11.PRINTED.lhs, force, exact_forms(), 5)
+    yield Step(
+        "The next order in M at fixed z:",
+        equation(terms(RELATIVE_VARIANCE, minus(PRINTED.rhs)), times(UNIT, next_order())),
+        lambda _, candidate: next_order_is(RELATIVE_VARIANCE, exact_forms(), candidate),
+        ("Eq. 13", "step 8"),
+        relation="∼",
+    )
+    profile = times(terms(1, -z) ** 2, terms(times(2, z), 1))
+    yield Step(
+        "The profile ceases to broaden at the base, where its slope vanishes.",
+        equation(sympy.Derivative(profile, z), -6 * z * (1 - z)),
+        differentiated(),
+        ("Eq. 13",),
+    )
 
 
 def next_order() -> sympy.Expr:
@@ -92,25 +167,8 @@ def search(candidate: sympy.Eq) -> str | None:
     return parts_in_the_limit(exact_forms()["interior"].expression, candidate.rhs, LAYERS)
 
 
-def _weights() -> Ruling:
-    return weights_follow(
-        sum_of_weights() * eq12.PREFACTOR**2 * sigma**2,
-        PRINTED.rhs,
-        "6σ² Σ w² of Eq. 12 has the printed leading order",
-    )
-
-
 def _no_radius_dominates() -> Ruling:
     return no_radius_dominates(eq11.in_radii(eq11.PRINTED.rhs), exact_forms())
-
-
-def _corollaries() -> Ruling:
-    profile = (1 - z) ** 2 * (2 * z + 1)
-    slope = sympy.diff(profile, z)
-    return all_of(
-        decide_identity(slope, -6 * z * (1 - z)),
-        decide_identity(slope.xreplace({z: sympy.Integer(0)}), sympy.Integer(0)),
-    )
 
 
 DERIVATION = Derivation(
@@ -137,19 +195,11 @@ DERIVATION = Derivation(
     decide=decide,
     search=search,
     claims=(
-        Claim("the squared weights of Eq. 12 sum to the printed form", _weights),
-        Claim(
-            "the next order in M", lambda: next_order_is(exact_forms(), PRINTED.rhs, next_order())
-        ),
         Claim(
             "exact forms at the base and below the surface",
             lambda: edges_follow(exact_forms(), PRINTED.rhs),
         ),
         Claim("no radius has more than O(1/M) of the variance, in any layer", _no_radius_dominates),
-        Claim(
-            "broadening stops at the base: the slope in z is −6z(1 − z), zero at z = 0",
-            _corollaries,
-        ),
     ),
     witnesses=(
         Witness(

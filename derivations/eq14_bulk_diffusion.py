@@ -10,18 +10,26 @@ from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
-from force_diffusion.derivations.framework.exact_cases import exact_cases, exact_steps
+from force_diffusion.derivations.framework.exact_cases import exact_cases, variance_steps
+from force_diffusion.derivations.framework.follows import (
+    by_certificate,
+    certificate,
+    differentiated,
+    identity,
+    states,
+    summed,
+)
 from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step, Witness
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.algebra.reading import Reader
-from force_diffusion.symbolic.as_printed import equation, power, terms, times
+from force_diffusion.symbolic.algebra.signs import sign
+from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     all_of,
-    decide_identity,
     decide_vector_identity,
     from_test,
     proved,
@@ -29,6 +37,7 @@ from force_diffusion.symbolic.kernel.decisions import (
 )
 from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import (
     ForceMinus,
     ForcePlus,
@@ -40,26 +49,32 @@ from force_diffusion.symbolic.symbols import (
     l,
     m,
     m_g,
+    n,
     n_y,
     phi,
     r,
     sigma,
     z,
 )
-from force_diffusion.symbolic.variances.certified_sums import certified_sum
+from force_diffusion.symbolic.variances.certified_sums import carried_out
 from force_diffusion.symbolic.variances.orders import (
     compare_leading_order,
     edges_follow,
     next_order_is,
     no_radius_dominates,
-    weights_follow,
 )
-from force_diffusion.symbolic.variances.variance import ClosedForm, exact_variances, order
+from force_diffusion.symbolic.variances.variance import (
+    ClosedForm,
+    exact_variances,
+    leading,
+    order,
+)
 from force_diffusion.symbolic.variances.weights import take_apart
 
 RELATIVE_VARIANCE = Symbol(
     "relative_variance", r"\frac{\sigma_f^2(z)}{\langle f\rangle_z^2}", "σ_f²(z)/⟨f⟩_z²"
 )
+UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
 MEAN_FORCE = Symbol("mean_force", r"\langle f\rangle_z", "⟨f⟩_z")
 
 PRINTED = equation(
@@ -93,24 +108,41 @@ def at_finite_size() -> dict[str, ExactCase]:
     return exact_cases(RELATIVE_VARIANCE, exact_forms())
 
 
-def bulk_weights() -> tuple[sympy.Expr, sympy.Expr]:
-    """Weights of Δ for m ≤ j and for m > j: those of Eq. 12 summed over l, over M − j."""
-    below = certified_sum(l - j, l, j + 1, M) / (M - j)
-    above = certified_sum(l - m, l, m, M) / (M - j)
-    return below, above
+AVERAGED = (
+    times(sympy.Rational(1, 2), terms(M, -j, 1)),
+    times(1 / (2 * (M - j)), terms(M, -m), terms(M, -m, 1)),
+)
+"""The weights of Δ for m ≤ j and for m > j: those of Eq. 12 averaged over the heights l."""
+
+OVER_HEIGHTS = (
+    times(1 / (M - j), sympy.Sum(l - j, (l, j + 1, M))),
+    times(1 / (M - j), sympy.Sum(l - m, (l, m, M))),
+)
+
+WEIGHTS = times(
+    6,
+    terms(
+        sympy.Sum(power(AVERAGED[0], 2), (m, 1, j)),
+        sympy.Sum(power(AVERAGED[1], 2), (m, j + 1, M)),
+    ),
+)
+HIGHEST = times(sympy.Rational(3, 10), (M - j) ** 2, terms(M, 4 * j))
 
 
-AVERAGED = times(M - m, M - m + 1) / (2 * (M - j))
-"""The weight of Δ for m > j, as a person would write it."""
+@cache
+def total() -> sympy.Expr:
+    """The same in closed form, the highest order in front."""
+    rest = FIELD.from_sympy(carried_out(WEIGHTS) - HIGHEST)
+    return terms(HIGHEST, rest.to_sympy())
 
 
-def sum_of_weights() -> sympy.Expr:
-    """6 Σ w² over the second differences, by SymPy, each sum with its certificate."""
-    below, above = bulk_weights()
-    scale = (M - j) ** 2
-    lower = certified_sum(sympy.expand(below**2 * scale), m, sympy.Integer(1), j)
-    upper = certified_sum(sympy.expand(above**2 * scale), m, j + 1, M)
-    return 6 * (lower + upper) / scale
+def _highest_term(_: int, candidate: sympy.Eq) -> Ruling:
+    """The first term of ``total`` at z = j/M; the rest is of lower order."""
+    rest = order(FIELD.from_sympy(total().args[1]))
+    return all_of(
+        identity({z: j / M})(0, candidate),
+        from_test(rest < order(FIELD.from_sympy(HIGHEST)), f"the rest is of order M^{rest}"),
+    )
 
 
 def steps() -> Iterator[Step]:
@@ -118,27 +150,73 @@ def steps() -> Iterator[Step]:
     yield Step(
         "The weight of the beads in layer l acts as the surface load of a packing of "
         "height l. The ordered forces of the layers above j add up to",
-        equation(MEAN_FORCE, (M - j) * m_g / (2 * n_y)),
+        sympy.Tuple(
+            equation(MEAN_FORCE, (M - j) * m_g / (2 * n_y)),
+            equation(MEAN_FORCE, M * m_g * (1 - z) / (2 * n_y)),
+        ),
+        summed({MEAN_FORCE: sympy.Sum(m_g / (2 * n_y), (l, j + 1, M)), z: j / M}),
+        ("Eq. 11",),
     )
+    ratio = ForcePlus(i, j) / MEAN_FORCE
     yield Step(
         "In units of this mean, f⁺_ij is the average of Eq. 11 over the heights l = j+1, …, M.",
         equation(
-            ForcePlus(i, j) / MEAN_FORCE,
+            ratio,
             times(1 / (M - j), sympy.Sum(eq11.PRINTED.rhs.xreplace({M: l}), (l, j + 1, M))),
         ),
+        states(equation(ratio, bulk_force()), region=eq11.INTERIOR),
+        ("Eq. 11", "step 1"),
     )
-    below, _ = bulk_weights()
     yield Step(
-        "The weights of Δ in Eq. 12, averaged: for m ≤ j and for m > j",
-        sympy.Tuple(sympy.cancel(below), AVERAGED),
+        "So the weights of Δ in Eq. 12 are averaged, for m ≤ j and for m > j:",
+        sympy.Tuple(*map(equation, OVER_HEIGHTS, AVERAGED)),
+        summed(),
+        ("Eq. 12", "step 2"),
     )
-    yield Step("Six times the sum of their squares has the leading order printed.", PRINTED)
-    yield from exact_steps(RELATIVE_VARIANCE, exact_forms())
-    yield Step("The next order in M at fixed z, relative to (σ/r)²/(1−φ²)²:", next_order())
+    up_to_n = n * (n + 1) * (n + 2) * (3 * n**2 + 6 * n + 1) / 15
+    yield Step(
+        "Their squares are summed with a certificate: with M − m for m the second sum is, but for "
+        "its factor, this one up to n = M − j − 1. It is zero at n = 0.",
+        sympy.Tuple(*certificate(sympy.Sum(m**2 * (m + 1) ** 2, (m, 1, n)), up_to_n)),
+        by_certificate,
+    )
+    yield Step("Six times the sum of their squares:", equation(WEIGHTS, total()), summed())
+    yield Step(
+        "The first term has the highest order. With the prefactor of Eq. 12 squared it is the "
+        "printed form at z = j/M.",
+        equation(times(eq12.PREFACTOR**2, sigma**2, HIGHEST), PRINTED.rhs),
+        _highest_term,
+        ("step 3", "step 5"),
+    )
+    yield Step(
+        "What Eq. 12 drops does not change it: the printed form is the leading order of the exact "
+        "variance, which follows.",
+        PRINTED,
+        decide,
+        ("step 2", "step 6"),
+    )
+    yield from variance_steps(
+        RELATIVE_VARIANCE, ratio, eq11.in_radii(bulk_force()), exact_forms(), 7
+    )
+    yield Step(
+        "The next order in M at fixed z:",
+        equation(terms(RELATIVE_VARIANCE, minus(PRINTED.rhs)), times(UNIT, next_order())),
+        lambda _, candidate: next_order_is(RELATIVE_VARIANCE, exact_forms(), candidate),
+        ("Eq. 14", "step 10"),
+        relation="∼",
+    )
     profile = times(terms(1, -z) ** 2, terms(times(4, z), 1))
     yield Step(
-        "The profile is largest at z = 1/6.",
-        equation(sympy.Derivative(profile, z), sympy.factor(sympy.diff(profile.doit(), z))),
+        "The profile rises up to z = 1/6 and falls from there on. Without the normalisation it "
+        "would be stationary at the base.",
+        sympy.Tuple(
+            equation(sympy.Derivative(profile, z), 2 * (1 - z) * (1 - 6 * z)),
+            equation(
+                sympy.Derivative(times(terms(1, -z) ** 2, profile), z), -20 * z * (1 - z) ** 3
+            ),
+        ),
+        differentiated(),
+        ("Eq. 14",),
     )
 
 
@@ -157,24 +235,6 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
 def search(candidate: sympy.Eq) -> str | None:
     """Values at growing M where the candidate and the exact variance part."""
     return parts_in_the_limit(exact_forms()["interior"].expression, candidate.rhs, LAYERS)
-
-
-def _weights() -> Ruling:
-    ordered = weights_follow(
-        sum_of_weights() * eq12.PREFACTOR**2 * sigma**2,
-        PRINTED.rhs,
-        "6σ² Σ w² of the averaged weights has the printed leading order",
-    )
-    return all_of(ordered, decide_identity(bulk_weights()[1], AVERAGED))
-
-
-def _mean() -> Ruling:
-    ordered = certified_sum(m_g / (2 * n_y), l, j + 1, M)
-    in_z = ordered.xreplace({j: z * M})
-    return all_of(
-        decide_identity(ordered, (M - j) * m_g / (2 * n_y)),
-        decide_identity(in_z, M * m_g * (1 - z) / (2 * n_y)),
-    )
 
 
 def _superposition() -> Ruling:
@@ -209,36 +269,29 @@ def _one_layer_below_the_surface() -> Ruling:
     )
 
 
-def _corollaries() -> Ruling:
-    profile = (1 - z) ** 2 * (4 * z + 1)
-    slope = sympy.diff(profile, z)
-    maximum = sympy.Rational(1, 6)
-    unnormalised = sympy.diff((1 - z) ** 2 * profile, z)
-    curvature = sympy.diff(profile, z, 2).xreplace({z: maximum})
-    negative = curvature.is_Rational and curvature < 0
-    return all_of(
-        decide_identity(slope, 2 * (1 - z) * (1 - 6 * z)),
-        decide_identity(slope.xreplace({z: maximum}), sympy.Integer(0)),
-        from_test(
-            bool(negative),
-            "the slope is 2(1−z)(1−6z): one maximum, at z = 1/6; without "
-            "the normalisation it is −20z(1−z)³, zero at the base",
-        ),
-        decide_identity(unnormalised, -20 * z * (1 - z) ** 3),
+def _one_maximum() -> Ruling:
+    """The sign of the slope on both sides of z = 1/6; z runs from 0 to 1 in either case."""
+    slope = sympy.diff((1 - z) ** 2 * (4 * z + 1), z)
+    before, after = (slope.xreplace({z: part}) for part in (z / 6, (1 + 5 * z) / 6))
+    return from_test(
+        sign(before) == 1 and sign(after) == -1,
+        "the slope is positive for 0 < z < 1/6 and negative for 1/6 < z < 1",
     )
 
 
 def _maximum_at_finite_height() -> Ruling:
-    """The slope in j of the two leading orders at j = M/6 − 5/24; lower ones change it by M⁰."""
-    unit = (sigma / r) ** 2 / (1 - phi**2) ** 2
-    slope = sympy.diff(PRINTED.rhs.doit() / unit + next_order(), z) / M
-    at_maximum = sympy.Rational(1, 6) - sympy.Rational(5, 24) / M
-    left = order(FIELD.from_sympy(slope.xreplace({z: at_maximum})))
+    """The slope of the exact form in j, at a fixed number of layers from j = M/6 − 5/24."""
+    slope = exact_forms()["interior"].value.derivative(j) / FIELD.from_sympy(UNIT)
+    place = FIELD.from_sympy(M / 6 - sympy.Rational(5, 24) + n)  # n stands for any number here
+    at_place = slope.substitute({j: place}).reduced()
+    found = leading(at_place, M)
+    factor = found / (FIELD.generator(n) * FIELD.generator(M))
+    steep = factor.to_sympy()
     return from_test(
-        left <= 0,
-        "the slope there is of order M⁰, its derivative in j of order M¹: the maximum is at "
-        "M/6 − 5/24 up to a shift that vanishes as M → ∞",
-        f"the slope there is of order M^{left}",
+        order(at_place, M) == 1 and bool(steep.is_Rational and steep < 0),
+        f"c layers above it the slope of the exact form is {text(steep)} c M in units of "
+        "(σ/r)²/(1−φ²)², to leading order: positive below, negative above, for every c",
+        f"the slope there is {text(found.to_sympy())}",
     )
 
 
@@ -278,11 +331,6 @@ DERIVATION = Derivation(
         Claim(
             "loads superpose, and one on layer l feels radii of layers ≤ l alone", _superposition
         ),
-        Claim("the mean force is M m g (1 − z)/2n_y", _mean),
-        Claim("the squared weights of Eq. 12, averaged over l, sum to the printed form", _weights),
-        Claim(
-            "the next order in M", lambda: next_order_is(exact_forms(), PRINTED.rhs, next_order())
-        ),
         Claim(
             "exact forms at the base and below the surface",
             lambda: edges_follow(exact_forms(), PRINTED.rhs),
@@ -292,11 +340,12 @@ DERIVATION = Derivation(
             lambda: no_radius_dominates(eq11.in_radii(bulk_force()), exact_forms()),
         ),
         Claim("one layer below the surface both loads agree", _one_layer_below_the_surface),
+        Claim("at fixed z the printed form has one maximum, at z = 1/6", _one_maximum),
         Claim(
-            "the maximum is at z = 1/6; the unnormalised variance is stationary at the base",
-            _corollaries,
+            "there the exact form has a maximum at j = M/6 − 5/24, up to a shift that vanishes as "
+            "M → ∞",
+            _maximum_at_finite_height,
         ),
-        Claim("at finite M the maximum is at j = M/6 − 5/24 + …", _maximum_at_finite_height),
     ),
     witnesses=(
         Witness(

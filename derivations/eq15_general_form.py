@@ -7,6 +7,7 @@ import sympy
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
+from force_diffusion.derivations.framework.follows import Decide, identity
 from force_diffusion.derivations.framework.record import (
     Claim,
     Derivation,
@@ -32,7 +33,20 @@ from force_diffusion.symbolic.kernel.decisions import (
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.structure import rebuilt
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.symbols import Dot, M, j, n_minus, n_plus, n_x, n_y, phi, r, sigma, z
+from force_diffusion.symbolic.symbols import (
+    Dot,
+    M,
+    j,
+    k,
+    n_minus,
+    n_plus,
+    n_x,
+    n_y,
+    phi,
+    r,
+    sigma,
+    z,
+)
 from force_diffusion.symbolic.variances.averages import LayerAverage, layer_average, uniform_order
 from force_diffusion.symbolic.variances.variance import grows_evenly, leading, order, variance
 
@@ -122,47 +136,238 @@ def tensile_fraction(load: str) -> sympy.Expr:
     return sympy.Integral(half, (z, 0, 1))
 
 
+FORCE = Symbol("f_rel", "f", "f", real=True)
+"""A force over its mean."""
+SQUARE = Symbol("v", positive=True)
+"""Its variance."""
+
+
+def _average(load: str) -> Decide:
+    """The exact mean over the layers: its rational part, and the harmonic sum where it has one."""
+    average, sum_of_inverses = averages()[load], sympy.Symbol("H")
+    known = average.rational.to_sympy() + average.harmonic.to_sympy() * sum_of_inverses
+
+    def decide(_: int, candidate: sympy.Eq) -> Ruling:
+        if candidate.lhs != MEAN_SQUARE:
+            return undecided(f"the left-hand side is not {text(MEAN_SQUARE)}")
+        sums = candidate.rhs.atoms(sympy.Sum)
+        if any(one.limits != (sympy.Tuple(k, 2, M - 2),) for one in sums):
+            return undecided("only a sum over 2 ≤ k ≤ M − 2 is known")
+        named = {one: one.function * k * sum_of_inverses for one in sums}
+        return decide_identity(candidate.rhs.xreplace(named), known)
+
+    return decide
+
+
+def _two_orders(load: str) -> Decide:
+    """The exact mean less the right-hand side is of an order below the second highest."""
+    average = averages()[load]
+
+    def decide(_: int, candidate: sympy.Eq) -> Ruling:
+        _, second = average.leading_orders()  # refuses a harmonic part that counts
+        if candidate.lhs != MEAN_SQUARE:
+            return undecided(f"the left-hand side is not {text(MEAN_SQUARE)}")
+        rest = order(average.rational - FIELD.from_sympy(candidate.rhs))
+        return from_test(rest < order(second), f"what is left is of order M^{rest}")
+
+    return decide
+
+
+def _root_of_sums(load: str) -> Decide:
+    """Both sides, SymPy differentiating, as functions of the root W of 1 + cz, W² = 1 + cz."""
+    c = ROOTS[load][1]
+    root = sympy.Symbol("W", positive=True)
+
+    def rational(side: sympy.Expr) -> sympy.Expr:
+        whole = {1 + c * z: root**2, z: (root**2 - 1) / c}
+        return rebuilt(side.doit()).xreplace({1 + c * z: root**2}).xreplace(whole)
+
+    return lambda _, candidate: decide_identity(*map(rational, candidate.args))
+
+
+def _mean_root(load: str) -> Decide:
+    """The integral from the antiderivative of the step before, at both ends; surds are exact."""
+    a, c, q = ROOTS[load]
+    ends = [q.subs(z, at) * sympy.sqrt(1 + c * at) ** 3 for at in (1, 0)]
+    value = sympy.sqrt(a) * (ends[0] - ends[1])
+
+    def decide(_: int, candidate: sympy.Eq) -> Ruling:
+        if candidate.lhs != _integral(load):
+            return undecided("the left-hand side is not the integral")
+        rest = sympy.expand(candidate.rhs - value)
+        return from_test(rest == 0, "the surds are equal", f"left minus right is {text(-rest)}")
+
+    return decide
+
+
+def _integral(load: str) -> sympy.Expr:
+    a, c, _ = ROOTS[load]
+    root = power(times(a, terms(1, times(c, z))), sympy.S.Half)
+    return sympy.Integral(times(terms(1, -z), root), (z, 0, 1))
+
+
+def _height(load: str) -> Decide:
+    """At this height the leading order of the mean is one, and it is positive."""
+
+    def decide(_: int, candidate: sympy.Eq) -> Ruling:
+        if candidate.lhs != HEIGHT:
+            return undecided(f"the left-hand side is not {text(HEIGHT)}")
+        height = rebuilt(candidate.rhs)
+        return all_of(
+            decide_identity(sympy.expand(height**3) * LEADING[load] * UNIT, _ONE),
+            from_test(sign(height) == 1, "it is positive"),
+        )
+
+    return decide
+
+
+def _gaussian(_: int, candidate: sympy.Eq) -> Ruling:
+    """SymPy differentiates; exponents and factors are compared apart."""
+    parts = []
+    for side in candidate.args:
+        factors = sympy.Mul.make_args(sympy.powsimp(side.doit()))
+        exponents = [one.exp for one in factors if isinstance(one, sympy.exp)]
+        if not exponents:
+            return refuted("one side has no exponential")
+        parts.append(
+            (sympy.Mul(*(f for f in factors if not isinstance(f, sympy.exp))), sum(exponents))
+        )
+    (left, one), (right, other) = parts
+    ratio = left / right
+    pi = sympy.Symbol("pi", positive=True)
+    return all_of(
+        decide_identity(one, other),
+        decide_identity((ratio**2).xreplace({sympy.pi: pi}), _ONE),
+        from_test(bool(ratio.subs({SQUARE: 1, FORCE: 0}) > 0), "the factors have one sign"),
+    )
+
+
+def _tensile(load: str) -> Decide:
+    """½ erfc(1/√2v) averaged over 0 < z < 1, v being the printed variance, M* put in."""
+    variance_of_load = LOADS[load].PRINTED.rhs
+    height = {HEIGHT: rebuilt(critical_height(load))}
+
+    def decide(_: int, candidate: sympy.Eq) -> Ruling:
+        average = candidate.rhs
+        whole = isinstance(average, sympy.Integral) and average.limits == (sympy.Tuple(z, 0, 1),)
+        if candidate.lhs != TENSILE or not whole:
+            return undecided("it is not a fraction, averaged over 0 < z < 1")
+        factor, functions = average.function.as_independent(sympy.erfc, as_Add=False)
+        if not isinstance(functions, sympy.erfc):
+            return undecided("it is not a number times erfc")
+        inner = rebuilt(functions.args[0])
+        squared = sympy.expand_power_base(inner.xreplace(height) ** 2, force=True)
+        return all_of(
+            decide_identity(rebuilt(factor), sympy.S.Half),
+            decide_identity(2 * squared * variance_of_load, _ONE),
+            from_test(sign(inner) == 1, "the argument is positive"),
+        )
+
+    return decide
+
+
 def steps() -> Iterator[Step]:
     """Average the exact variances; set the average to one; count negative Gaussian forces."""
-    yield Step(
-        "The same number of contacts starts in every layer 0 ≤ j < M: the mean over all contacts "
-        "is the mean over the layers. The exact variances of Eqs. 13 and 14 are summed layer by "
-        "layer, with those of the edges, each sum of powers by a telescoping certificate."
-    )
     for load, average in averages().items():
-        yield Step(f"Exact under a {load} load, M ≥ 3:", equation(MEAN_SQUARE, average.expression))
-        for height, value in average.exceptions:
-            yield Step(f"… and at M = {height}:", equation(MEAN_SQUARE, value))
-    for load, average in averages().items():
-        first, second = (part.to_sympy() for part in average.leading_orders())
-        yield Step(f"Its two leading orders, {load} load:", equation(MEAN_SQUARE, first + second))
-    yield Step("So its root goes as printed, for both loads alike.", PRINTED)
-    yield Step(
-        "The mean of σ_f/⟨f⟩ itself goes the same way with another prefactor, in units of "
-        "M^(3/2) (σ/r)/(1−φ²):"
-    )
-    for load in LOADS:
-        a, c, _ = ROOTS[load]
-        root = power(times(a, terms(1, times(c, z))), sympy.S.Half)
-        whole = sympy.Integral(times(terms(1, -z), root), (z, 0, 1))
         yield Step(
-            f"… under a {load} load:",
-            equation(whole, MEAN_DEVIATION[load]),
+            "The same number of contacts starts in every layer 0 ≤ j < M: the mean over all "
+            f"contacts is the mean over the layers. Exact under a {load} load, M ≥ 3, those at the "
+            "edges included, each sum of powers by a telescoping certificate:",
+            equation(MEAN_SQUARE, average.expression),
+            _average(load),
+            (f"Eq. {LOADS[load].DERIVATION.number}",),
+        )
+        for height, value in average.exceptions:
+            yield Step(
+                f"… and at M = {height}:",
+                equation(MEAN_SQUARE, value),
+                identity({MEAN_SQUARE: value}),
+                (f"Eq. {LOADS[load].DERIVATION.number}",),
+            )
+    for place, (load, module) in enumerate(LOADS.items()):
+        yield Step(
+            f"Its two leading orders, {load} load:",
+            equation(MEAN_SQUARE, times(terms(LEADING[load] * M**3, NEXT[load] * M**2), UNIT)),
+            _two_orders(load),
+            (f"step {1 + 3 * place}",),
+            relation="∼",
+        )
+        yield Step(
+            "The first of them is the mean of the printed variance:",
+            equation(sympy.Integral(module.PRINTED.rhs, (z, 0, 1)), LEADING[load] * M**3 * UNIT),
+            _mean_of_printed,
+            (f"Eq. {module.DERIVATION.number}",),
+        )
+    yield Step("So its root goes as printed, for both loads alike.", PRINTED, decide, FROM_ORDERS)
+    for place, load in enumerate(LOADS):
+        a, c, q = ROOTS[load]
+        root = terms(1, times(c, z))
+        yield Step(
+            "The mean of σ_f/⟨f⟩ itself goes the same way with another prefactor, in units of "
+            f"M^(3/2) (σ/r)/(1−φ²). Under a {load} load, for an antiderivative,",
+            equation(
+                sympy.Derivative(times(q, power(root, sympy.Rational(3, 2))), z),
+                times(terms(1, -z), power(root, sympy.S.Half)),
+            ),
+            _root_of_sums(load),
+        )
+        yield Step(
+            "so that the mean is",
+            equation(_integral(load), MEAN_DEVIATION[load]),
+            _mean_root(load),
+            (f"Eq. {LOADS[load].DERIVATION.number}", f"step {12 + 2 * place}"),
         )
     yield Step(
         "M* is defined here as the height at which the leading order of the mean of σ_f²/⟨f⟩² is "
         "one. It goes as the paper says.",
         PRINTED_HEIGHT,
+        _decide_height,
+        FROM_ORDERS,
     )
     for load in LOADS:
-        yield Step(f"With its prefactor, {load} load:", equation(HEIGHT, critical_height(load)))
+        yield Step(
+            f"With its prefactor, {load} load:",
+            equation(HEIGHT, critical_height(load)),
+            _height(load),
+            FROM_ORDERS,
+        )
     yield Step(
-        "A contact force is Gaussian, exactly so to first order for normal radii, and as M → ∞ for "
-        "all radii of finite variance: it is negative with the probability ½ erfc(⟨f⟩/√2 σ_f). "
-        "Averaged over the layers as M → ∞ at fixed M/M*, the fraction of tensile contacts is"
+        "The probability of a Gaussian force below a given one, with mean 1 and variance v: its "
+        "derivative is the density, and far below it vanishes.",
+        equation(
+            sympy.Derivative(
+                sympy.erfc(terms(1, -FORCE) / sympy.sqrt(2 * SQUARE), evaluate=False) / 2, FORCE
+            ),
+            sympy.exp(-(terms(1, -FORCE) ** 2) / (2 * SQUARE)) / sympy.sqrt(2 * sympy.pi * SQUARE),
+        ),
+        _gaussian,
     )
-    for load in LOADS:
-        yield Step(f"… under a {load} load:", equation(TENSILE, tensile_fraction(load)))
+    for place, load in enumerate(LOADS):
+        yield Step(
+            "At f = 0 it is ½ erfc(1/√(2v)), the probability of a tensile contact. The forces are "
+            "Gaussian, to first order, for normal radii, and in the limit for all radii of finite "
+            "variance: no radius dominates, by Eqs. 13 and 14, which is what Lindeberg's theorem "
+            "needs. Averaged over the layers as M → ∞ at fixed M/M*, the expected fraction under a "
+            f"{load} load is",
+            equation(TENSILE, tensile_fraction(load)),
+            _tensile(load),
+            (f"Eq. {LOADS[load].DERIVATION.number}", f"step {17 + place}", "step 19"),
+        )
+
+
+FROM_ORDERS = ("step 7", "step 9")
+
+
+def _mean_of_printed(_: int, candidate: sympy.Eq) -> Ruling:
+    """The integral of a polynomial, power by power."""
+    average = candidate.lhs
+    if not isinstance(average, sympy.Integral) or average.limits != (sympy.Tuple(z, 0, 1),):
+        return undecided("the left-hand side is no mean over 0 < z < 1")
+    return decide_identity(_mean_over_z(average.function), candidate.rhs)
+
+
+def _decide_height(_: int, candidate: sympy.Eq) -> Ruling:
+    return decide(1, candidate)
 
 
 def decide(part: int, candidate: sympy.Eq) -> Ruling:
@@ -220,18 +425,6 @@ def _mean_over_z(profile: sympy.Expr) -> sympy.Expr:
     return total.to_sympy()
 
 
-def _leading_is_the_integral() -> Ruling:
-    rulings = []
-    for load, module in LOADS.items():
-        first, second = (part.to_sympy() for part in averages()[load].leading_orders())
-        rulings += [
-            decide_identity(_mean_over_z(module.PRINTED.rhs), first),
-            decide_identity(first, LEADING[load] * M**3 * UNIT),
-            decide_identity(second, NEXT[load] * M**2 * UNIT),
-        ]
-    return all_of(*rulings)
-
-
 def _height_next_order() -> Ruling:
     """At M = M* + shift the exact mean is M*³ · unit up to a rest below order M*²."""
     rests = []
@@ -249,13 +442,11 @@ def _height_next_order() -> Ruling:
 
 
 def _mean_of_deviation() -> Ruling:
-    """Mean of √σ_f²: a uniform bound on the variances, and a certified antiderivative."""
+    """A uniform bound on the variances lets their roots be averaged at leading order."""
     rulings = []
     for load, module in LOADS.items():
-        a, c, q = ROOTS[load]
+        a, c, _ = ROOTS[load]
         in_units = times(a, terms(1, -z) ** 2, terms(1, times(c, z)))
-        ends = [q.subs(z, at) * sympy.sqrt(1 + c * at) ** 3 for at in (1, 0)]
-        value = sympy.expand(sympy.sqrt(a) * (ends[0] - ends[1]) - MEAN_DEVIATION[load])
         rulings += [
             from_test(
                 uniform_order(module.exact_forms(), module.PRINTED.rhs) <= 2,
@@ -263,8 +454,6 @@ def _mean_of_deviation() -> Ruling:
                 "roots differ by at most √C M, which is below M^(3/2)",
             ),
             decide_identity(module.PRINTED.rhs, in_units * M**3 * UNIT),
-            decide_identity(sympy.diff(q, z) * (1 + c * z) + sympy.Rational(3, 2) * c * q, 1 - z),
-            from_test(value == 0, "the antiderivative at its ends gives the stated surds"),
         ]
     return all_of(*rulings)
 
@@ -303,15 +492,40 @@ def _displacements() -> Ruling:
     )
 
 
-def _number_of_tensile_contacts() -> Ruling:
-    """M*/M = (8c ln M)^(1/3) makes every 1/2σ_f² at least 2c ln M: Chernoff's bound is M^(−2c)."""
+def _peaks() -> Ruling:
+    """The profiles lie below their peaks; what is left is positive for all 0 < z < 1."""
+    tops = {"surface": sympy.Integer(2), "bulk": sympy.Rational(125, 72)}  # at z = 0 and 1/6
+    below = {
+        "surface": (2 * z**2, 3 - 2 * z),
+        "bulk": ((1 - 6 * z) ** 2 / 72, 17 - 12 * z),
+    }
+    rulings = []
+    for load in LOADS:
+        square, factor = below[load]
+        rulings += [
+            decide_identity(tops[load] - PROFILES[load], square * factor),
+            from_test(sign(factor) == 1, "a square times a positive factor is left"),
+        ]
     log, c = sympy.symbols("L c", positive=True)
     cubed = 1 / (8 * c * log)  # (M/M*)³
-    tops = {"surface": sympy.Integer(2), "bulk": sympy.Rational(125, 72)}  # at z = 0 and 1/6
-    below = {"surface": 2 * z**2 * (3 - 2 * z), "bulk": (1 - 6 * z) ** 2 * (17 - 12 * z) / 72}
-    peaks = [decide_identity(tops[load] - PROFILES[load], below[load]) for load in LOADS]
     lowest = 1 / (2 * tops["surface"] * cubed)  # 1/2σ_f², lowest over layers and loads
-    return all_of(*peaks, decide_identity(lowest, 2 * c * log))
+    return all_of(*rulings, decide_identity(lowest, 2 * c * log))
+
+
+def _fraction_of_the_ratio() -> Ruling:
+    """The argument of erfc holds M and M* as M*/M, and is positive."""
+    ratio = sympy.Symbol("t", positive=True)
+    rulings = []
+    for load in LOADS:
+        inner = rebuilt(tensile_fraction(load).function).args[-1].args[0]
+        alone = inner.xreplace({HEIGHT: ratio * M})
+        rulings.append(
+            from_test(
+                alone.free_symbols == {ratio, z} and sign(inner) == 1,
+                "erfc of a positive number, which depends on M*/M and z alone",
+            )
+        )
+    return all_of(*rulings)
 
 
 DERIVATION = Derivation(
@@ -342,13 +556,12 @@ DERIVATION = Derivation(
     steps=steps,
     decide=decide,
     claims=(
-        Claim(
-            "the mean of σ_f²/⟨f⟩² is (M³ − M²/2 + …) (σ/r)²/(1−φ²)² under a surface load and "
-            "(M³/5 + 11M²/40 + …) (σ/r)²/(1−φ²)² under a bulk load",
-            _leading_is_the_integral,
-        ),
         Claim("as M* → ∞ the exact mean is 1 at M* + 1/6 and at M* − 11/24", _height_next_order),
-        Claim("the mean of σ_f/⟨f⟩ itself goes as M^(3/2) σ/r too", _mean_of_deviation),
+        Claim(
+            "the mean of σ_f/⟨f⟩ itself is that of the root of the printed variance, to leading "
+            "order in M",
+            _mean_of_deviation,
+        ),
         Claim(
             "at leading order σ_f²/⟨f⟩² is (M/M*)³ times a profile of mean one",
             _function_of_the_ratio,
@@ -359,8 +572,15 @@ DERIVATION = Derivation(
             _displacements,
         ),
         Claim(
-            "lowering M* by a power of ln M is enough for a vanishing number of tensile contacts",
-            _number_of_tensile_contacts,
+            "the expected fraction of tensile contacts depends on M/M* alone, and lies between 0 "
+            "and ½ for every M/M*: it is finite at heights of the order of M*",
+            _fraction_of_the_ratio,
+        ),
+        Claim(
+            "at leading order σ_f²/⟨f⟩² is nowhere above 2 (M/M*)³ under a surface load, nor above "
+            "(125/72) (M/M*)³ under a bulk load; at M = M*/(8c ln M)^(1/3) every 1/2σ_f² is at "
+            "least 2c ln M",
+            _peaks,
         ),
     ),
     witnesses=(
@@ -375,12 +595,16 @@ DERIVATION = Derivation(
         "The paper writes M* = O[(σ/r)^(−2/3)] in the text; it is checked here as ∝, with the "
         "definition given, and the prefactor is found: (1−φ²)^(2/3) for a surface load, 5^(1/3) "
         "times that for a bulk load.",
+        "M* is a definition: the paper says of it that a finite fraction of the forces is negative "
+        "there, which the fraction below bears out.",
         "The fraction of tensile contacts is an estimate: the forces are Gaussian exactly for "
-        "normal radii and else in the limit, to first order in δr.",
+        "normal radii and else in the limit, to first order in δr. That they are in the limit is "
+        "Lindeberg's theorem; its condition is decided, the theorem is quoted.",
         "To let the expected number of tensile contacts vanish, rather than their fraction, the "
         "paper expects a much lower M*. With Gaussian forces M* divided by the cube root of "
         "8c ln M, c > 1, is enough for a square packing, to leading order: a logarithm, not "
-        "another power of σ/r.",
+        "another power of σ/r. The bound on the variance is decided; Chernoff's inequality, "
+        "P(f < 0) ≤ exp(−1/2σ_f²) = M^(−2c) for each of the M² contacts, is quoted.",
     ),
 )
 

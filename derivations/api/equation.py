@@ -18,6 +18,7 @@ from force_diffusion.derivations.export.prose import either
 from force_diffusion.derivations.export.terminal import (
     check_text,
     counts_text,
+    follows_text,
     heading,
     relation_of,
     statement_text,
@@ -156,10 +157,10 @@ class Steps(tuple[Step, ...]):
     def _repr_markdown_(self) -> str:
         lines = []
         for place, step in enumerate(self, start=1):
+            relation = RELATIONS[relation_of(self._derivation, step)]
             lines.append(f"{place}. {step.reason}")
-            if step.formula is not None:
-                relation = RELATIONS[relation_of(self._derivation, step)]
-                lines.append(f"$$\n{latex_body([step.formula], relation)}\n$$")
+            lines.append(f"$$\n{latex_body([step.formula], relation)}\n$$")
+            lines.append(follows_text(step, str(step.verdict)))
         return "\n\n".join(lines)
 
 

@@ -8,6 +8,7 @@ from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations.framework.follows import states, vector_identity
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses.both_sides import about, compare, each_tilted, search
 from force_diffusion.symbolic.algebra.affine import Region
@@ -30,6 +31,7 @@ from force_diffusion.symbolic.symbols import (
     ForcePlus,
     L_minus,
     L_plus,
+    Load,
     M,
     e_y,
     f_load,
@@ -114,28 +116,50 @@ def contributions() -> tuple[sympy.Expr, sympy.Expr]:
 
 def steps() -> Iterator[Step]:
     """The paths of Eq. 11; what enters along n⁻ is L⁻, what enters along n⁺ is L⁺."""
-    yield Step("A load in any direction has two components along the contacts:", -CARRIED)
+    yield Step(
+        "A load in any direction has two components along the contacts:",
+        equation(Load(k, l), minus(CARRIED)),
+        vector_identity({Load(k, l): -CARRIED}),
+    )
+    below = ForcePlus(k - 1, l - 1) / L_plus
     yield Step(
         "Eq. 6, solved for it to first order as in Eq. 7, gives f⁺ below the loaded bead, over L⁺:",
-        terms(
-            1,
-            times(
-                1 / (1 - phi**2),
-                terms(
-                    times(phi, Dot(n_minus, DeltaNPlus(k - 1, l - 1))),
-                    minus(times(t, Dot(n_plus, DeltaNMinus(k + 1, l - 1)))),
+        equation(
+            below,
+            terms(
+                1,
+                times(
+                    1 / (1 - phi**2),
+                    terms(
+                        times(phi, Dot(n_minus, DeltaNPlus(k - 1, l - 1))),
+                        minus(times(t, Dot(n_plus, DeltaNMinus(k + 1, l - 1)))),
+                    ),
                 ),
             ),
         ),
+        states(equation(below, split_plus(k, l))),
+        ("Eq. 6", "step 1"),
+    )
+    straight, branched = contributions()
+    *printed_straight, printed_branched = PRINTED[0].rhs.args
+    yield Step(
+        "The paths are those of Eq. 11. The straight one carries L⁺ (Eq. 9); to first order,",
+        equation(straight, terms(*printed_straight)),
+        states(equation(straight, straight), region=eq11.INTERIOR),
+        ("Eq. 9", "Eq. 11", "step 2"),
     )
     yield Step(
-        "The paths are those of Eq. 11. The straight one carries L⁺ (Eq. 9). Those that branch "
-        "into the contact start along n⁻, so that L⁻ enters their branch (Eq. 10); over L⁺:",
-        contributions()[1],
+        "Those that branch into the contact start along n⁻, so that L⁻ enters their branch "
+        "(Eq. 10); over L⁺:",
+        equation(branched, printed_branched),
+        states(equation(branched, branched), region=eq11.INTERIOR),
+        ("Eq. 10", "Eq. 11"),
     )
     yield Step(
         "Added up; f⁻ is the mirror image, with L⁺ and L⁻ exchanged, t ↔ 1/t.",
         sympy.Tuple(*PRINTED),
+        decide,
+        ("step 3", "step 4"),
     )
 
 

@@ -16,12 +16,13 @@ from force_diffusion.derivations.beyond.directions import (
     searched,
     witnessed,
 )
-from force_diffusion.derivations.framework.exact_cases import exact_cases, exact_steps
+from force_diffusion.derivations.framework.exact_cases import exact_cases, variance_steps
+from force_diffusion.derivations.framework.follows import identity
 from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step
 from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.as_printed import equation, power, terms, times
+from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test
-from force_diffusion.symbolic.symbols import M, j, phi, r, sigma, t, z
+from force_diffusion.symbolic.symbols import ForcePlus, L_plus, M, i, j, phi, r, sigma, t, z
 from force_diffusion.symbolic.variances.orders import next_order_is, no_radius_dominates
 from force_diffusion.symbolic.variances.variance import ClosedForm, exact_variances, leading
 
@@ -63,16 +64,28 @@ def steps() -> Iterator[Step]:
         "In Eq. B1 every second difference comes with t: the sum of squared weights that gives "
         "Eq. 13 is multiplied by t² for f⁺ and, as its mirror image, by 1/t² for f⁻.",
         sympy.Tuple(*PRINTED),
+        decide,
+        ("Eq. 13", "Eq. B1"),
     )
-    yield from exact_steps(VARIANCE_PLUS, exact_forms())
-    yield Step("The next order in M at fixed z, relative to (σ/r)²/(1−φ²)²:", next_order())
+    ratio = ForcePlus(i, j) / L_plus
+    yield from variance_steps(VARIANCE_PLUS, ratio, b1.in_radii(0), exact_forms(), 1, "Eq. B1")
+    yield Step(
+        "The next order in M at fixed z:",
+        equation(terms(VARIANCE_PLUS, minus(PRINTED[0].rhs)), times(UNIT, next_order())),
+        lambda _, candidate: next_order_is(VARIANCE_PLUS, exact_forms(), candidate),
+        ("Eq. B2", "step 4"),
+        relation="∼",
+    )
     yield Step(
         "As L⁻ is taken away, t → 0, the tilt of the contact itself is left, for 1 ≤ j ≤ M − 1: "
         "a variance that knows nothing of M.",
         equation(VARIANCE_PLUS, UNLOADED),
+        identity({VARIANCE_PLUS: exact_forms()["interior"].expression.xreplace({t: NOTHING})}),
+        ("step 4",),
     )
 
 
+NOTHING = sympy.Integer(0)
 UNLOADED = phi**2 * (4 * j + phi**2) / 2 * UNIT
 """Variance of f⁺ over (L⁺)² where only n⁺ is loaded, for 1 ≤ j ≤ M − 1."""
 
@@ -148,10 +161,6 @@ DERIVATION = Derivation(
     search=search,
     claims=(
         Claim("for t = 1 it is Eq. 13, exactly", lambda: is_vertical(exact_forms(), eq13)),
-        Claim(
-            "the next order in M",
-            lambda: next_order_is(exact_forms(), PRINTED[0].rhs, next_order()),
-        ),
         Claim("exact forms at the base and below the surface", _edges),
         Claim(
             "no radius has more than O(1/M) of the variance, in any layer",

@@ -16,10 +16,12 @@ from force_diffusion.derivations.beyond.directions import (
     searched,
     witnessed,
 )
-from force_diffusion.derivations.framework.exact_cases import exact_cases, exact_steps
+from force_diffusion.derivations.framework.exact_cases import exact_cases, variance_steps
+from force_diffusion.derivations.framework.follows import states
 from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step
+from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.as_printed import equation, power, terms, times
+from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, from_test
 from force_diffusion.symbolic.symbols import ForcePlus, L_plus, M, i, j, l, phi, r, sigma, t, z
 from force_diffusion.symbolic.variances.orders import next_order_is, no_radius_dominates
@@ -68,21 +70,33 @@ UNLOADED = phi**2 * (4 * j + phi**2) / 2 * UNIT
 
 def steps() -> Iterator[Step]:
     """Superpose the surface loads of all layers above the contact."""
+    ratio = ForcePlus(i, j) / (L_plus * (M - j))
     yield Step(
         "A load on layer l acts as the surface load of a packing of height l, as for Eq. 14. The "
         "load −(L⁺n⁺ + L⁻n⁻) on every bead gives f⁺ the mean (M − j) L⁺, and over this mean the "
         "average of Eq. B1 over the heights l = j+1, …, M:",
         equation(
-            ForcePlus(i, j) / (L_plus * (M - j)),
+            ratio,
             times(1 / (M - j), sympy.Sum(b1.PRINTED[0].rhs.xreplace({M: l}), (l, j + 1, M))),
         ),
+        states(equation(ratio, bulk_force()), region=Region({j: 0, M: j + 1})),
+        ("Eq. 14", "Eq. B1"),
     )
     yield Step(
         "Every second difference comes with t for f⁺, with 1/t for f⁻: Eq. 14 times its square.",
         sympy.Tuple(*PRINTED),
+        decide,
+        ("Eq. 14", "step 1"),
     )
-    yield from exact_steps(VARIANCE_PLUS, exact_forms())
-    yield Step("The next order in M at fixed z, relative to (σ/r)²/(1−φ²)²:", next_order())
+    force = b1.put_in_radii(bulk_force())
+    yield from variance_steps(VARIANCE_PLUS, ratio, force, exact_forms(), 2, "Eq. B1")
+    yield Step(
+        "The next order in M at fixed z:",
+        equation(terms(VARIANCE_PLUS, minus(PRINTED[0].rhs)), times(UNIT, next_order())),
+        lambda _, candidate: next_order_is(VARIANCE_PLUS, exact_forms(), candidate),
+        ("Eq. B3", "step 5"),
+        relation="∼",
+    )
 
 
 def decide(part: int, candidate: sympy.Eq) -> Ruling:
@@ -131,10 +145,6 @@ DERIVATION = Derivation(
     search=search,
     claims=(
         Claim("for t = 1 it is Eq. 14, exactly", lambda: is_vertical(exact_forms(), eq14)),
-        Claim(
-            "the next order in M",
-            lambda: next_order_is(exact_forms(), PRINTED[0].rhs, next_order()),
-        ),
         Claim(
             "no radius has more than O(1/M) of the variance, in any layer",
             lambda: no_radius_dominates(b1.put_in_radii(bulk_force()), exact_forms()),

@@ -8,6 +8,7 @@ import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations.beyond.means import decide_in_field
+from force_diffusion.derivations.framework.follows import identity
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses import second_order as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
@@ -33,6 +34,7 @@ from force_diffusion.symbolic.mechanics.second_order import (
     tilt,
 )
 from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import (
     DeltaNPlus,
     Dot,
@@ -85,27 +87,51 @@ def mean_line_sum() -> sympy.Expr:
     return first + certified_sum(sympy.expand(later.xreplace({j: m})), m, sympy.Integer(1), j - 1)
 
 
+def _vanishes(_: int, candidate: sympy.Eq) -> Ruling:
+    return decide_identity(candidate.lhs - candidate.rhs, second_order.constraint())
+
+
+def _step_down(_: int, candidate: sympy.Eq) -> Ruling:
+    """What the constraint fixes: put in, it vanishes."""
+    if candidate.lhs != d_plus:
+        return undecided(f"the left-hand side is not {text(d_plus)}")
+    left = second_order.constraint().xreplace({d_plus: candidate.rhs})
+    return decide_identity(left, sympy.Integer(0))
+
+
+def _tilts(part: int, candidate: sympy.Eq) -> Ruling:
+    return identity({mean_square: tilt_variance()[part].to_sympy()})(part, candidate)
+
+
 def steps() -> Iterator[Step]:
     """The constraint at order ε², the steps it makes in the mean, their sum."""
     yield Step(
         "Let the centres of a contact along n⁺ be 2r n⁺ + ε d₁ + ε² d₂ apart, ρ the sum of both "
         "δr. At order ε² the constraint of Eq. 2 demands",
         equation(second_order.constraint(), sympy.Integer(0)),
+        _vanishes,
+        ("Eq. 2",),
     )
     yield Step(
         "Here d₁ = ρ n⁺ + 2r δn⁺ by the first order, and δn⁺ = ν b⁻. So that, with |b⁻|² = "
         "1/(1−φ²), the line sum steps down by r |δn⁺|²:",
         equation(d_plus, STEP),
+        _step_down,
+        ("Eq. 4", "step 1"),
     )
     yield Step(
         "In the mean all contacts of a layer are alike. Their tilt has the variance, for j ≥ 1 and "
         "at the base,",
-        sympy.Tuple(*(value.to_sympy() for value in tilt_variance())),
+        sympy.Tuple(*(equation(mean_square, value.to_sympy()) for value in tilt_variance())),
+        _tilts,
+        ("Eq. 4",),
     )
     yield Step(
         "Both line sums of a bead are the sums of these steps from the base up, and a displacement "
         "with c⁺ = c⁻ = c is c (b⁺ + b⁻) = (c/n_y) e_y.",
         PRINTED,
+        decide,
+        ("step 2", "step 3"),
     )
 
 
@@ -125,10 +151,6 @@ def search(candidate: sympy.Eq) -> str | None:
         return witnesses.means(height, witnesses.N, "surface")[1][layer][1]
 
     return witnesses.fails(candidate, MEAN_HEIGHT, exact, iter([(4, 1), (4, 2), (4, 3), (4, 4)]))
-
-
-def _constraint() -> Ruling:
-    return decide_identity(second_order.constraint().xreplace({d_plus: STEP}), sympy.Integer(0))
 
 
 def _unit_vector() -> Ruling:
@@ -176,7 +198,6 @@ DERIVATION = Derivation(
     decide=decide,
     search=search,
     claims=(
-        Claim("the constraint at order ε² fixes n⁺·d₂ = −r |δn⁺|²", _constraint),
         Claim("the second order of the contact's direction, a unit vector", _unit_vector),
         Claim("equal line sums are a vertical displacement", _upright),
         Claim("the pile settles, by a share of its height that grows as its height", _surface),

@@ -7,14 +7,16 @@ import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond.mean_forces import (
-    balance,
+    balances,
     decided,
     edges_are,
     leading_is,
     mean_forms,
     searched,
+    shifted,
 )
 from force_diffusion.derivations.framework.exact_cases import exact_cases, exact_steps
+from force_diffusion.derivations.framework.follows import identity
 from force_diffusion.derivations.framework.record import (
     Claim,
     Derivation,
@@ -24,7 +26,7 @@ from force_diffusion.derivations.framework.record import (
 )
 from force_diffusion.derivations.witnesses import second_order as witnesses
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling
+from force_diffusion.symbolic.kernel.decisions import Ruling, decide_identity
 from force_diffusion.symbolic.mechanics import second_order
 from force_diffusion.symbolic.mechanics.second_order import FORCE, mean_force
 from force_diffusion.symbolic.notation import Symbol
@@ -63,31 +65,54 @@ def shift() -> sympy.Expr:
     return 2 * M * (z - phi) * (sigma / r) ** 2 / ((1 - phi**2) * (1 + phi))
 
 
+VERTICAL = Symbol("momentum", "p_{y}", "p_y", real=True)
+"""Vertical part of force times direction at order ε², over the ordered force."""
+
+
+def _vanishes(_: int, candidate: sympy.Eq) -> Ruling:
+    return decide_identity(candidate.lhs - candidate.rhs, second_order.vertical_balance())
+
+
 def steps() -> Iterator[Step]:
     """The vertical momentum of a layer in the mean; what it leaves of ⟨α₂⟩; the covariances."""
+    momentum = second_order.momentum()[1]
     yield Step(
         "A contact force is 1 + εα₁ + ε²α₂ in units of its ordered value, α₁ being Eq. 11, and "
         "its direction n⁺ + εν b⁻ + ε²u₂. The vertical part of their product at order ε²:",
-        second_order.momentum()[1],
+        equation(VERTICAL, momentum),
+        identity({VERTICAL: momentum}),
+        ("Eq. 11",),
     )
     yield Step(
         "Force passes from layer to layer, and what enters is the load, which does not fluctuate: "
         "the mean vertical force through each layer is that of the ordered packing. By symmetry "
         "both branches carry the same. With u₂ from the constraint (Eq. B4):",
         equation(second_order.vertical_balance(), sympy.Integer(0)),
+        _vanishes,
+        ("Eq. B4", "step 1"),
     )
     yield Step(
         "So three means of products of first-order quantities of one contact are all it takes:",
         equation(mean_force, FORCE),
+        balances,
+        ("step 2",),
     )
     yield Step(
         "The tilt ν of a contact and its force α₁ are linear forms in the radii: line sums that "
         "share few sites. Their covariances, weight by weight, give for 2 ≤ j ≤ M − 2",
         PRINTED,
+        decide,
+        ("Eq. 11", "step 3"),
     )
-    yield from exact_steps(MEAN - 1, exact_forms(), "the three covariances there")
+    yield from exact_steps(
+        MEAN - 1, exact_forms(), "the three covariances there", "step 3", "step 4"
+    )
     yield Step(
-        "To leading order the shift is −φ at the base and changes its sign at z = φ:", shift()
+        "To leading order the shift is −φ at the base and changes its sign at z = φ:",
+        equation(terms(MEAN, -1), shift()),
+        shifted(exact_forms(), MEAN),
+        ("step 5",),
+        relation="∼",
     )
 
 
@@ -124,7 +149,6 @@ DERIVATION = Derivation(
     decide=decide,
     search=search,
     claims=(
-        Claim("⟨α₂⟩ solves the mean vertical balance of a layer", balance),
         Claim(
             "to leading order the shift is 2M(z − φ)(σ/r)²/[(1−φ²)(1+φ)]: forces rise above z = φ "
             "and fall below",

@@ -9,12 +9,13 @@ from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond import b5_mean_surface as b5
 from force_diffusion.derivations.beyond.mean_forces import (
-    balance,
+    balances,
     decided,
     edges_are,
     leading_is,
     mean_forms,
     searched,
+    shifted,
 )
 from force_diffusion.derivations.framework.exact_cases import exact_cases, exact_steps
 from force_diffusion.derivations.framework.record import (
@@ -75,14 +76,26 @@ def steps() -> Iterator[Step]:
         "The weight of the beads does not fluctuate, so that the mean vertical force through a "
         "layer is that of the ordered packing here too, and the balance of Eq. B5 holds:",
         equation(mean_force, FORCE),
+        balances,
+        ("Eq. B4", "Eq. B5"),
     )
     yield Step(
         "α₁ is now the average of Eq. 11 over the loads of all layers above, as in Eq. 14, and ν "
         "and ρ are as before. Their covariances give for 2 ≤ j ≤ M − 2",
         PRINTED,
+        decide,
+        ("Eq. 11", "Eq. 14", "step 1"),
     )
-    yield from exact_steps(MEAN - 1, exact_forms(), "the three covariances there")
-    yield Step("To leading order the shift changes its sign at z = φ/(2 − φ):", shift())
+    yield from exact_steps(
+        MEAN - 1, exact_forms(), "the three covariances there", "step 1", "step 2"
+    )
+    yield Step(
+        "To leading order the shift changes its sign at z = φ/(2 − φ):",
+        equation(terms(MEAN, -1), shift()),
+        shifted(exact_forms(), MEAN),
+        ("step 3",),
+        relation="∼",
+    )
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
@@ -126,7 +139,6 @@ DERIVATION = Derivation(
     decide=decide,
     search=search,
     claims=(
-        Claim("⟨α₂⟩ solves the mean vertical balance of a layer", balance),
         Claim(
             "to leading order the shift is M[2z − φ(1 + z)](σ/r)²/[(1−φ²)(1+φ)]: forces rise above "
             "z = φ/(2 − φ) and fall below",

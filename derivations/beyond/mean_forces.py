@@ -6,9 +6,11 @@ import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond.means import decide_in_field
+from force_diffusion.derivations.framework.follows import Decide
 from force_diffusion.derivations.witnesses import second_order as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
+from force_diffusion.symbolic.as_printed import terms
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
@@ -17,10 +19,11 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.mechanics import second_order
-from force_diffusion.symbolic.mechanics.second_order import FORCE, mean_force
+from force_diffusion.symbolic.mechanics.second_order import mean_force
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import DeltaR, M, i, j, phi, r, sigma, z
 from force_diffusion.symbolic.variances.means import by_layer, covariance
+from force_diffusion.symbolic.variances.orders import compare_leading_order
 from force_diffusion.symbolic.variances.variance import ClosedForm, leading, variance
 
 SUM_OF_RADII = DeltaR(i, j) + DeltaR(i + 1, j + 1)
@@ -33,12 +36,12 @@ def mean_forms(force: sympy.Expr) -> dict[str, ClosedForm]:
 
     def value(at: dict[sympy.Symbol, sympy.Expr], region: Region) -> RationalFunction:
         nu, rho, alpha = (e.xreplace(at) for e in (tilt, SUM_OF_RADII, force - 1))
-        terms = (
+        parts = (
             variance(nu, region) / FIELD.from_sympy(1 - phi**2),
             covariance(nu, rho, region) / FIELD.from_sympy(2 * r),
             -covariance(nu, alpha, region),
         )
-        total = terms[0] + terms[1] + terms[2]
+        total = parts[0] + parts[1] + parts[2]
         return total / FIELD.from_sympy(1 + phi)
 
     return by_layer(value)
@@ -62,10 +65,24 @@ def searched(load: str, subject: sympy.Symbol, candidate: sympy.Eq) -> str | Non
     return witnesses.fails(candidate, subject, exact, iter([(4, 2), (5, 2), (5, 3)]))
 
 
-def balance() -> Ruling:
-    """The stated ⟨α₂⟩ put into the vertical balance."""
-    left = second_order.vertical_balance().xreplace({mean_force: FORCE})
+def balances(_: int, candidate: sympy.Eq) -> Ruling:
+    """⟨α₂⟩ put into the vertical balance, which then vanishes."""
+    if candidate.lhs != mean_force:
+        return undecided(f"the left-hand side is not {text(mean_force)}")
+    left = second_order.vertical_balance().xreplace({mean_force: candidate.rhs})
     return decide_identity(left, sympy.Integer(0))
+
+
+def shifted(forms: dict[str, ClosedForm], subject: sympy.Symbol) -> Decide:
+    """The mean less 1 has the right-hand side as its leading order, by the exact interior form."""
+    change = terms(subject, -1)
+
+    def decide(_: int, candidate: sympy.Eq) -> Ruling:
+        if candidate.lhs != change:
+            return undecided(f"the left-hand side is not {text(change)}")
+        return compare_leading_order(forms["interior"].value, candidate.rhs)
+
+    return decide
 
 
 def edges_are(forms: dict[str, ClosedForm], *, base: sympy.Expr, above: sympy.Expr) -> Ruling:

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from itertools import zip_longest
 
 from force_diffusion.derivations.export.manifest import (
     MANIFEST,
@@ -9,7 +10,12 @@ from force_diffusion.derivations.export.manifest import (
     FoundMutants,
 )
 from force_diffusion.derivations.export.prose import prose_latex
-from force_diffusion.derivations.export.terminal import mutant_counts, relation_of
+from force_diffusion.derivations.export.terminal import (
+    follows_text,
+    mutant_counts,
+    relation_of,
+    step_verdicts,
+)
 from force_diffusion.derivations.framework.record import Derivation, Outcome
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import latex_body
@@ -82,18 +88,19 @@ def _noted(verdict: str, name: str, note: str) -> str:
     return f"{said} {prose_latex(sentence(note))}" if note else said
 
 
-def _steps(derivation: Derivation) -> str:
+def _steps(derivation: Derivation, verdicts: list[str]) -> str:
     items = []
-    for step in derivation.steps():
+    steps = list(derivation.steps())
+    # an earlier run may have left an equation without verdicts on its steps
+    for step, verdict in zip_longest(steps, verdicts[: len(steps)], fillvalue="not decided"):
+        follows = f"\\emph{{{prose_latex(sentence(follows_text(step, verdict)))}}}"
         if derivation.printed == (step.formula,):  # not the same display twice
             reason = prose_latex(step.reason.rstrip(".:"))
-            items.append(f"{reason}: Eq.~({derivation.number}).")
+            items.append(f"{reason}: Eq.~({derivation.number}). {follows}")
             continue
-        item = prose_latex(step.reason)
-        if step.formula is not None:
-            relation = RELATIONS[relation_of(derivation, step)]
-            item += f"\n\\[\n{latex_body([step.formula], relation, room=380.0)}\n\\]"
-        items.append(item)
+        relation = RELATIONS[relation_of(derivation, step)]
+        shown = latex_body([step.formula], relation, room=380.0)
+        items.append(f"{prose_latex(step.reason)}\n\\[\n{shown}\n\\]\n{follows}")
     return _list("enumerate", items)
 
 
@@ -130,7 +137,11 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
     symbols = [f"${latex(symbol)}$: {prose_latex(words)}" for symbol, words in derivation.symbols]
     rests = ", ".join(f"({premise.number})" for premise in derivation.premises)
     plural = "s" if len(derivation.premises) > 1 else ""
-    checks = [_noted(check.verdict, check.name, check.note) for check in found.checks]
+    checks = [
+        _noted(check.verdict, check.name, check.note)
+        for check in found.checks
+        if check.kind != "step"
+    ]
     return "".join(
         [
             f"\\section*{{Eq.\\ ({derivation.number}): {prose_latex(derivation.title)}}}\n",
@@ -140,7 +151,7 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
             + (f" Rests on Eq{plural}.\\ {rests}.\n" if rests else "\n"),
             _part("Symbols", _list("itemize", symbols)),
             _part("Assumptions", _list("itemize", map(prose_latex, derivation.assumptions))),
-            _part("Steps", _steps(derivation)),
+            _part("Steps", _steps(derivation, step_verdicts(found.checks))),
             _part("Checks", _list("itemize", checks)),
             _part("Mutants", _mutants(found.mutants)),
             _part("Remarks", _list("itemize", map(prose_latex, derivation.remarks))),

@@ -35,9 +35,9 @@ class Made(_Part):
 
 
 class FoundCheck(_Part):
-    """A proof or a witness, and its verdict."""
+    """A step, a proof or a witness, and its verdict."""
 
-    kind: Literal["proof", "witness"]
+    kind: Literal["step", "proof", "witness"]
     name: str
     verdict: Literal["proved", "refuted", "undecided", "agrees", "disagrees"]
     note: str

@@ -1,10 +1,12 @@
 """Derivations and their outcomes as plain text or JSON, for a terminal or a pipe."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from textwrap import fill
 from typing import Any
 
+from force_diffusion.derivations.export.manifest import FoundCheck
+from force_diffusion.derivations.export.prose import both
 from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome, Step
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
@@ -58,20 +60,36 @@ def statement_text(derivation: Derivation) -> str:
 
 
 def relation_of(derivation: Derivation, step: Step) -> str:
-    """A step that states the printed equation has its sign; every other one is an equality."""
-    return derivation.relation if step.formula in derivation.printed else "="
+    """The sign between the sides of a step; the printed equation has its own."""
+    printed = all(one in derivation.printed for one in step.equations)
+    return derivation.relation if printed else step.relation
 
 
-def steps_text(derivation: Derivation) -> str:
-    """The steps, each with its reason and the formula that it gives."""
+def follows_text(step: Step, verdict: str) -> str:
+    """What was decided of a step, and what it follows from."""
+    return f"{verdict}, from {both(step.uses)}" if step.uses else verdict
+
+
+def steps_text(derivation: Derivation, verdicts: Sequence[str] | None = None) -> str:
+    """The steps: the reason, the formula that it gives, the verdict, and what it follows from.
+
+    They are decided here where no verdicts are given.
+    """
     parts = []
-    for place, step in enumerate(derivation.steps(), start=1):
+    steps = list(derivation.steps())
+    found = verdicts or [str(step.ruling) for step in steps]
+    for place, (step, verdict) in enumerate(zip(steps, found, strict=True), start=1):
         parts.append(_paragraph(step.reason, f"{place:3}. ", "     "))
-        if step.formula is not None:
-            relation = relation_of(derivation, step)
-            lines = text_lines(step.formula, relation, TEXT_WIDTH - 7)
-            parts += ["       " + line for line in lines]
+        lines = text_lines(step.formula, relation_of(derivation, step), TEXT_WIDTH - 7)
+        parts += ["       " + line for line in lines]
+        said = verdict.partition(":")[0] if verdict.startswith("proved") else verdict
+        parts.append(_paragraph(follows_text(step, said), "     "))
     return "\n".join(parts)
+
+
+def step_verdicts(checks: Iterable[Check | FoundCheck]) -> list[str]:
+    """The verdicts of the steps among the checks, in their order."""
+    return [str(check.verdict) for check in checks if check.kind == "step"]
 
 
 def check_text(check: Check) -> str:
@@ -110,8 +128,9 @@ def outcome_text(outcome: Outcome) -> str:
     """A derivation from its title to its verdict."""
     derivation = outcome.derivation
     survivors = [m for m in outcome.mutants if m.ruling.verdict is not Verdict.REFUTED]
-    parts = [statement_text(derivation), "", "Steps", steps_text(derivation), "", "Checks"]
-    parts += map(check_text, outcome.checks)
+    steps = steps_text(derivation, step_verdicts(outcome.checks))
+    parts = [statement_text(derivation), "", "Steps", steps, "", "Checks"]
+    parts += [check_text(check) for check in outcome.checks if check.kind != "step"]
     parts += [f"  - {counts_text(outcome)}", *map(mutant_text, survivors), ""]
     parts.append(f"Eq. {derivation.number} is {outcome.verdict} ({outcome.seconds:.2f} s)")
     return "\n".join(parts)
@@ -124,11 +143,12 @@ def _count(number: int, one: str, more: str) -> str:
 def summary_line(outcome: Outcome) -> str:
     """One line for one equation."""
     kinds = [check.kind for check in outcome.checks]
+    steps = _count(kinds.count("step"), "step", "steps")
     proofs = _count(kinds.count("proof"), "proof", "proofs")
     witnesses = _count(kinds.count("witness"), "witness", "witnesses")
     return (
         f"{outcome.derivation.number!s:>3}  {outcome.verdict:<9}  {outcome.derivation.title}: "
-        f"{proofs}, {witnesses}, {counts_text(outcome)} ({outcome.seconds:.2f} s)"
+        f"{steps}, {proofs}, {witnesses}, {counts_text(outcome)} ({outcome.seconds:.2f} s)"
     )
 
 

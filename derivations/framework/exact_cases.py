@@ -3,26 +3,104 @@
 from collections.abc import Iterator
 
 import sympy
+from force_diffusion.derivations.framework.follows import identity
 from force_diffusion.derivations.framework.record import ExactCase, Missed, Step
-from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.symbols import M, j
-from force_diffusion.symbolic.variances.variance import CASES, ClosedForm
+from force_diffusion.symbolic.algebra.exact import FIELD
+from force_diffusion.symbolic.algebra.reading import Reader
+from force_diffusion.symbolic.as_printed import equation, terms, times
+from force_diffusion.symbolic.kernel.decisions import Ruling, from_test, undecided
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.symbols import M, j, phi, r, sigma
+from force_diffusion.symbolic.variances.listed import listed, squares, weights
+from force_diffusion.symbolic.variances.variance import (
+    CASES,
+    ClosedForm,
+    fluctuation,
+    pieces_of,
+)
+
+SCALE = r * (1 - phi**2)
+"""What the change of a force over its mean is multiplied by when its weights are shown."""
+
+
+def variance_steps(
+    variance: sympy.Expr,
+    ratio: sympy.Expr,
+    force: sympy.Expr,
+    forms: dict[str, ClosedForm],
+    before: int,
+    source: str = "Eq. 11",
+) -> Iterator[Step]:
+    """Show the weights of all radii, their squares, and the exact form of every layer.
+
+    ``force`` is what ``ratio``, a force over its mean, is in the radii, by the equation ``source``;
+    ``before`` steps are told.
+    """
+    _, region, validity, _ = CASES["interior"]
+    unit = FIELD.from_sympy(SCALE)
+    found = list(weights(pieces_of(force, region), region, unit))
+    change = times(r, terms(1, -(phi**2)), terms(ratio, -1))
+
+    def has_weights(_: int, candidate: sympy.Eq) -> Ruling:
+        if candidate.lhs != change:
+            return undecided(f"the left-hand side is not {text(change)}")
+        rest = Reader(region).scalar(candidate.rhs) - fluctuation(force, region).scaled(unit)
+        return _zero(rest.is_zero(), "weights")
+
+    def is_sum_of_squares(_: int, candidate: sympy.Eq) -> Ruling:
+        total = Reader(region).scalar(candidate.rhs).constant_part()
+        if candidate.lhs != variance or total is None:
+            return undecided("no sum of squares")
+        return _zero((total - forms["interior"].value).is_zero(), "sums")
+
+    yield Step(
+        f"Exact, for {validity}: every radius once, with its weight.",
+        equation(change, listed(found)),
+        has_weights,
+        (source,),
+    )
+    yield Step(
+        "Every weight squared:",
+        equation(variance, times((sigma / SCALE) ** 2, squares(found))),
+        is_sum_of_squares,
+        (f"step {before + 1}",),
+    )
+    inside = f"step {before + 2}"
+    yield from exact_steps(variance, forms, "each sum telescopes", source, inside)
 
 
 def exact_steps(
-    variance: sympy.Expr,
+    quantity: sympy.Expr,
     forms: dict[str, ClosedForm],
-    how: str = "every radius with its weight squared",
+    how: str,
+    source: str = "Eq. 11",
+    inside: str = "",
 ) -> Iterator[Step]:
-    """Show the exact form of every layer, and the small packings that have one of their own."""
+    """Show the exact form of every layer, and the small packings that have one of their own.
+
+    ``how`` they come about; ``source`` is what they follow from, ``inside`` that in the interior.
+    """
     where = "in the interior"
     for form in forms.values():
-        reason = f"Exact {where}, {form.validity}: {how}."
-        yield Step(reason, equation(variance, form.expression))
+        yield Step(
+            f"Exact {where}, {form.validity}: {how}.",
+            equation(quantity, form.expression),
+            identity({quantity: form.expression}),
+            (inside or source,) if where == "in the interior" else (source,),
+        )
         where = "at the edge"
     small = {(size, at): value for form in forms.values() for size, at, value in form.exceptions}
     for (size, at), value in small.items():
-        yield Step(f"The packing M = {size}, j = {at} is none of these:", equation(variance, value))
+        yield Step(
+            f"The packing M = {size}, j = {at} is none of these:",
+            equation(quantity, value),
+            identity({quantity: value}),
+            (source,),
+        )
+
+
+def _zero(outcome: bool, what: str) -> Ruling:
+    return from_test(outcome, f"the {what} are equal", f"the {what} differ")
 
 
 def exact_cases(variance: sympy.Expr, forms: dict[str, ClosedForm]) -> dict[str, ExactCase]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
@@ -10,7 +11,13 @@ from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.algebra.explicit import AmbiguousError
-from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, refuted, undecided
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    Verdict,
+    all_of,
+    refuted,
+    undecided,
+)
 from force_diffusion.symbolic.kernel.language import in_few_symbols, unreadable, without_value
 from force_diffusion.symbolic.printing.text import text
 
@@ -23,10 +30,45 @@ class KernelError(ForceDiffusionError, RuntimeError):
 
 @dataclass(frozen=True)
 class Step:
-    """One line of reasoning: a reason in plain words (Unicode) and the formula that it gives."""
+    """One line of reasoning: a statement, and the procedure that rules on it.
+
+    Attributes:
+        reason: why it holds, in plain words (Unicode).
+        formula: an equation, or a Tuple of equations.
+        decide: rules on a candidate for one of these, by its place among them; the same procedure
+            for what is shown and for anything else.
+        uses: what it follows from: "Eq. 2" for a premise, "step 1" for an earlier step.
+        relation: how the equation relates its sides: "=", "≈" or "∼".
+    """
 
     reason: str
-    formula: sympy.Basic | None = None
+    formula: sympy.Basic
+    decide: Callable[[int, sympy.Eq], Ruling]
+    uses: tuple[str, ...] = ()
+    relation: str = "="
+
+    @property
+    def equations(self) -> tuple[sympy.Eq, ...]:
+        """Its equations, one by one."""
+        formula = self.formula
+        return tuple(formula) if isinstance(formula, sympy.Tuple) else (formula,)
+
+    def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
+        """Rule on a candidate for one of its equations; what can't be read is undecided."""
+        try:
+            return self.decide(part, candidate)
+        except (ArithmeticError, TypeError, ValueError) as failure:
+            return undecided(f"it could not be read: {failure or type(failure).__name__}")
+
+    @cached_property
+    def ruling(self) -> Ruling:
+        """What is decided of the step as it is shown."""
+        return all_of(*(self.rule_on(part, one) for part, one in enumerate(self.equations)))
+
+    @property
+    def verdict(self) -> Verdict:
+        """``proved``, ``refuted`` or ``undecided``."""
+        return self.ruling.verdict
 
 
 @dataclass(frozen=True)
@@ -146,9 +188,9 @@ class ExactCase:
 
 @dataclass(frozen=True)
 class Check:
-    """A claim or a witness that has been run."""
+    """A step, a claim or a witness that has been run."""
 
-    kind: str  # "proof" or "witness"
+    kind: str  # "step", "proof" or "witness"
     name: str
     verdict: Verdict
     seconds: float

@@ -3,10 +3,18 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from time import perf_counter
 
+import sympy
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome, Witness
+from force_diffusion.derivations.framework.record import (
+    Check,
+    Derivation,
+    Mutant,
+    Outcome,
+    Step,
+    Witness,
+)
 from force_diffusion.derivations.witnesses.draws import draw
-from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of
 
 SEEDS = (20021, 20022, 20023)
 """Seeds of the witnesses' draws, so that two runs check the same packings."""
@@ -26,15 +34,32 @@ def _timed(kind: str, name: str, decide: Callable[[], Ruling]) -> Check:
 
 
 def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
-    """Rule on each printed equation, then on each further claim."""
+    """Rule on each printed equation, on each step that leads to it, then on each further claim."""
     several = len(derivation.printed) > 1
+    found: dict[sympy.Eq, Check] = {}
     for place, equation in enumerate(derivation.printed):
         name = f"printed equation, part {place + 1}" if several else "printed equation"
         watch(derivation, name)
-        yield _timed("proof", name, lambda p=place, e=equation: derivation.rule_on(p, e))  # type: ignore[misc]
+        found[equation] = _timed(
+            "proof",
+            name,
+            lambda p=place, e=equation: derivation.rule_on(p, e),  # type: ignore[misc]
+        )
+        yield found[equation]
+    watch(derivation, "steps")
+    for place, step in enumerate(derivation.steps(), start=1):
+        yield _timed("step", f"step {place}", lambda s=step: _ruling(s, found))  # type: ignore[misc]
     for claim in derivation.claims:
         watch(derivation, claim.name)
         yield _timed("proof", claim.name, claim.decide)
+
+
+def _ruling(step: Step, found: Mapping[sympy.Eq, Check]) -> Ruling:
+    """What is decided of a step; a printed equation is ruled on once."""
+    known = [found[one] for one in step.equations if one in found]
+    if len(known) < len(step.equations):
+        return step.ruling
+    return all_of(*(Ruling(check.verdict, check.note) for check in known))
 
 
 def witnesses(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:

@@ -228,6 +228,13 @@ class RationalFunction:
             full[self.domain.position[symbol]] = image.numerator
         return self._same(self.numerator.compose(*full), self.denominator.compose(*full))
 
+    def derivative(self, symbol: sympy.Expr) -> "RationalFunction":
+        """The derivative with respect to a generator."""
+        place = self.domain.position[symbol]
+        above, below = self.numerator, self.denominator
+        slope = above.derivative(place) * below - above * below.derivative(place)
+        return self._same(slope, below * below)
+
     def coefficients(self, symbol: sympy.Expr) -> list["RationalFunction"]:
         """Coefficients of powers 0, 1, … of ``symbol``."""
         position = self.domain.position[symbol]
@@ -280,7 +287,10 @@ class RationalFunction:
 def _reads_negative(factor: sympy.Expr) -> bool:
     """Whether −factor reads better: M − j rather than j − M, 1 − z rather than z − 1."""
     if M in factor.free_symbols:
-        return bool(sympy.Poly(factor, M).LC().could_extract_minus_sign())
+        found = [term.as_coeff_exponent(M) for term in sympy.Add.make_args(factor)]
+        highest = max(power for _, power in found)
+        top = sympy.Add(*(c for c, power in found if power == highest))
+        return bool(top.could_extract_minus_sign())
     constant = factor.as_coeff_Add()[0]
     return bool(constant.is_negative or (constant == 0 and factor.could_extract_minus_sign()))
 

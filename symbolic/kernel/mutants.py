@@ -62,6 +62,12 @@ def _changes(node: sympy.Basic) -> Iterator[Change]:
         for kind, change, body in _changes(node.function):
             yield kind, change, sympy.Sum(body, *node.limits)
         return
+    if isinstance(node, sympy.MatrixBase):
+        for number, entry in enumerate(node.flat()):
+            for kind, change, changed in _changes(entry):
+                entries = [*node.flat()[:number], changed, *node.flat()[number + 1 :]]
+                yield kind, change, node.func(*node.shape, entries)
+        return
     for number, argument in enumerate(node.args):
         for kind, change, changed in _changes(argument):
             yield kind, change, _with_argument(node, number, changed)

@@ -8,7 +8,9 @@ direction: n⁺·δn⁺ = n⁻·δn⁻ = 0 by Eqs. 4 and 5. The strength ε mult
 from dataclasses import dataclass
 
 import sympy
-from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.algebra.exact import Domain
+from force_diffusion.symbolic.as_printed import equation, terms
+from force_diffusion.symbolic.notation import Symbol, raised
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
@@ -40,20 +42,42 @@ def dotted(vector: sympy.Expr, tilts: dict[SiteFunction, sympy.Symbol]) -> sympy
     return sympy.ImmutableMatrix(rows)
 
 
+def _pair(name: str, order: str = "") -> tuple[Symbol, Symbol]:
+    shown = order and f"_{order}"
+    plus, minus = (
+        Symbol(f"{name}_{word}{order}", f"{name}^{{{sign}}}{shown}", f"{name}{raised(sign)}{shown}")
+        for word, sign in (("plus", "+"), ("minus", "-"))
+    )
+    return plus, minus
+
+
+FORCES = _pair("F")
+"""The forces along n⁺ and n⁻ that carry something, in units of it."""
+
+ORDER_0, ORDER_1 = _pair("F", "0"), _pair("F", "1")
+"""Their values at ε = 0, and their derivatives with respect to ε there."""
+
+
+def _in_lowest_terms(value: sympy.Expr) -> sympy.Expr:
+    return Domain([phi, *sorted(value.free_symbols - {phi}, key=str)]).from_sympy(value).to_sympy()
+
+
 @dataclass(frozen=True)
 class Solved:
     """A balance as a 2×2 system, and its solution to first order in ε.
 
     Attributes:
-        matrix: columns for f⁺ and f⁻, rows dotted with n⁺ and n⁻.
-        right: what the supports have to carry.
+        balance: n⁺ and n⁻ times the balance, in FORCES; both vanish.
+        rows: the same as equations, what the supports have to carry on the right.
+        solution: the forces, exact in ε.
         at_zero: (f⁺, f⁻) at ε = 0.
         slope: their derivatives with respect to ε there.
         meaning: what the tilts ν stand for, as dot products.
     """
 
-    matrix: sympy.ImmutableMatrix
-    right: sympy.ImmutableMatrix
+    balance: tuple[sympy.Expr, sympy.Expr]
+    rows: tuple[sympy.Eq, sympy.Eq]
+    solution: tuple[sympy.Expr, sympy.Expr]
     at_zero: tuple[sympy.Expr, sympy.Expr]
     slope: tuple[sympy.Expr, sympy.Expr]
     meaning: dict[sympy.Symbol, sympy.Expr]
@@ -76,23 +100,27 @@ def solve(
     supports = [atom for atom in balance.atoms(DeltaNPlus, DeltaNMinus) if not carried.has(atom)]
     tilts = {atom: tilt_plus if isinstance(atom, DeltaNPlus) else tilt_minus for atom in supports}
     tilts |= dict.fromkeys(carried.atoms(DeltaNPlus, DeltaNMinus), tilt_incoming)
-    unknowns = sympy.symbols("f_plus f_minus")
     system = dotted(
-        balance.xreplace({load: -carried, **dict(zip(forces, unknowns, strict=True))}), tilts
+        balance.xreplace({load: -carried, **dict(zip(forces, FORCES, strict=True))}), tilts
     )
-    matrix = sympy.ImmutableMatrix(system.jacobian(list(unknowns)))
+    matrix = sympy.ImmutableMatrix(system.jacobian(list(FORCES)))
     right = dotted(carried, tilts)
     # not matrix.inv(): it guesses by numbers whether the determinant is zero
-    solution = matrix.adjugate() / matrix.det() * right
+    solution = matrix.adjugate() * right / matrix.det()
     at_zero, slope = solution.subs(epsilon, 0), sympy.diff(solution, epsilon).subs(epsilon, 0)
     meaning = {
         tilt: Dot(n_minus if isinstance(atom, DeltaNPlus) else n_plus, atom)
         for atom, tilt in tilts.items()
     }
+    rows = [
+        equation(terms(*(entry * force for entry, force in zip(row, FORCES, strict=True))), side)
+        for row, side in zip(matrix.tolist(), right, strict=True)
+    ]
     return Solved(
-        matrix,
-        right,
-        tuple(map(sympy.cancel, at_zero)),
-        tuple(map(sympy.factor, slope)),
+        tuple(system),
+        (rows[0], rows[1]),
+        tuple(solution),
+        tuple(map(_in_lowest_terms, at_zero)),
+        tuple(map(_in_lowest_terms, slope)),
         meaning,
     )

@@ -62,6 +62,9 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
     def _print_Symbol(self, expr: Symbol) -> str:
         return str(getattr(expr, "in_text", expr.name))
 
+    def _print_Pi(self, _expr: Any) -> str:
+        return "π"
+
     def _print_MatrixBase(self, expr: Any) -> str:
         rows = [f"({', '.join(map(self._print, row))})" for row in expr.tolist()]
         return f"({', '.join(rows)})"

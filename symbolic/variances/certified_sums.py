@@ -17,13 +17,12 @@ def _sum_up_to(power: sympy.Expr, index: sympy.Symbol, low: sympy.Expr) -> sympy
     return sympy.Sum(power.xreplace({index: bound}), (bound, low, index)).doit()
 
 
-def certified_sum(
-    term: sympy.Expr, index: sympy.Symbol, low: sympy.Expr, high: sympy.Expr
-) -> sympy.Expr:
-    """Σ term for low ≤ index ≤ high, by ``Sum.doit``, checked in the exact field.
+@cache
+def partial_sum(term: sympy.Expr, index: sympy.Symbol, low: sympy.Expr) -> sympy.Expr:
+    """S(n) = Σ term from low up to n, by ``Sum.doit``, with the index's name for n.
 
-    With S(n) the sum up to n, S(n) − S(n−1) must be the term at n and S(low−1) must be zero:
-    the two together are a proof by induction.
+    S(n) − S(n−1) must be the term at n and S(low−1) must be zero, in the exact field: the two
+    together are a proof by induction.
 
     Raises:
         SumRefusedError: when either fails.
@@ -37,4 +36,18 @@ def certified_sum(
     starts = FIELD.from_sympy(partial.xreplace({index: low - 1}))
     if not (telescopes.is_zero() and starts.is_zero()):
         raise SumRefusedError(f"the sum of {term} over {index} fails its certificate")
-    return partial.xreplace({index: high})
+    return partial
+
+
+def certified_sum(
+    term: sympy.Expr, index: sympy.Symbol, low: sympy.Expr, high: sympy.Expr
+) -> sympy.Expr:
+    """Σ term for low ≤ index ≤ high, by :func:`partial_sum`; zero when high = low − 1."""
+    return partial_sum(term, index, low).xreplace({index: high})
+
+
+def carried_out(expression: sympy.Expr) -> sympy.Expr:
+    """An expression with every sum in closed form."""
+    return expression.replace(
+        sympy.Sum, lambda term, limits: certified_sum(carried_out(term), *limits)
+    )

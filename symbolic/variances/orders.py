@@ -33,11 +33,11 @@ def compare_leading_order(exact: RationalFunction, candidate: sympy.Expr) -> Rul
     return refuted(f"exact − candidate is of the leading order M^{power} itself: {shown}")
 
 
-def weights_follow(sum_of_squares: sympy.Expr, printed: sympy.Expr, note: str) -> Ruling:
-    """A sum of squared weights in M and j has the leading order that is printed in M and z."""
-    total = FIELD.from_sympy(sum_of_squares)
-    in_layers = FIELD.from_sympy(printed.xreplace({z: j / M}))
-    return from_test((leading(total) - leading(in_layers)).is_zero(), note)
+def same_leading_order(candidate: sympy.Eq) -> Ruling:
+    """Two functions of M, j and z = j/M have the same leading order."""
+    return compare_leading_order(
+        FIELD.from_sympy(candidate.lhs.xreplace({z: j / M})), candidate.rhs
+    )
 
 
 def edges_follow(forms: dict[str, ClosedForm], printed: sympy.Expr) -> Ruling:
@@ -52,15 +52,10 @@ def edges_follow(forms: dict[str, ClosedForm], printed: sympy.Expr) -> Ruling:
     )
 
 
-def next_order_is(forms: dict[str, ClosedForm], printed: sympy.Expr, stated: sympy.Expr) -> Ruling:
-    """Exact less printed form is ``stated`` at leading order, in units of (σ/r)²/(1−φ²)²."""
-    unit = (sigma / r) ** 2 / (1 - phi**2) ** 2
-    rest = forms["interior"].value - FIELD.from_sympy(printed.xreplace({z: j / M}))
-    expected = FIELD.from_sympy((stated * unit).xreplace({z: j / M}))
-    return from_test(
-        (leading(rest) - expected).is_zero(),
-        f"in units of (σ/r)²/(1−φ²)² the next order is {text(stated)}",
-    )
+def next_order_is(name: sympy.Symbol, forms: dict[str, ClosedForm], candidate: sympy.Eq) -> Ruling:
+    """The exact form in the interior less its leading order, on the left, is as on the right."""
+    left = candidate.lhs.xreplace({name: forms["interior"].expression})
+    return same_leading_order(sympy.Eq(left, candidate.rhs, evaluate=False))
 
 
 def no_radius_dominates(force: sympy.Expr, forms: dict[str, ClosedForm]) -> Ruling:

@@ -18,6 +18,7 @@ from force_diffusion.symbolic.symbols import M, j, sigma, z
 from force_diffusion.symbolic.variances.weights import Pieces, take_apart
 
 
+@cache
 def fluctuation(expression: sympy.Expr, region: Region) -> LinearForm:
     """The part of a linear expression that depends on the radii."""
     return without_constant(Reader(region).scalar(expression))
@@ -32,13 +33,14 @@ def without_constant(form: LinearForm) -> LinearForm:
 
 
 @cache
-def _pieces(expression: sympy.Expr, region: Region) -> Pieces:
+def pieces_of(expression: sympy.Expr, region: Region) -> Pieces:
+    """The fluctuation of a linear expression, taken apart."""
     return take_apart(fluctuation(expression, region), region)
 
 
 def variance(expression: sympy.Expr, region: Region) -> RationalFunction:
     """σ² Σ weight² of a linear expression in δr, in closed form, exact in the region."""
-    return _pieces(expression, region).sum_of_squares() * FIELD.from_sympy(sigma**2)
+    return pieces_of(expression, region).sum_of_squares() * FIELD.from_sympy(sigma**2)
 
 
 def order(value: RationalFunction, *sizes: sympy.Expr) -> int:
@@ -71,7 +73,7 @@ def grows_evenly(value: RationalFunction, *sizes: sympy.Expr) -> bool:
 
 def largest_weight(expression: sympy.Expr, region: Region) -> int:
     """The order of the largest weight of a linear expression in δr, over all sites."""
-    pieces = _pieces(expression, region)
+    pieces = pieces_of(expression, region)
     sizes = (M, j, LAYER)
     orders = [order(run.weight, *sizes) for run in pieces.runs]
     orders += [order(full, *sizes) for full, _ in pieces.special.values()]

@@ -15,7 +15,12 @@ from force_diffusion.derivations.export.document import READING, sentence, state
 from force_diffusion.derivations.export.page.html import display, prose, symbol
 from force_diffusion.derivations.export.page.parts import Part
 from force_diffusion.derivations.export.page.proof_graph import proof_graph
-from force_diffusion.derivations.export.terminal import mutant_counts, relation_of
+from force_diffusion.derivations.export.prose import both
+from force_diffusion.derivations.export.terminal import (
+    mutant_counts,
+    relation_of,
+    step_verdicts,
+)
 from force_diffusion.derivations.framework.record import Derivation, Outcome
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
@@ -45,12 +50,12 @@ def _noted(verdict: str, name: str, note: str) -> Note:
     return Note(verdict, prose(sentence(name)), prose(sentence(note)) if note else Markup(""))
 
 
-def _steps(derivation: Derivation) -> Iterator[tuple[Markup, Markup]]:
-    for step in derivation.steps():
-        formula = Markup("")
-        if step.formula is not None:
-            formula = display([step.formula], relation_of(derivation, step))
-        yield prose(step.reason), formula
+def _steps(derivation: Derivation, verdicts: list[str]) -> Iterator[tuple[Markup | str, ...]]:
+    """Reason, formula, verdict, and what it follows from."""
+    for step, verdict in zip(derivation.steps(), verdicts, strict=True):
+        formula = display([step.formula], relation_of(derivation, step))
+        uses = prose(both(step.uses)) if step.uses else ""
+        yield prose(step.reason), formula, verdict, uses
 
 
 def equation_view(outcome: Outcome, outcomes: Sequence[Outcome]) -> dict[str, Any]:
@@ -70,7 +75,7 @@ def equation_view(outcome: Outcome, outcomes: Sequence[Outcome]) -> dict[str, An
             for other in outcomes
             if derivation.number in [premise.number for premise in other.derivation.premises]
         ],
-        "steps": list(_steps(derivation)),
+        "steps": list(_steps(derivation, step_verdicts(outcome.checks))),
         "proofs": [_noted(str(c.verdict), c.name, c.note) for c in kinds["proof"]],
         "witnesses": [_noted(str(c.verdict), c.name, c.note) for c in kinds["witness"]],
         "counts": mutant_counts(outcome),

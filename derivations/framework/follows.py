@@ -1,0 +1,148 @@
+"""How a step follows: what is known is put in, and both sides are compared."""
+
+from collections.abc import Callable, Mapping
+
+import sympy
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.bases import LINE_SUM, Basis
+from force_diffusion.symbolic.algebra.exact import FIELD
+from force_diffusion.symbolic.as_printed import equation, minus, terms
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    all_of,
+    decide_identity,
+    decide_linear,
+    decide_vector_identity,
+    proved,
+    undecided,
+)
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.symbols import i, j
+from force_diffusion.symbolic.variances.certified_sums import carried_out, certified_sum
+
+Decide = Callable[[int, sympy.Eq], Ruling]
+Known = Mapping[object, object]
+"""What stands for a symbol: an expression; for a kind of lattice quantity: a function of its site."""
+
+
+def put_in(expression: sympy.Expr, known: Known) -> sympy.Expr:
+    """Put in what is known, one after the other."""
+    for what, image in known.items():
+        if isinstance(what, type):
+            expression = expression.replace(what, image)
+        else:
+            expression = expression.xreplace({what: image})
+    return expression
+
+
+def linear(
+    known: Known | None = None,
+    region: Region | None = None,
+    *,
+    is_vector: bool = False,
+    basis: Basis = LINE_SUM,
+) -> Decide:
+    """Both sides have the same normal form for all indices of the region."""
+    return lambda _, candidate: decide_linear(
+        put_in(candidate.lhs, known or {}),
+        put_in(candidate.rhs, known or {}),
+        region or Region({}),
+        is_vector=is_vector,
+        basis=basis,
+    )
+
+
+def identity(known: Known | None = None) -> Decide:
+    """Both sides are the same rational function."""
+    return lambda _, candidate: decide_identity(
+        put_in(candidate.lhs, known or {}), put_in(candidate.rhs, known or {})
+    )
+
+
+def summed(known: Known | None = None) -> Decide:
+    """Both sides are the same rational function once their sums are carried out, certified."""
+    return lambda _, candidate: decide_identity(
+        *(carried_out(put_in(side, known or {})) for side in candidate.args)
+    )
+
+
+def is_sum(_: int, candidate: sympy.Eq) -> Ruling:
+    """The right-hand side is the sum up to n on the left: it telescopes, and starts at zero."""
+    if not isinstance(candidate.lhs, sympy.Sum):
+        return undecided("the left-hand side is no sum")
+    index, low, high = candidate.lhs.limits[0]
+    up_to, term = candidate.rhs, candidate.lhs.function.xreplace({index: high})
+    return all_of(
+        decide_identity(up_to - up_to.xreplace({high: high - 1}), term),
+        decide_identity(up_to.xreplace({high: low - 1}), sympy.Integer(0)),
+    )
+
+
+def certificate(total: sympy.Sum, up_to_n: sympy.Expr) -> tuple[sympy.Eq, sympy.Eq]:
+    """What a sum up to n is, and what that gains at n: two lines of a step."""
+    index, _, high = total.limits[0]
+    before = up_to_n.xreplace({high: high - 1})
+    term = total.function.xreplace({index: high})
+    return equation(total, up_to_n), equation(terms(up_to_n, minus(before)), term)
+
+
+def by_certificate(part: int, candidate: sympy.Eq) -> Ruling:
+    """Rule on the lines of certificates."""
+    return (identity() if part % 2 else is_sum)(part, candidate)
+
+
+def up_to(total: sympy.Sum) -> sympy.Expr:
+    """The sum up to n as a function of n, by SymPy, factored."""
+    index, low, high = total.limits[0]
+    found = certified_sum(total.function, index, low, high)
+    return FIELD.from_sympy(found).to_sympy()
+
+
+def differentiated() -> Decide:
+    """Both sides are the same once SymPy has differentiated."""
+    return lambda _, candidate: decide_identity(candidate.lhs.doit(), candidate.rhs.doit())
+
+
+def vector_identity(known: Known | None = None) -> Decide:
+    """Both sides have the same Cartesian components."""
+    return lambda _, candidate: decide_vector_identity(
+        put_in(candidate.lhs, known or {}), put_in(candidate.rhs, known or {})
+    )
+
+
+def states(*known: sympy.Eq, region: Region | None = None) -> Decide:
+    """Each candidate says what a known equation says, of the same left-hand side."""
+
+    def decide(part: int, candidate: sympy.Eq) -> Ruling:
+        if candidate == known[part]:
+            return proved("what is known, put in")
+        if candidate.lhs != known[part].lhs:
+            return undecided(f"the left-hand side is not {text(known[part].lhs)}")
+        return decide_linear(candidate.rhs, known[part].rhs, region or Region({}))
+
+    return decide
+
+
+def walks(
+    start: tuple[sympy.Expr, sympy.Expr],
+    to_next: Mapping[sympy.Symbol, sympy.Expr],
+    count: sympy.Symbol,
+) -> Decide:
+    """The site (i, j) after a number of steps, by induction: where one starts, and each step.
+
+    ``to_next`` holds both indices of the site that follows, under the indices of the one before.
+    """
+
+    def decide(part: int, candidate: sympy.Eq) -> Ruling:
+        if candidate.lhs != (i, j)[part]:
+            return undecided(f"the left-hand side is not {text((i, j)[part])}")
+        (here, following) = list(to_next.items())[part]
+        reached = candidate.rhs
+        return all_of(
+            decide_identity(reached.xreplace({count: sympy.Integer(0)}), start[part]),
+            decide_identity(
+                reached.xreplace({count: count + 1}), following.xreplace({here: reached})
+            ),
+        )
+
+    return decide
