@@ -103,7 +103,7 @@ def _component(part: int, candidate: sympy.Eq) -> Ruling:
 
 
 def _inverse(_: int, candidate: sympy.Eq) -> Ruling:
-    """The matrix is that of the derivatives over 4r; times its inverse, with columns b^±, it is 1."""
+    """The matrix of the derivatives over 4r; times what has the columns b^±, it is 1."""
     matrix, exponent = candidate.lhs.as_base_exp()
     derivatives = sympy.Matrix([constraint.order_1 for constraint in constraints()])
     rows = derivatives.jacobian([contacts.dx, contacts.dy])

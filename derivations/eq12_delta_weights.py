@@ -52,6 +52,7 @@ from force_diffusion.symbolic.variances.variance import (
     at_fixed_z,
     grows_evenly,
     largest_weight,
+    largest_weight_of,
     order,
     variance,
 )
@@ -178,6 +179,7 @@ def dropped_variance() -> sympy.Expr:
     return variance(exact_fluctuation() - PRINTED.rhs, DEEP).to_sympy()
 
 
+LEFT_OUT = sympy.Sum(ON_DIAGONAL, (m, j + 1, M))
 ALL_HEIGHTS = Region({j: 1, M: j + 1})
 
 
@@ -187,10 +189,10 @@ def _sum_of(weight: sympy.Expr) -> sympy.Expr:
 
 def _largest_dropped(_: int, candidate: sympy.Eq) -> Ruling:
     """What the right-hand side leaves of the left has weights of a lower order, at every site."""
-    left = in_exact_force(candidate.lhs)
-    order_left = largest_weight(left, DEEP)
-    order_rest = largest_weight(left - candidate.rhs, DEEP)
-    equal_means = NO_SITE not in Reader(DEEP).scalar(left - candidate.rhs).sites
+    left = _form(candidate.lhs)
+    rest = left - _form(candidate.rhs)
+    order_left, order_rest = (largest_weight_of(form, DEEP) for form in (left, rest))
+    equal_means = NO_SITE not in rest.sites
     return from_test(
         equal_means and order_left == 1 and order_rest == 0,
         "left minus right has mean zero, and weights of order 1 alone",
@@ -230,9 +232,7 @@ def steps() -> Iterator[Step]:
     )
     yield Step(
         "The printed braces leave out Δ once for every m > j,",
-        equation(
-            _sum_of(FULL_COUNT), terms(_sum_of(BRACES), sympy.Sum(ON_DIAGONAL, (m, j + 1, M)))
-        ),
+        equation(_sum_of(FULL_COUNT), terms(_sum_of(BRACES), LEFT_OUT)),
         linear(region=ALL_HEIGHTS),
     )
     yield Step(

@@ -100,9 +100,7 @@ def steps() -> Iterator[Step]:
         lambda _, candidate: squared_weights(candidate),
         ("Eq. 12",),
     )
-    below, above = (
-        sympy.Sum(f, (m, low, n)) for f, low in (((M - j) ** 2, 1), ((M - m) ** 2, j + 1))
-    )
+    below, above = sympy.Sum((M - j) ** 2, (m, 1, n)), sympy.Sum((M - m) ** 2, (m, j + 1, n))
     yield Step(
         "Each of the two sums has a certificate: what it is up to n gains the term at n, and is "
         "zero before the first term, at n = 0 (first) and at n = j (second).",

@@ -162,9 +162,9 @@ def _average(load: str) -> Decide:
 def _two_orders(load: str) -> Decide:
     """The exact mean less the right-hand side is of an order below the second highest."""
     average = averages()[load]
+    second = average.leading_orders()[1]  # refuses a harmonic part that counts
 
     def decide(_: int, candidate: sympy.Eq) -> Ruling:
-        _, second = average.leading_orders()  # refuses a harmonic part that counts
         if candidate.lhs != MEAN_SQUARE:
             return undecided(f"the left-hand side is not {text(MEAN_SQUARE)}")
         rest = order(average.rational - FIELD.from_sympy(candidate.rhs))
@@ -300,7 +300,7 @@ def steps() -> Iterator[Step]:
         )
     yield Step("So its root goes as printed, for both loads alike.", PRINTED, decide, FROM_ORDERS)
     for place, load in enumerate(LOADS):
-        a, c, q = ROOTS[load]
+        _, c, q = ROOTS[load]
         root = terms(1, times(c, z))
         yield Step(
             "The mean of σ_f/⟨f⟩ itself goes the same way with another prefactor, in units of "

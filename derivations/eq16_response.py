@@ -285,12 +285,8 @@ def _value(quantity: sympy.Expr, cases: Iterable[Case], unit: sympy.Expr) -> Dec
     """The closed form against the sum of squared weights where no two sites coincide."""
     (deep,) = (case.value for case in cases if not case.at)
     coordinates = IN_CONE if quantity in (RESPONSE, ONE_CONTACT) else ON_LEFT_LEG
-    return lambda _, candidate: decide_identity(
-        *(
-            side.xreplace({quantity: deep.to_sympy() * unit, **coordinates})
-            for side in candidate.args
-        )
-    )
+    known = {quantity: deep.to_sympy() * unit, **coordinates}
+    return lambda _, candidate: decide_identity(*(side.xreplace(known) for side in candidate.args))
 
 
 def steps() -> Iterator[Step]:

@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from itertools import zip_longest
 
 from force_diffusion.derivations.export.manifest import (
     MANIFEST,
@@ -91,8 +90,9 @@ def _noted(verdict: str, name: str, note: str) -> str:
 def _steps(derivation: Derivation, verdicts: list[str]) -> str:
     items = []
     steps = list(derivation.steps())
-    # an earlier run may have left an equation without verdicts on its steps
-    for step, verdict in zip_longest(steps, verdicts[: len(steps)], fillvalue="not decided"):
+    if len(verdicts) != len(steps):  # an earlier version has left them behind
+        verdicts = ["not decided"] * len(steps)
+    for step, verdict in zip(steps, verdicts, strict=True):
         follows = f"\\emph{{{prose_latex(sentence(follows_text(step, verdict)))}}}"
         if derivation.printed == (step.formula,):  # not the same display twice
             reason = prose_latex(step.reason.rstrip(".:"))

@@ -1,6 +1,7 @@
 """How a step follows: what is known is put in, and both sides are compared."""
 
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import sympy
 from force_diffusion.symbolic.algebra.affine import Region
@@ -21,8 +22,8 @@ from force_diffusion.symbolic.symbols import i, j
 from force_diffusion.symbolic.variances.certified_sums import carried_out, certified_sum
 
 Decide = Callable[[int, sympy.Eq], Ruling]
-Known = Mapping[object, object]
-"""What stands for a symbol: an expression; for a kind of lattice quantity: a function of its site."""
+Known = Mapping[Any, Any]
+"""What stands for a symbol; for a kind of lattice quantity: a function of its site."""
 
 
 def put_in(expression: sympy.Expr, known: Known) -> sympy.Expr:

@@ -15,7 +15,7 @@ from force_diffusion.symbolic.variances.weights import Pieces, Run
 
 @dataclass(frozen=True)
 class Weight:
-    """The weight of one radius; with ``limits`` that of each radius of a diagonal, in the layer m."""
+    """The weight of a radius; with ``limits`` of each radius of a diagonal, in the layer m."""
 
     radius: DeltaR
     weight: sympy.Expr
@@ -55,8 +55,9 @@ def _shown(weight: RationalFunction, layer: sympy.Symbol) -> sympy.Expr:
     for factor in sympy.Mul.make_args(weight.to_sympy()):
         if isinstance(factor, sympy.Add) and len(factor.args) > LONG:
             powers = sympy.Poly(factor.xreplace({M: above + layer}), above).terms()
-            factor = terms(*(c * (M - layer) ** power for (power,), c in powers))
-        factors.append(factor)
+            factors.append(terms(*(c * (M - layer) ** power for (power,), c in powers)))
+        else:
+            factors.append(factor)
     return times(*factors) if len(factors) > 1 else factors[0]
 
 

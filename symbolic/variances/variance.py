@@ -73,7 +73,15 @@ def grows_evenly(value: RationalFunction, *sizes: sympy.Expr) -> bool:
 
 def largest_weight(expression: sympy.Expr, region: Region) -> int:
     """The order of the largest weight of a linear expression in δr, over all sites."""
-    pieces = pieces_of(expression, region)
+    return _largest(pieces_of(expression, region))
+
+
+def largest_weight_of(form: LinearForm, region: Region) -> int:
+    """The same of a normal form."""
+    return _largest(take_apart(without_constant(form), region))
+
+
+def _largest(pieces: Pieces) -> int:
     sizes = (M, j, LAYER)
     orders = [order(run.weight, *sizes) for run in pieces.runs]
     orders += [order(full, *sizes) for full, _ in pieces.special.values()]
