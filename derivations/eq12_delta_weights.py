@@ -231,12 +231,12 @@ def steps() -> Iterator[Step]:
         linear(region=ALL_HEIGHTS),
     )
     yield Step(
-        "The printed braces leave out Δ once for every m > j,",
+        "The printed braces leave out Δ once for every m > j:",
         equation(_sum_of(FULL_COUNT), terms(_sum_of(BRACES), LEFT_OUT)),
         linear(region=ALL_HEIGHTS),
     )
     yield Step(
-        "which is of the order that is dropped anyway.",
+        "That is of the order that is dropped anyway.",
         PRINTED,
         decide,
         ("step 3", "step 4", "step 5"),

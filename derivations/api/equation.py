@@ -341,14 +341,18 @@ base+1 or surface.
         return found[0] if len(found) == 1 else tuple(found)
 
     def steps(self) -> Steps:
-        """The derivation: each step has a ``reason`` in words and the ``formula`` that it gives.
+        """The derivation: each step has a ``reason`` in words, a ``formula`` and a ``verdict``.
+
+        ``uses`` names what the formula follows from; ``rule_on`` rules on another in its place.
 
         >>> import force_diffusion as fd
         >>> step = fd.equation(13).steps()[0]
         >>> step.reason.startswith("Each Δ holds one radius with the weight 2")
         True
         >>> step.formula
-        6*Sum((M - j)**2, (m, 1, j)) + 6*Sum((M - m)**2, (m, j + 1, M))
+        Eq(squares, 6*(Sum((M - j)**2, (m, 1, j)) + Sum((M - m)**2, (m, j + 1, M))))
+        >>> str(step.verdict), step.uses
+        ('proved', ('Eq. 12',))
         """
         return Steps.of(self._derivation)
 
@@ -365,7 +369,7 @@ base+1 or surface.
         >>> print(str(proof).splitlines()[0])
         Eq. 9 is proved. Its premise, Eq. 8: taken as proved, not run.
         >>> [check.kind for check in proof.checks]
-        ['proof', 'proof', 'witness']
+        ['proof', 'step', 'step', 'step', 'step', 'step', 'witness']
         """
         if premises:
             return Proof(tuple(run_all(with_premises([self._derivation]))), premises_run=True)

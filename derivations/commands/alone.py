@@ -4,14 +4,15 @@ import sys
 from collections.abc import Sequence
 
 from force_diffusion.derivations.commands.guard import WRONG_USAGE, guarded
-from force_diffusion.derivations.export.terminal import outcome_text
+from force_diffusion.derivations.export.terminal import outcome_text, summary_line
+from force_diffusion.derivations.framework.catalogue import with_premises
 from force_diffusion.derivations.framework.record import Derivation
-from force_diffusion.derivations.framework.runner import run
+from force_diffusion.derivations.framework.runner import run_all
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
 
 def run_alone(derivation: Derivation, arguments: Sequence[str] | None = None) -> int:
-    """Run one derivation as a program: print it in full; 0 if proved, else 1."""
+    """Run one derivation and its premises as a program: print it in full; 0 if proved, else 1."""
 
     def program() -> int:
         given = sys.argv[1:] if arguments is None else arguments
@@ -24,7 +25,9 @@ def run_alone(derivation: Derivation, arguments: Sequence[str] | None = None) ->
                 file=sys.stderr,
             )
             return WRONG_USAGE
-        outcome = run(derivation)
+        *premises, outcome = run_all(with_premises([derivation]))
+        if premises:
+            print("It rests on", *map(summary_line, premises), sep="\n", end="\n\n")
         print(outcome_text(outcome))
         return 0 if outcome.verdict is Verdict.PROVED else 1
 

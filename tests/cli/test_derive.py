@@ -70,6 +70,7 @@ def test_json_follows_its_schema(made_up, capsys: pytest.CaptureFixture[str]) ->
         for check in entry["checks"]:
             assert list(check) == ["kind", "verdict", "seconds"]
             allowed = {
+                "step": ("proved", "refuted", "undecided"),
                 "proof": ("proved", "refuted", "undecided"),
                 "witness": ("agrees", "disagrees"),
             }

@@ -9,6 +9,7 @@ from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 from force_diffusion.symbolic.symbols import DeltaR, SecondDifference, i, j
 
 TRUE = equation(SecondDifference(i, j), terms(DeltaR(i, j), DeltaR(i - 1, j)))
+SAME = equation(DeltaR(i, j), DeltaR(i, j))
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
@@ -29,7 +30,10 @@ PREMISE = Derivation(
     assumptions=("j ≥ 1",),
     premises=(),
     printed=(TRUE,),
-    steps=lambda: [Step("Add the two radii.", TRUE), Step("Nothing more.")],
+    steps=lambda: [
+        Step("Add the two radii.", TRUE, decide, ("an assumption",)),
+        Step("They are n⁺ apart.", SAME, lambda _, one: always(Verdict.PROVED), ("step 1",)),
+    ],
     decide=decide,
     claims=(Claim("a claim", lambda: always(Verdict.PROVED)),),
     witnesses=(Witness("a witness", lambda seed: always(Verdict.AGREES)),),
@@ -45,6 +49,11 @@ def with_claim(verdict: Verdict) -> Derivation:
 
 def with_witness(verdict: Verdict) -> Derivation:
     return replace(CONCLUSION, witnesses=(Witness("doubtful", lambda seed: always(verdict)),))
+
+
+def with_step(verdict: Verdict) -> Derivation:
+    doubtful = Step("So it is.", SAME, lambda *_: always(verdict), ("step 1",))
+    return replace(CONCLUSION, steps=lambda: [*CONCLUSION.steps(), doubtful])
 
 
 def with_blind_checker() -> Derivation:

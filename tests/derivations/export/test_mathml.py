@@ -19,9 +19,7 @@ def formulas() -> Iterator[str]:
         derivation = load(number)
         yield latex_body(derivation.printed, RELATIONS[derivation.relation])
         yield from (latex(symbol) for symbol, _ in derivation.symbols)
-        yield from (
-            latex_body([step.formula]) for step in derivation.steps() if step.formula is not None
-        )
+        yield from (latex_body([step.formula]) for step in derivation.steps())
 
 
 def characters(source: str) -> Counter[str]:

@@ -20,7 +20,10 @@ from tests.derivations import fakes
 def test_a_sound_derivation_is_proved() -> None:
     outcome = run(fakes.PREMISE)
     assert outcome.verdict is Verdict.PROVED
-    assert [check.kind for check in outcome.checks] == ["proof", "proof", "witness"]
+    assert [check.kind for check in outcome.checks] == [
+        *["proof", "step", "step", "proof"],
+        "witness",
+    ]
     assert all(check.seconds >= 0 for check in outcome.checks)
     counts = mutant_counts(outcome)
     assert counts["made"] == counts["refuted"] >= 5
@@ -32,6 +35,8 @@ def test_a_sound_derivation_is_proved() -> None:
     [
         (fakes.with_claim(Verdict.REFUTED), Verdict.REFUTED),
         (fakes.with_claim(Verdict.UNDECIDED), Verdict.UNDECIDED),
+        (fakes.with_step(Verdict.REFUTED), Verdict.REFUTED),
+        (fakes.with_step(Verdict.UNDECIDED), Verdict.UNDECIDED),
         (fakes.with_witness(Verdict.DISAGREES), Verdict.REFUTED),
         (fakes.with_blind_checker(), Verdict.UNDECIDED),
     ],
@@ -72,9 +77,18 @@ def test_run_alone_prints_everything(capsys: pytest.CaptureFixture[str]) -> None
     assert run_alone(fakes.with_claim(Verdict.UNDECIDED), []) == 1
 
 
+def test_run_alone_proves_the_premises_too(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_alone(fakes.CONCLUSION, []) == 0
+    printed = capsys.readouterr().out
+    assert printed.index("1  proved") < printed.index("Eq. 2: B")
+    doubtful = replace(fakes.with_claim(Verdict.UNDECIDED), number=1, premises=())
+    assert run_alone(replace(fakes.CONCLUSION, premises=(doubtful,)), []) == 1
+    assert "Eq. 2 is undecided" in capsys.readouterr().out
+
+
 def test_the_summary_counts(capsys: pytest.CaptureFixture[str]) -> None:
     line = summary_line(run(fakes.PREMISE))
-    assert "2 proofs, 1 witness," in line
+    assert "2 steps, 2 proofs, 1 witness," in line
     assert "proved" in line
 
 
