@@ -17,9 +17,7 @@ from force_diffusion.symbolic.kernel.mutants import mutants
 ALL = [load(number) for number in modules()]
 every_equation = pytest.mark.parametrize("derivation", ALL, ids=lambda d: f"eq{d.number}")
 
-AT_RIGHT_ANGLES = (
-    "a change of direction is at right angles to its contact, at every site; −0 is 0"
-)
+AT_RIGHT_ANGLES = "a change of direction is at right angles to its contact, at every site; −0 is 0"
 NOTHING_THERE = "the weight of the layer that is added, left out or counted elsewhere is zero there"
 DROPPED_ANYWAY = "weights of order 1 change, and these are what the step drops"
 
