@@ -32,6 +32,8 @@ i, j, k, l, m, n, p, q = (Symbol(name, integer=True) for name in "ijklmnpq")  # 
 site_r, site_s = (Symbol(name, code=f"site_{name}", integer=True) for name in "rs")
 M = Symbol("M", integer=True, positive=True)
 
+N = Symbol("N", integer=True, positive=True)  # neighbouring contacts or beads of one layer
+
 INDICES = (i, j, k, l, m, n, p, q, site_r, site_s, M)
 """All index symbols, in the fixed order that normal forms use."""
 

@@ -9,7 +9,9 @@ import sympy
 from force_diffusion.derivations.api.evaluation import (
     ArgumentError,
     Number,
+    holds,
     read_arguments,
+    told,
     value_of,
 )
 from force_diffusion.derivations.api.exact import ExactForm
@@ -337,6 +339,12 @@ base+1 or surface.
             )
         needed = set().union(*(side.free_symbols for side in sides))
         values, exact = read_arguments(self._heading, needed, arguments)
+        for relation in self._derivation.domain:
+            if not holds(relation, values):
+                at = sorted(relation.free_symbols, key=str)
+                raise ArgumentError(
+                    f"Eq. {self.number} is for {text(relation)}, not for {told(at, values)}"
+                )
         found = [value_of(side, values, exact=exact) for side in sides]
         return found[0] if len(found) == 1 else tuple(found)
 

@@ -26,6 +26,7 @@ _ALLOWED: dict[sympy.Symbol, tuple[str, Callable[[Any], bool]]] = {
     sy.sigma: ("a number from 0 on", lambda value: value >= 0),
     sy.M: ("a whole number from 1 on", lambda value: value >= 1),
     sy.j: ("a whole number from 0 on", lambda value: value >= 0),
+    sy.N: ("a whole number from 1 on", lambda value: value >= 1),
     sy.l: ("a whole number from 0 on", lambda value: value >= 0),
 }
 _TOGETHER: dict[tuple[sympy.Symbol, ...], tuple[str, Callable[[Any, Any], bool]]] = {

@@ -105,7 +105,7 @@ class ExactForm(Formula):
         return value_of(next(fitting, form.expression), values, exact=exact)
 
     def _told(self, line: Eq) -> str:
-        note = f"{text(line.lhs)}, exact to first order: {self.validity}"
+        note = f"{text(line.lhs)}, exact to {self._form.to_order}: {self.validity}"
         return f"{note}; not for {'; '.join(self._edges())}" if self.missed else note
 
     def _edges(self) -> list[str]:

@@ -194,6 +194,7 @@ DERIVATION = Derivation(
     ),
     premises=(eq02.DERIVATION, eq04.DERIVATION),
     printed=(PRINTED,),
+    domain=(sympy.Ge(j, 1),),
     steps=steps,
     decide=decide,
     search=search,

@@ -57,7 +57,7 @@ def exact_forms() -> dict[str, ClosedForm]:
 
 def at_finite_size() -> dict[str, ExactCase]:
     """The exact forms, case by case."""
-    return exact_cases(MEAN - 1, exact_forms())
+    return exact_cases(MEAN - 1, exact_forms(), "second order")
 
 
 def shift() -> sympy.Expr:
@@ -144,6 +144,7 @@ DERIVATION = Derivation(
     ),
     premises=(eq11.DERIVATION, b4.DERIVATION),
     printed=(PRINTED,),
+    domain=(sympy.Ge(j, 2), sympy.Ge(M, j + 2)),
     exact=at_finite_size,
     steps=steps,
     decide=decide,

@@ -13,7 +13,7 @@ from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
 import force_diffusion as fd
 
-NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5")
+NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5", "B7", "B9")
 MODELS = {"q-model": "3", "double-y": "4"}
 LEAST_REALISATIONS, MOST_REALISATIONS = 16, 1_000_000
 HIGHEST, MOST_HEIGHTS = 10_000, 6
@@ -46,7 +46,8 @@ def figures(
     which: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="WHICH", help="Figures: 1, 2, 3, 4, pf, chains, B2, B5; all of them by default."
+            metavar="WHICH",
+            help="Figures: 1, 2, 3, 4, pf, chains, B2, B5, B7, B9; all of them by default.",
         ),
     ] = None,
     out: Annotated[Path, out_option("PNG, SVG, PDF and CSV")] = Path("figures"),
@@ -61,7 +62,8 @@ def figures(
             min=LEAST_REALISATIONS,
             max=MOST_REALISATIONS,
             help="Packings of each ensemble; by default 400 of each height in figure 3 "
-            "and each angle in B2, 4000 in figure 4 and pf, 6000 in B5.",
+            "and each angle in B2, 4000 in figure 4 and pf, 6000 in B5, "
+            "1000 in B7, 20000 in B9.",
         ),
     ] = None,
     seed: Annotated[
@@ -88,9 +90,9 @@ def figures(
     chosen = None if heights is None else _heights(heights)
     if chosen is not None and "3" not in wanted:
         raise typer.BadParameter("goes with figure 3 only; add 3.", param_hint="--heights")
-    if realisations is not None and not {"3", "4", "pf", "B2", "B5"} & set(wanted):
+    if realisations is not None and not {"3", "4", "pf", "B2", "B5", "B7", "B9"} & set(wanted):
         raise typer.BadParameter(
-            "goes with figures 3, 4, pf, B2 and B5 only; the others draw no ensemble.",
+            "goes with figures 3, 4, pf, B2, B5, B7 and B9 only; the others draw no ensemble.",
             param_hint="--realisations",
         )
     for model in beside or []:

@@ -103,7 +103,9 @@ def _zero(outcome: bool, what: str) -> Ruling:
     return from_test(outcome, f"the {what} are equal", f"the {what} differ")
 
 
-def exact_cases(variance: sympy.Expr, forms: dict[str, ClosedForm]) -> dict[str, ExactCase]:
+def exact_cases(
+    variance: sympy.Expr, forms: dict[str, ClosedForm], to_order: str = "first order"
+) -> dict[str, ExactCase]:
     """The exact form of every layer, with the layers and heights that it is for."""
 
     def case(place: str, form: ClosedForm) -> ExactCase:
@@ -119,6 +121,7 @@ def exact_cases(variance: sympy.Expr, forms: dict[str, ClosedForm]) -> dict[str,
             form.expression,
             domain=(sympy.Eq(j, at[j]),) if at else tuple(inside),
             missed=tuple(missed),
+            to_order=to_order,
         )
 
     return {place: case(place, form) for place, form in forms.items()}

@@ -108,6 +108,7 @@ class Derivation:
     claims: tuple[Claim, ...] = ()
     witnesses: tuple[Witness, ...] = ()
     remarks: tuple[str, ...] = ()
+    domain: tuple[sympy.Basic, ...] = ()  # relations of whole numbers, where the printed form holds
     relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
     exact: Callable[[], dict[str, "ExactCase"]] | None = None  # forms at finite size, by case
     # explicit values at which a candidate is false, or None; knows nothing of how it is decided
@@ -177,6 +178,7 @@ class ExactCase:
         expression: the closed form.
         domain: relations between whole numbers, all of which hold for form and ``missed`` together.
         missed: what of the domain the form is not for; the first that fits holds.
+        to_order: in the deviations of the radii, to which it is exact.
     """
 
     quantity: sympy.Expr
@@ -184,6 +186,7 @@ class ExactCase:
     expression: sympy.Expr
     domain: tuple[sympy.Basic, ...] = ()
     missed: tuple[Missed, ...] = ()
+    to_order: str = "first order"
 
 
 @dataclass(frozen=True)

@@ -98,3 +98,40 @@ def fails(
         if left != right:
             return f"for M = {height}, j = {layer}, n_x = {N[0]}: {left} on the left, {right}"
     return None
+
+
+@cache
+def response(
+    level: int, n: tuple[Fraction, Fraction]
+) -> dict[tuple[tuple[int, int], str], Fraction]:
+    """Means at order σ² below a load on one bead of layer ``level``, r = σ = 1.
+
+    In units of f_load/2n_y, by ((i − k, j), branch). Many equal loads share one packing, so far
+    apart that none feels the bead that is enlarged below another; below each, it is another bead.
+    """
+    from force_diffusion.numeric.mechanics import taylor
+
+    reach = 2 * level + 2
+    apart = 2 * reach + 2
+    found: dict[tuple[tuple[int, int], str], Fraction] = {}
+    for source in range(level + 1):
+        offsets = [o for o in range(-reach, reach + 1) if (o + level - source) % 2 == 0]
+        tops = [level % 2 + apart * place for place in range(len(offsets))]
+        width = apart * len(offsets) // 2
+        pairs = zip(tops, offsets, strict=True)
+        solved = taylor.solve(
+            width,
+            level,
+            n=n,
+            rho={((top + o) % (2 * width), source): Fraction(1) for top, o in pairs},
+            loads={(top, level): (Fraction(0), -2 * n[1]) for top in tops},
+            order=2,
+        )
+        for top in tops:
+            for layer in range(level):
+                for across in range(-(level - layer) - 2, level - layer + 3, 2):
+                    for branch in "+-":
+                        contact = (across, layer), branch
+                        change = solved.force((top + across) % (2 * width), layer, branch)[2]
+                        found[contact] = found.get(contact, Fraction(0)) + change
+    return found

@@ -14,6 +14,8 @@ from . import (
     directions,
     distribution,
     mean_forces,
+    mean_response,
+    neighbours,
     notation,
     response,
 )
@@ -149,6 +151,18 @@ FIGURES = {
         lambda o: mean_forces.simulate(o.realisations or 6000, o.seed, o.notice),
         mean_forces.draw,
     ),
+    "B7": _Figure(
+        "figureB7",
+        "Fluctuation of the mean over N neighbours",
+        lambda o: neighbours.simulate(o.realisations or 1000, o.seed, o.notice),
+        neighbours.draw,
+    ),
+    "B9": _Figure(
+        "figureB9",
+        "Mean response to a point load at second order",
+        lambda o: mean_response.respond(o.realisations or 20000, o.seed, o.notice),
+        mean_response.draw,
+    ),
 }
 
 
@@ -178,7 +192,8 @@ def figure(
         name: 1 to 4 as in the paper, "pf" (density of the forces), "chains" (force chains), or the
             number of an equation beyond the paper that has a figure.
         heights: M of the packings of figure 3.
-        realisations: packings of each ensemble of figures 3, 4, pf, B2 and B5; ≥ 16.
+        realisations: packings of each ensemble of figures 3, 4, pf and of those beyond the paper;
+            ≥ 16.
         seed: seed of all radii.
         beside: "q-model" (beside figure 3) or "double-y" (beside figure 4).
         notice: told what is made next.

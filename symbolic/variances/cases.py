@@ -38,7 +38,7 @@ class Case:
         return value.substitute({symbol: FIELD.constant(n) for symbol, n in self.at.items()})
 
 
-def _fixed(form: LinearForm, symbol: sympy.Symbol, at: int) -> LinearForm:
+def at_value(form: LinearForm, symbol: sympy.Symbol, at: int) -> LinearForm:
     """The form with a whole number in place of an index.
 
     Rays stay where they start: moved to the normal form, they would leave single sites behind,
@@ -77,7 +77,7 @@ def squares_by_case(
             raise
     bound = lower[symbol]
     others = {index: least for index, least in lower.items() if index != symbol}
-    one = _fixed(form, symbol, bound)
+    one = at_value(form, symbol, bound)
     yield from squares_by_case(one, others, generic, {**at, symbol: bound})
     yield from squares_by_case(form, {**lower, symbol: bound + 1}, generic, at)
 

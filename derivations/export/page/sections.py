@@ -13,7 +13,7 @@ SCENE = Path(__file__).with_name("small.toml")
 Notice = Callable[[str], None]
 """Told what is measured next."""
 
-REALISATIONS = {"3": 200, "4": 2000, "pf": 2000, "B2": 200, "B5": 2000}
+REALISATIONS = {"3": 200, "4": 2000, "pf": 2000, "B2": 200, "B5": 2000, "B7": 200, "B9": 2000}
 """Packings in each ensemble of a figure that draws ensembles."""
 
 _PACKINGS = {"1": "One packing.", "2": "No packing: closed forms.", "chains": "One packing."} | {

@@ -12,7 +12,7 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.export import generate_closed_forms as generator
-from force_diffusion.derivations.witnesses import second_order
+from force_diffusion.derivations.witnesses import neighbours, second_order
 from force_diffusion.derivations.witnesses.draws import DIRECTIONS
 from force_diffusion.derivations.witnesses.squared_weights import weights_of_forces
 from force_diffusion.numeric import closed_forms
@@ -203,3 +203,22 @@ def test_means_are_those_of_exact_packings(height: int) -> None:
         assert [form(height, layer, phi, ONE, ONE) for layer in range(height)] == list(forces)
         sunk = [closed_forms.mean_settling(layer, phi, ONE, ONE) for layer in range(height + 1)]
         assert sunk == [n[1] * y for _, y in places]
+
+
+@pytest.mark.parametrize(("height", "layer", "count"), [(10, 5, 3), (11, 6, 4), (13, 7, 4)])
+def test_means_of_neighbours_are_those_of_exact_packings(
+    height: int, layer: int, count: int
+) -> None:
+    n = DIRECTIONS[3]
+    phi = n[1] ** 2 - n[0] ** 2
+    forms = {
+        "force": closed_forms.contacts_mean_variance,
+        "bead": closed_forms.beads_mean_variance,
+    }
+    for quantity, form in forms.items():
+        true = neighbours.mean_variance(quantity, height, layer, count, n)
+        assert form(height, layer, count, phi, ONE, ONE) == true
+        with pytest.raises(ValueError, match="N = 2"):
+            form(height, layer, 2, phi, ONE, ONE)
+        with pytest.raises(ValueError, match=r"j = .*allowed"):
+            form(height, count, count, phi, ONE, ONE)

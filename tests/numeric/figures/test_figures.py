@@ -17,6 +17,8 @@ from force_diffusion.numeric.figures import (
     directions,
     distribution,
     mean_forces,
+    mean_response,
+    neighbours,
     notation,
     packings,
     response,
@@ -293,3 +295,24 @@ def test_figure_b5_finds_theory_within_the_bands_and_wrong_ones_outside() -> Non
     assert surface.deviation(bulk.exact) > 1
     (rows,) = found.tables().values()
     assert len(rows) == 4 * mean_forces.HEIGHT
+
+
+def test_figure_b7_finds_theory_within_the_band_and_a_wrong_one_outside() -> None:
+    found = neighbours.simulate(200, 1, silent)
+    assert found.deviation() <= 1
+    assert found.deviation(1.1) > 1
+    (rows,) = found.tables().values()
+    assert len(rows) == 2 * len(neighbours.WINDOWS)
+    own, pair = (float(row["sigma_simulated"]) for row in rows[:2])
+    assert pair < own / 2  # independent ones would have own/√2
+
+
+def test_figure_b9_finds_theory_within_the_bands_and_a_wrong_one_outside() -> None:
+    found = mean_response.respond(6000, 1, silent)
+    for one in found.cuts:
+        assert one.deviation(mean_response.theory(one.spacing)) <= 1
+        assert one.deviation(np.zeros(len(found.offsets))) > 1
+    first, second = found.cuts
+    assert first.deviation(mean_response.theory(second.spacing)) > 1
+    (rows,) = found.tables().values()
+    assert len(rows) == 2 * len(found.offsets)

@@ -1,0 +1,204 @@
+"""Eq. B7: the mean over N neighbouring contacts of one branch fluctuates as 1/N, not 1/√N."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from functools import cache
+
+import sympy
+from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations import eq13_surface_diffusion as eq13
+from force_diffusion.derivations.beyond.neighbours import (
+    UNIT,
+    Split,
+    decided,
+    far_is_zero,
+    mean_of_neighbours,
+    near,
+    same_at,
+    searched,
+    spread,
+)
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.witnesses import neighbours as witnesses
+from force_diffusion.derivations.witnesses.draws import SmallPacking
+from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
+from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
+from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test
+from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.symbols import M, N, j, k, p, phi, q, r, sigma, z
+from force_diffusion.symbolic.variances.variance import leading
+
+MEAN_OF_N = Symbol(
+    "mean_of_N_variance",
+    r"\frac{\sigma^2(\overline{f^{\pm}}_{N})}{\langle f\rangle^2}",
+    "σ²(mean of N f^±)/⟨f⟩²",
+)
+
+_RADII = power(times(sigma, 1 / r), 2)
+
+PRINTED = equation(
+    MEAN_OF_N,
+    terms(
+        times((1 - phi) ** 2 / (2 * N * (1 + phi) ** 2), _RADII),
+        times(
+            1 / (3 * N**2 * (1 - phi**2) ** 2),
+            terms(
+                times(4, terms(M, -j) ** 2, terms(M, times(2, j))),
+                minus(times(3, terms(M, -j), terms(M, times(3, j)))),
+                times(3, phi**2, terms(times(5, M), minus(times(3, j)))),
+                minus(times(6, phi, terms(M, -j))),
+                times(2, terms(M, times(2, j))),
+                times(6, phi**3),
+                minus(times(18, phi**2)),
+                times(15, phi),
+                -6,
+            ),
+            _RADII,
+        ),
+    ),
+)
+
+FORCE = eq11.PRINTED.rhs - 1
+DEEP = Region({j: 4, M: j + 3})
+PLACES = ((7, 4, 3), (8, 5, 3), (8, 5, 4), (9, 6, 5))
+"""Packings (M, j, N) of the interior for witnesses and searches."""
+
+
+@cache
+def covariances() -> tuple[RationalFunction, ...]:
+    """C_0, C_1, C_2 of neighbouring f⁺/⟨f⟩ in the interior."""
+    return near(eq11.in_radii(FORCE), DEEP)
+
+
+def steps() -> Iterator[Step]:
+    """Covariances of two; none beyond the second neighbour; their sum."""
+    own, first, second = (value.to_sympy() for value in covariances())
+    yield Step(
+        "Eq. 11 in the radii is a sum of second differences on one diagonal, and of what hangs on "
+        "single sites. Two neighbouring contacts, k places apart, share radii on two of three "
+        "lines (k = 1) or one (k = 2). Their covariances over ⟨f⟩², for k = 0, 1, 2:",
+        sympy.Tuple(own, first, second),
+    )
+    yield Step(
+        "From k = 3 on it is zero, exactly, for k ≤ j − 2: first differences of one contact's tilt "
+        "cross the second differences of the other, and the products add up to nothing."
+    )
+    yield Step(
+        "The variance of the mean of N is [N C₀ + 2(N − 1)C₁ + 2(N − 2)C₂]/N². What grows with M "
+        "cancels in C₀ + 2C₁ + 2C₂:",
+        equation(
+            sympy.Symbol("C_0") + 2 * sympy.Symbol("C_1") + 2 * sympy.Symbol("C_2"),
+            spread(covariances()).to_sympy(),
+        ),
+    )
+    yield Step("All of it:", PRINTED)
+
+
+def decide(_: int, candidate: sympy.Eq) -> Ruling:
+    """Compare with the sum of the covariances."""
+    return decided(mean_of_neighbours(covariances()), MEAN_OF_N, candidate)
+
+
+def search(candidate: sympy.Eq) -> str | None:
+    """Exact packings in which the variance is another."""
+    return searched("force", MEAN_OF_N, candidate, PLACES)
+
+
+SPLITS: tuple[Split, ...] = (({j: k + p, M: k + p + q}, {k: 3, p: 2, q: 1}),)
+"""All places with 3 ≤ k ≤ j − 2 and j < M."""
+
+
+def _uncorrelated() -> Ruling:
+    return far_is_zero(eq11.in_radii(FORCE), SPLITS)
+
+
+def _everywhere() -> Ruling:
+    """C_0, C_1, C_2 are those of the interior for all j ≥ 4, M ≥ j + 3."""
+    form, inside = eq11.in_radii(FORCE), ({M: j + q}, {j: 4, q: 3})
+    return from_test(
+        all(same_at(form, value, places, inside) for places, value in enumerate(covariances())),
+        "the three covariances hold for all j ≥ 4 and M ≥ j + 3",
+    )
+
+
+def _leading() -> Ruling:
+    own, first, second = covariances()
+    printed = FIELD.from_sympy(eq13.PRINTED.rhs.xreplace({z: j / M}))
+    thirds = FIELD.from_sympy(-sympy.Rational(2, 3)), FIELD.from_sympy(sympy.Rational(1, 6))
+    return from_test(
+        (leading(own) - leading(printed)).is_zero()
+        and (leading(first) - leading(printed) * thirds[0]).is_zero()
+        and (leading(second) - leading(printed) * thirds[1]).is_zero(),
+        "to leading order the correlations are −2/3 and 1/6: 2/(3N²) of Eq. 13 is left for N ≥ 2",
+    )
+
+
+def _momentum() -> Ruling:
+    """What N contacts add is what the momentum balance of a layer leaves to one branch."""
+    stated = FIELD.from_sympy((1 - phi) ** 4 / 2 * UNIT)
+    return all_of(
+        from_test(
+            (spread(covariances()) - stated).is_zero(),
+            "C₀ + 2C₁ + 2C₂ = (1−φ)²/[2(1+φ)²] (σ/r)², which knows neither j nor M",
+        )
+    )
+
+
+def _witness(packing: SmallPacking) -> Ruling:
+    def stated(height: int, layer: int, count: int, cosine: Fraction) -> Fraction:
+        values: explicit.Values = {M: height, j: layer, N: count, phi: cosine, sigma: 1, r: 1}
+        return explicit.number(PRINTED.rhs, values)
+
+    return witnesses.agree("force", stated, PLACES, packing)
+
+
+DERIVATION = Derivation(
+    number="B7",
+    name="neighbouring_contacts",
+    title="Mean over N neighbouring contacts of one branch",
+    symbols=(
+        (MEAN_OF_N, "variance of the mean of f^± over N neighbours of one layer"),
+        (N, "number of neighbouring contacts"),
+        (sigma, "standard deviation σ_δr of the radii"),
+        (r, "mean radius"),
+        (M, "height of the packing"),
+        (phi, "n⁺·n⁻"),
+    ),
+    assumptions=(
+        "the radii are independent, of zero mean and variance σ²",
+        "first order in δr",
+        "a surface load",
+        "3 ≤ N ≤ j − 1 and M ≥ j + 3",
+    ),
+    premises=(eq11.DERIVATION, eq13.DERIVATION),
+    printed=(PRINTED,),
+    domain=(sympy.Ge(N, 3), sympy.Ge(j, N + 1), sympy.Ge(M, j + 3)),
+    steps=steps,
+    decide=decide,
+    search=search,
+    claims=(
+        Claim("contacts k places apart are uncorrelated for 3 ≤ k ≤ j − 2", _uncorrelated),
+        Claim("these covariances hold in every layer j ≥ 4 of M ≥ j + 3", _everywhere),
+        Claim(
+            "to leading order a contact's correlation with its first neighbour is −2/3, with its "
+            "second 1/6: of Eq. 13 the mean keeps 2/(3N²)",
+            _leading,
+        ),
+        Claim(
+            "the part that falls as 1/N has no M in it: it takes over from N of order M³ on",
+            _momentum,
+        ),
+    ),
+    witnesses=(Witness("exact packings: squares of summed weights, as fractions", _witness),),
+    remarks=(
+        "N independent contacts would have σ_f²/N. Force fluctuations are hyperuniform along a "
+        "layer up to N of order M³, where the radii of the two layers that touch take over.",
+    ),
+)
+
+if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
+    raise SystemExit(run_alone(DERIVATION))

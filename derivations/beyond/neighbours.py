@@ -1,0 +1,106 @@
+"""What Eqs. B7 and B8 have in common: the mean of N neighbours, from the covariances of two."""
+
+from fractions import Fraction
+from functools import cache
+
+import sympy
+from force_diffusion.derivations.beyond.means import decide_in_field
+from force_diffusion.derivations.witnesses import neighbours as witnesses
+from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
+from force_diffusion.symbolic.kernel.decisions import Ruling, from_test, undecided
+from force_diffusion.symbolic.symbols import M, N, i, j, k, phi, r, sigma
+from force_diffusion.symbolic.variances.means import covariance, covariances_by_case
+
+UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
+FARTHEST = 2
+"""Neighbours that are farther apart than this many places are uncorrelated."""
+
+Split = tuple[dict[sympy.Symbol, sympy.Expr], dict[sympy.Symbol, int]]
+"""Indices in terms of others, and the lower bounds of these."""
+
+
+def apart(form: sympy.Expr, places: sympy.Expr) -> sympy.Expr:
+    """The same quantity so many contacts or beads to the right, in the same layer."""
+    return form.xreplace({i: i + 2 * places})
+
+
+def near(form: sympy.Expr, region: Region) -> tuple[RationalFunction, ...]:
+    """Covariances C_0, C_1, C_2 of a quantity with itself and its first two neighbours."""
+    return tuple(
+        covariance(form, apart(form, sympy.Integer(places)), region)
+        for places in range(FARTHEST + 1)
+    )
+
+
+def mean_of_neighbours(covariances: tuple[RationalFunction, ...]) -> sympy.Expr:
+    """Variance of the mean of N: [N C_0 + 2 Σ_k (N − k) C_k]/N², where C_k = 0 for k > 2."""
+    own, *others = (value.to_sympy() for value in covariances)
+    pairs = sum(2 * (N - place) * value for place, value in enumerate(others, start=1))
+    return (N * own + pairs) / N**2
+
+
+def spread(covariances: tuple[RationalFunction, ...]) -> RationalFunction:
+    """C_0 + 2 Σ_k C_k: the variance that N contacts add, each, to their sum."""
+    total = covariances[0]
+    for value in covariances[1:]:
+        total = total + value + value
+    return total
+
+
+def far_is_zero(form: sympy.Expr, splits: tuple[Split, ...]) -> Ruling:
+    """No covariance at k ≥ 3 places, for all indices of the splits."""
+    count = 0
+    for at, lower in splits:
+        left, right = form.xreplace(at), apart(form, k).xreplace(at)
+        for case in covariances_by_case(left, right, lower, generic=3):
+            count += 1
+            if not case.value.is_zero():
+                return from_test(False, "", f"not at {case.at}, {case.lower}")
+    return from_test(True, f"no covariance in any of {count} cases, which cover all places")
+
+
+def same_at(form: sympy.Expr, general: RationalFunction, places: int, split: Split) -> bool:
+    """Whether a covariance C_k of the interior holds in every case of a split of j and M."""
+    at, lower = split
+    image = {symbol: FIELD.from_sympy(value) for symbol, value in at.items()}
+    left, right = form.xreplace(at), apart(form, sympy.Integer(places)).xreplace(at)
+    stated = general.substitute(image) / FIELD.from_sympy(sigma**2)
+    return all(
+        (case.value - case.put_in(stated)).is_zero()
+        for case in covariances_by_case(left, right, lower, generic=3)
+    )
+
+
+def decided(exact: sympy.Expr, subject: sympy.Symbol, candidate: sympy.Eq) -> Ruling:
+    """The candidate equals the exact variance of the mean, as a rational function."""
+    if candidate.lhs != subject:
+        return undecided("the left-hand side is not the variance of the mean of N")
+    return decide_in_field(candidate.rhs, exact)
+
+
+@cache
+def _found(quantity: str, height: int, layer: int, count: int) -> Fraction:
+    return witnesses.mean_variance(quantity, height, layer, count, witnesses.DIRECTION)
+
+
+def searched(
+    quantity: str,
+    subject: sympy.Symbol,
+    candidate: sympy.Eq,
+    places: tuple[tuple[int, int, int], ...],
+) -> str | None:
+    """Exact packings (M, j, N) in which the variance is another, r = σ = 1."""
+    if candidate.lhs != subject:
+        return None
+    values = {**explicit.geometry(*witnesses.DIRECTION, Fraction(1)), sigma: 1}
+    for height, layer, count in places:
+        try:
+            stated = explicit.number(candidate.rhs, {**values, M: height, j: layer, N: count})
+        except explicit.AmbiguousError:
+            return None
+        true = _found(quantity, height, layer, count)
+        if stated != true:
+            return f"for M = {height}, j = {layer}, N = {count} it is {stated}, not {true}"
+    return None

@@ -1,0 +1,71 @@
+"""Sums over neighbouring contacts or beads of one layer, from the weights of exact packings."""
+
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from functools import cache
+
+from force_diffusion.derivations.witnesses.draws import Site, SmallPacking
+from force_diffusion.derivations.witnesses.squared_weights import compare, weights_of_forces
+from force_diffusion.symbolic.kernel.decisions import Ruling
+
+Direction = tuple[Fraction, Fraction]
+DIRECTION: Direction = (Fraction(21, 29), Fraction(20, 29))
+
+
+@cache
+def weights(quantity: str, height: int, n: Direction) -> tuple[dict[Site, Fraction], ...]:
+    """First-order weights of what ``quantity`` names, by layer: "force" f⁺/⟨f⟩, or "bead".
+
+    "bead" is the vertical force that a bead gets from both upper contacts, over the load. Keys are
+    (offset, layer) of the radius, as in ``weights_of_forces``; a surface load.
+    """
+    if quantity == "force":
+        return tuple(weights_of_forces(height, n, "surface"))
+    from force_diffusion.numeric.mechanics import taylor
+
+    width = height + 2
+    loads = {
+        (across, height): (Fraction(0), Fraction(-1)) for across in range(height % 2, 2 * width, 2)
+    }
+    found: list[dict[Site, Fraction]] = [{} for _ in range(height)]
+    for source in range(height + 1):
+        rho = {(source % 2, source): Fraction(1)}
+        solved = taylor.solve(width, height, n=n, rho=rho, loads=loads, order=1)
+        for layer in range(height):
+            for across in range(layer % 2, 2 * width, 2):
+                total = Fraction(0)
+                for branch in "+-":
+                    ordered, slope = solved.force(across, layer, branch)
+                    total += slope * n[1] + ordered * solved.direction(across, layer, branch)[1][1]
+                if total:
+                    offset = (source % 2 - across + width) % (2 * width) - width
+                    found[layer][offset, source] = total
+    return tuple(found)
+
+
+def mean_variance(quantity: str, height: int, layer: int, count: int, n: Direction) -> Fraction:
+    """Variance of the mean over ``count`` neighbours, for r = σ = 1."""
+    summed: dict[Site, Fraction] = {}
+    for (offset, source), weight in weights(quantity, height, n)[layer].items():
+        for place in range(count):
+            key = (offset + 2 * place, source)
+            summed[key] = summed.get(key, Fraction(0)) + weight
+    return sum((w**2 for w in summed.values()), Fraction(0)) / count**2
+
+
+def agree(
+    quantity: str,
+    stated: Callable[[int, int, int, Fraction], Fraction],
+    places: tuple[tuple[int, int, int], ...],
+    packing: SmallPacking,
+) -> Ruling:
+    """A stated variance of (M, j, N, φ) against exact packings, at several places."""
+    phi = packing.n[1] ** 2 - packing.n[0] ** 2
+
+    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
+        for height, layer, count in places:
+            true = mean_variance(quantity, height, layer, count, packing.n)
+            where = f"M = {height}, j = {layer}, N = {count}"
+            yield where, stated(height, layer, count, phi), true
+
+    return compare(pairs())
