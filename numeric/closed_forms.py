@@ -269,7 +269,7 @@ def mean_settling(j: Any, phi: Any, sigma: Any, r: Any) -> Any:
 
 
 def contacts_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact variance of the mean over N neighbouring f^±/⟨f⟩, first order, surface load (Eq. B7).
+    """Exact variance of the mean over N neighbouring f^±/⟨f⟩, surface load (Eq. B7).
 
     Args:
         M: height of the packing in layers, a whole number ≥ j + 3.
@@ -290,7 +290,7 @@ def contacts_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any)
 
 
 def beads_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact variance of the mean over N neighbouring p/f_load, first order, surface load (Eq. B8).
+    """Exact variance of the mean over N neighbouring p/f_load, surface load (Eq. B8).
 
     Args:
         M: height of the packing in layers, a whole number ≥ j + N + 2.

@@ -46,7 +46,9 @@ PRINTED = equation(
             1 / (3 * N**2 * (1 - phi**2) ** 2),
             terms(
                 times(4, terms(M, -j) ** 2, terms(M, times(2, j))),
-                minus(times(3, terms(M, -j), terms(M, times(3, j)))),
+                minus(times(3, M**2)),
+                minus(times(6, M, j)),
+                times(9, j**2),
                 times(3, phi**2, terms(times(5, M), minus(times(3, j)))),
                 minus(times(6, phi, terms(M, -j))),
                 times(2, terms(M, times(2, j))),

@@ -62,7 +62,7 @@ PRINTED = equation(
         terms(
             times(8, terms(M, -j) ** 2, terms(M, times(2, j))),
             minus(times(6, terms(M, -j) ** 2)),
-            times(2, terms(M, -j), terms(times(3, phi**2), times(12, phi), -1)),
+            times(terms(M, -j), terms(times(6, phi**2), times(24, phi), -2)),
             times(3, terms(1, -phi) ** 2),
         ),
         power(times(sigma, 1 / r), 2),

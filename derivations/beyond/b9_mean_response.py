@@ -27,13 +27,13 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.mechanics import second_order
+from force_diffusion.symbolic.mechanics.contacts import radii
 from force_diffusion.symbolic.mechanics.second_order import (
     SETTLED,
     TURN,
     d_minus,
     d_plus,
     mean_square,
-    radii,
     tilt,
     with_radii,
 )

@@ -149,7 +149,7 @@ def mean_settling(j: Any, phi: Any, sigma: Any, r: Any) -> Any:
 NEIGHBOURS = '''
 
 def {name}(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact variance of the mean over N neighbouring {what}, first order, surface load (Eq. {number}).
+    """Exact variance of the mean over N neighbouring {what}, surface load (Eq. {number}).
 
     Args:
         M: height of the packing in layers, a whole number ≥ j + {above}.

@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import closed_forms
 from ..arithmetic.systems import Array
+from ..lattice.branch import Branch
 from ..statistics.bands import Band, averaged, simultaneous
 from .packings import N_X, PAPER_STD, PHI, Notice, Row, planned, solved
 
@@ -24,12 +25,14 @@ LEVEL = 0.99
 
 def contacts(count: int) -> float:
     """Variance of the mean of f⁺/⟨f⟩ over 3 ≤ N ≤ j − 1 neighbours in layer j (Eq. B7)."""
-    return closed_forms.contacts_mean_variance(HEIGHT, LAYER, count, float(PHI), PAPER_STD, 1.0)
+    form = closed_forms.contacts_mean_variance
+    return float(form(HEIGHT, LAYER, count, float(PHI), PAPER_STD, 1.0))
 
 
 def beads(count: int) -> float:
     """The same of the vertical force on a bead over its mean, 3 ≤ N ≤ j − 2 (Eq. B8)."""
-    return closed_forms.beads_mean_variance(HEIGHT, LAYER, count, float(PHI), PAPER_STD, 1.0)
+    form = closed_forms.beads_mean_variance
+    return float(form(HEIGHT, LAYER, count, float(PHI), PAPER_STD, 1.0))
 
 
 @dataclass(frozen=True)
@@ -107,8 +110,8 @@ def simulate(realisations: int, seed: int, notice: Notice) -> Neighbours:
         upper = LAYER + 1
         relative, vertical = [], []
         for sign, change, ordered in (
-            ("+", forces.change.plus[upper], forces.ordered.plus[upper]),
-            ("-", forces.change.minus[upper], forces.ordered.minus[upper]),
+            (Branch.PLUS, forces.change.plus[upper], forces.ordered.plus[upper]),
+            (Branch.MINUS, forces.change.minus[upper], forces.ordered.minus[upper]),
         ):
             a, b = (part[upper] for part in zip(*packing.dn[sign], strict=True))
             relative.append((change / ordered).reshape(number, -1))
