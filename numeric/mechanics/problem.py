@@ -23,6 +23,7 @@ class Route(StrEnum):
     LINE_SUMS = "line sums"  # first order, one contact or bead, along a few diagonals
     FIRST_ORDER = "first-order"  # first order, layer by layer
     EXACT = "exact"  # nonlinear, layer by layer
+    UNILATERAL = "unilateral"  # nonlinear, contacts may open and close
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,7 @@ class Problem:
     ``region``: the beads that are deposited. ``force_rows``: those whose forces are balanced, empty
     where only positions are asked for. ``contact`` or ``site``: the one that is asked for, if it is
     one. ``realisations``: how many there are in all; it decides who sweeps, never a number.
+    ``protocol``: how beads come to rest where contacts are unilateral.
     """
 
     n_x: Fraction
@@ -45,6 +47,7 @@ class Problem:
     site: Site | None = None
     stop_at_tension: bool = False
     realisations: int = 1
+    protocol: str = ""
 
     @property
     def width(self) -> int | None:

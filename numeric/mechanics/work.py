@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
+from typing import Any
 
 from ..lattice.layers import Layer
 
@@ -16,7 +17,8 @@ class Work:
     """Beads visited by each kind of work, and the seconds of each step, over all passes of a run.
 
     ``again`` counts every visit of a pass that only repeats an earlier one, to estimate its error.
-    ``arithmetic`` names the number systems of the passes. With ``trace`` on, rows are kept too.
+    ``arithmetic`` names the number systems of the passes. With ``trace`` on, rows are kept too. ``kept``:
+    what a realisation was found to be, for passes with more bits.
     """
 
     radii: int = 0
@@ -32,6 +34,7 @@ class Work:
     trace: bool = False
     rows: dict[str, list[Layer]] = field(default_factory=dict)
     repeating: bool = False
+    kept: dict[int, Any] = field(default_factory=dict)
 
     def did(self, kind: str, layer: Layer, times: int = 1) -> None:
         """Count a row of beads: "radii", "deposited", "balanced", "summed" or "checked"."""

@@ -23,6 +23,7 @@ ALGORITHMS = {
     Route.LINE_SUMS: "line sums",
     Route.FIRST_ORDER: "first-order sweep",
     Route.EXACT: "exact sweep in deviation form",
+    Route.UNILATERAL: "beads move until no contact pulls",
 }
 
 
@@ -50,7 +51,7 @@ class Outline:
         """Plan a method. Raises ``SceneError`` where it takes too much, or numbers can't hold."""
         scene, problem = self.scene, self.problem
         together = chunk_size(problem, method.system)
-        images = sees_images(problem, self.quantity.lowest_layer)
+        images = problem.route == Route.UNILATERAL or sees_images(problem, self.quantity.lowest_layer)
         if method.system.dtype is not object:
             float_range.check(scene, problem.radii, problem.load)
         steps = steps_of(self.quantity, problem, method)
@@ -114,7 +115,8 @@ def outline(
     ``line_sums`` may be forbidden. Raises ``SceneError`` for a scene that is too large, before a
     single row of beads is made, and ``TableError``.
     """
-    ordered = _ordered(scene)
+    unilateral = scene.effects.contacts == "unilateral"
+    ordered = _ordered(scene) and not unilateral
     first_order = scene.effects.geometry == "first-order"
     has_line_sums = quantity.single and (scene.contact is not None or scene.site is not None)
     closed = ordered or (line_sums and first_order and has_line_sums)
@@ -146,6 +148,7 @@ def outline(
         scene.site,
         scene.effects.stop_at_tension,
         realisations,
+        scene.effects.protocol if route == Route.UNILATERAL else "",
     )
     return Outline(scene, quantity, problem, tuple(skipped), limit, closed, tolerance)
 
@@ -182,8 +185,13 @@ def _theory(
     def skip(effect: str, reason: str) -> None:
         skipped.append(Skipped(effect, reason))
 
+    if scene.effects.contacts == "unilateral":
+        skip("stop at tension", "contacts open before they pull")
+        given = scene.disorder is not None
+        return radii_of(scene, region.rows) if given else Monodisperse(), Route.UNILATERAL
     if not scene.effects.stop_at_tension:
         skip("stop at tension", "not asked for: tensile contacts are counted, not acted on")
+    skip("contacts that open", 'contacts = "unilateral" would let beads move where a contact pulls')
     if scene.disorder is None:
         skip("disorder", "the scene names none: all radii are equal")
         return Monodisperse(), Route.ORDERED

@@ -20,6 +20,8 @@ from .plan import LONGER, Method, Plan
 
 # Realisations that are solved twice to estimate the error: four of packings that are small.
 FEW, SMALL = 4, 20_000
+# To which packings are enclosed whose contacts open, relative to the largest force.
+TOUCHING = Fraction(1, 10**17)
 
 
 def plan(
@@ -47,6 +49,8 @@ def plan(
     if first.route == Route.ORDERED:  # exactly known, whatever is asked
         bits = initial_bits(tolerance or Fraction(1, 2**60), first.height)
         return outlines[0].plan(Method(Balls(bits)))
+    if first.route == Route.UNILATERAL:  # found in float64, proved in balls
+        return outlines[0].plan(Method(Balls(initial_bits(tolerance or TOUCHING, 1))))
     if tolerance is None:
         few = FEW if first.region.beads < SMALL else 1
         return outlines[0].plan(_method(system, min(first.realisations, few)))

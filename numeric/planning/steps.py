@@ -30,6 +30,12 @@ def _solving(quantity: Quantity, problem: Problem) -> list[Step]:
             Step(source, "only the beads on the diagonals that the answer depends on", beads),
             Step("line sums", "to first order the answer is a sum down a few diagonals", beads),
         ]
+    if problem.route == Route.UNILATERAL:
+        beads, why = problem.region.beads, "every bead may move"
+        return [
+            Step(source, why, beads),
+            Step("relax", f"{problem.protocol}: contacts that pull open, others close", beads),
+        ]
     beads, exact = problem.region.beads, problem.route == Route.EXACT
     steps = [Step(source, _why_region(problem), beads)]
     if exact:
@@ -47,6 +53,9 @@ def _solving(quantity: Quantity, problem: Problem) -> list[Step]:
 
 def _judging(one: list[Step], problem: Problem, method: Method) -> Step:
     """Give the last step, which says how accurate the answer is."""
+    if problem.route == Route.UNILATERAL:
+        why = "Kantorovich's theorem in balls: beads touch exactly, forces and gaps are positive"
+        return Step(CERTIFY, why, 0, method.system.name)
     if method.longer is None:
         why = "balls enclose the answer; bits are added, and all is done again, until it fits"
         return Step(CERTIFY, why, 0, method.system.name)

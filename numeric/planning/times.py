@@ -70,11 +70,13 @@ def _pass(
     spent = rows * of_row[family] * (1 + bits)
     if problem.route == Route.ORDERED:
         return spent
+    region = problem.region
+    if problem.route == Route.UNILATERAL:  # half of M*; far from it much less, beyond it more
+        return spent + n * (1e-5 * region.beads ** 1.85 + 1e-3)
     layer, bead, kilobit = _SWEEPS[family, problem.route]
     if problem.route == Route.LINE_SUMS:
         beads = quantity.line_beads(problem.load)
         return spent + n * (layer + beads * (bead + kilobit * bits))
-    region = problem.region
     chunks = -(-n // together)
     work = region.beads * n * (bead + kilobit * bits * (1 + bits / 10))
     if system is FLOAT64 and problem.route == Route.EXACT and region.beads * n >= COMPILED_FROM:

@@ -8,6 +8,7 @@ from .base_reactions import BaseReactions
 from .contact import ContactForce
 from .contact_forces import ContactForces
 from .histogram import histogram_of
+from .network import NETWORK_QUANTITIES
 from .positions import Positions
 from .profile import Profile
 from .response import Response
@@ -25,4 +26,5 @@ QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
 
 def quantity_of(scene: Scene) -> Quantity:
     """Give the question that a scene asks."""
-    return QUANTITIES[scene.ask.quantity](scene)
+    unilateral = scene.effects.contacts == "unilateral"
+    return (NETWORK_QUANTITIES if unilateral else QUANTITIES)[scene.ask.quantity](scene)

@@ -13,6 +13,8 @@ from ..mechanics.packing import UnbuildableError
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route
 from ..mechanics.work import Work
+from ..unilateral import network
+from ..unilateral.network import Network, Relaxed
 from .base import Quantity, Table
 
 # What the sweeps raise for a packing that can't be built.
@@ -24,13 +26,15 @@ class Answer:
     """Rows of numbers; (low, high, count) of a histogram's bins, None for other quantities.
 
     ``physical``: None where nothing exact was solved, or the same packings a second time.
-    ``stopped``: the contact at which a sweep stopped, if it was asked to.
+    ``stopped``: the contact at which a sweep stopped, if it was asked to. ``networks``: where beads
+    came to rest, one a realisation, under unilateral contacts.
     """
 
     table: Table
     bins: list[tuple[Fraction, Fraction, int]] | None
     physical: Physicality | None
     stopped: Contact | None
+    networks: tuple[Network, ...] = ()
 
 
 def answer(
@@ -51,14 +55,20 @@ def answer(
     exact = problem.route == Route.EXACT
     physical = Physicality() if exact and not work.repeating else None
     stopped = None
+    networks: list[Network] = []
     with system.active():
         gatherer = quantity.gatherer(problem, system)
-        solved_all = packings(problem, realisations, system, work, physical, plainly=plainly)
+        if problem.route == Route.UNILATERAL:
+            solved_all = network.packings(problem, realisations, system, work)
+        else:
+            solved_all = packings(problem, realisations, system, work, physical, plainly=plainly)
         done = 0
         try:
             for solved, chunk in solved_all:
                 if solved.forces is not None and stopped is None:
                     stopped = solved.forces.stopped
+                if isinstance(solved, Relaxed):
+                    networks.append(solved.network)
                 gatherer.add(solved, chunk)
                 done += len(chunk)
         except UNBUILDABLE as error:
@@ -69,7 +79,8 @@ def answer(
         bins = None if work.repeating else quantity.bins_of(table, system)
     if physical is not None and physical.first_tensile is not None:
         physical.first_tensile = _at_home(quantity, physical.first_tensile)
-    return Answer(table, bins, physical, None if stopped is None else _at_home(quantity, stopped))
+    stopped = None if stopped is None else _at_home(quantity, stopped)
+    return Answer(table, bins, physical, stopped, tuple(networks))
 
 
 def _at_home(quantity: Quantity, contact: Contact) -> Contact:

@@ -21,6 +21,7 @@ from ..statistics import histogram
 from ..tables import Row, html_table, rows_of
 from ..text import rows_of_text, text_of
 from ..theory.critical_height import critical_height
+from ..unilateral.network import Network
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -189,6 +190,8 @@ class Outcome:
             data["accuracy"]["note"] = accuracy.note
         if self.physical is not None:
             data["physical"] = _physical_data(self.physical, self.plan)
+        if self.answer.networks:
+            data["networks"] = [_network_data(found) for found in self.answer.networks]
         if self.stopped is not None:
             data["stopped_at_tension"] = self.stopped._asdict()
         data["seconds"] = round(self.seconds, 6)
@@ -263,6 +266,19 @@ def _physical_line(p: dict[str, Any]) -> str:
     )
 
 
+def _network_data(found: Network) -> dict[str, Any]:
+    """Say where beads came to rest, and how that is known."""
+    return {
+        "contacts": len(found.pairs),
+        "rattlers": len(found.rattlers),
+        "events": found.events,
+        "energy_fall": found.fall,
+        "smallest_gap": found.smallest_gap,
+        "kantorovich": found.kantorovich,
+        "rest": "as deposited: no contact pulls" if not found.events else "a strict local minimum",
+    }
+
+
 def _bound(bound: float | Fraction) -> float | str | None:
     """Give a number where a float can hold it, else a decimal string; None stands for infinity."""
     if isinstance(bound, Fraction):
@@ -293,6 +309,17 @@ def summary_lines(data: dict[str, Any], rows: int) -> list[str]:
         )
     if "physical" in data:
         lines.append(_physical_line(data["physical"]))
+    for number, found in enumerate(data.get("networks", [])):
+        name = f"packing {number}" if len(data["networks"]) > 1 else "the packing"
+        lines.append(
+            f"{name}: {found['rest']}; {found['contacts']} contacts bear force, "
+            f"{found['rattlers']} rattlers, smallest gap {found['smallest_gap']:.3g} r"
+            + (
+                f"; {found['events']} events, energy fell by {found['energy_fall']:.6g}"
+                if found["events"]
+                else ""
+            )
+        )
     if "stopped_at_tension" in data:
         contact = data["stopped_at_tension"]
         where = f"i = {contact['i']}, j = {contact['j']}, branch {contact['branch']}"

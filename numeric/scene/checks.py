@@ -17,6 +17,7 @@ def check(
         _check_disorder(disorder, ask)
     _check_load(load, packing)
     _check_ask(ask, packing, load)
+    _check_effects(effects, packing, ask)
     if effects.stop_at_tension and effects.geometry != "exact":
         raise SceneError(
             "effects.stop_at_tension", True, 'only has a meaning with geometry = "exact"'
@@ -26,6 +27,34 @@ def check(
             "effects.stop_at_tension",
             True,
             "can't be averaged: each realisation of a response would stop elsewhere",
+        )
+
+
+def _check_effects(effects: Effects, packing: Packing, ask: Ask) -> None:
+    if effects.contacts == "bilateral":
+        if "protocol" in effects.model_fields_set:
+            raise SceneError(
+                "effects.protocol",
+                effects.protocol,
+                'only has a meaning with contacts = "unilateral"',
+            )
+        return
+    if effects.geometry != "exact" or effects.stop_at_tension:
+        key = "geometry" if effects.geometry != "exact" else "stop_at_tension"
+        raise SceneError(
+            f"effects.{key}",
+            getattr(effects, key),
+            'has no meaning with contacts = "unilateral": beads move, exactly, until none pulls',
+        )
+    if packing.width is None or packing.width < 3:
+        raise SceneError(
+            "packing.width",
+            packing.width,
+            'must be 3 or more with contacts = "unilateral": beads move in a periodic strip',
+        )
+    if ask.quantity == "histogram" and ask.at is not None:
+        raise SceneError(
+            "ask.at", ask.at, 'can\'t be said with contacts = "unilateral": P(f) is of all contacts'
         )
 
 

@@ -216,11 +216,19 @@ class PointLoad(Load):
 
 
 class Effects(Section):
-    """What is simulated of the packing, and whether tension stops the sweep."""
+    """What is simulated of the packing, and whether tension stops the sweep.
+
+    ``contacts``: "bilateral" ones stay closed and may pull; "unilateral" ones open instead, and
+    beads move until none pulls. Where they come to rest is not unique, so that ``protocol``, the
+    way there, is part of the answer: "linear-programs" in a row, or "event-driven", one contact
+    after the other along the exact motion.
+    """
 
     section = "effects"
     geometry: Literal["ordered", "first-order", "exact"] = "exact"
     stop_at_tension: bool = False
+    contacts: Literal["bilateral", "unilateral"] = "bilateral"
+    protocol: Literal["linear-programs", "event-driven"] = "linear-programs"
 
 
 class Ask(Section):

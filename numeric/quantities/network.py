@@ -1,0 +1,241 @@
+"""The questions under unilateral contacts, whose contacts are pairs of beads and no longer i, j, ±.
+
+Rows name both beads as they were deposited, and the branch where they are neighbours of the
+lattice. Only contacts that bear force are listed.
+"""
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from ..arithmetic.systems import Array, NumberSystem
+from ..lattice.layers import Region, whole
+from ..mechanics import plain
+from ..mechanics.loads import LoadSpec
+from ..mechanics.problem import Problem, Solved
+from ..scene.scene import Scene
+from ..statistics.histogram import histogram
+from ..unilateral.network import Network, Relaxed
+from .base import Gatherer, Listed, Rows, Table, column
+from .histogram import DEFAULT_BINS
+
+
+class NetworkQuantity(Listed):
+    """A question about a whole strip, all of whose beads may move."""
+
+    @property
+    def single(self) -> bool:
+        """Every bead is needed, whatever is asked."""
+        return False
+
+    def beads(self, load: LoadSpec) -> tuple[Rows, Region]:
+        """Give all beads."""
+        assert self.width is not None
+        region = whole(self.width, self.height)
+        return region.rows, region
+
+    def most_beads(self) -> int:
+        """Count all beads."""
+        return (self.height + 1) * (self.width or 0)
+
+    def answer_rows(self, region: Region, realisations: int) -> int:
+        """Two contacts a bead, at most."""
+        return 2 * region.beads * realisations
+
+    def rows_of(self, problem: Problem, solved: Solved) -> Table:
+        """Give the rows of one realisation."""
+        assert isinstance(solved, Relaxed)
+        return self.listed(problem, solved.network, solved.system)
+
+    def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
+        """Give the rows of one network."""
+        raise NotImplementedError
+
+
+class NetworkForces(NetworkQuantity):
+    """All contacts that bear force."""
+
+    name = "contact_forces"
+
+    def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
+        """Give a row a contact, by its lower bead, then its upper one."""
+        order = np.lexsort((network.pairs[:, 0], network.pairs[:, 1]))
+        return _contacts(network, order, {"force": network.forces[order]})
+
+
+class NetworkContact(NetworkQuantity):
+    """The force of one contact of the lattice: zero where it opened."""
+
+    name = "contact"
+
+    def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
+        """Give its row."""
+        assert self.scene.contact is not None
+        i, j, branch = self.scene.contact
+        i = self.home(i)
+        force = system.number(Fraction(0))
+        for pair, value in zip(network.pairs, network.forces, strict=True):
+            if network.bead(pair[1]) == (i, j) and network.branch(pair) == branch.value:
+                force = value
+        return Table(
+            {"i": [i], "j": [j], "branch": [branch.value]},
+            {"force": column([force], system)},
+            ("force",),
+        )
+
+
+class NetworkResponse(NetworkQuantity):
+    """The contacts that bear an isolated load, with the vertical components of their forces."""
+
+    name = "response"
+
+    def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
+        """Give a row a contact."""
+        order = np.lexsort((network.pairs[:, 0], network.pairs[:, 1]))
+        pushes = network.pushes(system.number(4 * problem.n_x * network.width))[order]
+        return _contacts(
+            network, order, {"force": network.forces[order], "vertical": pushes[:, 1]}
+        )
+
+
+class NetworkPositions(NetworkQuantity):
+    """Where beads rest, in the scene's unit of length; that of a rattler is one of many."""
+
+    name = "positions"
+
+    def answer_rows(self, region: Region, realisations: int) -> int:
+        """One a bead."""
+        return region.beads * realisations
+
+    def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
+        """Give a row a bead, from the base up."""
+        r = system.number(self.scene.packing.radius)
+        beads = range(len(network.x))
+        if self.scene.site is not None:
+            i, j = self.scene.site
+            beads = range(j * network.width + self.home(i) // 2, j * network.width + self.home(i) // 2 + 1)
+        names = [network.bead(number) for number in beads]
+        bearing = np.bincount(network.pairs.ravel(), minlength=len(network.x))
+        nx, ny = plain.axes(problem.n_x, system)
+        x = column([network.x[b, 0] * r for b in beads], system)
+        y = column([network.x[b, 1] * r for b in beads], system)
+        home_x = column([2 * nx * i * r for i, _ in names], system)
+        home_y = column([2 * ny * j * r for _, j in names], system)
+        return Table(
+            {
+                "i": [i for i, _ in names],
+                "j": [j for _, j in names],
+                "contacts": [int(bearing[b]) for b in beads],
+            },
+            {"x": x, "y": y, "dx": x - home_x, "dy": y - home_y},
+            ("dx", "dy"),
+        )
+
+
+class NetworkBase(NetworkQuantity):
+    """The force with which the base holds each of its beads, own load included."""
+
+    name = "base_reactions"
+
+    def answer_rows(self, region: Region, realisations: int) -> int:
+        """One a bead of the base."""
+        return (self.width or 0) * realisations
+
+    def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
+        """Give a row a bead of the base, from left to right."""
+        pushes = network.pushes(system.number(4 * problem.n_x * network.width))
+        held = network.load[: network.width].copy()
+        held = -held
+        for (_, lower), push in zip(network.pairs, pushes, strict=True):
+            if lower < network.width:
+                held[lower] = held[lower] + push
+        return Table(
+            {"i": [2 * q for q in range(network.width)], "j": [0] * network.width},
+            {"fx": held[:, 0], "fy": held[:, 1]},
+            ("fx", "fy"),
+        )
+
+
+class NetworkHistogram(NetworkQuantity):
+    """All contact forces, counted into bins: P(f)."""
+
+    name = "histogram"
+
+    def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
+        """Give all forces of one realisation."""
+        return Table({}, {"force": network.forces}, ("force",))
+
+    def bins_of(self, table: Table, system: NumberSystem) -> list[tuple[Fraction, Fraction, int]]:
+        """Count the forces into equal bins."""
+        return histogram(table.numbers["force"], self.scene.ask.bins or DEFAULT_BINS, system)
+
+
+class NetworkProfile(NetworkQuantity):
+    """Mean and standard deviation of contact forces, by the layer of the lower bead."""
+
+    name = "profile"
+    merged = True
+
+    def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
+        """Start to merge."""
+        return _Layers(self, system)
+
+
+class _Layers(Gatherer):
+    def __init__(self, quantity: NetworkProfile, system: NumberSystem) -> None:
+        self.system = system
+        self.forces: list[list[Any]] = [[] for _ in range(quantity.height + 1)]
+
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
+        """Sort forces by the layer of the lower bead."""
+        assert isinstance(solved, Relaxed)
+        for pair, force in zip(solved.network.pairs, solved.network.forces, strict=True):
+            self.forces[solved.network.bead(pair[1])[1]].append(force)
+
+    def table(self) -> Table:
+        """One row a layer that bears force, base first."""
+        rows = [(j, forces) for j, forces in enumerate(self.forces) if forces]
+        means = [sum(forces[1:], forces[0]) / len(forces) for _, forces in rows]
+        spread = [
+            sum(((f - mean) ** 2 for f in forces), self.system.number(Fraction(0))) / len(forces)
+            for (_, forces), mean in zip(rows, means, strict=True)
+        ]
+        std = [self.system.sqrt(np.array([one], dtype=object))[0] for one in spread]
+        return Table(
+            {"j": [j for j, _ in rows], "samples": [len(forces) for _, forces in rows]},
+            {"mean": column(means, self.system), "std": column(std, self.system)},
+            ("mean", "std"),
+        )
+
+
+def _contacts(network: Network, order: Array, numbers: dict[str, Array]) -> Table:
+    pairs = network.pairs[order]
+    lower = [network.bead(b) for _, b in pairs]
+    upper = [network.bead(a) for a, _ in pairs]
+    return Table(
+        {
+            "i": [i for i, _ in lower],
+            "j": [j for _, j in lower],
+            "branch": [network.branch(pair) for pair in pairs],
+            "upper_i": [i for i, _ in upper],
+            "upper_j": [j for _, j in upper],
+        },
+        numbers,
+        ("force",),
+    )
+
+
+NETWORK_QUANTITIES: dict[str, Callable[[Scene], NetworkQuantity]] = {
+    one.name: one
+    for one in (
+        NetworkContact,
+        NetworkForces,
+        NetworkPositions,
+        NetworkProfile,
+        NetworkHistogram,
+        NetworkResponse,
+        NetworkBase,
+    )
+}

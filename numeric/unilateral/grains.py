@@ -1,0 +1,89 @@
+"""Discs on a fixed base, in float64: gaps, directions, neighbours, energy of the load."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+from scipy.spatial import cKDTree
+
+from ..arithmetic.systems import Array
+
+# Pairs are two columns of bead numbers, the first of which is free.
+Pairs = Array
+
+
+@dataclass
+class Grains:
+    """Discs in a strip with a period in x; lengths in units of r, forces in those of the load.
+
+    ``x``: centres, shape (N, 2), the only thing that changes. ``radii``: (N,). ``period`` is the
+    length of the strip. ``load``: the forces on the beads from outside, (N, 2). The first ``fixed``
+    beads are the base, which never moves.
+    """
+
+    x: Array
+    radii: Array
+    period: float
+    load: Array
+    fixed: int
+
+    @property
+    def unknowns(self) -> int:
+        """How many coordinates may change."""
+        return 2 * (len(self.radii) - self.fixed)
+
+    @property
+    def weights(self) -> Array:
+        """The loads on the free beads, as a vector of the coordinates that may change."""
+        return np.asarray(self.load[self.fixed :].ravel())
+
+    def energy(self) -> float:
+        """Potential energy of the load, which falls while beads move."""
+        return -float((self.load * self.x).sum())
+
+    def differences(self, pairs: Pairs, x: Array | None = None) -> Array:
+        """Give the vectors from the second to the first bead of each pair, nearest images."""
+        at = self.x if x is None else x
+        d = at[pairs[:, 0]] - at[pairs[:, 1]]
+        d[:, 0] -= self.period * np.round(d[:, 0] / self.period)
+        return np.asarray(d)
+
+    def gaps(self, pairs: Pairs, x: Array | None = None) -> Array:
+        """Give the distances of the surfaces; negative where beads overlap."""
+        d = self.differences(pairs, x)
+        return np.asarray(np.hypot(d[:, 0], d[:, 1]) - self.radii[pairs].sum(axis=1))
+
+    def directions(self, pairs: Pairs, x: Array | None = None) -> Array:
+        """Give the unit vectors from the second to the first bead."""
+        d = self.differences(pairs, x)
+        return np.asarray(d / np.hypot(d[:, 0], d[:, 1])[:, None])
+
+    def jacobian(self, pairs: Pairs, x: Array | None = None) -> Any:
+        """Give the derivatives of the gaps, a sparse matrix of shape (pairs, unknowns)."""
+        n = self.directions(pairs, x)
+        rows = np.repeat(np.arange(len(pairs)), 4)
+        first = 2 * (pairs - self.fixed)
+        columns = np.stack([first[:, 0], first[:, 0] + 1, first[:, 1], first[:, 1] + 1], axis=1)
+        values = np.concatenate([n, -n], axis=1).ravel()
+        free = columns.ravel() >= 0
+        return sparse.csr_array(
+            (values[free], (rows[free], columns.ravel()[free])),
+            shape=(len(pairs), self.unknowns),
+        )
+
+    def near(self, reach: float) -> Pairs:
+        """List the pairs whose gaps are at most about ``reach``, but those of two base beads."""
+        low = self.x[:, 1].min()
+        tall = float(self.x[:, 1].max() - low) + reach + 4 * float(self.radii.max())
+        places = np.stack([self.x[:, 0] % self.period, self.x[:, 1] - low], axis=1)
+        places[places[:, 0] >= self.period, 0] = 0.0  # what rounds up to a whole period
+        tree = cKDTree(places, boxsize=[self.period, 2 * tall])
+        found = tree.query_pairs(2 * float(self.radii.max()) + reach, output_type="ndarray")
+        found = np.sort(found.reshape(-1, 2), axis=1)[:, ::-1]
+        found = found[found[:, 0] >= self.fixed]
+        return np.asarray(found[np.lexsort((found[:, 1], found[:, 0]))])
+
+    def named(self, pairs: Pairs) -> Array:
+        """Give one whole number a pair."""
+        return np.asarray(pairs[:, 0].astype(np.int64) * len(self.radii) + pairs[:, 1])
