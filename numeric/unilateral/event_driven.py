@@ -4,6 +4,10 @@ As many contacts as there are coordinates are kept at zero gap (a basis). While 
 the one with the largest tension opens; all others stay closed, which leaves a motion with one
 parameter, along which the load's energy falls at the rate of that tension. Where a pair of beads
 meets, it enters the basis. Ties go to the pair that comes first by the numbers of its beads.
+
+While other contacts still pull, the energy may have a minimum on the way. The pair is then held at
+the distance that it has, and counts as no contact: it is let go, either way, as soon as it bears
+force.
 """
 
 from dataclasses import dataclass
@@ -20,6 +24,8 @@ from .grains import Grains, Pairs
 CLOSED = 2e-12
 # Tensions below this share of the largest force are roundings.
 SLACK = 1e-11
+# A motion ends where the force of its own pair has fallen below this share of the largest one.
+HOLD = 1e-8
 # No bead moves further than this in one step, in units of r.
 STEP = 0.25
 # Pairs with a larger gap are not looked at until some bead has moved by a fifth of it.
@@ -37,50 +43,81 @@ class UnfinishedError(ForceDiffusionError, ArithmeticError):
 
 
 @dataclass
+class _Basis:
+    """Pairs kept at the gaps ``rest``: contacts at zero, and pairs that are ``held`` apart."""
+
+    pairs: Pairs
+    rest: Array
+    held: Array
+
+    def worst(self, forces: Array) -> int:
+        """Give the row whose force is most wrong: a contact that pulls, or a held pair's."""
+        return int(np.argmin(np.where(self.held, -np.abs(forces), forces)))
+
+
+@dataclass
 class _Motion:
-    """The floppy motion after the contact ``opened`` of a basis."""
+    """The floppy motion that opens (or for a held pair closes) the gap of one row of a basis."""
 
     factors: Any
-    velocity: Array  # of all coordinates that may change, for a unit rate of the opened gap
     opened: int
+    rate: float  # of the energy, negative
+    velocity: Array  # of all coordinates that may change, for a unit rate of the gap
 
 
-def relax(grains: Grains, basis: Pairs, progress: Any = None) -> tuple[Pairs, int]:
+def relax(grains: Grains, supports: Pairs, progress: Any = None) -> tuple[Pairs, int]:
     """Move ``grains`` until no contact of the basis pulls; gives that basis and the events.
 
-    ``basis``: pairs at zero gap, as many as unknowns. Raises ``UnfinishedError`` and, where the
-    energy does not fall, ``AssertionError``: that would be an error of this program.
+    ``supports``: pairs at zero gap, as many as unknowns. Raises ``UnfinishedError``.
     """
-    basis = basis.copy()
+    basis = _Basis(supports.copy(), np.zeros(len(supports)), np.zeros(len(supports), dtype=bool))
     near, looked = grains.near(REACH), grains.x.copy()
-    energy = grains.energy()
     limit = MOST_EVENTS * grains.unknowns
     for event in range(limit):
-        factors = splu(grains.jacobian(basis).tocsc())
-        forces = factors.solve(-grains.weights, trans="T")
-        opened = int(np.argmin(forces))
-        if forces[opened] >= -SLACK * np.abs(forces).max():
-            return basis, event
-        while True:
+        motion, slack = _motion(grains, basis)
+        if motion.rate >= -slack:
+            return basis.pairs[~basis.held], event
+        met: Array | None = None
+        while met is None and motion.rate < -slack:
             if np.abs(grains.x - looked).max() > REACH / 5:
                 near, looked = grains.near(REACH), grains.x.copy()
-            unit = np.zeros(grains.unknowns)
-            unit[opened] = 1
-            motion = _Motion(factors, factors.solve(unit), opened)
-            others = near[~np.isin(grains.named(near), grains.named(basis))]
+            contacts = basis.pairs[~basis.held]
+            others = near[~np.isin(grains.named(near), grains.named(contacts))]
             met = _step(grains, basis, others, motion)
-            fallen, energy = energy - grains.energy(), grains.energy()
-            assert fallen > -1e-12 * abs(energy), "the energy of the load has risen"
-            if met is not None:
-                basis[opened] = met
-                break
-            factors = splu(grains.jacobian(basis).tocsc())
+            if met is None:
+                motion, slack = _motion(grains, basis, motion)
+        row = motion.opened
+        if met is None:
+            basis.held[row] = True
+            basis.rest[row] = grains.gaps(basis.pairs[row][None])[0]
+        else:
+            basis.pairs[row], basis.rest[row], basis.held[row] = met, 0.0, False
         if progress is not None:
             progress(event + 1)
     raise UnfinishedError(f"contacts still pull after {limit} events: the packing is not settled")
 
 
-def _step(grains: Grains, basis: Pairs, others: Pairs, motion: _Motion) -> Array | None:
+def _motion(
+    grains: Grains, basis: _Basis, before: _Motion | None = None
+) -> tuple[_Motion, float]:
+    """Give the motion to follow and the size of forces that are roundings.
+
+    A motion that goes on keeps its row, and its direction.
+    """
+    factors = splu(grains.jacobian(basis.pairs).tocsc())
+    forces = factors.solve(-grains.weights, trans="T")
+    opened = basis.worst(forces) if before is None else before.opened
+    unit = np.zeros(grains.unknowns)
+    unit[opened] = -1.0 if forces[opened] > 0 and basis.held[opened] else 1.0
+    velocity = factors.solve(unit)
+    if before is not None and velocity @ before.velocity < 0:
+        velocity, unit = -velocity, -unit
+    slack = SLACK if before is None else HOLD
+    motion = _Motion(factors, opened, float(forces[opened] * unit[opened]), velocity)
+    return motion, slack * float(np.abs(forces).max())
+
+
+def _step(grains: Grains, basis: _Basis, others: Pairs, motion: _Motion) -> Array | None:
     """Move until a pair of ``others`` meets, and give it; None where the step ends before."""
     V = np.zeros_like(grains.x)
     V[grains.fixed :] = motion.velocity.reshape(-1, 2)
@@ -92,7 +129,8 @@ def _step(grains: Grains, basis: Pairs, others: Pairs, motion: _Motion) -> Array
     step = longest
     if len(times) and times[first] <= longest:
         target, step = first, float(times[first])
-    start = grains.x
+    start, energy = grains.x, grains.energy()
+    room = 1e-15 * float(np.abs(grains.load * grains.x).sum())
     for attempt in range(HALVINGS):
         met = others[target] if target is not None else None
         x = _corrected(grains, basis, motion, start + step * V, met)
@@ -100,16 +138,21 @@ def _step(grains: Grains, basis: Pairs, others: Pairs, motion: _Motion) -> Array
             gaps = grains.gaps(others, x)
             if target is not None:
                 gaps[target] = 0.0
-            own = grains.gaps(basis[motion.opened][None], x)[0]
-            forward = float(((x - start) * V).sum()) > 0 or step == 0
+            own = grains.gaps(basis.pairs[motion.opened][None], x)[0]
+            along = float(((x - start) * V).sum() / (V * V).sum())
             lowest = int(np.argmin(gaps)) if len(gaps) else -1
             apart = not len(gaps) or gaps[lowest] >= -CLOSED
-            if apart and own >= -CLOSED and forward:
+            gain = -float((grains.load * (x - start)).sum())
+            if apart and own >= -CLOSED and along >= 0 and gain <= room:
                 grains.x = x
                 return met
             if not apart and attempt % 2 == 0:  # another pair meets before
                 target = lowest
                 step = min(step, float(times[lowest])) if np.isfinite(times[lowest]) else step / 2
+                continue
+            if apart and gain > room and along > 0:  # beyond a minimum: go to that of a parabola
+                bend = gain - motion.rate * along
+                target, step = None, min(-motion.rate * along**2 / (2 * bend), step / 2)
                 continue
         target, step = None, step / 2
     raise UnfinishedError(
@@ -132,9 +175,9 @@ def _meeting(grains: Grains, pairs: Pairs, V: Array) -> Array:
 
 
 def _corrected(
-    grains: Grains, basis: Pairs, motion: _Motion, x: Array, met: Array | None
+    grains: Grains, basis: _Basis, motion: _Motion, x: Array, met: Array | None
 ) -> Array | None:
-    """Close all gaps of the basis but the opened one, and that of ``met``, by Newton's method.
+    """Bring all pairs of the basis but the opened one, and ``met``, to their gaps, by Newton.
 
     The factors are those of the start, with the row of the opened contact replaced. Without
     ``met`` the beads stay in the plane across the motion. None where it does not converge.
@@ -142,7 +185,7 @@ def _corrected(
     opened, velocity = motion.opened, motion.velocity
     plane = velocity / np.linalg.norm(velocity)
     for _ in range(ITERATIONS):
-        residual = grains.gaps(basis, x)
+        residual = grains.gaps(basis.pairs, x) - basis.rest
         residual[opened] = 0.0
         row, off = plane, 0.0
         if met is not None:

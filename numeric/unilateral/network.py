@@ -167,15 +167,18 @@ def _start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None, in
     supports = _supports(width, height)
     try:
         deposited = replace(problem, route=Route.EXACT, needs_forces=False, region=region)
-        packing = solve(deposited, [realisation], FLOAT64, Work()).packing
+        with np.errstate(all="ignore"):
+            packing = solve(deposited, [realisation], FLOAT64, Work()).packing
         assert packing is not None
-        seen = Physicality()
-        seen.look_at_gaps(packing)
         plus, minus = (np.concatenate(list(c)) for c in (packing.c.plus, packing.c.minus))
         grains.x = np.stack(
             [2 * nx * i + (plus - minus) / (2 * nx), 2 * ny * j + (plus + minus) / (2 * ny)], axis=1
         )
-        return grains, supports, seen.overlaps + seen.undecided_gaps
+        near = grains.near(0.1)
+        others = near[~np.isin(grains.named(near), grains.named(supports))]
+        overlaps = int(np.count_nonzero(grains.gaps(others) < 1e-9))
+        if not overlaps or problem.protocol == "event-driven":
+            return grains, supports, overlaps
     except UnbuildableError:
         pass
     if radii.min() <= 0:
