@@ -61,6 +61,7 @@ class _Motion:
 
     factors: Any
     opened: int
+    opens: bool  # or it closes again
     rate: float  # of the energy, negative
     velocity: Array  # of all coordinates that may change, for a unit rate of the gap
 
@@ -81,7 +82,9 @@ def relax(grains: Grains, supports: Pairs, progress: Any = None) -> tuple[Pairs,
         while met is None and motion.rate < -slack:
             if np.abs(grains.x - looked).max() > REACH / 5:
                 near, looked = grains.near(REACH), grains.x.copy()
-            contacts = basis.pairs[~basis.held]
+            kept = ~basis.held
+            kept[motion.opened] &= motion.opens  # what opened may meet again, further along
+            contacts = basis.pairs[kept]
             others = near[~np.isin(grains.named(near), grains.named(contacts))]
             met = _step(grains, basis, others, motion)
             if met is None:
@@ -113,7 +116,8 @@ def _motion(
     if before is not None and velocity @ before.velocity < 0:
         velocity, unit = -velocity, -unit
     slack = SLACK if before is None else HOLD
-    motion = _Motion(factors, opened, float(forces[opened] * unit[opened]), velocity)
+    rate = float(forces[opened] * unit[opened])
+    motion = _Motion(factors, opened, bool(unit[opened] > 0), rate, velocity)
     return motion, slack * float(np.abs(forces).max())
 
 
