@@ -17,8 +17,8 @@ class Work:
     """Beads visited by each kind of work, and the seconds of each step, over all passes of a run.
 
     ``again`` counts every visit of a pass that only repeats an earlier one, to estimate its error.
-    ``arithmetic`` names the number systems of the passes. With ``trace`` on, rows are kept too. ``kept``:
-    what a realisation was found to be, for passes with more bits.
+    ``arithmetic`` names the number systems of the passes. With ``trace`` on, rows are kept too.
+    ``kept``: what a realisation was found to be, for passes with more bits.
     """
 
     radii: int = 0

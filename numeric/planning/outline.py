@@ -51,7 +51,9 @@ class Outline:
         """Plan a method. Raises ``SceneError`` where it takes too much, or numbers can't hold."""
         scene, problem = self.scene, self.problem
         together = chunk_size(problem, method.system)
-        images = problem.route == Route.UNILATERAL or sees_images(problem, self.quantity.lowest_layer)
+        images = problem.route == Route.UNILATERAL or sees_images(
+            problem, self.quantity.lowest_layer
+        )
         if method.system.dtype is not object:
             float_range.check(scene, problem.radii, problem.load)
         steps = steps_of(self.quantity, problem, method)

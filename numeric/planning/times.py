@@ -72,7 +72,7 @@ def _pass(
         return spent
     region = problem.region
     if problem.route == Route.UNILATERAL:  # half of M*; far from it much less, beyond it more
-        return spent + n * (1e-5 * region.beads ** 1.85 + 1e-3)
+        return spent + n * (1e-3 + 1e-5 * float(region.beads**1.85))
     layer, bead, kilobit = _SWEEPS[family, problem.route]
     if problem.route == Route.LINE_SUMS:
         beads = quantity.line_beads(problem.load)

@@ -12,13 +12,14 @@ import numpy as np
 
 from ..arithmetic.systems import Array, NumberSystem
 from ..lattice.layers import Region, whole
+from ..lattice.regions import Rows
 from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved
 from ..scene.scene import Scene
 from ..statistics.histogram import histogram
 from ..unilateral.network import Network, Relaxed
-from .base import Gatherer, Listed, Rows, Table, column
+from .base import Gatherer, Listed, Table, column
 from .histogram import DEFAULT_BINS
 
 
@@ -94,10 +95,8 @@ class NetworkResponse(NetworkQuantity):
     def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
         """Give a row a contact."""
         order = np.lexsort((network.pairs[:, 0], network.pairs[:, 1]))
-        pushes = network.pushes(system.number(4 * problem.n_x * network.width))[order]
-        return _contacts(
-            network, order, {"force": network.forces[order], "vertical": pushes[:, 1]}
-        )
+        pushes = network.pushes()[order]
+        return _contacts(network, order, {"force": network.forces[order], "vertical": pushes[:, 1]})
 
 
 class NetworkPositions(NetworkQuantity):
@@ -115,7 +114,9 @@ class NetworkPositions(NetworkQuantity):
         beads = range(len(network.x))
         if self.scene.site is not None:
             i, j = self.scene.site
-            beads = range(j * network.width + self.home(i) // 2, j * network.width + self.home(i) // 2 + 1)
+            beads = range(
+                j * network.width + self.home(i) // 2, j * network.width + self.home(i) // 2 + 1
+            )
         names = [network.bead(number) for number in beads]
         bearing = np.bincount(network.pairs.ravel(), minlength=len(network.x))
         nx, ny = plain.axes(problem.n_x, system)
@@ -145,9 +146,8 @@ class NetworkBase(NetworkQuantity):
 
     def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
         """Give a row a bead of the base, from left to right."""
-        pushes = network.pushes(system.number(4 * problem.n_x * network.width))
-        held = network.load[: network.width].copy()
-        held = -held
+        pushes = network.pushes()
+        held = -network.frame.load[: network.width]
         for (_, lower), push in zip(network.pairs, pushes, strict=True):
             if lower < network.width:
                 held[lower] = held[lower] + push

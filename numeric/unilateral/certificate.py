@@ -66,7 +66,9 @@ def certify(
     try:
         factors = splu(A)
     except RuntimeError:
-        raise UnfinishedError("the contacts hold no rigid packing: their Jacobian is singular") from None
+        raise UnfinishedError(
+            "the contacts hold no rigid packing: their Jacobian is singular"
+        ) from None
     rows_norm, columns_norm, rows_off, columns_off = _inverse_norms(A, factors)
     x = _exactly(grains.x)
     x[: grains.fixed] = known.base
@@ -134,7 +136,12 @@ def _inverse_norms(A: Any, factors: Any) -> tuple[float, float, float, float]:
         columns += np.abs(y).sum(axis=1)
         columns_off += left.sum(axis=1)
     room = 1 + 1e-9  # sums of up to a million terms
-    return rows * room, float(columns.max()) * room, rows_off * room, float(columns_off.max()) * room
+    return (
+        rows * room,
+        float(columns.max()) * room,
+        rows_off * room,
+        float(columns_off.max()) * room,
+    )
 
 
 def _exactly(values: Array) -> Array:
@@ -169,7 +176,10 @@ def _geometry(x: Array, pairs: Pairs, known: Frame, grains: Grains) -> tuple[Arr
 
 def _off(directions: Array, floats: Array) -> float:
     return max(
-        (_upper(ball - float(f)) for ball, f in zip(directions.ravel(), floats.ravel(), strict=True)),
+        (
+            _upper(ball - float(f))
+            for ball, f in zip(directions.ravel(), floats.ravel(), strict=True)
+        ),
         default=0.0,
     )
 
@@ -206,4 +216,4 @@ def _balanced(
         carried[a] += _upper(force)
         carried[b] += _upper(force)
     bound = across * (left + turned * float(carried.max()) * (1 + 1e-9)) * (1 + 1e-9)
-    return kept + flint.arb(0, bound)
+    return np.asarray(kept + flint.arb(0, bound))

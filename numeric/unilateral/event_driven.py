@@ -100,9 +100,7 @@ def relax(grains: Grains, supports: Pairs, progress: Any = None) -> tuple[Pairs,
     raise UnfinishedError(f"contacts still pull after {limit} events: the packing is not settled")
 
 
-def _motion(
-    grains: Grains, basis: _Basis, before: _Motion | None = None
-) -> tuple[_Motion, float]:
+def _motion(grains: Grains, basis: _Basis, before: _Motion | None = None) -> tuple[_Motion, float]:
     """Give the motion to follow and the size of forces that are roundings.
 
     A motion that goes on keeps its row, and its direction.
@@ -133,7 +131,7 @@ def _step(grains: Grains, basis: _Basis, others: Pairs, motion: _Motion) -> Arra
     step = longest
     if len(times) and times[first] <= longest:
         target, step = first, float(times[first])
-    start, energy = grains.x, grains.energy()
+    start = grains.x
     room = 1e-15 * float(np.abs(grains.load * grains.x).sum())
     for attempt in range(HALVINGS):
         met = others[target] if target is not None else None

@@ -69,7 +69,7 @@ def _solved(grains: Grains, pairs: Pairs) -> tuple[Array, Array]:
     program.a_matrix_.start_ = A.indptr
     program.a_matrix_.index_ = A.indices
     program.a_matrix_.value_ = A.data
-    solver = highspy.Highs()
+    solver = highspy.Highs()  # type: ignore[no-untyped-call]
     for option, value in (
         ("output_flag", False), ("solver", "ipm"), ("run_crossover", "off"), ("threads", 1),
     ):  # fmt: skip
@@ -78,6 +78,8 @@ def _solved(grains: Grains, pairs: Pairs) -> tuple[Array, Array]:
     solver.run()
     status = solver.getModelStatus()
     if status != highspy.HighsModelStatus.kOptimal:
-        raise UnfinishedError(f"a linear program was not solved: {solver.modelStatusToString(status)}")
+        raise UnfinishedError(
+            f"a linear program was not solved: {solver.modelStatusToString(status)}"
+        )
     solution = solver.getSolution()
     return np.array(solution.col_value), np.array(solution.row_dual)

@@ -1,11 +1,12 @@
 """Packings without tension: a start, a protocol, and a certificate of where it ends."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from scipy.optimize import linprog
+from scipy.sparse.linalg import splu, spsolve
 
 from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats
@@ -47,16 +48,31 @@ class Network:
     events: int
     fall: float
     smallest_gap: float
-    load: Array
+    frame: Frame
     kantorovich: float | None = None
 
-    def pushes(self, period: Any) -> Array:
+    def pushes(self) -> Array:
         """Give the force of each contact on its first bead, (contacts, 2); the other way back."""
         d = self.x[self.pairs[:, 0]] - self.x[self.pairs[:, 1]]
-        around = np.round([float(dx) / float(period) for dx in d[:, 0]]).astype(int)
-        d[:, 0] = d[:, 0] - around * period
+        around = np.round([float(dx) / float(self.frame.period) for dx in d[:, 0]]).astype(int)
+        d[:, 0] = d[:, 0] - around * self.frame.period
         length = np.sqrt(d[:, 0] * d[:, 0] + d[:, 1] * d[:, 1])
         return np.asarray(d / length[:, None] * self.forces[:, None])
+
+    def data(self) -> dict[str, Any]:
+        """Give the packing as ``checker`` reads it: decimals of 60 digits, lengths in units of r."""
+
+        def decimal(ball: Any) -> str:
+            return str(ball.mid().str(60, radius=False))
+
+        return {
+            "period": decimal(self.frame.period),
+            "fixed": self.width,
+            "radii": [decimal(r) for r in self.frame.radii],
+            "loads": [[decimal(v) for v in load] for load in self.frame.load],
+            "centres": [[decimal(v) for v in centre] for centre in self.x],
+            "contacts": self.pairs.tolist(),
+        }
 
     def bead(self, number: int) -> tuple[int, int]:
         """Name a bead (i, j)."""
@@ -74,11 +90,11 @@ class Network:
         return ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Relaxed(Solved):
     """A solved realisation under unilateral contacts."""
 
-    network: Network = field(default=None)  # type: ignore[arg-type]
+    network: Network
 
 
 @dataclass
@@ -113,7 +129,9 @@ def _one(problem: Problem, realisation: int, system: Balls, work: Work) -> Relax
     if settled is None:
         return _as_deposited(problem, realisation, system, work)
     with work.timed("certify"):
-        return Relaxed(system, None, None, None, _certified(problem, realisation, settled, system))
+        return Relaxed(
+            system, None, None, None, network=_certified(problem, realisation, settled, system)
+        )
 
 
 def _settled(problem: Problem, realisation: int, work: Work) -> Settled | None:
@@ -219,8 +237,6 @@ def _load(problem: Problem, region: Region, system: NumberSystem) -> Array:
 
 
 def _forces(grains: Grains, contacts: Pairs) -> Array:
-    from scipy.sparse.linalg import spsolve
-
     return np.atleast_1d(spsolve(grains.jacobian(contacts).T.tocsc(), -grains.weights))
 
 
@@ -240,14 +256,14 @@ def _bearing(grains: Grains, pairs: Pairs, forces: Array) -> Pairs:
         if k + 1 == 2 * free and sizes[k] / following > best:
             found, best = k + 1, sizes[k] / following
     if found is None:
-        raise UnfinishedError("the linear programs ended where no rigid set of contacts bears force")
+        raise UnfinishedError(
+            "the linear programs ended where no rigid set of contacts bears force"
+        )
     return np.asarray(candidates[:found])
 
 
 def _close(grains: Grains, contacts: Pairs, backbone: Array) -> None:
     """Close the gaps of the contacts by Newton's method."""
-    from scipy.sparse.linalg import splu
-
     place = np.stack([2 * (backbone - grains.fixed), 2 * (backbone - grains.fixed) + 1], 1).ravel()
     for _ in range(event_driven.ITERATIONS):
         gaps = grains.gaps(contacts)
@@ -302,9 +318,7 @@ def _frame(problem: Problem, realisation: int, system: Balls) -> Frame:
     )
 
 
-def _certified(
-    problem: Problem, realisation: int, settled: Settled, system: Balls
-) -> Network:
+def _certified(problem: Problem, realisation: int, settled: Settled, system: Balls) -> Network:
     grains, contacts = settled.grains, settled.contacts
     known = _frame(problem, realisation, system)
     found: Certificate = certify(grains, contacts, settled.backbone, known, system)
@@ -316,7 +330,7 @@ def _certified(
     assert problem.width is not None
     return Network(
         problem.width, found.x, contacts, found.forces, settled.rattlers, settled.events,
-        settled.fall, smallest, known.load, found.kantorovich,
+        settled.fall, smallest, known, found.kantorovich,
     )  # fmt: skip
 
 
@@ -353,7 +367,9 @@ def _as_deposited(problem: Problem, realisation: int, system: Balls, work: Work)
     deposited = replace(problem, route=Route.EXACT, needs_forces=True)
     solved = solve(deposited, [realisation], system, work)
     packing, forces = solved.packing, solved.forces
-    assert packing is not None and forces is not None and problem.width is not None
+    assert packing is not None
+    assert forces is not None
+    assert problem.width is not None
     seen = Physicality()
     seen.look_at_gaps(packing)
     seen.look_at_forces(forces)
@@ -370,7 +386,9 @@ def _as_deposited(problem: Problem, realisation: int, system: Balls, work: Work)
     for j, row in enumerate(forces.rows):
         for branch, F, g in forces.below(j):
             for q, i in enumerate(row.sites() if len(F) else ()):
-                pairs.append((j * width + q, (j - 1) * width + column(i - branch.side, j - 1, width)))
+                pairs.append(
+                    (j * width + q, (j - 1) * width + column(i - branch.side, j - 1, width))
+                )
                 values.append(F[q] + g[q])
     bearing = np.array([not (f.rad() == 0 and f == 0) for f in values], dtype=bool)
     pairs_array = np.array(pairs).reshape(-1, 2)[bearing]
@@ -380,6 +398,6 @@ def _as_deposited(problem: Problem, realisation: int, system: Balls, work: Work)
     rattlers = free[~np.isin(free, pairs_array)]
     network = Network(
         width, x, pairs_array, out[bearing], rattlers, 0, 0.0, seen.smallest_gap or 0.0,
-        _load(problem, whole(width, problem.height), system),
+        _frame(problem, realisation, system),
     )  # fmt: skip
-    return Relaxed(system, packing, forces, None, network)
+    return Relaxed(system, packing, forces, None, network=network)

@@ -1,0 +1,243 @@
+"""A check of packings that shares nothing with what found them: no solver, no lattice, no module.
+
+A file holds radii, loads, centres and contacts. By Krawczyk's operator in balls, with an inverse of
+NumPy's, an exact packing is shown to touch at these contacts within a distance ρ of the centres; its
+forces are enclosed and shown to be positive, and all other gaps too. Then the packing is a strict
+local minimum of the load's energy. All pairs of beads are looked at, one by one.
+"""
+
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import flint
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from ..arithmetic.errors import ForceDiffusionError
+
+BITS = 256
+LARGEST_FILE = 100_000_000
+Number = Annotated[str, Field(pattern=r"^-?[0-9]{1,400}(\.[0-9]{1,400})?(e-?[0-9]{1,4})?$")]
+Bead = Annotated[int, Field(ge=0)]
+
+
+class PackingFileError(ForceDiffusionError, ValueError):
+    """A file of packings is not one."""
+
+
+class _Packing(BaseModel):
+    """Beads by number; the first ``fixed`` are the base. Numbers are exact decimals, as text."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+    period: Number
+    fixed: Annotated[int, Field(ge=1)]
+    radii: Annotated[list[Number], Field(min_length=2, max_length=20_000)]
+    loads: list[Annotated[list[Number], Field(min_length=2, max_length=2)]]
+    centres: list[Annotated[list[Number], Field(min_length=2, max_length=2)]]
+    contacts: list[Annotated[list[Bead], Field(min_length=2, max_length=2)]]
+
+
+class _File(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True)
+    format: Literal["force-diffusion packings 1"]
+    packings: Annotated[list[_Packing], Field(min_length=1)]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What was found of one packing; ``proved`` says that it is a strict local minimum.
+
+    ``within``: ρ, in units of the file; ``smallest_force`` and ``smallest_gap``: certified lower
+    bounds; ``rattlers``: beads without contacts, which may lie anywhere near where they are.
+    """
+
+    proved: bool
+    why: str
+    contacts: int
+    rattlers: int
+    within: float | None = None
+    smallest_force: float | None = None
+    smallest_gap: float | None = None
+
+    def data(self) -> dict[str, Any]:
+        """Give what JSON can hold."""
+        return asdict(self)
+
+    def __str__(self) -> str:
+        """Say it in a line."""
+        if not self.proved:
+            return f"NOT proved: {self.why}"
+        return (
+            f"proved: an exact packing within {self.within:.2g} of these centres is a strict local "
+            f"minimum; {self.contacts} contacts, all forces above {self.smallest_force:.3g}, all "
+            f"other gaps above {self.smallest_gap:.3g}; {self.rattlers} rattlers"
+        )
+
+
+def check_packings(path: str | Path) -> list[Verdict]:
+    """Check the packings of a file that ``run --out`` wrote. Raises ``PackingFileError``."""
+    path = Path(path)
+    try:
+        if not path.is_file():
+            raise PackingFileError(f"{path.name}: there is no such file")
+        if path.stat().st_size > LARGEST_FILE:
+            raise PackingFileError(f"{path.name}: more than {LARGEST_FILE // 10**6} MB")
+        found = _File.model_validate(json.loads(path.read_bytes()))
+    except (ValueError, RecursionError, OSError) as error:
+        if isinstance(error, PackingFileError):
+            raise
+        what = error.errors()[0]["msg"] if isinstance(error, ValidationError) else "not readable"
+        at = (
+            ".".join(map(str, error.errors()[0]["loc"]))
+            if isinstance(error, ValidationError)
+            else ""
+        )
+        raise PackingFileError(
+            f"{path.name}: no file of packings, as run --out writes: {at or 'JSON'}: {what}"
+        ) from None
+    before = flint.ctx.prec
+    flint.ctx.prec = BITS
+    try:
+        return [_checked(packing, path.name) for packing in found.packings]
+    finally:
+        flint.ctx.prec = before
+
+
+def _checked(packing: _Packing, name: str) -> Verdict:
+    beads = len(packing.radii)
+    if not len(packing.loads) == len(packing.centres) == beads > packing.fixed:
+        raise PackingFileError(f"{name}: radii, loads and centres must be equally many")
+    contacts = np.array(packing.contacts, dtype=np.int64).reshape(-1, 2)
+    if len(contacts) and int(contacts.max()) >= beads:
+        raise PackingFileError(f"{name}: contacts name bead {contacts.max()} of {beads}")
+    if len({frozenset(pair) for pair in packing.contacts}) < len(contacts):
+        raise PackingFileError(f"{name}: a contact stands there twice")
+    free = sorted({int(b) for b in contacts.ravel() if b >= packing.fixed})
+    rattlers = beads - packing.fixed - len(free)
+
+    def no(why: str) -> Verdict:
+        return Verdict(False, why, len(contacts), rattlers)
+
+    if not free or len(contacts) != 2 * len(free):
+        return no(f"{len(contacts)} contacts hold {len(free)} beads: twice as many are needed")
+    if (contacts[:, 0] == contacts[:, 1]).any() or (contacts < packing.fixed).all(axis=1).any():
+        return no("a contact joins a bead to itself, or two beads of the base")
+    return _Proof(packing, contacts, free).verdict(no, rattlers)
+
+
+class _Proof:
+    def __init__(self, packing: _Packing, contacts: Any, free: list[int]) -> None:
+        self.contacts, self.free = contacts, free
+        self.fixed, self.period = packing.fixed, flint.arb(packing.period)
+        self.radii = [flint.arb(r) for r in packing.radii]
+        self.x = [[flint.arb(v) for v in centre] for centre in packing.centres]
+        self.loads = [[flint.arb(v) for v in load] for load in packing.loads]
+        self.column = {bead: 2 * k for k, bead in enumerate(free)}
+
+    def difference(self, a: int, b: int, spread: Any) -> tuple[Any, Any]:
+        """Give x_a − x_b, nearest image, each coordinate of a free bead being off by ``spread``."""
+        dx, dy = self.x[a][0] - self.x[b][0], self.x[a][1] - self.x[b][1]
+        dx = dx - round(float(dx) / float(self.period)) * self.period
+        width = spread * ((a in self.column) + (b in self.column))
+        return dx + width, dy + width
+
+    def gap(self, a: int, b: int) -> Any:
+        """Give the gap at the centres."""
+        dx, dy = self.difference(a, b, flint.arb(0))
+        return (dx * dx + dy * dy).sqrt() - self.radii[a] - self.radii[b]
+
+    def matrix(self, spread: Any) -> tuple[Any, Any]:
+        """Give the Jacobian of the gaps over the box: midpoints and radii, as floats."""
+        n = len(self.contacts)
+        middle, radius = np.zeros((n, n)), np.zeros((n, n))
+        self.directions = []
+        for row, (a, b) in enumerate(self.contacts.tolist()):
+            dx, dy = self.difference(a, b, spread)
+            length = (dx * dx + dy * dy).sqrt()
+            direction = dx / length, dy / length
+            self.directions.append(direction)
+            for bead, sign in ((a, 1), (b, -1)):
+                if bead not in self.column:
+                    continue
+                for k in (0, 1):
+                    value = sign * direction[k]
+                    at = row, self.column[bead] + k
+                    middle[at] = float(value.mid())
+                    radius[at] = _upper(value - middle[at])
+        return middle, radius
+
+    def verdict(self, no: Any, rattlers: int) -> Verdict:
+        """Prove, or say what fails."""
+        gaps = [self.gap(a, b) for a, b in self.contacts.tolist()]
+        middle, _ = self.matrix(flint.arb(0))
+        try:
+            R = np.linalg.inv(middle)
+        except np.linalg.LinAlgError:
+            return no("the Jacobian of the gaps is singular: the packing is not rigid")
+        n = len(middle)
+        size = np.abs(R)
+        worst = max(_upper(g) for g in gaps)
+        step = float(size.sum(axis=1).max()) * worst * (1 + 1e-9)  # at least |R g|
+        if not step < 1e-6:
+            return no(f"the contacts are open or overlap by up to {worst:.2g}")
+        within = 2 * step + 1e-60
+        middle, radius = self.matrix(flint.arb(0, within))
+        rounding = (n + 3) * 2.0**-53 * (1 + 1e-6)
+        off = np.abs(np.eye(n) - R @ middle) + rounding * (size @ np.abs(middle) + np.eye(n))
+        off += (size @ radius) * (1 + 1e-9)
+        rows, columns = (float(off.sum(axis=k).max()) * (1 + 1e-9) for k in (1, 0))
+        if not (step + rows * within < within and columns < 0.5):
+            return no(f"Krawczyk's operator does not map the box into itself: {rows:.2g}")
+        forces, error = self.forces(R, middle, columns)
+        smallest = float((forces - error).min())
+        if not smallest > 0:
+            k = int(np.argmin(forces))
+            a, b = self.contacts[k]
+            return no(
+                f"the force between {a} and {b}, {forces[k]:.3g}, is not shown to be positive"
+            )
+        gap, pair = self.smallest_gap(within)
+        if not gap > 0:
+            return no(f"beads {pair[0]} and {pair[1]} overlap, or are not shown to be apart")
+        return Verdict(True, "", n, rattlers, within, smallest, gap)
+
+    def forces(self, R: Any, middle: Any, columns: float) -> tuple[Any, float]:
+        """Give forces, and a bound on their error: residuals over the box times ‖A⁻¹‖₁."""
+        load = np.array([[float(v.mid()) for v in self.loads[b]] for b in self.free]).ravel()
+        forces = -R.T @ load
+        forces -= R.T @ (load + middle.T @ forces)
+        rest = {bead: list(self.loads[bead]) for bead in self.free}
+        for (a, b), force, direction in zip(
+            self.contacts.tolist(), forces, self.directions, strict=True
+        ):
+            for bead, sign in ((a, 1), (b, -1)):
+                if bead in rest:
+                    for k in (0, 1):
+                        rest[bead][k] = rest[bead][k] + sign * float(force) * direction[k]
+        residual = max(_upper(v) for pair in rest.values() for v in pair)
+        norm = float(np.abs(R).sum(axis=0).max()) * (1 + 1e-9) / (1 - columns)
+        return forces, norm * residual * (1 + 1e-9)
+
+    def smallest_gap(self, within: float) -> tuple[float, tuple[int, int]]:
+        """Give the smallest gap of all pairs that are no contacts, less what it may be off."""
+        x = np.array([[float(v) for v in centre] for centre in self.x])
+        r, period = np.array([float(v) for v in self.radii]), float(self.period)
+        touching = {(min(p), max(p)) for p in self.contacts.tolist()}
+        least, pair = np.inf, (0, 0)
+        for a in range(len(x)):
+            others = np.arange(max(a + 1, self.fixed), len(x))
+            d = x[others] - x[a]
+            d[:, 0] -= period * np.round(d[:, 0] / period)
+            gaps = np.hypot(d[:, 0], d[:, 1]) - r[others] - r[a]
+            for k in np.flatnonzero(gaps <= min(least, 1.0)):
+                b = int(others[k])
+                if (a, b) not in touching and gaps[k] < least:
+                    least, pair = float(gaps[k]), (a, b)
+        room = 3 * within + 1e-13 * (1 + float(np.abs(x).max()) + period)
+        return float(min(least, 1.0)) - room, pair
+
+
+def _upper(ball: Any) -> float:
+    return float(abs(ball).upper()) * (1 + 1e-12) + 1e-300
