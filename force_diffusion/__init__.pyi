@@ -33,3 +33,5 @@ from .numeric.studies.cost.result import CostStudy as CostStudy
 from .numeric.studies.cost.study import cost as cost
 from .numeric.studies.stability.study import StabilityStudy as StabilityStudy
 from .numeric.studies.stability.study import stability as stability
+from .numeric.unilateral.checker import Verdict as Verdict
+from .numeric.unilateral.checker import check_packings as check_packings

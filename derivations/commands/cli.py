@@ -33,6 +33,10 @@ COMMANDS = {
     "examples": ("examples", "Copy the example scenes into a folder."),
     "run": ("scenes", "Answer a scene's question."),
     "explain": ("scenes", "Say what 'run' would do, and why."),
+    "check-packings": (
+        "packings",
+        "Prove that packings touch where they say, without tension or overlap.",
+    ),
     "cost": (
         "scenes",
         "Measure what accuracy costs: every way to answer a scene, its error beside its time.",

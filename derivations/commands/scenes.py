@@ -111,13 +111,17 @@ def run(
 
     checked(written, out)
     planned = _planned(scene, tolerance, certified)
+    unilateral = planned.scene.effects.contacts == "unilateral"
     names = ["result.json", f"{planned.scene.ask.quantity}.{written}"]
+    names += ["packings.json"] * unilateral
     with output(out, f"run {scene}", names, overwrite) as folder:
         found = _solved(planned, scene, quiet)
         about = found.data(rows=False)
         about["source"] = sourced(about["source"], scene, command_line())
         if folder:
             write(folder, found, about, written)
+            if unilateral:
+                folder.write({"packings.json": json.dumps(found.packings())})
     lines = outcome_lines(about, found.count)
     show(found, about, lines, as_json=as_json, quiet=quiet, folder=folder)
 

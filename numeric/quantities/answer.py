@@ -13,7 +13,6 @@ from ..mechanics.packing import UnbuildableError
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route
 from ..mechanics.work import Work
-from ..unilateral import network
 from ..unilateral.network import Network, Relaxed
 from .base import Quantity, Table
 
@@ -59,7 +58,9 @@ def answer(
     with system.active():
         gatherer = quantity.gatherer(problem, system)
         if problem.route == Route.UNILATERAL:
-            solved_all = network.packings(problem, realisations, system, work)
+            from ..unilateral.relaxation import packings as relaxed  # SciPy's solvers take 35 MB
+
+            solved_all = relaxed(problem, realisations, system, work)
         else:
             solved_all = packings(problem, realisations, system, work, physical, plainly=plainly)
         done = 0

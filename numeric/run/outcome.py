@@ -168,6 +168,7 @@ class Outcome:
             "deposit": work.deposited,
             "line sums": work.summed,
             "balance forces": work.balanced,
+            "relax": work.balanced,
             PHYSICAL: work.checked,
             ESTIMATE: work.again,
         }
@@ -199,6 +200,11 @@ class Outcome:
             data["choice"]["missed"] = [asdict(missed) for missed in self.missed]
             data["choice"]["measured_seconds"] = round(self.seconds, 6)
         return data
+
+    def packings(self) -> dict[str, Any]:
+        """Give the packings whose contacts are unilateral, as ``check_packings`` reads them."""
+        found = [network.data() for network in self.answer.networks]
+        return {"format": "force-diffusion packings 1", "packings": found}
 
     def __str__(self) -> str:
         """Say what was found, how accurately, and what was done for it."""

@@ -22,21 +22,12 @@ from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import Array, Balls
 from .event_driven import UnfinishedError
 from .grains import Grains, Pairs
+from .network import Frame
 
 # Columns of the inverse that are found together.
 TOGETHER = 256
 # Nine roundings, the most that an entry of A times a vector takes, and some room.
 ROUNDED = 1e-15
-
-
-@dataclass(frozen=True)
-class Frame:
-    """What is exactly known, in balls: ``radii`` (N,), ``base`` (fixed, 2), ``load`` (N, 2)."""
-
-    radii: Array
-    base: Array
-    period: Any
-    load: Array
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,13 @@
 """A check of packings that shares nothing with what found them: no solver, no lattice, no module.
 
 A file holds radii, loads, centres and contacts. By Krawczyk's operator in balls, with an inverse of
-NumPy's, an exact packing is shown to touch at these contacts within a distance ρ of the centres; its
-forces are enclosed and shown to be positive, and all other gaps too. Then the packing is a strict
-local minimum of the load's energy. All pairs of beads are looked at, one by one.
+NumPy's, an exact packing is shown to touch at these contacts within a distance ρ of the centres;
+its forces are enclosed and shown to be positive, and all other gaps too. Then the packing is a
+strict local minimum of the load's energy. All pairs of beads are looked at, one by one.
 """
 
 import json
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -88,14 +89,12 @@ def check_packings(path: str | Path) -> list[Verdict]:
     except (ValueError, RecursionError, OSError) as error:
         if isinstance(error, PackingFileError):
             raise
-        what = error.errors()[0]["msg"] if isinstance(error, ValidationError) else "not readable"
-        at = (
-            ".".join(map(str, error.errors()[0]["loc"]))
-            if isinstance(error, ValidationError)
-            else ""
-        )
+        what = "no JSON"
+        if isinstance(error, ValidationError):
+            first = error.errors()[0]
+            what = f"{'.'.join(map(str, first['loc']))}: {first['msg']}"
         raise PackingFileError(
-            f"{path.name}: no file of packings, as run --out writes: {at or 'JSON'}: {what}"
+            f"{path.name}: no file of packings, as run --out writes: {what}"
         ) from None
     before = flint.ctx.prec
     flint.ctx.prec = BITS
@@ -135,6 +134,7 @@ class _Proof:
         self.x = [[flint.arb(v) for v in centre] for centre in packing.centres]
         self.loads = [[flint.arb(v) for v in load] for load in packing.loads]
         self.column = {bead: 2 * k for k, bead in enumerate(free)}
+        self.directions: list[tuple[Any, Any]] = []  # of the contacts, over the box looked at last
 
     def difference(self, a: int, b: int, spread: Any) -> tuple[Any, Any]:
         """Give x_a − x_b, nearest image, each coordinate of a free bead being off by ``spread``."""
@@ -168,7 +168,7 @@ class _Proof:
                     radius[at] = _upper(value - middle[at])
         return middle, radius
 
-    def verdict(self, no: Any, rattlers: int) -> Verdict:
+    def verdict(self, no: Callable[[str], Verdict], rattlers: int) -> Verdict:
         """Prove, or say what fails."""
         gaps = [self.gap(a, b) for a, b in self.contacts.tolist()]
         middle, _ = self.matrix(flint.arb(0))
@@ -195,9 +195,7 @@ class _Proof:
         if not smallest > 0:
             k = int(np.argmin(forces))
             a, b = self.contacts[k]
-            return no(
-                f"the force between {a} and {b}, {forces[k]:.3g}, is not shown to be positive"
-            )
+            return no(f"the force between beads {a} and {b}, {forces[k]:.3g}, may not be positive")
         gap, pair = self.smallest_gap(within)
         if not gap > 0:
             return no(f"beads {pair[0]} and {pair[1]} overlap, or are not shown to be apart")

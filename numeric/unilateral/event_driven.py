@@ -10,6 +10,7 @@ the distance that it has, and counts as no contact: it is let go, either way, as
 force.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -66,7 +67,7 @@ class _Motion:
     velocity: Array  # of all coordinates that may change, for a unit rate of the gap
 
 
-def relax(grains: Grains, supports: Pairs, progress: Any = None) -> tuple[Pairs, int]:
+def relax(grains: Grains, supports: Pairs, progress: Callable[[int], None]) -> tuple[Pairs, int]:
     """Move ``grains`` until no contact of the basis pulls; gives that basis and the events.
 
     ``supports``: pairs at zero gap, as many as unknowns. Raises ``UnfinishedError``.
@@ -95,8 +96,7 @@ def relax(grains: Grains, supports: Pairs, progress: Any = None) -> tuple[Pairs,
             basis.rest[row] = grains.gaps(basis.pairs[row][None])[0]
         else:
             basis.pairs[row], basis.rest[row], basis.held[row] = met, 0.0, False
-        if progress is not None:
-            progress(event + 1)
+        progress(event + 1)
     raise UnfinishedError(f"contacts still pull after {limit} events: the packing is not settled")
 
 

@@ -5,7 +5,7 @@ coordinate; move; repeat. A gap is never smaller than its linearisation, so that
 beads, and the energy falls. Where it ends depends on Δ, which therefore belongs to the protocol.
 """
 
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 
@@ -25,7 +25,7 @@ class MissingSolverError(ForceDiffusionError, ImportError):
     """The solver of linear programs is not installed."""
 
 
-def relax(grains: Grains, progress: Any = None) -> tuple[Pairs, Array, int]:
+def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array, int]:
     """Move ``grains``, which must not overlap, until they rest.
 
     Gives near pairs, the force of each, and the number of programs. Raises ``UnfinishedError``, and
@@ -41,8 +41,7 @@ def relax(grains: Grains, progress: Any = None) -> tuple[Pairs, Array, int]:
         gain = before - grains.energy()
         # the solver is exact to about 1e-9 of what it minimises
         assert gain > -1e-7 * scale, "the energy of the load has risen"
-        if progress is not None:
-            progress(program)
+        progress(program)
         if gain < GAIN * scale:
             return pairs, forces, program
     raise UnfinishedError(f"beads still move after {MOST_PROGRAMS} linear programs")
@@ -54,8 +53,8 @@ def _solved(grains: Grains, pairs: Pairs) -> tuple[Array, Array]:
         import highspy
     except ImportError:
         raise MissingSolverError(
-            'protocol = "linear-programs" needs highspy: pip install "force-diffusion[unilateral]", '
-            'or choose protocol = "event-driven"'
+            'protocol = "linear-programs" needs highspy, "force-diffusion[unilateral]"; '
+            'protocol = "event-driven" does without'
         ) from None
     A = grains.jacobian(pairs)
     program = highspy.HighsLp()

@@ -1,0 +1,272 @@
+"""Packings without tension: protocols, certificates, and a checker that knows neither."""
+
+import copy
+import json
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.accuracy.accuracy import ToleranceError
+from force_diffusion.numeric.quantities.base import Quantity
+from force_diffusion.numeric.unilateral.event_driven import UnfinishedError
+
+import force_diffusion as fd
+
+PROTOCOLS = ("linear-programs", "event-driven")
+
+
+def strip(
+    quantity: str = "contact_forces", *, std: float = 0.016, seed: int = 1, **more: Any
+) -> fd.Scene:
+    """Give a strip in which contacts would pull (seed 1, and σ/r as it is here)."""
+    effects = {"contacts": "unilateral", "protocol": more.pop("protocol", "linear-programs")}
+    if more.pop("bilateral", False):
+        effects = {}
+    return fd.Scene(
+        packing=fd.Packing(height=8, width=more.pop("width", 16), allow_images=True),
+        disorder=fd.Disorder(kind="uniform", relative_std=std, seed=seed),
+        load=more.pop("load", fd.SurfaceLoad()),
+        effects=fd.Effects(**effects),
+        ask=fd.Ask(quantity=quantity, **more),
+    )
+
+
+@pytest.fixture(scope="module", params=PROTOCOLS)
+def relaxed(request: pytest.FixtureRequest) -> fd.Outcome:
+    return strip(protocol=request.param).run()
+
+
+def written(
+    outcome: fd.Outcome, folder: Path, change: Callable[[dict[str, Any]], None]
+) -> fd.Verdict:
+    """Check a packing's file after a change."""
+    data = copy.deepcopy(outcome.packings())
+    change(data["packings"][0])
+    path = folder / "packings.json"
+    path.write_text(json.dumps(data))
+    (verdict,) = fd.check_packings(path)
+    return verdict
+
+
+def test_without_the_effect_some_contact_pulls() -> None:
+    found = strip(bilateral=True).run().physical
+    assert found is not None
+    assert found.tensile > 0
+
+
+def test_no_contact_pulls_and_the_balance_holds_exactly(relaxed: fd.Outcome) -> None:
+    (network,) = relaxed.answer.networks
+    assert network.events > 0
+    assert network.fall > 0
+    assert all(force > 0 for force in network.forces)
+    with relaxed.plan.system.active():
+        rest = network.frame.load.copy()
+        for (a, b), push in zip(network.pairs, network.pushes(), strict=True):
+            rest[a], rest[b] = rest[a] + push, rest[b] - push
+        for value in rest[network.width :].ravel():
+            assert value.contains(0)
+            assert value.rad() < 1e-15
+
+
+def test_contacts_touch_and_nothing_overlaps(relaxed: fd.Outcome) -> None:
+    """Every pair of beads, images included, by brute force in float64."""
+    (network,) = relaxed.answer.networks
+    x = network.x.astype(float)
+    radii, period = network.frame.radii.astype(float), float(network.frame.period)
+    touching = {frozenset(pair) for pair in network.pairs.tolist()}
+    for a in range(len(x)):
+        for b in range(max(a + 1, network.width), len(x)):
+            gaps = [
+                np.hypot(x[a, 0] - x[b, 0] + k * period, x[a, 1] - x[b, 1]) - radii[a] - radii[b]
+                for k in (-1, 0, 1)
+            ]
+            # centres of this size are rounded by 1e-14
+            if frozenset((a, b)) in touching:
+                assert min(gaps) == pytest.approx(0, abs=1e-12)
+            else:
+                assert min(gaps) > network.smallest_gap - 1e-12
+
+
+def test_as_many_contacts_as_coordinates(relaxed: fd.Outcome) -> None:
+    (network,) = relaxed.answer.networks
+    free = len(network.x) - network.width - len(network.rattlers)
+    assert len(network.pairs) == 2 * free
+
+
+def test_the_checker_agrees(relaxed: fd.Outcome, tmp_path: Path) -> None:
+    verdict = written(relaxed, tmp_path, lambda packing: None)
+    assert verdict.proved, verdict
+    assert verdict.within is not None
+    assert verdict.within < 1e-15
+
+
+def _moved(packing: dict[str, Any]) -> None:
+    packing["centres"][100][1] = str(float(packing["centres"][100][1]) + 1e-5)
+
+
+def _grown(packing: dict[str, Any]) -> None:
+    packing["radii"][100] = "1.05"
+
+
+def _upside_down(packing: dict[str, Any]) -> None:
+    packing["loads"] = [[x, y.removeprefix("-")] for x, y in packing["loads"]]
+
+
+def _one_contact_less(packing: dict[str, Any]) -> None:
+    packing["contacts"].pop()
+
+
+def _another_contact(packing: dict[str, Any]) -> None:
+    packing["contacts"][-1] = [20, 100]
+
+
+def _onto_another(packing: dict[str, Any]) -> None:
+    """Put a bead that nothing touches onto another one."""
+    for values in ("radii", "loads"):
+        packing[values].append(packing[values][100])
+    packing["loads"][-1] = ["0", "0"]
+    packing["centres"].append(packing["centres"][100])
+
+
+@pytest.mark.parametrize(
+    "change", [_moved, _grown, _upside_down, _one_contact_less, _another_contact, _onto_another]
+)
+def test_the_checker_refuses(
+    relaxed: fd.Outcome, tmp_path: Path, change: Callable[[dict[str, Any]], None]
+) -> None:
+    assert not written(relaxed, tmp_path, change).proved
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "{", "[]", "null", '{"format": "another", "packings": []}', "[" * 100_000, "\ud800"],
+)
+def test_a_file_that_is_none_is_refused_in_words(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "packings.json"
+    path.write_text(text, errors="surrogatepass")
+    with pytest.raises(fd.ForceDiffusionError, match=r"packings\.json"):
+        fd.check_packings(path)
+
+
+@pytest.mark.parametrize("seed", [0, 2])
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+def test_without_tension_forces_are_as_deposited(seed: int, protocol: str) -> None:
+    unilateral = strip(seed=seed, protocol=protocol, tolerance=Fraction(1, 10**20)).run()
+    bilateral = strip(
+        seed=seed, bilateral=True, tolerance=Fraction(1, 10**20), certified=True
+    ).run()
+    (network,) = unilateral.answer.networks
+    assert network.events == 0
+    known = {(row["i"], row["j"], row["branch"]): row for row in bilateral.decimals()}
+    for row in unilateral.decimals():
+        other = known[row["i"], row["j"], row["branch"]]
+        apart = abs(Fraction(row["force"]) - Fraction(other["force"]))
+        assert apart < Fraction(1, 10**19)
+
+
+@pytest.mark.parametrize(
+    "load", [fd.BulkLoad(), fd.SurfaceLoad(angle_deg=10), fd.PointLoad(at=[0, 8])], ids=str
+)
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+def test_all_loads_come_to_rest(load: fd.Load, protocol: str) -> None:
+    outcome = strip(std=0.03, load=load, protocol=protocol).run()
+    assert outcome.accuracy.certified
+    assert outcome.answer.networks[0].events > 0
+
+
+@pytest.mark.parametrize("std", [0.03, 0.08, 0.12])
+def test_what_cannot_be_deposited_starts_from_a_stretched_lattice(std: float) -> None:
+    """Above M*; as deposited, seed 3 has overlaps or beads that can't rest."""
+    (network,) = strip(std=std, seed=3).run().answer.networks
+    assert network.events > 0
+    with pytest.raises(UnfinishedError, match="linear-programs"):
+        strip(std=std, seed=3, protocol="event-driven").run()
+
+
+@pytest.mark.parametrize("width", [3, 4])
+def test_narrow_strips(width: int) -> None:
+    outcome = strip(std=0.03, seed=2, width=width).run()
+    assert all(force > 0 for force in outcome.answer.networks[0].forces)
+
+
+def test_a_load_that_lifts_beads_off_is_never_an_answer() -> None:
+    with pytest.raises((UnfinishedError, ToleranceError)):
+        strip(load=fd.SurfaceLoad(angle_deg=180)).run()
+
+
+def test_every_question_is_answered(relaxed: fd.Outcome) -> None:
+    protocol = relaxed.plan.problem.protocol
+    (network,) = relaxed.answer.networks
+    total = float(sum(network.forces[1:], network.forces[0]))
+    profile = strip("profile", protocol=protocol).run().arrays
+    assert (profile["mean"].astype(float) * profile["samples"]).sum() == pytest.approx(total)
+    base = strip("base_reactions", protocol=protocol).run().arrays
+    assert base["fy"].astype(float).sum() == pytest.approx(16)  # the load of W beads
+    assert base["fx"].astype(float).sum() == pytest.approx(0, abs=1e-12)
+    counts = strip("histogram", protocol=protocol).run().arrays["count"]
+    assert counts.sum() == len(network.forces)
+    row = relaxed.rows()[5]
+    at = [row["i"], row["j"], row["branch"]]
+    (one,) = strip("contact", protocol=protocol, at=at).run().rows()
+    assert one["force"] == row["force"]
+    positions = strip("positions", protocol=protocol).run().arrays
+    assert len(positions["x"]) == len(network.x)
+    assert (positions["contacts"][network.rattlers] == 0).all()
+
+
+def test_the_event_driven_energy_never_rises(monkeypatch: pytest.MonkeyPatch) -> None:
+    from force_diffusion.numeric.unilateral import event_driven
+
+    energies: list[float] = []
+    step = event_driven._step
+
+    def watched(grains: Any, *rest: Any) -> Any:
+        met = step(grains, *rest)
+        energies.append(grains.energy())
+        return met
+
+    monkeypatch.setattr(event_driven, "_step", watched)
+    strip(protocol="event-driven", load=fd.SurfaceLoad(angle_deg=10), std=0.03).run()
+    assert len(energies) > 10
+    # each is a sum of 16 terms of size 20, rounded
+    assert np.diff(energies).max() < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("effects", "packing", "words"),
+    [
+        ({"geometry": "first-order"}, {}, "effects.geometry"),
+        ({"stop_at_tension": True}, {}, "effects.stop_at_tension"),
+        ({}, {"width": None}, "packing.width"),
+        ({}, {"width": 2}, "packing.width"),
+    ],
+)
+def test_what_has_no_meaning_is_refused(
+    effects: dict[str, Any], packing: dict[str, Any], words: str
+) -> None:
+    with pytest.raises(fd.SceneError, match=words):
+        fd.Scene(
+            packing=fd.Packing(**{"height": 8, "width": 16, "allow_images": True, **packing}),
+            effects=fd.Effects(contacts="unilateral", **effects),
+            ask=fd.Ask(quantity="profile"),
+        )
+
+
+def test_protocol_alone_is_refused() -> None:
+    with pytest.raises(fd.SceneError, match="unilateral"):
+        fd.Scene(
+            packing=fd.Packing(height=2, width=4),
+            effects=fd.Effects(protocol="event-driven"),
+            ask=fd.Ask(quantity="profile"),
+        )
+
+
+def test_quantities_are_the_same_under_the_effect() -> None:
+    from force_diffusion.numeric.quantities import QUANTITIES
+    from force_diffusion.numeric.quantities.network import NETWORK_QUANTITIES
+
+    assert set(QUANTITIES) == set(NETWORK_QUANTITIES)
+    assert all(issubclass(one, Quantity) for one in NETWORK_QUANTITIES.values())  # type: ignore[arg-type]
