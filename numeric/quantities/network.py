@@ -81,7 +81,7 @@ class NetworkContact(NetworkQuantity):
             if network.bead(pair[1]) == (i, j) and network.branch(pair) == branch.value:
                 force = value
         return Table(
-            {"i": [i], "j": [j], "branch": [branch.value]},
+            {"i": np.array([i]), "j": np.array([j]), "branch": np.array([branch.value])},
             {"force": column([force], system)},
             ("force",),
         )
@@ -126,9 +126,9 @@ class NetworkPositions(NetworkQuantity):
         home_y = column([2 * ny * j * r for _, j in names], system)
         return Table(
             {
-                "i": [i for i, _ in names],
-                "j": [j for _, j in names],
-                "contacts": [int(bearing[b]) for b in beads],
+                "i": np.array([i for i, _ in names]),
+                "j": np.array([j for _, j in names]),
+                "contacts": np.array([int(bearing[b]) for b in beads]),
             },
             {"x": x, "y": y, "dx": x - home_x, "dy": y - home_y},
             ("dx", "dy"),
@@ -152,7 +152,10 @@ class NetworkBase(NetworkQuantity):
             if lower < network.width:
                 held[lower] = held[lower] + push
         return Table(
-            {"i": [2 * q for q in range(network.width)], "j": [0] * network.width},
+            {
+                "i": np.array([2 * q for q in range(network.width)]),
+                "j": np.zeros(network.width, dtype=int),
+            },
             {"fx": held[:, 0], "fy": held[:, 1]},
             ("fx", "fy"),
         )
@@ -204,7 +207,10 @@ class _Layers(Gatherer):
         ]
         std = [self.system.sqrt(np.array([one], dtype=object))[0] for one in spread]
         return Table(
-            {"j": [j for j, _ in rows], "samples": [len(forces) for _, forces in rows]},
+            {
+                "j": np.array([j for j, _ in rows]),
+                "samples": np.array([len(forces) for _, forces in rows]),
+            },
             {"mean": column(means, self.system), "std": column(std, self.system)},
             ("mean", "std"),
         )
@@ -216,11 +222,11 @@ def _contacts(network: Network, order: Array, numbers: dict[str, Array]) -> Tabl
     upper = [network.bead(a) for a, _ in pairs]
     return Table(
         {
-            "i": [i for i, _ in lower],
-            "j": [j for _, j in lower],
-            "branch": [network.branch(pair) for pair in pairs],
-            "upper_i": [i for i, _ in upper],
-            "upper_j": [j for _, j in upper],
+            "i": np.array([i for i, _ in lower]),
+            "j": np.array([j for _, j in lower]),
+            "branch": np.array([network.branch(pair) for pair in pairs]),
+            "upper_i": np.array([i for i, _ in upper]),
+            "upper_j": np.array([j for _, j in upper]),
         },
         numbers,
         ("force",),

@@ -264,6 +264,8 @@ def _physical_line(p: dict[str, Any]) -> str:
     pulling = "forces not asked for"
     if p["contacts"] is not None:
         pulling = f"{p['tensile_contacts']} of {p['contacts']} contacts are tensile"
+    if p["tensile_contacts"]:
+        pulling += ' (effects.contacts = "unilateral" lets such contacts open)'
     open_signs = f", {p['undecided']} signs open" if p["undecided"] else ""
     highest = "none" if p["critical_height"] is None else f"{p['critical_height']:.4g}"
     return (

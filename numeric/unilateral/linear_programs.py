@@ -40,7 +40,10 @@ def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array
         grains.x[grains.fixed :] += move.reshape(-1, 2)
         gain = before - grains.energy()
         # the solver is exact to about 1e-9 of what it minimises
-        assert gain > -1e-7 * scale, "the energy of the load has risen"
+        if gain < -1e-7 * scale:
+            raise UnfinishedError(
+                f"the energy of the load rose by {-gain:.3g} in a program: please report this"
+            )
         progress(program)
         if gain < GAIN * scale:
             return pairs, forces, program
