@@ -137,8 +137,8 @@ def page(outcomes: Sequence[Outcome], parts: Sequence[Part], command: str, made:
         size=_SIZE,
         prose=prose,
     )
-    # MathML aligns the cells of tables by style attributes
-    styles = dict.fromkeys([style, *re.findall(r'<mtd style="([^"]*)"', text)])
+    # MathML aligns the cells of tables, and moves what \! does, by style attributes
+    styles = dict.fromkeys([style, *re.findall(r'<m\w+ style="([^"]*)"', text)])
     text = text.replace(_HASHES, " ".join(map(_hash, styles)), 1)
     return text.replace(_SIZE, f"{len(text.encode()) / 1e6:.2f} MB", 1)
 
