@@ -13,7 +13,6 @@ from force_diffusion.derivations.framework.follows import (
     differentiated,
     identity,
     summed,
-    up_to,
 )
 from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step, Witness
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
@@ -82,6 +81,11 @@ def squared_weights(candidate: sympy.Eq) -> Ruling:
     return summed({SQUARES: known})(0, candidate)
 
 
+def _squares_to(last: sympy.Expr) -> sympy.Expr:
+    """Σ k² for k < last."""
+    return last * (last - 1) * (2 * last - 1) / 6
+
+
 def _highest_term(_: int, candidate: sympy.Eq) -> Ruling:
     """The first term of ``TOTAL`` at z = j/M; the others are of lower order."""
     rest = order(FIELD.from_sympy(sympy.Add(*TOTAL.args[1:])))
@@ -106,7 +110,7 @@ def steps() -> Iterator[Step]:
         "zero before the first term, at n = 0 (first) and at n = j (second).",
         sympy.Tuple(
             *certificate(below, n * (M - j) ** 2),
-            *certificate(above, up_to(above)),
+            *certificate(above, terms(_squares_to(M - j), minus(_squares_to(M - n)))),
         ),
         by_certificate,
     )

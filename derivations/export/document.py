@@ -93,7 +93,7 @@ def _steps(derivation: Derivation, verdicts: list[str]) -> str:
     if len(verdicts) != len(steps):  # an earlier version has left them behind
         verdicts = ["not decided"] * len(steps)
     for step, verdict in zip(steps, verdicts, strict=True):
-        follows = f"\\emph{{{prose_latex(sentence(follows_text(step, verdict)))}}}"
+        follows = f"\\emph{{{prose_latex(sentence(follows_text(step, verdict.capitalize())))}}}"
         if derivation.printed == (step.formula,):  # not the same display twice
             reason = prose_latex(step.reason.rstrip(".:"))
             items.append(f"{reason}: Eq.~({derivation.number}). {follows}")

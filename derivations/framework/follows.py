@@ -6,8 +6,7 @@ from typing import Any
 import sympy
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.bases import LINE_SUM, Basis
-from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.as_printed import equation, minus, terms
+from force_diffusion.symbolic.as_printed import equation, terms
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     all_of,
@@ -19,7 +18,7 @@ from force_diffusion.symbolic.kernel.decisions import (
 )
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import i, j
-from force_diffusion.symbolic.variances.certified_sums import carried_out, certified_sum
+from force_diffusion.symbolic.variances.certified_sums import carried_out
 
 Decide = Callable[[int, sympy.Eq], Ruling]
 Known = Mapping[Any, Any]
@@ -80,23 +79,18 @@ def is_sum(_: int, candidate: sympy.Eq) -> Ruling:
 
 
 def certificate(total: sympy.Sum, up_to_n: sympy.Expr) -> tuple[sympy.Eq, sympy.Eq]:
-    """What a sum up to n is, and what that gains at n: two lines of a step."""
+    """What a sum up to n is, and its term at n as what that gains there: two lines of a step."""
     index, _, high = total.limits[0]
-    before = up_to_n.xreplace({high: high - 1})
+    parts = up_to_n.args if isinstance(up_to_n, sympy.Add) else (up_to_n,)
+    after = [part for part in parts if part.has(high)]  # the others cancel
+    before = [-part.xreplace({high: high - 1}) for part in after]
     term = total.function.xreplace({index: high})
-    return equation(total, up_to_n), equation(terms(up_to_n, minus(before)), term)
+    return equation(total, up_to_n), equation(term, terms(*after, *before))
 
 
 def by_certificate(part: int, candidate: sympy.Eq) -> Ruling:
     """Rule on the lines of certificates."""
     return (identity() if part % 2 else is_sum)(part, candidate)
-
-
-def up_to(total: sympy.Sum) -> sympy.Expr:
-    """The sum up to n as a function of n, by SymPy, factored."""
-    index, low, high = total.limits[0]
-    found = certified_sum(total.function, index, low, high)
-    return FIELD.from_sympy(found).to_sympy()
 
 
 def differentiated() -> Decide:

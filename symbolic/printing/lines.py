@@ -157,7 +157,10 @@ def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) 
                 rf"&\qquad {relation} {right[0]}",
                 *(rf"&\qquad\quad {line}" for line in right[1:]),
             ]
-    first, *others = pack(rhs, room - width(lhs) - 22, room - width(lhs) - 12)
+    left_over = room - width(lhs) - 22
+    if len(rhs) == 1 and rhs[0][1] > left_over:  # one term, too wide beside the left-hand side
+        rhs = pieces.of(equation.rhs, left_over)
+    first, *others = pack(rhs, left_over, left_over + 10)
     return [f"{lhs} &{relation} {first}", *(rf"&\quad {line}" for line in others)]
 
 
