@@ -8,16 +8,22 @@ import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations.beyond.neighbours import (
+    COVARIANCES,
+    FAR,
+    OF_MEAN,
     UNIT,
     Split,
     decided,
     far_is_zero,
     mean_of_neighbours,
     near,
+    none_far,
     same_at,
     searched,
     spread,
+    told,
 )
+from force_diffusion.derivations.framework.follows import identity
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses import neighbours as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
@@ -76,26 +82,36 @@ def covariances() -> tuple[RationalFunction, ...]:
 
 def steps() -> Iterator[Step]:
     """Covariances of two; none beyond the second neighbour; their sum."""
-    own, first, second = (value.to_sympy() for value in covariances())
+    known = told(MEAN_OF_N, covariances())
     yield Step(
         "Eq. 11 in the radii is a sum of second differences on one diagonal, and of what hangs on "
         "single sites. Two neighbouring contacts, k places apart, share radii on two of three "
         "lines (k = 1) or one (k = 2). Their covariances over ⟨f⟩², for k = 0, 1, 2:",
-        sympy.Tuple(own, first, second),
+        sympy.Tuple(*(equation(name, known[name]) for name in COVARIANCES)),
+        identity(known),
+        ("Eq. 11",),
     )
     yield Step(
         "From k = 3 on it is zero, exactly, for k ≤ j − 2: first differences of one contact's tilt "
-        "cross the second differences of the other, and the products add up to nothing."
+        "cross the second differences of the other, and the products add up to nothing.",
+        equation(FAR, 0),
+        none_far(_uncorrelated),
+        ("Eq. 11",),
     )
     yield Step(
-        "The variance of the mean of N is [N C₀ + 2(N − 1)C₁ + 2(N − 2)C₂]/N². What grows with M "
-        "cancels in C₀ + 2C₁ + 2C₂:",
-        equation(
-            sympy.Symbol("C_0") + 2 * sympy.Symbol("C_1") + 2 * sympy.Symbol("C_2"),
-            spread(covariances()).to_sympy(),
-        ),
+        "So the variance of the mean of N is",
+        equation(MEAN_OF_N, OF_MEAN),
+        identity(known),
+        ("step 1", "step 2"),
     )
-    yield Step("All of it:", PRINTED)
+    own, first, second = COVARIANCES
+    yield Step(
+        "What grows with M cancels in",
+        equation(own + 2 * first + 2 * second, spread(covariances()).to_sympy()),
+        identity(known),
+        ("step 1",),
+    )
+    yield Step("All of it:", PRINTED, decide, ("step 1", "step 3"))
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
@@ -112,6 +128,7 @@ SPLITS: tuple[Split, ...] = (({j: k + p, M: k + p + q}, {k: 3, p: 2, q: 1}),)
 """All places with 3 ≤ k ≤ j − 2 and j < M."""
 
 
+@cache
 def _uncorrelated() -> Ruling:
     return far_is_zero(eq11.in_radii(FORCE), SPLITS)
 
@@ -181,7 +198,6 @@ DERIVATION = Derivation(
     decide=decide,
     search=search,
     claims=(
-        Claim("contacts k places apart are uncorrelated for 3 ≤ k ≤ j − 2", _uncorrelated),
         Claim("these covariances hold in every layer j ≥ 4 of M ≥ j + 3", _everywhere),
         Claim(
             "to leading order a contact's correlation with its first neighbour is −2/3, with its "

@@ -9,15 +9,19 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations.beyond import b7_neighbouring_contacts as b7
 from force_diffusion.derivations.beyond.neighbours import (
+    COVARIANCES,
+    FAR,
     Split,
     decided,
     far_is_zero,
     mean_of_neighbours,
     near,
+    none_far,
     same_at,
     searched,
-    spread,
+    told,
 )
+from force_diffusion.derivations.framework.follows import identity, states
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses import neighbours as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
@@ -34,6 +38,7 @@ from force_diffusion.symbolic.symbols import (
     Dot,
     M,
     N,
+    f_load,
     i,
     j,
     k,
@@ -92,20 +97,48 @@ def covariances() -> tuple[RationalFunction, ...]:
     return near(_form(), DEEP)
 
 
+BEAD = Symbol("p_bead", "p", "p")
+"""The vertical force that a bead gets from both upper contacts."""
+
+
 def steps() -> Iterator[Step]:
     """The same for what a bead gets from both upper contacts."""
-    own, first, second = (value.to_sympy() for value in covariances())
+    known = told(MEAN_OF_N, covariances())
+    change = terms(BEAD / f_load, -1)
     yield Step(
         "The vertical force that bead (i, j) gets from both upper contacts, over f_load and less "
         "1, by Eq. 11, its mirror image, and the tilts of both:",
-        VERTICAL,
+        equation(change, VERTICAL),
+        states(equation(change, VERTICAL), region=eq11.INTERIOR),
+        ("Eq. 11",),
     )
-    yield Step("Covariances of beads k = 0, 1, 2 places apart:", sympy.Tuple(own, first, second))
     yield Step(
-        "For 3 ≤ k ≤ j − 3, k ≤ M − j − 2 it is zero; and C₀ + 2C₁ + 2C₂ = 0 exactly: the vertical "
-        "force through a layer is the load, so that a window's sum changes through its ends alone.",
+        "Covariances of beads k = 0, 1, 2 places apart:",
+        sympy.Tuple(*(equation(name, known[name]) for name in COVARIANCES)),
+        identity(known),
+        ("step 1",),
     )
-    yield Step("What is left, −2(C₁ + 2C₂)/N²:", PRINTED)
+    yield Step(
+        "For 3 ≤ k ≤ j − 3, k ≤ M − j − 2 it is zero:",
+        equation(FAR, 0),
+        none_far(_uncorrelated),
+        ("step 1",),
+    )
+    own, first, second = COVARIANCES
+    yield Step(
+        "This sum is zero exactly: the vertical force through a layer is the load, so that a "
+        "window's sum changes through its ends alone.",
+        equation(own + 2 * first + 2 * second, 0),
+        identity(known),
+        ("step 2",),
+    )
+    yield Step(
+        "So what is left of the variance of the mean is",
+        equation(MEAN_OF_N, -2 * (first + 2 * second) / N**2),
+        identity(known),
+        ("Eq. B7", "step 3", "step 4"),
+    )
+    yield Step("With these covariances:", PRINTED, decide, ("step 2", "step 5"))
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:
@@ -122,6 +155,7 @@ SPLITS: tuple[Split, ...] = (({j: k + p, M: 2 * k + p + l}, {k: 3, p: 3, l: 2}),
 """All places with 3 ≤ k ≤ j − 3 and k ≤ M − j − 2."""
 
 
+@cache
 def _uncorrelated() -> Ruling:
     return far_is_zero(_form(), SPLITS)
 
@@ -131,12 +165,6 @@ def _everywhere() -> Ruling:
     return from_test(
         all(same_at(_form(), value, places, inside) for places, value in enumerate(covariances())),
         "the three covariances hold for all j ≥ 5 and M ≥ j + 5",
-    )
-
-
-def _hyperuniform() -> Ruling:
-    return from_test(
-        spread(covariances()).is_zero(), "C₀ + 2C₁ + 2C₂ is zero: no part falls as 1/N"
     )
 
 
@@ -183,11 +211,7 @@ DERIVATION = Derivation(
     decide=decide,
     search=search,
     claims=(
-        Claim(
-            "beads k places apart are uncorrelated for 3 ≤ k ≤ j − 3, k ≤ M − j − 2", _uncorrelated
-        ),
         Claim("these covariances hold in every layer j ≥ 5 of M ≥ j + 5", _everywhere),
-        Claim("the sum over N beads fluctuates through its ends alone", _hyperuniform),
         Claim("for a single bead it is half of Eq. 13, to leading order", _leading),
     ),
     witnesses=(Witness("exact packings: squares of summed weights, as fractions", _witness),),

@@ -10,6 +10,7 @@ from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond.mean_forces import SUM_OF_RADII
 from force_diffusion.derivations.beyond.means import decide_in_field
+from force_diffusion.derivations.framework.follows import identity, linear
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses import second_order as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
@@ -35,10 +36,25 @@ from force_diffusion.symbolic.mechanics.second_order import (
     d_plus,
     mean_square,
     tilt,
+    with_force,
     with_radii,
 )
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import j, l, n_x, n_y, p, phi, q, r, sigma
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.symbols import (
+    Dot,
+    b_minus,
+    b_plus,
+    j,
+    l,
+    n_x,
+    n_y,
+    p,
+    phi,
+    q,
+    r,
+    sigma,
+)
 from force_diffusion.symbolic.variances.cases import Case
 from force_diffusion.symbolic.variances.means import covariance, covariances_by_case
 
@@ -173,30 +189,68 @@ def leg() -> sympy.Expr:
     return first + second + (l - 2 - j) * leg_step()
 
 
+LOSS = Symbol("leg_loss", r"\Delta_{\rm leg}", "loss of a leg per layer")
+
+
+def _stated(part: int, candidate: sympy.Eq) -> Ruling:
+    """⟨να₁⟩ in every case of j ≥ 2: inside, further down a leg, on its first contact."""
+    if candidate.lhs != with_force:
+        return undecided(f"the left-hand side is not {text(with_force)}")
+    cases = _leg() if part else _inside()
+    deep = [
+        case
+        for case in cases
+        if case.at.get(j, 2) >= 2
+        and case.lower.get(j, 2) >= 2
+        and (not part or (case.at.get(p) == 1) == (part == 2))
+    ]
+    stated = FIELD.from_sympy(candidate.rhs / sigma**2)
+    return from_test(
+        bool(deep) and all((case.value - case.put_in(stated)).is_zero() for case in deep),
+        f"{len(deep)} cases, which cover all such contacts with j ≥ 2, agree",
+    )
+
+
 def steps() -> Iterator[Step]:
     """Balance every bead in the mean; the sources are three covariances."""
     yield Step(
         "At order ε² the momentum of a contact is α₂n + α₁δn + α₀u₂, with α₀ = 1 on the legs of "
         "the cone and 0 inside. In the mean it balances at every bead: along b⁺, with δn^± = "
-        "ν b^∓, b⁺·b⁻ = −φ/(1−φ²) and |b|² = 1/(1−φ²), ⟨α₂⟩ of the lower f⁺ is that of the upper "
-        "one, and what is lost of ⟨να₁⟩ and ⟨u₂⟩ on the way."
+        "ν b^∓, ⟨α₂⟩ of the lower f⁺ is that of the upper one, and what is lost of ⟨να₁⟩ and ⟨u₂⟩ "
+        "on the way. For that,",
+        sympy.Tuple(
+            equation(Dot(b_plus, b_plus), 1 / (1 - phi**2)),
+            equation(Dot(b_plus, b_minus), -phi / (1 - phi**2)),
+        ),
+        linear(),
     )
     yield Step(
         "α₁ is Eq. 10 inside, Eqs. 7 and 9 on a leg. ⟨να₁⟩ inside, on a leg, and on its first "
         "contact, for j ≥ 2:",
-        sympy.Tuple(WITHIN, FURTHER, sympy.expand(AT_LOAD)),
+        sympy.Tuple(*(equation(with_force, one) for one in (WITHIN, FURTHER, AT_LOAD))),
+        _stated,
+        ("Eq. 11", "Eq. 16"),
     )
     yield Step(
         "Inside it is the same for all contacts: nothing is lost, and f⁺ stays as it entered. At "
         "the right leg it enters with what the tilt of the leg changes from layer to layer, the "
         "same at each height:",
         PRINTED[0],
+        decide,
+        ("Eq. B4", "step 1", "step 2"),
     )
     yield Step(
         "The leg pays for it: it loses per layer",
-        sympy.factor(sympy.cancel(-leg_step() / UNIT)) * UNIT,
+        equation(LOSS, FIELD.from_sympy(-leg_step()).to_sympy()),
+        identity({LOSS: -leg_step()}),
+        ("Eq. B4", "step 1", "step 2"),
     )
-    yield Step("From the loaded bead downwards, summed:", PRINTED[1])
+    yield Step(
+        "From the loaded bead downwards, summed:",
+        PRINTED[1],
+        lambda _, candidate: decide(1, candidate),
+        ("step 4",),
+    )
 
 
 def decide(part: int, candidate: sympy.Eq) -> Ruling:
@@ -234,24 +288,6 @@ def search(candidate: sympy.Eq) -> str | None:
         if left != right:
             return f"for l = {LEVEL}, j = {layer}, n_x = {N[0]}: {left} on the left, {right}"
     return None
-
-
-def _covariances() -> Ruling:
-    """Every case of j ≥ 2 has the stated ⟨να₁⟩."""
-    wanted = [(case, WITHIN) for case in _inside()]
-    wanted += [(case, AT_LOAD if case.at.get(p) == 1 else FURTHER) for case in _leg()]
-    deep = [
-        (case, stated)
-        for case, stated in wanted
-        if case.at.get(j, 2) >= 2 and case.lower.get(j, 2) >= 2
-    ]
-    return from_test(
-        all(
-            (case.value - case.put_in(FIELD.from_sympy(stated / sigma**2))).is_zero()
-            for case, stated in deep
-        ),
-        f"{len(deep)} cases, which cover all contacts with j ≥ 2, agree",
-    )
 
 
 def _constant() -> Ruling:
@@ -350,7 +386,6 @@ DERIVATION = Derivation(
     decide=decide,
     search=search,
     claims=(
-        Claim("⟨να₁⟩ of every contact of the cone with j ≥ 2", _covariances),
         Claim("the parts of a vector along b⁺", _unit_vectors),
         Claim(
             "what enters the cone is the same at every height, and forces pass through the beads "

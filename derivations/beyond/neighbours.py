@@ -1,15 +1,25 @@
 """What Eqs. B7 and B8 have in common: the mean of N neighbours, from the covariances of two."""
 
+from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
 
 import sympy
 from force_diffusion.derivations.beyond.means import decide_in_field
+from force_diffusion.derivations.framework.follows import Decide
 from force_diffusion.derivations.witnesses import neighbours as witnesses
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
-from force_diffusion.symbolic.kernel.decisions import Ruling, from_test, undecided
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    all_of,
+    decide_identity,
+    from_test,
+    undecided,
+)
+from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import M, N, i, j, k, phi, r, sigma
 from force_diffusion.symbolic.variances.means import covariance, covariances_by_case
 
@@ -19,6 +29,35 @@ FARTHEST = 2
 
 Split = tuple[dict[sympy.Symbol, sympy.Expr], dict[sympy.Symbol, int]]
 """Indices in terms of others, and the lower bounds of these."""
+
+
+COVARIANCES = tuple(
+    Symbol(f"C_{k}", f"C_{{{k}}}", f"C{lowered}") for k, lowered in enumerate("₀₁₂")
+)
+"""Covariances of two that are k = 0, 1, 2 places apart, over the squared mean of one."""
+FAR = Symbol("C_k", "C_{k}", "C_k")
+"""That of two that are k ≥ 3 places apart."""
+OF_MEAN = (N * COVARIANCES[0] + 2 * (N - 1) * COVARIANCES[1] + 2 * (N - 2) * COVARIANCES[2]) / N**2
+"""Variance of the mean of N of them."""
+
+
+def told(
+    subject: sympy.Symbol, values: tuple[RationalFunction, ...]
+) -> dict[sympy.Symbol, sympy.Expr]:
+    """What stands for the covariances, and for the variance of the mean."""
+    known = dict(zip(COVARIANCES, (value.to_sympy() for value in values), strict=True))
+    return {**known, subject: mean_of_neighbours(values)}
+
+
+def none_far(zero: Callable[[], Ruling]) -> Decide:
+    """That far covariances are zero, by ``zero``."""
+
+    def decide(_: int, candidate: sympy.Eq) -> Ruling:
+        if candidate.lhs != FAR:
+            return undecided(f"the left-hand side is not {text(FAR)}")
+        return all_of(decide_identity(candidate.rhs, sympy.Integer(0)), zero())
+
+    return decide
 
 
 def apart(form: sympy.Expr, places: sympy.Expr) -> sympy.Expr:

@@ -124,7 +124,7 @@ def test_a_changed_step_is_not_proved(derivation: Derivation) -> None:
                 assert ruling.note, change
                 if ruling.verdict is Verdict.PROVED:
                     survived.append(change)
-        assert tried, place
+        assert tried or step.equations[0].rhs == 0, place
         _, *same = SAME.get((str(derivation.number), place), ("",))
         assert survived == same, place
 
