@@ -17,6 +17,7 @@ from force_diffusion.derivations.commands.shared import (
     checked,
     show,
     sourced,
+    warn,
     write,
 )
 from force_diffusion.derivations.export.answers import Format
@@ -103,6 +104,7 @@ def ensemble(
             confidence=confidence, workers=workers, scheduler=scheduler or cluster,
             covariance=covariance, reach=reach,
         )  # fmt: skip
+        warn(scene, found.estimates.measurement.plan)
         data = found.data(rows=False)
         data["source"] = sourced(data["source"], scene, None)  # the same, whoever solved it
         if folder:

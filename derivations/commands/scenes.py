@@ -22,6 +22,7 @@ from force_diffusion.derivations.commands.shared import (
     noticing,
     show,
     sourced,
+    warn,
     write,
 )
 from force_diffusion.derivations.export.answers import Format
@@ -93,6 +94,7 @@ def explain(
 ) -> None:
     """Say what 'run' would do, and why."""
     planned = _planned(scene, tolerance, certified)
+    warn(scene, planned)
     print(json.dumps(planned.data(), indent=2) if as_json else planned)
 
 
@@ -111,6 +113,7 @@ def run(
 
     checked(written, out)
     planned = _planned(scene, tolerance, certified)
+    warn(scene, planned)
     unilateral = planned.scene.effects.contacts == "unilateral"
     names = ["result.json", f"{planned.scene.ask.quantity}.{written}"]
     names += ["packings.json"] * unilateral

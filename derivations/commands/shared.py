@@ -15,6 +15,7 @@ from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.text import csv_bytes
 
 if TYPE_CHECKING:
+    from force_diffusion.numeric.planning.plan import Plan
     from matplotlib.figure import Figure
 
 
@@ -33,6 +34,12 @@ def checked(written: Format, out: Path | None) -> None:
     if written != Format.CSV and out is None:
         raise ForceDiffusionError(f"--format {written} is for files: give --out DIR, too")
     answers.check(written)
+
+
+def warn(scene: Path, plan: "Plan") -> None:
+    """Tell what should be known of a scene before its answer is used."""
+    for note in plan.notes:
+        tell(f"{scene.name}: {note}")
 
 
 def sourced(source: dict[str, Any], scene: Path, command: str | None) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from ..arithmetic.decimals import bound_string, short
@@ -12,9 +13,12 @@ from ..arithmetic.systems import (
     BigFloat,
     NumberSystem,
 )
+from ..disorder.radii import DrawnRadii
 from ..mechanics.problem import Problem
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
+from ..theory.expected import ExpectedTension, expected_tension
+from ..theory.tension import LOADS
 
 ESTIMATE, CERTIFY = "estimate the error", "certify"
 # What errors of float64 are estimated with: an own long double, where the platform has one.
@@ -140,8 +144,38 @@ class Plan:
         """The arithmetic of the answer."""
         return self.method.system
 
+    @cached_property
+    def tension(self) -> ExpectedTension | None:
+        """How many contacts of a packing are expected to pull.
+
+        None where no theory says so: it knows drawn radii of packings wider than high, under
+        surface and bulk loads straight down.
+        """
+        load, width, problem = self.scene.load, self.problem.width, self.problem
+        drawn = isinstance(problem.radii, DrawnRadii)
+        known = drawn and load.kind in LOADS and not load.angle_deg
+        if not known or width is None or width <= problem.height or not self.quantity.needs_forces:
+            return None
+        std = float(problem.radii.relative_std())
+        return expected_tension(
+            problem.height, width, float(1 - 2 * problem.n_x**2), std, load.kind
+        )
+
+    @property
+    def notes(self) -> list[str]:
+        """What should be known before an answer is used."""
+        notes = []
+        if self.tension is not None and self.tension.typical:
+            notes.append(
+                f"a typical packing of this scene has tension: about {self.tension.contacts:.2g} "
+                f"of its {2 * (self.problem.width or 0) * self.problem.height} contacts pull; at "
+                f"this width one does from a height of about {self.tension.height_of_one} on"
+            )
+        return notes
+
     def data(self) -> dict[str, Any]:
         """Give what JSON can hold of it; seconds of steps are not known before it runs."""
+        tension = self.tension
         return {
             "plan": [
                 {
@@ -157,6 +191,13 @@ class Plan:
             "memory_bytes": self.memory,
             "estimated_seconds": _rounded(self.estimated_seconds),
             "sees_images": self.sees_images,
+            "tension": None
+            if tension is None
+            else {
+                "expected_contacts": float(f"{tension.contacts:.3g}"),
+                "height_of_one": tension.height_of_one,
+            },
+            "notes": self.notes,
             "choice": None if self.choice is None else self.choice.data(),
         }
 
@@ -182,6 +223,10 @@ def plan_lines(data: dict[str, Any]) -> list[str]:
     lines += [f"  {s['effect']}: {s['reason']}" for s in data["skipped"]] or ["  nothing"]
     lines += _choice_lines(data["choice"]) if data["choice"] else []
     lines.append(f"About {data['estimated_seconds']:.2g} s and {data['memory_bytes'] / 1e6:.3g} MB")
+    if data["tension"]:
+        expected, one = data["tension"]["expected_contacts"], data["tension"]["height_of_one"]
+        low = "at no height allowed" if one is None else f"from a height of about {one} on"
+        lines.append(f"About {expected:.2g} contacts are expected to pull; one does {low}")
     if data["sees_images"]:
         lines.append("The answer sees periodic images: it is that of the strip, not of the slab")
     return lines
