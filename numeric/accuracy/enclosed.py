@@ -67,7 +67,8 @@ def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, Accuracy]:
     Gives the plan with the precision that was. Raises ``ToleranceError``, which says why more bits
     do not help.
     """
-    floor, problem = plan.problem.radii.relative_std(), plan.problem
+    problem, spread = plan.problem, plan.problem.radii.relative_std()
+    floor = spread * (plan.scene.load.magnitude if problem.needs_forces else 1)
     system = plan.system
     assert isinstance(system, Balls)
     if system.bits > MOST_BITS:
@@ -90,7 +91,7 @@ def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, Accuracy]:
             break
         system = Balls(min(2 * system.bits, MOST_BITS))
     message = f"the tolerance can't be reached: {why}, and more than {MOST_BITS} are not tried"
-    highest = critical_height(floor)
+    highest = critical_height(spread)
     if problem.height > highest / 2:
         message += (
             f"; the height is {problem.height}, and the theory holds well below "

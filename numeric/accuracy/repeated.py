@@ -129,7 +129,7 @@ def _floor(plan: Plan, whole: Table, largest: Fraction) -> Fraction:
         return Fraction(0)
     if plan.problem.needs_forces:
         loads = (max(abs(x), abs(y)) for x, y in plan.problem.load.single.values())
-        scale = max(max(loads, default=Fraction(1)), Fraction(1))
+        scale = max(max(loads, default=Fraction(1)), Fraction(1)) * plan.scene.load.magnitude
         for name, values in whole.numbers.items():
             if name not in whole.small:
                 scale = max(scale, _largest(values))

@@ -178,6 +178,8 @@ def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
         if made.problem.contact is not None:
             theory = [theory[made.problem.contact.j]]
         reach = float(REACH * max(theory))
+    else:
+        reach /= float(made.plan.scene.load.magnitude)
     if not 0 < reach < 1e300:
         raise ArgumentError("reach", reach, "must be a positive number below 1e300")
     bins = made.plan.scene.ask.bins or DEFAULT_BINS

@@ -25,8 +25,8 @@ class Ensemble:
     """Statistics over N packings of G groups of alike contacts.
 
     A group is a layer and branch of a profile, one contact, or all of a histogram. Forces are in
-    units of the load's magnitude; arrays are float64 of shape (G,) unless they say otherwise. The
-    spread over packings, which are independent, gives the standard errors.
+    the unit in which the load's magnitude is written; arrays are float64 of shape (G,) unless they
+    say otherwise. The spread over packings, which are independent, gives the standard errors.
 
     ``half_width`` holds for all σ_f together, relative, with confidence ``confidence``. ``reached``
     says whether the ``until`` that was asked for was met, None where nothing was asked; ``looks``
@@ -74,6 +74,11 @@ class Ensemble:
         keys = [labels[name] for name in ("component", "branch", "i", "j") if name in labels]
         return np.lexsort(keys) if keys else np.arange(self.estimates.measurement.groups)
 
+    @property
+    def _unit(self) -> float:
+        """The load's magnitude: forces are in the unit in which it is written."""
+        return float(self.estimates.measurement.plan.scene.load.magnitude)
+
     def _sorted(self, values: Any) -> Array:
         return np.asarray(values)[self._order]
 
@@ -82,32 +87,32 @@ class Ensemble:
         """Mean force; of forces that differ to zeroth order already, their mean."""
         ordered = self.estimates.measurement.ordered()
         pairs = zip(ordered, self.estimates.mean, strict=True)
-        return self._sorted([float(F + g) for F, g in pairs])
+        return self._sorted([float(F + g) for F, g in pairs]) * self._unit
 
     @cached_property
     def mean_change(self) -> Array:
         """Mean of the change g = f − F from the ordered force F."""
-        return self._sorted([float(g) for g in self.estimates.mean])
+        return self._sorted([float(g) for g in self.estimates.mean]) * self._unit
 
     @property
     def mean_change_error(self) -> Array:
         """Standard error of ``mean_change``."""
-        return self._sorted(_floats(self.estimates.mean_error))
+        return self._sorted(_floats(self.estimates.mean_error)) * self._unit
 
     @cached_property
     def mean_square(self) -> Array:
         """Mean of g², the variance about the ordered force: Eqs. 13 and 14 are its theory."""
-        return self._sorted([float(g) for g in self.estimates.mean_square])
+        return self._sorted([float(g) for g in self.estimates.mean_square]) * self._unit**2
 
     @property
     def std(self) -> Array:
         """σ_f, the standard deviation of g about its mean."""
-        return self._sorted(self.estimates.std)
+        return self._sorted(self.estimates.std) * self._unit
 
     @property
     def std_error(self) -> Array:
         """Standard error of ``std``; NaN where nothing varies."""
-        return self._sorted(_floats(self.estimates.std_error))
+        return self._sorted(_floats(self.estimates.std_error)) * self._unit
 
     @property
     def std_over_mean(self) -> Array | None:
@@ -128,7 +133,7 @@ class Ensemble:
         layers, theory = m.labels.get("j"), m.theory()
         if theory is None or layers is None or "component" in m.labels:
             return None
-        return self._sorted([float(theory[j]) for j in layers])
+        return self._sorted([float(theory[j]) for j in layers]) * self._unit
 
     @property
     def tensile(self) -> Array:
@@ -144,7 +149,9 @@ class Ensemble:
         """
         if not self.estimates.measurement.covariance:
             return None
-        return np.asarray(self.estimates.covariance()[np.ix_(self._order, self._order)])
+        of_squares = self.estimates.measurement.squares
+        covariance = self.estimates.covariance()[np.ix_(self._order, self._order)]
+        return np.asarray(covariance * self._unit ** (4 if of_squares else 2))
 
     @cached_property
     def bins(self) -> dict[str, Array] | None:
@@ -156,7 +163,7 @@ class Ensemble:
         m, N = self.estimates.measurement, self.realisations
         if not m.edges:
             return None
-        edges = np.array([-math.inf, *m.edges, math.inf])
+        edges = np.array([-math.inf, *m.edges, math.inf]) * self._unit
         counts, squares = self.estimates.sums.bins.tolist()
         scatter = [  # of the share of each packing, over all packings
             Fraction(N * square - count * count, N * (N - 1))

@@ -37,7 +37,8 @@ def _axes(plan: Plan) -> tuple[float, float]:
 def _theory(plan: Plan) -> Array | None:
     """Give σ_f of layers 0 … M − 1 to first order; None where Eqs. 13 and 14 do not apply."""
     found = first_order_std(plan.problem)
-    return None if found is None else np.array([float(v) for v in found])
+    unit = plan.scene.load.magnitude
+    return None if found is None else np.array([float(v * unit) for v in found])
 
 
 def contact_forces(plan: Plan, columns: Columns, errors: Columns) -> Figure:

@@ -49,9 +49,12 @@ def check(scene: Scene, radii: Radii, load: LoadSpec) -> None:
         if not least <= r <= MOST:
             raise SceneError("packing.radius", r, allowed)
         return
+    unit = scene.load.magnitude
+    if not least <= unit <= MOST:
+        raise SceneError("load.magnitude", unit, allowed)
     for site, (fx, fy) in load.single.items():
         size = max(abs(fx), abs(fy))
-        if size and not least <= size <= MOST:
+        if size and not (least <= size <= MOST and least <= size * unit <= MOST):
             raise SceneError(
                 "load.file",
                 scene.load.file,

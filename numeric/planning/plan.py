@@ -149,11 +149,12 @@ class Plan:
         """How many contacts of a packing are expected to pull.
 
         None where no theory says so: it knows drawn radii of packings wider than high, under
-        surface and bulk loads straight down.
+        surface and bulk loads straight down, whose contacts may pull.
         """
         load, width, problem = self.scene.load, self.problem.width, self.problem
         drawn = isinstance(problem.radii, DrawnRadii)
-        known = drawn and load.kind in LOADS and not load.angle_deg
+        stays = self.scene.effects.contacts == "bilateral"
+        known = drawn and stays and load.kind in LOADS and not load.angle_deg
         if not known or width is None or width <= problem.height or not self.quantity.needs_forces:
             return None
         std = float(problem.radii.relative_std())

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+import numpy as np
+
 from ..arithmetic.systems import NumberSystem
 from ..disorder.radii import ArrayRadii, RadiusError
 from ..lattice.branch import Contact
@@ -14,7 +16,7 @@ from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route
 from ..mechanics.work import Work
 from ..unilateral.network import Network, Relaxed
-from .base import Quantity, Table
+from .base import RATIO, Quantity, Table
 
 # What the sweeps raise for a packing that can't be built.
 UNBUILDABLE = (UnbuildableError, NotStandingError, RadiusError)
@@ -76,12 +78,27 @@ def answer(
             if len(realisations) > 1:
                 error.add_note(_which(problem, realisations[done:], system, plainly))
             raise
-        table = gatherer.table().sorted()
+        table = _in_units(quantity, gatherer.table().sorted(), system)
         bins = None if work.repeating else quantity.bins_of(table, system)
     if physical is not None and physical.first_tensile is not None:
         physical.first_tensile = _at_home(quantity, physical.first_tensile)
     stopped = None if stopped is None else _at_home(quantity, stopped)
     return Answer(table, bins, physical, stopped, tuple(networks))
+
+
+def _in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:
+    """Give forces in the unit in which the load's magnitude is written."""
+    magnitude = quantity.scene.load.magnitude
+    if not quantity.needs_forces or magnitude == 1:
+        return table
+    factor = system.scalar(magnitude)
+    errors = float(magnitude) if magnitude < 10**300 else np.inf
+    return Table(
+        table.index,
+        {k: v if k == RATIO else v * factor for k, v in table.numbers.items()},
+        table.small,
+        {k: v * errors for k, v in table.errors.items()},
+    )
 
 
 def _at_home(quantity: Quantity, contact: Contact) -> Contact:

@@ -84,9 +84,10 @@ class _Moments(Gatherer):
         blocks = above_stop(self.quantity.blocks(self.problem), solved.forces)
         means, squares = [], []
         for (branch, row), F, g in contact_changes(solved, blocks, len(realisations)):
-            scaled = as_floats(g / self.unit)
-            means.append(scaled.mean(axis=1))
-            squares.append((scaled**2).mean(axis=1))
+            with np.errstate(all="ignore"):  # of balls beyond floats no standard error is known
+                scaled = as_floats(g / self.unit)
+                means.append(scaled.mean(axis=1))
+                squares.append((scaled**2).mean(axis=1))
             key = row.j - 1, branch
             if key not in self.found:
                 # under a surface or bulk load F is one number, which a sum would round
@@ -110,7 +111,10 @@ class _Moments(Gatherer):
         }
         theory = first_order_std(self.problem)
         if theory is not None:
-            index["first_order_std"] = np.array([_printed(theory[j]) for j, _ in keys], dtype="U")
+            index["first_order_std"] = np.array(
+                [_printed(theory[j] * self.quantity.scene.load.magnitude) for j, _ in keys],
+                dtype="U",
+            )
         numbers = {
             "mean": column([a + b for a, b in zip(ordered, mean, strict=True)], self.system),
             "mean_change": column(mean, self.system),

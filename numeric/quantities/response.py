@@ -148,5 +148,6 @@ class _Responses(Gatherer):
 
 
 def _squared(values: Array) -> tuple[Array, Array]:
-    floats = as_floats(values)
-    return floats, floats**2
+    with np.errstate(all="ignore"):  # of balls beyond floats no standard error is known
+        floats = as_floats(values)
+        return floats, floats**2

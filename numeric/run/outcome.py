@@ -10,7 +10,7 @@ import numpy as np
 
 from ..accuracy.accuracy import Accuracy
 from ..accuracy.digits import printed
-from ..arithmetic.decimals import bound_string
+from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import Array, as_floats
 from ..lattice.branch import Contact
 from ..mechanics.physicality import PHYSICAL, Physicality
@@ -74,16 +74,16 @@ class Outcome:
         """The columns of the answer, each of shape (rows,).
 
         Numbers are float64, or objects of the arithmetic of the run (mpmath, python-flint's balls)
-        where that was longer. Lengths are in the scene's unit, forces in that of the load's
-        magnitude. The guide to scenes says what each column means.
+        where that was longer. Lengths are in the scene's unit, forces in that in which the load's
+        magnitude is written. The guide to scenes says what each column means.
         """
         if self.answer.bins is not None:
             low, high, count = (
                 zip(*self.answer.bins, strict=True) if self.answer.bins else ((), (), ())
             )
             return {
-                "low": np.array([float(edge) for edge in low]),
-                "high": np.array([float(edge) for edge in high]),
+                "low": np.array([_near(edge) for edge in low]),
+                "high": np.array([_near(edge) for edge in high]),
                 "count": np.array(count, dtype=np.int64),
             }
         table = self.answer.table
@@ -132,6 +132,8 @@ class Outcome:
         """The largest standard error of a statistic, relative to the largest change; or None."""
         table = self.answer.table
         errors = [e[np.isfinite(e)] for e in table.errors.values()]
+        if not any(len(e) for e in errors):
+            return None
         sizes = (as_floats(abs(table.numbers[k])).max(initial=0) for k in table.small)
         largest = float(max(sizes, default=0))
         found = max((float(e.max(initial=0)) for e in errors), default=0.0)
@@ -231,7 +233,7 @@ def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     data: dict[str, Any] = {
         "physical": found.sound,
         "whole": whole,
-        "smallest_gap": found.smallest_gap,
+        "smallest_gap": _length(found.smallest_gap, plan.scene.packing.radius),
         "smallest_gap_between": None if found.between is None else [list(s) for s in found.between],
         "overlaps": found.overlaps,
         "tensile_contacts": found.tensile if found.forces_known else None,
@@ -251,6 +253,15 @@ def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     return data
 
 
+def _length(gap: float | None, radius: Fraction) -> float | str | None:
+    """Turn units of r into those of the scene: a decimal string where a float can't hold it."""
+    if gap is None or not math.isfinite(gap):
+        return gap
+    length = Fraction(gap) * radius
+    usual = not length or Fraction(1, 10**300) < abs(length) < 10**300
+    return float(length) if usual else short(length)
+
+
 def _physical_line(p: dict[str, Any]) -> str:
     """Say whether a packing is physical, of how much of it that is known, and why."""
     words = "NOT physical"
@@ -260,7 +271,8 @@ def _physical_line(p: dict[str, Any]) -> str:
         words = "open whether it is physical"
     elif not p["overlaps"] and "note" in p:
         words = "not physical by itself, as below any load on single beads"
-    gap = "none" if p["smallest_gap"] is None else f"{p['smallest_gap']:.6g} r"
+    gap = p["smallest_gap"]
+    gap = "none" if gap is None else gap if isinstance(gap, str) else f"{gap:.6g}"
     pulling = "forces not asked for"
     if p["contacts"] is not None:
         pulling = f"{p['tensile_contacts']} of {p['contacts']} contacts are tensile"
@@ -285,6 +297,14 @@ def _network_data(found: Network) -> dict[str, Any]:
         "kantorovich": found.kantorovich,
         "rest": "as deposited: no contact pulls" if not found.events else "a strict local minimum",
     }
+
+
+def _near(value: Fraction) -> float:
+    """Round to a float, which may be infinite."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
 
 
 def _bound(bound: float | Fraction) -> float | str | None:

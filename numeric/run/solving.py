@@ -25,7 +25,7 @@ class Solution:
 
     A batch of N packings adds a first axis of length N everywhere. M layers lie above the base, W
     beads in each. Bead (j, q) is the paper's (i, j) with i = 2q + j mod 2. Forces are in the unit
-    of the load's magnitude, lengths in that of the radii.
+    in which the load's magnitude is written, lengths in that of the radii.
 
     Numbers are float64, or objects of a longer arithmetic where one was chosen or a tolerance needs
     it. A ball of python-flint prints few digits, and holds all: ``.astype(float)`` rounds an array,

@@ -79,11 +79,11 @@ class Scatter:
         packings = len(a)
         if packings < 2:
             return np.full(a.shape[1], np.nan), np.full(a.shape[1], np.nan)
-        mean, square = a.mean(axis=0), b.mean(axis=0)
-        std = np.sqrt(np.maximum(square - mean**2, 0))
-        of_mean = a.std(axis=0, ddof=1) / math.sqrt(packings)
-        of_variance = (b - 2 * mean * a).std(axis=0, ddof=1) / math.sqrt(packings)
-        with np.errstate(invalid="ignore", divide="ignore"):
+        with np.errstate(all="ignore"):  # of numbers beyond floats nothing is known
+            mean, square = a.mean(axis=0), b.mean(axis=0)
+            std = np.sqrt(np.maximum(square - mean**2, 0))
+            of_mean = a.std(axis=0, ddof=1) / math.sqrt(packings)
+            of_variance = (b - 2 * mean * a).std(axis=0, ddof=1) / math.sqrt(packings)
             return of_mean, np.where(std > 0, of_variance / (2 * std), np.nan)
 
 

@@ -340,7 +340,51 @@ def test_a_load_file_of_one_bead_is_a_point_load(tmp_path: Path) -> None:
     file = answer(
         {**sections, "load": {"kind": "file", "file": "loads.csv", "magnitude": "=2.0"}}, tmp_path
     )
-    assert point.decimals() == file.decimals()
+    for found, of_file in zip(point.arrays.values(), file.arrays.values(), strict=True):
+        doubled = found if found.dtype.kind != "f" else 2 * found
+        assert doubled.tolist() == of_file.tolist()
+
+
+@pytest.mark.parametrize(
+    "quantity", ["contact_forces", "base_reactions", "profile", "histogram", "response", "contact"]
+)
+@pytest.mark.parametrize("tolerance", [None, "=1e-25"])
+def test_forces_come_back_in_the_unit_of_the_load(quantity: str, tolerance: str | None) -> None:
+    """A power of two as magnitude: every number is multiplied, and not a bit is lost."""
+    sections = basic(4, 9, quantity=quantity)
+    if tolerance:
+        sections["ask"]["tolerance"] = tolerance
+    if quantity == "contact":
+        sections["ask"]["at"] = [0, 2, "+"]
+    load = {"kind": "point", "at": [4, 4]} if quantity == "response" else {"kind": "surface"}
+    one, many = (answer({**sections, "load": {**load, **unit}}) for unit in ({}, {"magnitude": 64}))
+    for name, column in one.arrays.items():
+        same = column.dtype.kind in "iU" or name == "std_over_mean"
+        expected, found = column if same else column * 64, many.arrays[name]
+        if column.dtype == object:
+            assert all((a - b).contains(0) for a, b in zip(expected, found, strict=True))
+        elif name == "first_order_std":  # twelve digits
+            np.testing.assert_allclose(found, expected, rtol=1e-11)
+        else:
+            np.testing.assert_array_equal(found, expected)
+    assert float(one.accuracy.error_bound) == pytest.approx(float(many.accuracy.error_bound))
+
+
+def test_an_ensemble_and_gaps_come_back_in_the_units_of_the_scene() -> None:
+    sections = basic(4, 9, quantity="profile")
+    sections["packing"] |= {"radius": 4}
+    large = {**sections, "load": {"kind": "surface", "magnitude": 64}}
+    one, many = (fd.ensemble(scene(s), 40, covariance=True) for s in (sections, large))
+    for name in ("mean", "mean_change", "std", "std_error", "first_order_std"):
+        assert (one.arrays[name] * 64 == many.arrays[name]).all()
+    assert one.covariance is not None
+    assert many.covariance is not None
+    assert (one.covariance * 64**4 == many.covariance).all()
+    wide, small = (
+        answer({**sections, "packing": {**sections["packing"], "radius": r}}) for r in (4, 1)
+    )
+    gaps = [found.data()["physical"]["smallest_gap"] for found in (wide, small)]
+    assert gaps[0] == 4 * gaps[1]
 
 
 @pytest.mark.parametrize("width", [1, 2, 3, 7])

@@ -117,7 +117,8 @@ def formula(plan: Plan, printed: bool, system: NumberSystem) -> Array:
                 squares[j] = asymptotic(M, system.number(Fraction(j, M)), phi, one, one)
             else:
                 squares[j] = exact(M, j, phi, one, one)
-        scaled = system.sqrt(squares) * forces * system.scalar(plan.problem.radii.relative_std())
+        unit = plan.problem.radii.relative_std() * plan.scene.load.magnitude
+        scaled = system.sqrt(squares) * forces * system.scalar(unit)
         return np.asarray(scaled)
 
 

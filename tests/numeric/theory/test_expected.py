@@ -1,0 +1,66 @@
+"""Contacts that are expected to pull, against those of exact packings."""
+
+import pytest
+from force_diffusion.numeric.theory.expected import expected_tension
+from force_diffusion.numeric.theory.tension import tensile_fraction
+
+import force_diffusion as fd
+from force_diffusion.__main__ import main
+
+PHI = 1 - 2 * 0.75**2  # s = 3 r
+M, W = 16, 32
+
+
+def scene(load: str, relative_std: float, height: int = M) -> fd.Scene:
+    return fd.Scene(
+        packing=fd.Packing(height=height, width=W),
+        disorder=fd.Disorder(kind="normal", relative_std=relative_std, seed=8),
+        load=fd.Load(kind=load),
+        ask=fd.Ask(quantity="profile"),
+    )
+
+
+@pytest.mark.parametrize(
+    ("load", "relative_std", "room"),
+    [("surface", 0.0055, 0.3), ("surface", 0.0092, 0.1), ("bulk", 0.0156, 0.2)],
+)
+def test_exact_packings_have_as_many(load: str, relative_std: float, room: float) -> None:
+    """To first order, and Gaussian only for many layers: so it is an estimate, good to ``room``."""
+    found = fd.ensemble(scene(load, relative_std), 120)
+    expected = expected_tension(M, W, PHI, relative_std, load).contacts
+    assert found.tensile.sum() / 120 == pytest.approx(expected, rel=room)
+
+
+@pytest.mark.parametrize("load", ["surface", "bulk"])
+@pytest.mark.parametrize("height", [1, 3, 40, 399, 400, 401, 2000])
+def test_the_number_is_the_fraction_times_the_contacts(load: str, height: int) -> None:
+    """From 400 layers on not every layer is looked at: the sum is good to a thousandth."""
+    std = 0.8 * height**-1.5
+    fraction = tensile_fraction(height, PHI, std, 1, load)
+    number = expected_tension(height, 5000, PHI, std, load).contacts
+    assert number == pytest.approx(float(fraction) * 2 * 5000 * height, rel=1e-3, abs=1e-12)
+
+
+@pytest.mark.parametrize("load", ["surface", "bulk"])
+def test_the_height_of_one_is_where_the_number_passes_one(load: str) -> None:
+    height = expected_tension(4, W, PHI, 0.0055, load).height_of_one
+    assert height is not None
+    below, there = (
+        expected_tension(h, W, PHI, 0.0055, load).contacts for h in (height - 1, height)
+    )
+    assert below < 1 <= there
+    assert expected_tension(4, W, PHI, 1e-30, load).height_of_one is None
+
+
+def test_a_scene_whose_packings_have_tension_is_told(tmp_path, capsys) -> None:
+    path = tmp_path / "scene.toml"
+    for std, told in ((0.0026, False), (0.0055, True)):
+        path.write_text(
+            f"packing = {{height = {M}, width = {W}}}\nask = {{quantity = 'profile'}}\n"
+            f"disorder = {{kind = 'uniform', relative_std = {std}}}\n"
+        )
+        for command in (["run"], ["explain"], ["ensemble", "--realisations", "3"]):
+            assert main([*command, str(path)]) == 0
+            shown = capsys.readouterr()
+            assert ("a typical packing of this scene has tension" in shown.err) == told
+    assert scene("surface", 0.0055).explain().data()["tension"]["height_of_one"] == 14
