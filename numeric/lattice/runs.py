@@ -68,7 +68,7 @@ def of_loads(
     """
     width, top = region.width, len(rows) - 1
     at, packed, size = starts(rows), starts(region.rows), widest(rows)
-    whole = region.is_whole and (rows is region.rows or tuple(rows) == region.rows)
+    whole = region.is_whole and tuple(rows) == region.rows[: top + 1]
     lowest = 0 if whole else next((j for j in range(top, 0, -1) if not rows[j].count), 0)
 
     def beside(j: int) -> tuple[Layer, Layer, Layer]:

@@ -101,12 +101,14 @@ def _place(
 
 
 @compiled
-def _deposit(base: int, runs: Array, rho: Array, block: Array, phi: float, inverse: float) -> bool:
+def _deposit(
+    base: Array, runs: Array, rho: Array, block: Array, phi: float, inverse: float
+) -> bool:
     """Deposit packings; say whether every bead rests.
 
-    ``rho`` is (packings, beads), ``base`` how many beads the base has, ``runs`` the table
-    ``runs.of_supports``; filled is ``block``, (packings, 6, …): c⁺, c⁻, the δn of plus, of minus;
-    the δn of the base are not touched.
+    ``rho`` is (packings, beads), ``base`` (2, beads) c⁺ and c⁻ of the lowest row, ``runs`` the
+    table ``runs.of_supports``; filled is ``block``, (packings, 6, …): c⁺, c⁻, the δn of plus, of
+    minus; the δn of the lowest row are not touched.
     """
     good = True
     for k in range(len(rho)):
@@ -114,8 +116,8 @@ def _deposit(base: int, runs: Array, rho: Array, block: Array, phi: float, inver
         c_plus, c_minus = block[k, 0], block[k, 1]
         plus_a, plus_b = block[k, 2], block[k, 3]
         minus_a, minus_b = block[k, 4], block[k, 5]
-        for q in range(base):
-            c_plus[q] = c_minus[q] = 0.0
+        for q in range(base.shape[1]):
+            c_plus[q], c_minus[q] = base[0, q], base[1, q]
             good &= (1 + own_rho[q] > 0) & (own_rho[q] < np.inf)
         for r in range(len(runs)):
             q, a, b, n = runs[r, 0], runs[r, 1], runs[r, 2], runs[r, 3]
@@ -216,7 +218,7 @@ def _sweep_down(F: tuple[Array, Array], runs: Array, block: Array, g: Array, los
     """Sweep packings from the highest layer down; say if all is in order.
 
     ``F`` are the ordered forces, ``runs`` the table ``runs.of_loads``, ``block`` is that of
-    ``_deposit``; filled is ``g``, (packings, 2, …). ``lost``, (2, …), is for what the sums of a
+    ``_deposit``; filled is ``g``, (packings, 2, …). ``lost``, alike, is for what the sums of a
     layer and the one above have lost, which take turns. Beyond the last bead all have zeros.
     """
     F_plus, F_minus = F
@@ -237,19 +239,19 @@ def _sweep_down(F: tuple[Array, Array], runs: Array, block: Array, g: Array, los
                     g_plus[b : b + n],
                     plus_a[over_b : over_b + n],
                     plus_b[over_b : over_b + n],
-                    lost[0, old_b : old_b + n],
+                    lost[k, 0, old_b : old_b + n],
                 ),
                 (
                     F_minus[Fa : Fa + n],
                     g_minus[a : a + n],
                     minus_a[over_a : over_a + n],
                     minus_b[over_a : over_a + n],
-                    lost[1, old_a : old_a + n],
+                    lost[k, 1, old_a : old_a + n],
                 ),
                 (plus_a[here : here + n], plus_b[here : here + n]),
                 (minus_a[here : here + n], minus_b[here : here + n]),
                 (g_plus[q : q + n], g_minus[q : q + n]),
-                (lost[0, new : new + n], lost[1, new : new + n]),
+                (lost[k, 0, new : new + n], lost[k, 1, new : new + n]),
             )
     return good
 
@@ -327,17 +329,22 @@ class Deposition:
         self.n_x, self.region = n_x, region
         self.runs = tables.of_supports(region)
         self.starts = tables.starts(region.rows)
+        self.size = int(self.starts[-1]), tables.widest(region.rows)
         self.block = np.empty((0, 6, 0))
 
-    def __call__(self, rho: Array, rows: Sequence[Array]) -> CompiledPacking | None:
+    def __call__(
+        self, rho: Array, rows: Sequence[Array], base: Array | None = None
+    ) -> CompiledPacking | None:
         """Deposit packings of δr/r (packings, beads), whose ``rows`` they are; None: not all rest.
 
-        What was given before is overwritten.
+        ``base`` holds c⁺ and c⁻ of the lowest row, (2, beads), if it is not the ordered base. What
+        was given before is overwritten.
         """
         batch = len(rho)
+        base = np.zeros((2, self.region.rows[0].count)) if base is None else base
         if len(self.block) < batch:
-            self.block = _block(batch, 6, int(self.starts[-1]), tables.widest(self.region.rows))
-        block, base = self.block[:batch], self.region.rows[0].count
+            self.block = _block(batch, 6, *self.size)
+        block = self.block[:batch]
         phi, inverse = _metric(self.n_x)
 
         def part(of: slice) -> bool:
@@ -365,20 +372,31 @@ class Descent:
         """``rows`` are those whose forces are balanced, ``loads`` belong to them."""
         self.rows, self.F = rows, _ordered(rows, region.width, loads)
         self.starts = tables.starts(rows)
+        self.size = int(self.starts[-1]), tables.widest(rows)
         self.runs = tables.of_loads(rows, region, self.F.start, self.F.missing)
         self.lowest = next((j + 1 for j in range(len(rows) - 1, 0, -1) if not rows[j].count), 1)
-        self.g = np.empty((0, 2, 0))
+        self.g = self.lost = np.empty((0, 2, 0))
 
-    def __call__(self, solved: CompiledPacking) -> CompiledForces | None:
-        """Balance the forces; None where not all is in order."""
-        batch, spare = len(solved.block), tables.widest(self.rows)
+    def __call__(
+        self, solved: CompiledPacking, above: Array | None = None
+    ) -> CompiledForces | None:
+        """Balance the forces; None where not all is in order.
+
+        ``above`` holds what ``row`` gave of the highest row, if that is balanced already.
+        """
+        batch, spare = len(solved.block), self.size[1]
         if len(self.g) < batch:
-            self.g = _block(batch, 2, int(self.starts[-1]), spare)
-        g, F = self.g[:batch], self.F
+            self.g = _block(batch, 2, *self.size)
+            self.lost = _block(batch, 2, 2 * spare, spare)
+        g, F, runs = self.g[:batch], self.F, self.runs
+        if above is not None:
+            top = len(self.rows) - 1
+            runs = runs[runs[:, 0] < self.starts[top]]
+            of_g, of_lost = self._of_row(top)
+            g[0, :, of_g], self.lost[0, :, of_lost] = above
 
         def part(of: slice) -> bool:
-            lost = _block(1, 2, 2 * spare, spare)[0]
-            return _sweep_down(F.values, self.runs, solved.block[of], g[of], lost)
+            return _sweep_down(F.values, runs, solved.block[of], g[of], self.lost[of])
 
         if not on_all_cores(part, batch):
             return None
@@ -395,6 +413,16 @@ class Descent:
             starts=self.starts,
             lowest=self.lowest,
         )
+
+    def _of_row(self, j: int) -> tuple[slice, slice]:
+        """Give the places of a row: those of changes, and of what their sums have lost."""
+        count, turn = self.rows[j].count, j % 2 * self.size[1]
+        return slice(self.starts[j], self.starts[j] + count), slice(turn, turn + count)
+
+    def row(self, j: int) -> Array:
+        """Give g and what was lost of the lowest row but one that was balanced, (2, 2, beads)."""
+        of_g, of_lost = self._of_row(j)
+        return np.stack([self.g[0, :, of_g], self.lost[0, :, of_lost]])
 
     def _ordered(self, values: Array, start: Array) -> LazyRows[Array]:
         """Give the rows of what ``_order`` made: they may overlap."""
@@ -414,6 +442,7 @@ class Drawing:
         """``radii`` are drawn here, if they are drawn at all."""
         self.radii, self.rows = radii, region.rows
         self.starts = tables.starts(region.rows)
+        self.size = int(self.starts[-1])
         self.runs = drawing.runs_of(radii, region.rows) if isinstance(radii, DrawnRadii) else None
         self.rho = np.empty((0, 0))
 
@@ -421,7 +450,7 @@ class Drawing:
         """Give δr/r, (packings, beads), and its rows. Raises what ``radii`` raises."""
         batch = len(realisations)
         if len(self.rho) < batch:
-            self.rho = np.empty((batch, int(self.starts[-1])))
+            self.rho = np.empty((batch, self.size))
         rho, radii, runs = self.rho[:batch], self.radii, self.runs
 
         def part(of: slice) -> bool:

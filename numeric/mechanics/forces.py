@@ -137,7 +137,7 @@ def sweep_down(
             # small of second order.
             minor = plus[0] * minus[1] - minus[0] * plus[1]
             det = 1 + (plus[0] + minus[1] + minor)
-            _check_standing(det, layer, system)
+            check_standing(det, layer, system)
             sp, sm = gp + turn_plus, gm + turn_minus
             turn_plus = turn_plus - (sp * (plus[0] + minor) + sm * minus[0]) / det
             turn_minus = turn_minus - (sm * (minus[1] + minor) + sp * plus[1]) / det
@@ -245,7 +245,8 @@ def _added(force: Array, turn: Array, system: NumberSystem) -> tuple[Array, Any]
     return total, (force - (total - part)) + (turn - part)
 
 
-def _check_standing(det: Array, layer: Layer, system: NumberSystem) -> None:
+def check_standing(det: Array, layer: Layer, system: NumberSystem) -> None:
+    """Raise ``NotStandingError`` where two contacts are parallel; ``det`` is that of their N."""
     good, bad = system.signs(det * det)
     if not good.all():
         wrong = ~good if not bad.any() else bad

@@ -139,11 +139,14 @@ def deposit(
     rho: Sequence[Array],
     system: NumberSystem,
     work: Work | None = None,
+    *,
+    on: tuple[Array, Array] | None = None,
 ) -> SolvedPacking:
     """Deposit beads layer by layer on the ordered base, exactly (no linearisation).
 
     ``rho[j]`` holds δr/r of the beads of ``region.rows[j]`` (shape (count,), or (…, count) for a
-    batch of packings). The caller activates ``system``. Raises ``UnbuildableError``, naming the
+    batch of packings). ``on`` holds c⁺ and c⁻ of the lowest row, if it is not the ordered base. The
+    caller activates ``system``. Raises ``UnbuildableError``, naming the
     bead, where a radius is not positive (or no number) or the supports are too far apart or too
     steep, and ``UndecidedError`` where balls are too wide to tell.
     """
@@ -152,7 +155,7 @@ def deposit(
         work.did("deposited", region.rows[0], rho[0].size // region.rows[0].count)
     nothing = zeros(system, 0)
     base = zeros(system, *rho[0].shape)
-    c_plus, c_minus = [base], [base]
+    c_plus, c_minus = ([base], [base]) if on is None else ([on[0]], [on[1]])
     plus = [(nothing, nothing)]
     minus = [(nothing, nothing)]
     _check_radii(rho[0], region.rows[0], system)
