@@ -43,13 +43,32 @@ class Physicality:
         pulls = self.tensile or self.undecided_signs
         return not (self.overlaps or self.undecided_gaps or pulls)
 
-    def look_at_gaps(self, packing: SolvedPacking) -> None:
-        """Measure the gaps of every pair of near neighbours within the region."""
-        c_plus = [as_floats(c) for c in packing.c.plus]
-        c_minus = [as_floats(c) for c in packing.c.minus]
-        rho = [as_floats(r) for r in packing.rho]
+    def above(self, other: "Physicality") -> None:
+        """Merge with what was found in layers further up."""
+        own, smallest = self.smallest_gap, other.smallest_gap
+        if own is None or (smallest is not None and not smallest >= own):
+            self.smallest_gap, self.between = smallest, other.between
+        self.overlaps += other.overlaps
+        self.undecided_gaps += other.undecided_gaps
+        self.tensile += other.tensile
+        self.undecided_signs += other.undecided_signs
+        self.contacts += other.contacts
+        self.forces_known |= other.forces_known
+        self.first_tensile = self.first_tensile or other.first_tensile
+
+    def look_at_gaps(self, packing: SolvedPacking, layers: range | None = None) -> None:
+        """Measure the gaps of every pair of near neighbours within the region.
+
+        Of the lower bead's ``layers`` only, if some are given.
+        """
+        top = packing.region.top
+        layers = range(top + 1) if layers is None else layers
+        rows = range(layers.start, min(layers.stop + 3, top + 1))
+        c_plus = {j: as_floats(packing.c.plus[j]) for j in rows}
+        c_minus = {j: as_floats(packing.c.minus[j]) for j in rows}
+        rho = {j: as_floats(packing.rho[j]) for j in rows}
         for dj in (0, 1, 2, 3):
-            for j in range(packing.region.top + 1 - dj):
+            for j in range(layers.start, min(layers.stop, top + 1 - dj)):
                 for di, dj_of in NEIGHBOURS:
                     if dj_of == dj:
                         self._pairs(packing, (c_plus, c_minus, rho), j, (di, dj))
@@ -57,7 +76,7 @@ class Physicality:
     def _pairs(
         self,
         packing: SolvedPacking,
-        values: tuple[list[Array], list[Array], list[Array]],
+        values: tuple[dict[int, Array], dict[int, Array], dict[int, Array]],
         j: int,
         offset: tuple[int, int],
     ) -> None:
@@ -91,10 +110,16 @@ class Physicality:
                 (_home(i + di, period), j + dj),
             )
 
-    def look_at_forces(self, forces: Forces) -> None:
-        """Count the contacts that surely pull and those whose sign stays open."""
+    def look_at_forces(self, forces: Forces, layers: range | None = None) -> None:
+        """Count the contacts that surely pull and those whose sign stays open.
+
+        Of the upper bead's ``layers`` only, if some are given.
+        """
         self.forces_known = True
-        for j, layer in enumerate(forces.rows):
+        top = len(forces.rows) - 1
+        layers = range(top + 1) if layers is None else layers
+        for j in range(layers.start, min(layers.stop, top + 1)):
+            layer = forces.rows[j]
             for branch, F, g in forces.below(j):
                 if not len(F):
                     continue

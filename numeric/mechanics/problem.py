@@ -34,6 +34,7 @@ class Problem:
     where only positions are asked for. ``contact`` or ``site``: the one that is asked for, if it is
     one. ``realisations``: how many there are in all; it decides who sweeps, never a number.
     ``protocol``: how beads come to rest where contacts are unilateral.
+    ``segment``: how many layers are in memory at a time, 0 for all of them.
     """
 
     n_x: Fraction
@@ -48,6 +49,7 @@ class Problem:
     stop_at_tension: bool = False
     realisations: int = 1
     protocol: str = ""
+    segment: int = 0
 
     @property
     def width(self) -> int | None:

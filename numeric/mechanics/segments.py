@@ -56,12 +56,13 @@ class InMemory:
 
 @dataclass(frozen=True)
 class Segment:
-    """A part of the packing: layers ``first`` … ``last``, whose contacts below are balanced.
+    """One ``of`` several parts: layers ``first`` … ``last``, whose contacts below are balanced.
 
     Of ``solved`` only these rows and their neighbours are there; rows are numbered as in the whole.
     """
 
     number: int
+    of: int
     first: int
     last: int
     solved: Solved
@@ -80,12 +81,12 @@ class Segments:
         self._parts: dict[type, Any] = {}
         self._strength = problem.load.strength(problem.n_x, FLOAT64)
 
-    def up(self) -> None:
-        """Deposit all but the highest segment; keep the layers below each.
+    def up(self, highest: int) -> None:
+        """Deposit all segments below the ``highest``; keep the layer below each.
 
         Raises ``RadiusError``, and ``UnbuildableError`` for a bead that can't rest.
         """
-        for number in range(1, self.count):
+        for number in range(1, highest + 1):
             if self.kept.get(f"c{number}") is None:
                 solved = self._deposited(number - 1)
                 c = solved.c
@@ -103,7 +104,9 @@ class Segments:
         found = None
         if self.problem.needs_forces:
             found = self._balanced(number, solved)
-        return Segment(number, low + 1 if number else 0, last, self._whole(solved, found, low))
+        return Segment(
+            number, self.count, low + 1 if number else 0, last, self._whole(solved, found, low)
+        )
 
     def _deposited(self, number: int) -> SolvedPacking:
         problem, work, low = self.problem, self.work, number * self.layers

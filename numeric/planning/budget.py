@@ -8,6 +8,8 @@ from ..scene.sections import SceneError
 # the plan; measured, rounded up. The rest is the interpreter with its libraries.
 FLOAT_BEAD, BALL_BEAD, FLOAT_ROW, BALL_ROW, FILE_LINE, PLAN_LAYER = 450, 2200, 700, 2800, 600, 900
 INTERPRETER = 100_000_000
+# The compiler that the extra ``fast`` brings.
+COMPILER = 100_000_000
 LONGEST = 24 * 3600.0
 
 
@@ -34,7 +36,7 @@ def refuse_memory(scene: Scene, needed: int, limit: int) -> None:
         raise SceneError(
             "packing.height",
             scene.packing.height,
-            f"this scene would need about {_size(needed)} of memory and {_size(limit)} may be "
+            f"this scene would need about {size(needed)} of memory and {size(limit)} may be "
             "used: ask for less, or for a smaller packing",
         )
 
@@ -53,12 +55,12 @@ def refuse_seconds(scene: Scene, realisations: int, seconds: float) -> None:
         )
 
 
-def _size(size: int) -> str:
+def size(number: int) -> str:
     """Write bytes as a person would.
 
-    >>> _size(123), _size(45_600_000), _size(10**40)
+    >>> size(123), size(45_600_000), size(10**40)
     ('123 B', '45.6 MB', '1e+25 PB')
     """
     units = ("B", "kB", "MB", "GB", "TB", "PB")
-    power = min((len(str(size)) - 1) // 3, len(units) - 1)
-    return f"{size / 1000**power:.3g} {units[power]}"
+    power = min((len(str(number)) - 1) // 3, len(units) - 1)
+    return f"{number / 1000**power:.3g} {units[power]}"

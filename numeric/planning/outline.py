@@ -11,7 +11,7 @@ from ..mechanics.images import sees_images
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
-from . import budget, float_range
+from . import budget, float_range, segments
 from .plan import Method, Plan, Skipped
 from .sources import load_of, radii_of
 from .steps import steps_of
@@ -58,8 +58,14 @@ class Outline:
             float_range.check(scene, problem.radii, problem.load)
         steps = steps_of(self.quantity, problem, method)
         visited = max((step.beads for step in steps), default=0)
-        memory = self._refuse_memory(method, together, visited)
+        memory = self._memory(method, together, visited)
         seconds = predicted(self.quantity, problem, method, together)
+        cut = segments.cut(problem, method, scene) if memory > self.limit else None
+        if cut is not None:
+            steps = segments.steps(steps, cut, memory, self.limit)
+            memory = segments.memory(cut, self.quantity.answer_rows(problem.region, 1))
+            problem, seconds = cut, segments.seconds(cut)
+        budget.refuse_memory(scene, memory, self.limit)
         budget.refuse_seconds(scene, problem.realisations, seconds)
         return Plan(
             scene,
@@ -74,8 +80,8 @@ class Outline:
             images,
         )
 
-    def _refuse_memory(self, method: Method, together: int, visited: int) -> int:
-        """Give the memory needed, or refuse the scene.
+    def _memory(self, method: Method, together: int, visited: int) -> int:
+        """Give the memory needed.
 
         ``together`` realisations are swept at once; the longest step has ``visited`` beads.
         """
@@ -87,9 +93,7 @@ class Outline:
         elif problem.route == Route.ORDERED:
             at_once = 0
         systems = [s for s in (method.system, method.longer) if s is not None]
-        needed = max(_memory(self.scene, self.quantity, region, at_once, n, s) for s in systems)
-        budget.refuse_memory(self.scene, needed, self.limit)
-        return needed
+        return max(_memory(self.scene, self.quantity, region, at_once, n, s) for s in systems)
 
 
 def _memory(
@@ -176,6 +180,10 @@ def _refuse_beads(
     layers = 0 if quantity.single and not beads else scene.packing.height + 1
     nothing = Region(scene.packing.width, ())
     needed = _memory(scene, quantity, nothing, beads, 1, FLOAT64)
+    if segments.suits(scene):
+        height = scene.packing.height
+        widest = min(scene.packing.width or 2 * height + 2, -(-2 * beads // (height + 1)))
+        needed = min(needed, segments.beads_bytes(widest, height))
     budget.refuse_memory(scene, needed + layers * budget.PLAN_LAYER, limit)
 
 

@@ -78,15 +78,15 @@ def answer(
             if len(realisations) > 1:
                 error.add_note(_which(problem, realisations[done:], system, plainly))
             raise
-        table = _in_units(quantity, gatherer.table().sorted(), system)
+        table = in_units(quantity, gatherer.table().sorted(), system)
         bins = None if work.repeating else quantity.bins_of(table, system)
     if physical is not None and physical.first_tensile is not None:
-        physical.first_tensile = _at_home(quantity, physical.first_tensile)
-    stopped = None if stopped is None else _at_home(quantity, stopped)
+        physical.first_tensile = at_home(quantity, physical.first_tensile)
+    stopped = None if stopped is None else at_home(quantity, stopped)
     return Answer(table, bins, physical, stopped, tuple(networks))
 
 
-def _in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:
+def in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:
     """Give forces in the unit in which the load's magnitude is written."""
     magnitude = quantity.scene.load.magnitude
     if not quantity.needs_forces or magnitude == 1:
@@ -101,7 +101,7 @@ def _in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:
     )
 
 
-def _at_home(quantity: Quantity, contact: Contact) -> Contact:
+def at_home(quantity: Quantity, contact: Contact) -> Contact:
     """Name a contact by the column within the period, as rows do."""
     return contact._replace(i=quantity.home(contact.i))
 

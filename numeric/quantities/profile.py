@@ -40,9 +40,9 @@ class Profile(ContactQuantity):
         """One a layer and branch."""
         return 2 * self.height
 
-    def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
+    def gatherer(self, problem: Problem, system: NumberSystem) -> "ProfileMoments":
         """Start to merge moments."""
-        return _Moments(self, problem, system)
+        return ProfileMoments(self, problem, system)
 
     def blocks(self, problem: Problem) -> list[Block]:
         """Give whole layers, those that no load reaches included."""
@@ -71,7 +71,9 @@ class Profile(ContactQuantity):
         return [sum(block, Fraction(0)) / self.members(problem) for block in blocks]
 
 
-class _Moments(Gatherer):
+class ProfileMoments(Gatherer):
+    """Merges moments of layers; ``found`` holds each layer's ordered force and its moments."""
+
     def __init__(self, quantity: Profile, problem: Problem, system: NumberSystem) -> None:
         self.quantity, self.problem, self.system = quantity, problem, system
         self.unit = unit_near(problem.radii.relative_std())
@@ -82,8 +84,14 @@ class _Moments(Gatherer):
         """Merge the changes of the contacts; ordered forces only enter the mean."""
         assert solved.forces is not None
         blocks = above_stop(self.quantity.blocks(self.problem), solved.forces)
+        means, squares = self.take(contact_changes(solved, blocks, len(realisations)))
+        if not self.problem.stop_at_tension:
+            self.scatter.add(np.stack(means, axis=1), np.stack(squares, axis=1))
+
+    def take(self, parts: Sequence[tuple[Block, Array, Array]]) -> tuple[list[Array], list[Array]]:
+        """Merge changes of whole layers; give their means and mean squares of each packing."""
         means, squares = [], []
-        for (branch, row), F, g in contact_changes(solved, blocks, len(realisations)):
+        for (branch, row), F, g in parts:
             with np.errstate(all="ignore"):  # of balls beyond floats no standard error is known
                 scaled = as_floats(g / self.unit)
                 means.append(scaled.mean(axis=1))
@@ -94,8 +102,7 @@ class _Moments(Gatherer):
                 one = self.problem.load.loaded is None
                 self.found[key] = (F[0] if one else F.sum() / len(F), Moments(self.unit))
             self.found[key][1].add(g.reshape(-1))
-        if not self.problem.stop_at_tension:
-            self.scatter.add(np.stack(means, axis=1), np.stack(squares, axis=1))
+        return means, squares
 
     def table(self) -> Table:
         """One row a layer and branch, base first."""

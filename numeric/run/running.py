@@ -23,11 +23,17 @@ from ..quantities.answer import Answer
 from ..scene import reading, scene
 from ..scene.sections import SceneError
 from ..scene.source import source_of
+from .by_segments import by_segments
 from .outcome import Missed, Outcome
 
 
-def run(plan: Plan, progress: Progress | None = None) -> Outcome:
+def run(
+    plan: Plan, progress: Progress | None = None, *, checkpoint: str | Path | None = None
+) -> Outcome:
     """Run a plan, to the tolerance that it was made for.
+
+    ``checkpoint`` is a file that a packing which the memory does not hold goes on from, once it was
+    interrupted or killed; other plans need none.
 
     Where the estimated error of a method misses the tolerance, the next one of the plan's choice is
     taken. Raises ``ToleranceError``, ``TypeError`` for what is no plan, and what the sweeps raise
@@ -42,7 +48,10 @@ def run(plan: Plan, progress: Progress | None = None) -> Outcome:
     source = source_of(plan.scene)
     work = Work(progress=progress)
     missed: list[Missed] = []
-    if plan.choice is not None:
+    if plan.problem.segment:
+        path = None if checkpoint is None else Path(checkpoint)
+        answer, accuracy = by_segments(plan, work, path)
+    elif plan.choice is not None:
         plan, answer, accuracy = _chosen(plan.choice, work, missed)
     elif plan.method.certified:
         plan, answer, accuracy = enclosed(plan, work)
@@ -127,14 +136,16 @@ class Scene(scene.Scene):
         *,
         certified: bool = False,
         progress: Progress | None = None,
+        checkpoint: str | Path | None = None,
     ) -> Outcome:
         """Answer the scene's question; arguments as for ``explain``.
 
-        ``progress`` is called with the kind of work and the number of beads just done. Raises also
+        ``progress`` is called with the kind of work and the number of beads just done;
+        ``checkpoint`` is a file to go on from (see ``run``). Raises also
         ``ToleranceError``, and ``UnbuildableError``, ``NotStandingError`` or ``RadiusError`` for a
         packing that can't be built.
         """
-        return run(self.explain(tolerance, certified=certified), progress)
+        return run(self.explain(tolerance, certified=certified), progress, checkpoint=checkpoint)
 
 
 def read_scene(path: str | Path) -> Scene:

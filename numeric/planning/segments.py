@@ -1,0 +1,113 @@
+"""Packings that the memory does not hold: which are swept by segments, and by how many layers."""
+
+import math
+from dataclasses import replace
+from importlib.util import find_spec
+
+from ..arithmetic.systems import FLOAT64
+from ..mechanics.problem import Problem, Route
+from ..scene.scene import Scene
+from ..scene.sections import Ask
+from . import budget
+from .plan import Method, Step
+
+# Quantities whose answer comes from one segment after the other.
+KNOWN = ("profile", "contact", "base_reactions")
+# Columns of the packing, as high, whose error stands for that of the whole.
+COLUMNS = 64
+# Bytes of a bead of a segment (δr, positions, δn, forces), and of one that is kept on the way up.
+_BEAD, _KEPT = 96, 16
+# Layers that are solved beside those of a segment.
+_BESIDE = 5
+# Seconds of a bead, all steps together.
+_SECONDS = 1.5e-7
+
+
+def suits(scene: Scene) -> bool:
+    """Say whether a scene's packing could be swept by segments, as far as is plain at once."""
+    ask, disorder = scene.ask, scene.disorder
+    return (
+        ask.quantity in KNOWN
+        and ask.realisations == 1
+        and ask.tolerance is None
+        and disorder is not None
+        and disorder.kind not in {"file", "given"}
+        and scene.load.kind != "file"
+        and scene.effects.geometry == "exact"
+        and not scene.effects.stop_at_tension
+        and find_spec("numba") is not None
+    )
+
+
+def layers(widest: int, height: int) -> int:
+    """Give the layers of a segment, an even number, that take the least memory together."""
+    best = math.sqrt(_KEPT / _BEAD * (height + 1))
+    return max(2, 2 * round(best / 2))
+
+
+def beads_bytes(widest: int, height: int) -> int:
+    """Bound the bytes of a segment and of what is kept, for layers of so many beads at most."""
+    k = layers(widest, height)
+    return widest * (_BEAD * (k + _BESIDE) + _KEPT * (height // k + 1))
+
+
+def cut(problem: Problem, method: Method, scene: Scene) -> Problem | None:
+    """Give the problem swept by segments, if it can be."""
+    if not suits(scene) or method.system is not FLOAT64 or problem.route != Route.EXACT:
+        return None
+    widest = max(row.count for row in problem.region.rows)
+    return replace(problem, segment=layers(widest, problem.region.top))
+
+
+def memory(problem: Problem, rows: int) -> int:
+    """Estimate the bytes at the peak."""
+    widest = max(row.count for row in problem.region.rows)
+    return (
+        beads_bytes(widest, problem.region.top)
+        + rows * budget.ANSWER_ROW
+        + len(problem.region.rows) * budget.PLAN_LAYER
+        + budget.INTERPRETER
+        + budget.COMPILER
+    )
+
+
+def seconds(problem: Problem) -> float:
+    """Predict how long it takes."""
+    return problem.region.beads * _SECONDS
+
+
+def steps(found: tuple[Step, ...], problem: Problem, needed: int, limit: int) -> tuple[Step, ...]:
+    """Say in the steps of a plan what is done twice, and why."""
+    k, all_layers = problem.segment, problem.region.top + 1
+    sizes = f"{budget.size(needed)} of memory would be needed and {budget.size(limit)} may be used"
+    why = (
+        f"twice, {k} of {all_layers} layers at a time, because {sizes}: on the way up every "
+        f"{k}-th layer is kept, and those between are deposited again on the way down"
+    )
+    again = f"{COLUMNS} columns of as many layers, and again with a longer significand"
+    changed = []
+    for step in found:
+        if step.step in {"draw radii", "deposit"}:
+            reason = why if step.step == "deposit" else "twice, on the way up and down"
+            changed.append(replace(step, reason=reason, beads=2 * step.beads))
+        elif step is found[-1]:
+            beads = 2 * step.beads * COLUMNS * all_layers // max(problem.region.beads, 1)
+            changed.append(replace(step, reason=again, beads=beads))
+        else:
+            changed.append(step)
+    return tuple(changed)
+
+
+def narrow(scene: Scene) -> Scene:
+    """Give the scene of a packing as high and so narrow that it is solved quickly."""
+    width = min(scene.packing.width or COLUMNS, COLUMNS)
+    packing = scene.packing.model_copy(update={"width": width, "allow_images": True})
+
+    def home(at: object) -> object:
+        if not isinstance(at, list | tuple):
+            return at
+        return type(at)((at[0] % (2 * width), *at[1:]))
+
+    load = scene.load.model_copy(update={"at": home(scene.load.at)})
+    ask: Ask = scene.ask.model_copy(update={"at": home(scene.ask.at)})
+    return scene.model_copy(update={"packing": packing, "load": load, "ask": ask})

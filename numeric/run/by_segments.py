@@ -1,0 +1,168 @@
+"""Answers about a packing that the memory does not hold: gathered segment by segment."""
+
+import json
+import math
+from contextlib import nullcontext
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..accuracy.accuracy import Accuracy
+from ..accuracy.repeated import repeated
+from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.systems import FLOAT64, Array
+from ..lattice.branch import Branch, Contact
+from ..lattice.layers import full_layer
+from ..mechanics.physicality import PHYSICAL, Physicality
+from ..mechanics.work import Work
+from ..planning import planner, segments
+from ..planning.plan import ESTIMATE, Plan
+from ..quantities.answer import Answer, at_home
+from ..quantities.base import Block, Listed, Table, contact_changes
+from ..quantities.profile import Profile
+from ..statistics.moments import Moments
+from .checkpoint import Checkpoint
+
+if TYPE_CHECKING:
+    from ..mechanics.segments import Kept, Segment
+
+
+@dataclass
+class _Part:
+    """What a segment adds to the answer: columns, and whether it is physical."""
+
+    physical: Physicality
+    index: dict[str, list[Any]]
+    numbers: dict[str, Array]
+
+    def keep(self, kept: "Kept", number: int) -> None:
+        """Keep it; what was measured first, so that it is whole once its words are there."""
+        columns = [np.asarray(column, dtype=float) for column in self.numbers.values()]
+        kept.put(f"numbers{number}", np.stack(columns) if columns else np.empty(0))
+        words = [asdict(self.physical), self.index, list(self.numbers)]
+        letters = np.frombuffer(json.dumps(words).encode(), np.uint8)
+        kept.put(f"words{number}", letters.astype(float))
+
+    @classmethod
+    def of(cls, kept: "Kept", number: int) -> "_Part | None":
+        """Read what was kept, if it was."""
+        words, numbers = kept.get(f"words{number}"), kept.get(f"numbers{number}")
+        if words is None or numbers is None:
+            return None
+        physical, index, names = json.loads(words.astype(np.uint8).tobytes())
+        found = Physicality(**physical)
+        if found.between is not None:
+            lower, upper = found.between
+            found.between = (lower[0], lower[1]), (upper[0], upper[1])
+        if found.first_tensile is not None:
+            i, j, branch = found.first_tensile
+            found.first_tensile = Contact(i, j, Branch(branch))
+        return cls(found, index, dict(zip(names, numbers, strict=True)))
+
+
+def by_segments(plan: Plan, work: Work, checkpoint: Path | None = None) -> tuple[Answer, Accuracy]:
+    """Answer a plan of segments; with a ``checkpoint`` file, from where the last run ended.
+
+    Raises ``CheckpointError``, and what the sweeps raise for a packing that can't be built.
+    """
+    from ..mechanics.segments import InMemory, Segments
+
+    problem = plan.problem
+    work.uses(FLOAT64.name)
+    opened = None if checkpoint is None else Checkpoint(checkpoint, _key(plan))
+    with FLOAT64.active(), opened or nullcontext():
+        kept: Kept = opened or InMemory()
+        way = Segments(problem, 0, problem.segment, work, kept)
+        parts: list[_Part] = []
+        missing = [n for n in range(way.count) if _Part.of(kept, n) is None]
+        if missing:
+            way.up(missing[-1])
+        for number in reversed(range(way.count)):
+            part = _Part.of(kept, number)
+            if part is None:
+                part = _part(plan, way.down(number), work)
+                part.keep(kept, number)
+            parts.insert(0, part)
+        answer = Answer(_table(plan, parts), None, _physical(plan, parts), None)
+        return answer, _accuracy(plan, work)
+
+
+def _key(plan: Plan) -> dict[str, Any]:
+    """Describe what decides the numbers that are kept."""
+    scene = plan.scene.model_dump(mode="json", exclude={"folder": True})
+    return {"scene": scene, "layers": plan.problem.segment}
+
+
+def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
+    problem, quantity, solved = plan.problem, plan.quantity, segment.solved
+    packing, forces = solved.packing, solved.forces
+    assert packing is not None
+    assert forces is not None
+    layers = range(segment.first, segment.last + 1)
+    physical = Physicality()
+    with work.timed(PHYSICAL):
+        physical.look_at_gaps(packing, layers)
+        physical.look_at_forces(forces, layers)
+    work.did_rows("checked", [problem.region.rows[j] for j in layers])
+    if isinstance(quantity, Profile):
+        assert problem.width is not None
+        gatherer = quantity.gatherer(problem, FLOAT64)
+        stop = layers.stop if segment.number + 1 < segment.of else problem.height + 1
+        rows = [full_layer(j, problem.width) for j in range(layers.start, stop) if j]
+        blocks = [Block(branch, row) for row in rows for branch in Branch]
+        gatherer.take(contact_changes(solved, blocks, 1))
+        keys = list(gatherer.found)
+        found = [(F, m.unit, m.count, m.mean, m.square) for F, m in gatherer.found.values()]
+        columns = np.array(found, dtype=float).reshape(-1, 5).T
+        names = ("ordered", "unit", "count", "mean", "square")
+        index: dict[str, list[Any]] = {"j": [j for j, _ in keys], "branch": [b for _, b in keys]}
+        return _Part(physical, index, dict(zip(names, columns, strict=True)))
+    contact = problem.contact
+    wanted = 1 if contact is None else contact.j + 1  # the layer whose forces are the answer
+    if wanted not in layers:
+        return _Part(physical, {}, {})
+    assert isinstance(quantity, Listed)
+    table = quantity.rows_of(problem, solved)
+    return _Part(physical, table.index, table.numbers)
+
+
+def _table(plan: Plan, parts: list[_Part]) -> Table:
+    quantity = plan.quantity
+    if not isinstance(quantity, Profile):
+        (part,) = [part for part in parts if part.numbers]
+        small = tuple(name for name in part.numbers if name.startswith("change"))
+        return Table(part.index, part.numbers, small)
+    gatherer = quantity.gatherer(plan.problem, FLOAT64)
+    for part in parts:
+        columns = (part.numbers[name] for name in ("ordered", "unit", "count", "mean", "square"))
+        keys = zip(part.index["j"], map(Branch, part.index["branch"]), strict=True)
+        for key, (F, unit, count, mean, square) in zip(
+            keys, zip(*columns, strict=True), strict=True
+        ):
+            gatherer.found[key] = F, Moments(float(unit), int(count), mean, square)
+    none = np.zeros((1, len(gatherer.found)))
+    gatherer.scatter.add(none, none)  # of one packing there is no scatter
+    return gatherer.table()
+
+
+def _physical(plan: Plan, parts: list[_Part]) -> Physicality:
+    """Merge what was found, the lowest layers first."""
+    found = Physicality()
+    for part in parts:
+        found.above(part.physical)
+    if found.first_tensile is not None:
+        found.first_tensile = at_home(plan.quantity, found.first_tensile)
+    return found
+
+
+def _accuracy(plan: Plan, work: Work) -> Accuracy:
+    """Estimate the error from a packing as high and narrow: it grows with the height alone."""
+    note = f"estimated, not certified, from {segments.COLUMNS} columns of as many layers"
+    with work.repeat(ESTIMATE):
+        try:
+            _, found = repeated(planner.plan(segments.narrow(plan.scene)), work)
+        except (ForceDiffusionError, ArithmeticError) as error:
+            return Accuracy(math.inf, False, FLOAT64.name, 0.0, f"not known: {error}")
+    return Accuracy(found.error_bound, False, FLOAT64.name, found.bits_lost, note)
