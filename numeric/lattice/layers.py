@@ -103,6 +103,14 @@ class Region:
         """How many beads the region holds."""
         return sum(layer.count for layer in self.rows)
 
+    def site(self, bead: int) -> tuple[int, int]:
+        """Give (i, j) of a bead by its number, row after row."""
+        for row in self.rows:
+            if bead < row.count:
+                return row.first + 2 * bead, row.j
+            bead -= row.count
+        raise LookupError("the region has no such bead")
+
     @cached_property
     def is_whole(self) -> bool:
         """Whether it is all of a periodic packing, up to its highest layer."""

@@ -112,6 +112,39 @@ def of_loads(
     return _ordered(found, len(nowhere), downwards=True)
 
 
+def of_pairs(region: Region, layers: range, offsets: Sequence[tuple[int, int]]) -> Array:
+    """Give the runs of beads and of those at lattice distance (di, dj), as many as there are.
+
+    Columns: first bead, first of the others, beads, which of the ``offsets``, row. The lower beads
+    lie in the rows ``layers``, which come in order; smaller dj come first.
+    """
+    rows, width, at = region.rows, region.width, starts(region.rows)
+    found = []
+    for dj in sorted({dj for _, dj in offsets}):
+        which = [k for k, offset in enumerate(offsets) if offset[1] == dj]
+        if width == 1 and not dj:
+            continue  # a bead beside its own image
+        js = range(layers.start, min(layers.stop, region.top + 1 - dj))
+
+        def kind(j: int, dj: int = dj) -> tuple[int, ...]:
+            return rows[j].first - rows[j + dj].first, rows[j].count, rows[j + dj].count
+
+        def runs(j: int, dj: int = dj, which: Sequence[int] = which) -> Array:
+            lines = []
+            for k in which:
+                wanted = Layer(j + dj, rows[j].first + offsets[k][0], rows[j].count)
+                other = _places(wanted, rows[j + dj], width)
+                lines += [(q, other[q], n, k, 0) for q, n in _cuts(other) if other[q] >= 0]
+            return np.array(lines, dtype=np.int64).reshape(-1, 5)
+
+        tables = []
+        for table, j in _kinds(js, kind, runs, alike=region.is_whole):
+            offset = np.stack([at[j], at[j + dj], 0 * j, 0 * j, j], axis=-1)
+            tables.append((j, table + offset[:, None]))
+        found.append(_ordered(tables, 5, downwards=False))
+    return np.concatenate([np.empty((0, 5), dtype=np.int64), *found])
+
+
 def _places(wanted: Layer, source: Layer, width: int | None) -> Array:
     """Give the places in row ``source`` of the sites of ``wanted``; −1 where it lacks one."""
     index = np.arange(wanted.count) + (wanted.first - source.first) // 2

@@ -124,6 +124,17 @@ class SolvedPacking:
     dn: PerBranch[Sequence[tuple[Array, Array]]]
 
 
+@dataclass(frozen=True)
+class CompiledPacking(SolvedPacking):
+    """A packing of compiled sweeps, whose beads lie row after row.
+
+    ``flat``: δr/r, (batch, beads). ``block``, (batch, 6, …): c⁺, c⁻, the δn of plus, of minus.
+    """
+
+    flat: Array
+    block: Array
+
+
 class UnbuildableError(ForceDiffusionError, ValueError):
     """A bead can't rest on its two supports; ``site`` names it."""
 

@@ -14,7 +14,7 @@ import numpy as np
 from ..arithmetic.systems import Array, as_floats
 from ..lattice.branch import Contact
 from .forces import Forces, pulling
-from .packing import SolvedPacking
+from .packing import CompiledPacking, SolvedPacking
 
 PHYSICAL = "check that it is physical"
 # Neighbours that don't touch in the ordered packing, to the right or above, nearest first.
@@ -45,9 +45,8 @@ class Physicality:
 
     def above(self, other: "Physicality") -> None:
         """Merge with what was found in layers further up."""
-        own, smallest = self.smallest_gap, other.smallest_gap
-        if own is None or (smallest is not None and not smallest >= own):
-            self.smallest_gap, self.between = smallest, other.between
+        if other.between is not None and (self.between is None or other._rank() < self._rank()):
+            self.smallest_gap, self.between = other.smallest_gap, other.between
         self.overlaps += other.overlaps
         self.undecided_gaps += other.undecided_gaps
         self.tensile += other.tensile
@@ -56,6 +55,13 @@ class Physicality:
         self.forces_known |= other.forces_known
         self.first_tensile = self.first_tensile or other.first_tensile
 
+    def _rank(self) -> tuple[float, int, int]:
+        """Give what decides which gap is named: of equal ones that of the nearest layers."""
+        assert self.smallest_gap is not None
+        assert self.between is not None
+        lower, upper = self.between
+        return self.smallest_gap, upper[1] - lower[1], lower[1]
+
     def look_at_gaps(self, packing: SolvedPacking, layers: range | None = None) -> None:
         """Measure the gaps of every pair of near neighbours within the region.
 
@@ -63,6 +69,8 @@ class Physicality:
         """
         top = packing.region.top
         layers = range(top + 1) if layers is None else layers
+        if isinstance(packing, CompiledPacking) and self._compiled(packing, layers):
+            return
         rows = range(layers.start, min(layers.stop + 3, top + 1))
         c_plus = {j: as_floats(packing.c.plus[j]) for j in rows}
         c_minus = {j: as_floats(packing.c.minus[j]) for j in rows}
@@ -72,6 +80,24 @@ class Physicality:
                 for di, dj_of in NEIGHBOURS:
                     if dj_of == dj:
                         self._pairs(packing, (c_plus, c_minus, rho), j, (di, dj))
+
+    def _compiled(self, packing: CompiledPacking, layers: range) -> bool:
+        """Do the same by a compiled loop; say whether it could."""
+        from .compiled import gaps
+
+        found = gaps(packing, layers)
+        if found is None:
+            return False
+        smallest, beads, overlaps, undecided = found
+        self.overlaps += overlaps
+        self.undecided_gaps += undecided
+        if beads is not None and (self.smallest_gap is None or not smallest >= self.smallest_gap):
+            width = packing.region.width
+            period = None if width is None else 2 * width
+            (i, j), (other_i, other_j) = (packing.region.site(bead) for bead in beads)
+            self.smallest_gap = smallest
+            self.between = (_home(i, period), j), (_home(other_i, period), other_j)
+        return True
 
     def _pairs(
         self,
@@ -106,8 +132,8 @@ class Physicality:
             period = 2 * width if width is not None else None
             self.smallest_gap = smallest
             self.between = (
-                (_home(i, period), j),
-                (_home(i + di, period), j + dj),
+                (_home(i, period), here.j),
+                (_home(i + di, period), there.j),
             )
 
     def look_at_forces(self, forces: Forces, layers: range | None = None) -> None:
@@ -139,13 +165,23 @@ def _home(i: int, period: int | None) -> int:
     return i if period is None else i % period
 
 
-def _gaps(n_x: Fraction, offset: tuple[int, int], up: Array, um: Array, both: Array) -> Array:
-    """Give the gaps of pairs at lattice distance ``offset``, in units of r."""
+def of_lattice(n_x: Fraction, offset: tuple[int, int]) -> tuple[float, ...]:
+    """Give what gaps of pairs at lattice distance ``offset`` have in common.
+
+    The shares of the two components in the change of the square of the distance, that square (of
+    the ordered packing, exact) as it is and less 4, 2 φ and 1 − φ².
+    """
     di, dj = offset
     phi = 1 - 2 * n_x**2
-    square = 4 * (di**2 * n_x**2 + dj**2 * (1 - n_x**2))  # of the ordered distance, exact
-    size = (up * up + um * um - 2 * float(phi) * up * um) / float(1 - phi**2)
-    change = 2 * ((di + dj) * up + (dj - di) * um) + size
-    distance = np.sqrt(np.maximum(float(square) + change, 0))
-    excess = float(square - 4) + (change - 4 * both - both * both)
+    square = 4 * (di**2 * n_x**2 + dj**2 * (1 - n_x**2))
+    return di + dj, dj - di, float(square), float(square - 4), 2 * float(phi), float(1 - phi**2)
+
+
+def _gaps(n_x: Fraction, offset: tuple[int, int], up: Array, um: Array, both: Array) -> Array:
+    """Give the gaps of pairs at lattice distance ``offset``, in units of r."""
+    along, across, square, least, twice_phi, det = of_lattice(n_x, offset)
+    size = (up * up + um * um - twice_phi * up * um) / det
+    change = 2 * (along * up + across * um) + size
+    distance = np.sqrt(np.maximum(square + change, 0))
+    excess = least + (change - 4 * both - both * both)
     return np.asarray(excess / (distance + 2 + both))

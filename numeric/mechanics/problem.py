@@ -1,7 +1,7 @@
 """What is to be solved: beads, radii, loads, and by which theory."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
 from typing import Any
@@ -13,7 +13,7 @@ from ..lattice.layers import LazyRows, Region
 from ..lattice.regions import Rows
 from .forces import Forces
 from .loads import LoadSpec
-from .packing import SolvedPacking
+from .packing import CompiledPacking, SolvedPacking
 
 
 class Route(StrEnum):
@@ -97,14 +97,15 @@ class Solved:
         packing, forces = self.packing, self.forces
         if packing is not None:
             c, dn = packing.c, packing.dn
-            packing = SolvedPacking(
-                packing.n_x,
-                packing.system,
-                packing.region,
-                of(packing.rho),
-                PerBranch(of(c.plus), of(c.minus)),
-                PerBranch(turns(dn.plus), turns(dn.minus)),
+            packing = replace(
+                packing,
+                rho=of(packing.rho),
+                c=PerBranch(of(c.plus), of(c.minus)),
+                dn=PerBranch(turns(dn.plus), turns(dn.minus)),
             )
+        if isinstance(packing, CompiledPacking):
+            part = at if isinstance(at, slice) else slice(at, at + 1)
+            packing = replace(packing, flat=packing.flat[part], block=packing.block[part])
         if forces is not None:
             change = forces.change
             forces = Forces(

@@ -16,10 +16,10 @@ from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import PerBranch
 from ..lattice.layers import Layer, LazyRows, Region, pick
 from . import forces, packing
-from .compiled import CompiledPacking, Deposition, Descent, Drawing
+from .compiled import Deposition, Descent, Drawing
 from .forces import Forces, Loads
 from .loads import on_rows
-from .packing import SolvedPacking
+from .packing import CompiledPacking, SolvedPacking
 from .problem import Problem, Solved
 from .work import Work
 
@@ -59,6 +59,7 @@ class Segment:
     """One ``of`` several parts: layers ``first`` … ``last``, whose contacts below are balanced.
 
     Of ``solved`` only these rows and their neighbours are there; rows are numbered as in the whole.
+    ``packing`` has what there is alone, from layer ``first`` or the one below it on.
     """
 
     number: int
@@ -66,6 +67,7 @@ class Segment:
     first: int
     last: int
     solved: Solved
+    packing: SolvedPacking
 
 
 class Segments:
@@ -104,9 +106,8 @@ class Segments:
         found = None
         if self.problem.needs_forces:
             found = self._balanced(number, solved)
-        return Segment(
-            number, self.count, low + 1 if number else 0, last, self._whole(solved, found, low)
-        )
+        whole, first = self._whole(solved, found, low), low + 1 if number else 0
+        return Segment(number, self.count, first, last, whole, solved)
 
     def _deposited(self, number: int) -> SolvedPacking:
         problem, work, low = self.problem, self.work, number * self.layers

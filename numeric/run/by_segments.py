@@ -97,13 +97,13 @@ def _key(plan: Plan) -> dict[str, Any]:
 
 def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
     problem, quantity, solved = plan.problem, plan.quantity, segment.solved
-    packing, forces = solved.packing, solved.forces
-    assert packing is not None
+    forces, packing = solved.forces, segment.packing
     assert forces is not None
     layers = range(segment.first, segment.last + 1)
     physical = Physicality()
     with work.timed(PHYSICAL):
-        physical.look_at_gaps(packing, layers)
+        low = packing.region.rows[0].j
+        physical.look_at_gaps(packing, range(layers.start - low, layers.stop - low))
         physical.look_at_forces(forces, layers)
     work.did_rows("checked", [problem.region.rows[j] for j in layers])
     if isinstance(quantity, Profile):
