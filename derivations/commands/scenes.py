@@ -106,6 +106,13 @@ def run(
     quiet: Quiet = False,
     tolerance: _Tolerance = None,
     certified: _Certified = False,
+    checkpoint: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Where a packing that the memory does not hold goes on after an interruption.",
+        ),
+    ] = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Answer a scene's question."""
@@ -118,7 +125,7 @@ def run(
     names = ["result.json", f"{planned.scene.ask.quantity}.{written}"]
     names += ["packings.json"] * unilateral
     with output(out, f"run {scene}", names, overwrite) as folder:
-        found = _solved(planned, scene, quiet)
+        found = _solved(planned, scene, quiet, checkpoint)
         about = found.data(rows=False)
         about["source"] = sourced(about["source"], scene, command_line())
         if folder:
@@ -158,11 +165,13 @@ def cost(
     print(json.dumps(data, indent=2) if as_json else found)
 
 
-def _solved(planned: "Plan", scene: Path, quiet: bool) -> "Outcome":
+def _solved(
+    planned: "Plan", scene: Path, quiet: bool, checkpoint: Path | None
+) -> "Outcome":
     """Run a plan under a progress bar."""
     bar, progress = (nullcontext(), None) if quiet else _progress(planned)
     with named(scene.name), in_range(), bar:
-        return fd.run(planned, progress)
+        return fd.run(planned, progress, checkpoint=checkpoint)
 
 
 def _progress(

@@ -49,9 +49,11 @@ class Checkpoint:
     def _read(self, about: dict[str, str]) -> None:
         """Find what is there; begin anew behind the last array that is whole."""
         self._file.seek(0)
-        first = self._file.readline()
-        if not first:
-            self._write(json.dumps(about).encode() + b"\n")
+        first, own = self._file.readline(), json.dumps(about).encode() + b"\n"
+        if first != own and own.startswith(first):  # empty, or killed at its first line
+            self._file.seek(0)
+            self._file.truncate()
+            self._write(own)
             return
         found = _record(first)
         if found.get("is") != _MAGIC:

@@ -1,0 +1,163 @@
+"""A packing that the memory does not hold: the numbers of one that it holds; its checkpoint."""
+
+from dataclasses import replace
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.mechanics import engine
+from force_diffusion.numeric.mechanics.packing import UnbuildableError
+from force_diffusion.numeric.mechanics.physicality import Physicality
+from force_diffusion.numeric.mechanics.work import Work
+from force_diffusion.numeric.planning import budget, segments
+from force_diffusion.numeric.planning.plan import Plan
+from force_diffusion.numeric.planning.planner import plan
+from force_diffusion.numeric.run.checkpoint import CheckpointError
+from force_diffusion.numeric.run.outcome import Outcome
+from force_diffusion.numeric.run.running import run
+from force_diffusion.numeric.scene.sections import SceneError
+
+from tests.numeric.scenes import planned, scene
+
+pytest.importorskip("numba")
+
+DISORDER = {"kind": "uniform", "relative_std": "=1e-4", "seed": 3}
+STRIP = {"height": 21, "width": 46}
+POINT = {"kind": "point", "at": [3, 17]}
+CASES: dict[str, dict[str, dict[str, Any]]] = {
+    "profile": {"packing": STRIP, "ask": {"quantity": "profile"}},
+    "profile, bulk load": {
+        "packing": STRIP, "load": {"kind": "bulk"}, "ask": {"quantity": "profile"},
+    },
+    "profile, point load": {"packing": STRIP, "load": POINT, "ask": {"quantity": "profile"}},
+    "base": {"packing": STRIP, "ask": {"quantity": "base_reactions"}},
+    "base of a slab": {
+        "packing": {"height": 19}, "load": POINT, "ask": {"quantity": "base_reactions"},
+    },
+    "contact": {"packing": STRIP, "ask": {"quantity": "contact", "at": [1, 7, "-"]}},
+    "contact of a slab": {
+        "packing": {"height": 18}, "ask": {"quantity": "contact", "at": [0, 4, "+"]},
+    },
+}  # fmt: skip
+
+
+def sections(name: str, **disorder: Any) -> dict[str, dict[str, Any]]:
+    return {"disorder": DISORDER | disorder, **CASES[name]}
+
+
+def cut(made: Plan, layers: int) -> Plan:
+    found = segments.cut(made.problem, made.method, made.scene)
+    assert found is not None
+    return replace(made, problem=replace(found, segment=layers))
+
+
+def same(a: Outcome, b: Outcome) -> None:
+    assert list(a.arrays) == list(b.arrays)
+    for name, column in a.arrays.items():
+        assert column.tobytes() == b.arrays[name].tobytes(), name
+    assert a.decimals()[0].keys() == b.decimals()[0].keys()
+    assert a.physical == b.physical
+
+
+@pytest.mark.parametrize("layers", [2, 6, 8, 40])
+@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("kind", ["uniform", "two-point"])
+def test_segments_give_every_bit_of_the_sweep_in_memory(name: str, layers: int, kind: str) -> None:
+    made = planned(sections(name, kind=kind))
+    same(run(made), run(cut(made, layers)))
+
+
+def test_a_plan_that_the_memory_does_not_hold_is_made_of_segments() -> None:
+    asked = scene(sections("profile") | {"packing": {"height": 1999, "width": 2002}})
+    whole = plan(asked, memory_limit=4 * 10**9)
+    parts = plan(asked, memory_limit=4 * 10**8)
+    assert not whole.problem.segment
+    assert parts.problem.segment % 2 == 0
+    assert 0 < parts.memory < 4 * 10**8 < whole.memory
+    text = str(parts)
+    assert "twice" in text
+    assert f"{parts.problem.segment} of 2000 layers at a time" in text
+    assert f"{budget.size(whole.memory)} of memory would be needed and 400 MB may be used" in text
+    with pytest.raises(SceneError, match="height = 1999"):
+        plan(asked, memory_limit=2 * 10**8)
+
+
+def test_without_numba_it_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(segments, "find_spec", lambda name: None)
+    asked = scene(sections("profile") | {"packing": {"height": 1999, "width": 2002}})
+    with pytest.raises(SceneError, match="may be used"):
+        plan(asked, memory_limit=4 * 10**8)
+
+
+class KilledError(Exception):
+    pass
+
+
+@pytest.mark.parametrize("calls", [1, 5, 9, 14, 20, 31])
+@pytest.mark.parametrize("torn", [0, 1, 700])
+def test_a_killed_run_goes_on_from_its_checkpoint(tmp_path: Path, calls: int, torn: int) -> None:
+    made = planned(sections("profile"))
+    usual = run(made)
+    path, left = tmp_path / "run.checkpoint", count(calls, -1)
+
+    def kill(kind: str, beads: int) -> None:
+        if not next(left):
+            raise KilledError
+
+    with pytest.raises(KilledError):
+        run(cut(made, 4), kill, checkpoint=path)
+    content = path.read_bytes()
+    path.write_bytes(content[: len(content) - torn])
+    again = run(cut(made, 4), checkpoint=path)
+    same(usual, again)
+    assert again.work.balanced <= usual.work.balanced + 46 * 6
+    finished = run(cut(made, 4), checkpoint=path)
+    same(usual, finished)
+    assert not finished.work.balanced
+
+
+def test_what_is_no_checkpoint_of_this_run_is_left_alone(tmp_path: Path) -> None:
+    made = cut(planned(sections("profile")), 4)
+    other, foreign = tmp_path / "other", tmp_path / "foreign"
+    run(cut(planned(sections("profile", seed=4)), 4), checkpoint=other)
+    foreign.write_text('{"is": "a list"}\n')
+    for path, why in (
+        (other, "of another scene"),
+        (foreign, "is no checkpoint"),
+        (tmp_path, "can't be opened"),
+    ):
+        content = path.read_bytes() if path.is_file() else b""
+        with pytest.raises(CheckpointError, match=why):
+            run(made, checkpoint=path)
+        assert not path.is_file() or path.read_bytes() == content
+
+
+def test_a_bead_that_cannot_rest_is_named_alike() -> None:
+    made = planned(sections("profile", relative_std="=0.07"))
+    with pytest.raises(UnbuildableError) as usual:
+        run(made)
+    with pytest.raises(UnbuildableError) as found:
+        run(cut(made, 4))
+    assert str(found.value) == str(usual.value)
+
+
+@pytest.mark.parametrize("kind", ["uniform", "two-point"])
+@pytest.mark.parametrize("name", CASES)
+def test_gaps_by_compiled_loops_are_those_of_numpy(
+    name: str, kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    problem = planned(sections(name, kind=kind, relative_std="=0.02")).problem
+    found = []
+    for threshold in (1, 10**9):
+        monkeypatch.setattr(engine, "COMPILED_FROM", threshold)
+        physical = Physicality()
+        with FLOAT64.active():
+            for _ in engine.packings(problem, range(5), FLOAT64, Work(), physical):
+                pass
+        found.append(physical)
+    assert found[0] == found[1]
+    assert found[0].smallest_gap is not None
+    assert np.isfinite(found[0].smallest_gap)
