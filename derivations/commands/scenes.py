@@ -165,9 +165,7 @@ def cost(
     print(json.dumps(data, indent=2) if as_json else found)
 
 
-def _solved(
-    planned: "Plan", scene: Path, quiet: bool, checkpoint: Path | None
-) -> "Outcome":
+def _solved(planned: "Plan", scene: Path, quiet: bool, checkpoint: Path | None) -> "Outcome":
     """Run a plan under a progress bar."""
     bar, progress = (nullcontext(), None) if quiet else _progress(planned)
     with named(scene.name), in_range(), bar:

@@ -64,7 +64,7 @@ def memory(problem: Problem, rows: int) -> int:
     widest = max(row.count for row in problem.region.rows)
     return (
         beads_bytes(widest, problem.region.top)
-        + rows * budget.ANSWER_ROW
+        + rows * budget.FLOAT_ROW
         + len(problem.region.rows) * budget.PLAN_LAYER
         + budget.INTERPRETER
         + budget.COMPILER

@@ -85,7 +85,7 @@ def by_segments(plan: Plan, work: Work, checkpoint: Path | None = None) -> tuple
                 part = _part(plan, way.down(number), work)
                 part.keep(kept, number)
             parts.insert(0, part)
-        answer = Answer(_table(plan, parts), None, _physical(plan, parts), None)
+        answer = Answer(_table(plan, parts).sorted(), None, _physical(plan, parts), None)
         return answer, _accuracy(plan, work)
 
 
@@ -125,7 +125,7 @@ def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
         return _Part(physical, {}, {})
     assert isinstance(quantity, Listed)
     table = quantity.rows_of(problem, solved)
-    return _Part(physical, table.index, table.numbers)
+    return _Part(physical, {k: v.tolist() for k, v in table.index.items()}, table.numbers)
 
 
 def _table(plan: Plan, parts: list[_Part]) -> Table:
@@ -133,7 +133,9 @@ def _table(plan: Plan, parts: list[_Part]) -> Table:
     if not isinstance(quantity, Profile):
         (part,) = [part for part in parts if part.numbers]
         small = tuple(name for name in part.numbers if name.startswith("change"))
-        return Table(part.index, part.numbers, small)
+        types = {"branch": "U1"}
+        index = {k: np.array(v, dtype=types.get(k, "i8")) for k, v in part.index.items()}
+        return Table(index, part.numbers, small)
     gatherer = quantity.gatherer(plan.problem, FLOAT64)
     for part in parts:
         columns = (part.numbers[name] for name in ("ordered", "unit", "count", "mean", "square"))
