@@ -65,6 +65,21 @@ class Problem:
 
         return solve
 
+    def again(self) -> Callable[[], Any]:
+        """Give a function that solves it by compiled sweeps, in memory that stays."""
+        from force_diffusion.numeric.mechanics.compiled import Deposition, Descent
+
+        region, rho = self.region, self.radii()
+        deposit, sweep = Deposition(self.n_x, region), Descent(region, region.rows, self.loads())
+        flat = np.concatenate(rho)[None]
+
+        def solve() -> Any:
+            solved = deposit(flat, rho)
+            assert solved is not None
+            return sweep(solved)
+
+        return solve
+
 
 @dataclass(frozen=True)
 class Balance:

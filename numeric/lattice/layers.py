@@ -86,6 +86,11 @@ def supports(layer: Layer, width: int | None) -> Layer:
     return row(layer.j - 1, layer.first - 1, layer.last + 1, width)
 
 
+def starts(rows: Sequence[Layer]) -> Array:
+    """Number beads row after row: give each row's first bead, and how many there are."""
+    return np.cumsum([0, *(row.count for row in rows)])
+
+
 @dataclass(frozen=True)
 class Region:
     """Rows of beads, one a layer from the base (``rows[0]``) up; ``width`` None: infinite slab."""
@@ -101,7 +106,7 @@ class Region:
     @property
     def beads(self) -> int:
         """How many beads the region holds."""
-        return sum(layer.count for layer in self.rows)
+        return int(self.starts[-1])
 
     def site(self, bead: int) -> tuple[int, int]:
         """Give (i, j) of a bead by its number, row after row."""
@@ -110,6 +115,20 @@ class Region:
                 return row.first + 2 * bead, row.j
             bead -= row.count
         raise LookupError("the region has no such bead")
+
+    @cached_property
+    def starts(self) -> Array:
+        """The number of each row's first bead, and that of all beads; shape (rows + 1,)."""
+        return starts(self.rows)
+
+    @cached_property
+    def widest(self) -> int:
+        """The beads of the longest row."""
+        return max((row.count for row in self.rows), default=0)
+
+    def has_whole(self, rows: Sequence[Layer]) -> bool:
+        """Say whether ``rows`` are its lowest rows, and all of it a periodic packing."""
+        return self.is_whole and tuple(rows) == self.rows[: len(rows)]
 
     @cached_property
     def is_whole(self) -> bool:

@@ -10,20 +10,10 @@ from itertools import pairwise
 import numpy as np
 
 from ..arithmetic.systems import Array
-from .layers import Layer, Region
+from .layers import Layer, Region, starts
 
 # Kinds of rows that have the same runs: their runs, and the layers of that kind.
 _Kinds = list[tuple[Array, Array]]
-
-
-def starts(rows: Sequence[Layer]) -> Array:
-    """Give the number of each row's first bead, and that of all beads; shape (rows + 1,)."""
-    return np.cumsum([0, *(row.count for row in rows)])
-
-
-def widest(rows: Sequence[Layer]) -> int:
-    """Count the beads of the longest row."""
-    return max((row.count for row in rows), default=0)
 
 
 def of_supports(region: Region) -> Array:
@@ -46,7 +36,7 @@ def of_supports(region: Region) -> Array:
         row, under = rows[j], rows[j - 1]
         return row.first - under.first, row.count, under.count
 
-    at = starts(rows)
+    at = region.starts
     layers = range(1, region.top + 1)
     found = []
     for table, j in _kinds(layers, kind, runs, alike=region.is_whole):
@@ -67,8 +57,9 @@ def of_loads(
     bead, and in F one at ``missing``.
     """
     width, top = region.width, len(rows) - 1
-    at, packed, size = starts(rows), starts(region.rows), widest(rows)
-    whole = region.is_whole and tuple(rows) == region.rows[: top + 1]
+    whole, packed = region.has_whole(rows), region.starts
+    at = packed[: top + 2] if whole else starts(rows)
+    size = region.widest if whole else max((row.count for row in rows), default=0)
     lowest = 0 if whole else next((j for j in range(top, 0, -1) if not rows[j].count), 0)
 
     def beside(j: int) -> tuple[Layer, Layer, Layer]:
@@ -118,7 +109,7 @@ def of_pairs(region: Region, layers: range, offsets: Sequence[tuple[int, int]]) 
     Columns: first bead, first of the others, beads, which of the ``offsets``, row. The lower beads
     lie in the rows ``layers``, which come in order; smaller dj come first.
     """
-    rows, width, at = region.rows, region.width, starts(region.rows)
+    rows, width, at = region.rows, region.width, region.starts
     found = []
     for dj in sorted({dj for _, dj in offsets}):
         which = [k for k, offset in enumerate(offsets) if offset[1] == dj]

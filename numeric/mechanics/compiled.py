@@ -25,7 +25,7 @@ from ..disorder import compiled as drawing
 from ..disorder.radii import DrawnRadii, Radii
 from ..lattice import runs as tables
 from ..lattice.branch import PerBranch
-from ..lattice.layers import Layer, LazyRows, Region, Stack, full_layer, pick
+from ..lattice.layers import Layer, LazyRows, Region, Stack, pick, starts
 from . import forces, packing, physicality
 from .forces import CompiledForces, Forces, Loads, Ordered
 from .packing import CompiledPacking, SolvedPacking
@@ -341,7 +341,7 @@ def gaps(
     runs = tables.of_pairs(region, layers, physicality.NEIGHBOURS)
     kinds = [physicality.of_lattice(solved.n_x, offset) for offset in physicality.NEIGHBOURS]
     lattice = np.array([kind[:4] for kind in kinds])
-    found = np.empty(tables.widest(region.rows) + 1)
+    found = np.empty(region.widest + 1)
     phi = kinds[0][4], kinds[0][5]
     smallest, run, q, overlaps, undecided = _gaps(
         solved.flat, solved.block, runs, lattice, phi, found
@@ -352,17 +352,18 @@ def gaps(
     return smallest, beads, overlaps, undecided
 
 
-def _ordered(rows: tuple[Layer, ...], width: int | None, loads: Loads) -> Ordered:
-    """Carry the loads straight down."""
-    if width is not None and all(row == full_layer(row.j, width) for row in rows):
+def _ordered(rows: tuple[Layer, ...], width: int | None, loads: Loads, *, whole: bool) -> Ordered:
+    """Carry the loads straight down; ``whole`` layers share what they have alike."""
+    if whole:
+        assert width is not None
         (plus, at_plus), (minus, at_minus) = (
             _order(*_stacked(of), width, side) for side, of in enumerate((loads.plus, loads.minus))
         )
         return Ordered((plus, minus), (at_plus, at_minus), (0, 0))
-    starts = tables.starts(rows)
+    at = starts(rows)
     found = []
     for side, of in ((1, loads.plus), (-1, loads.minus)):
-        F = np.zeros(starts[-1] + tables.widest(rows))
+        F = np.zeros(at[-1] + max(row.count for row in rows))
         above, over = np.empty(0), Layer(len(rows), 0, 0)
         for j in range(len(rows) - 1, 0, -1):
             row, load = rows[j], of[j]
@@ -370,10 +371,10 @@ def _ordered(rows: tuple[Layer, ...], width: int | None, loads: Loads) -> Ordere
                 break
             above = pick(above, over, Layer(j + 1, row.first + side, row.count), width, 0.0)
             above = above if load is None else above + load
-            F[starts[j] : starts[j + 1]], over = above, row
+            F[at[j] : at[j + 1]], over = above, row
         found.append(F)
-    end = int(starts[-1])
-    return Ordered((found[0], found[1]), (starts, starts), (end, end))
+    end = int(at[-1])
+    return Ordered((found[0], found[1]), (at, at), (end, end))
 
 
 def _block(batch: int, quantities: int, size: int, zeros: int) -> Array:
@@ -417,8 +418,8 @@ class Deposition:
         """Raise ``LookupError`` where the region lacks a support."""
         self.n_x, self.region = n_x, region
         self.runs = tables.of_supports(region)
-        self.starts = tables.starts(region.rows)
-        self.size = int(self.starts[-1]), tables.widest(region.rows)
+        self.starts = region.starts
+        self.size = region.beads, region.widest
         self.block = np.empty((0, 6, 0))
 
     def __call__(
@@ -460,9 +461,11 @@ class Descent:
 
     def __init__(self, region: Region, rows: tuple[Layer, ...], loads: Loads) -> None:
         """``rows`` are those whose forces are balanced, ``loads`` belong to them."""
-        self.rows, self.F = rows, _ordered(rows, region.width, loads)
-        self.starts = tables.starts(rows)
-        self.size = int(self.starts[-1]), tables.widest(rows)
+        whole = region.has_whole(rows)
+        self.rows, self.F = rows, _ordered(rows, region.width, loads, whole=whole)
+        self.starts = region.starts[: len(rows) + 1] if whole else starts(rows)
+        widest = region.widest if whole else max(row.count for row in rows)
+        self.size = int(self.starts[-1]), widest
         self.runs = tables.of_loads(rows, region, self.F.start, self.F.missing)
         self.lowest = next((j + 1 for j in range(len(rows) - 1, 0, -1) if not rows[j].count), 1)
         self.g = self.lost = np.empty((0, 2, 0))
@@ -531,8 +534,7 @@ class Drawing:
     def __init__(self, radii: Radii, region: Region) -> None:
         """``radii`` are drawn here, if they are drawn at all."""
         self.radii, self.rows = radii, region.rows
-        self.starts = tables.starts(region.rows)
-        self.size = int(self.starts[-1])
+        self.starts, self.size = region.starts, region.beads
         self.runs = drawing.runs_of(radii, region.rows) if isinstance(radii, DrawnRadii) else None
         self.rho = np.empty((0, 0))
 

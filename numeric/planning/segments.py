@@ -14,7 +14,7 @@ from .plan import Method, Step
 # Quantities whose answer comes from one segment after the other.
 KNOWN = ("profile", "contact", "base_reactions")
 # Columns of the packing, as high, whose error stands for that of the whole.
-COLUMNS = 64
+COLUMNS = 16
 # Bytes of a bead of a segment (δr, positions, δn, forces), and of one that is kept on the way up.
 _BEAD, _KEPT = 96, 16
 # Layers that are solved beside those of a segment.
@@ -64,6 +64,7 @@ def memory(problem: Problem, rows: int) -> int:
     widest = max(row.count for row in problem.region.rows)
     return (
         beads_bytes(widest, problem.region.top)
+        + 2 * budget.FLOAT_BEAD * COLUMNS * len(problem.region.rows)
         + rows * budget.FLOAT_ROW
         + len(problem.region.rows) * budget.PLAN_LAYER
         + budget.INTERPRETER
