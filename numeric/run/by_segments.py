@@ -19,7 +19,7 @@ from ..mechanics.physicality import PHYSICAL, Physicality
 from ..mechanics.work import Work
 from ..planning import planner, segments
 from ..planning.plan import ESTIMATE, Plan
-from ..quantities.answer import Answer, at_home
+from ..quantities.answer import Answer, at_home, in_units
 from ..quantities.base import Block, Listed, Table, contact_changes
 from ..quantities.profile import Profile
 from ..statistics.moments import Moments
@@ -85,7 +85,8 @@ def by_segments(plan: Plan, work: Work, checkpoint: Path | None = None) -> tuple
                 part = _part(plan, way.down(number), work)
                 part.keep(kept, number)
             parts.insert(0, part)
-        answer = Answer(_table(plan, parts).sorted(), None, _physical(plan, parts), None)
+        table = in_units(plan.quantity, _table(plan, parts).sorted(), FLOAT64)
+        answer = Answer(table, None, _physical(plan, parts), None)
         return answer, _accuracy(plan, work)
 
 

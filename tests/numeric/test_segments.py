@@ -30,7 +30,8 @@ POINT = {"kind": "point", "at": [3, 17]}
 CASES: dict[str, dict[str, dict[str, Any]]] = {
     "profile": {"packing": STRIP, "ask": {"quantity": "profile"}},
     "profile, bulk load": {
-        "packing": STRIP, "load": {"kind": "bulk"}, "ask": {"quantity": "profile"},
+        "packing": STRIP, "load": {"kind": "bulk", "magnitude": "=3.7"},
+        "ask": {"quantity": "profile"},
     },
     "profile, point load": {"packing": STRIP, "load": POINT, "ask": {"quantity": "profile"}},
     "base": {"packing": STRIP, "ask": {"quantity": "base_reactions"}},
