@@ -74,22 +74,22 @@ from sympy import Rational
 
 RESPONSE = Symbol(
     "response",
-    r"\frac{\sigma_{\rm ensemble}^{2}(p)}{(f^{\rm load})^{2}}",
+    r"\frac{\sigma_{\mathrm{ensemble}}^{2}(p)}{(f^{\mathrm{load}})^{2}}",
     "σ²(p)/f_load²",
 )
 ONE_CONTACT = Symbol(
     "contact_response",
-    r"\frac{\sigma^{2}(n_{y} f_{ij}^{+})}{(f^{\rm load})^{2}}",
+    r"\frac{\sigma^{2}(n_{y} f_{ij}^{+})}{(f^{\mathrm{load}})^{2}}",
     "σ²(n_y f⁺_ij)/f_load²",
 )
 ON_LEG = Symbol(
     "leg_response",
-    r"\frac{\sigma_{\rm leg}^{2}(p)}{(f^{\rm load})^{2}}",
+    r"\frac{\sigma_{\mathrm{leg}}^{2}(p)}{(f^{\mathrm{load}})^{2}}",
     "σ²(p on a leg)/f_load²",
 )
 LEG_MAGNITUDE = Symbol(
     "leg_force",
-    r"\frac{\sigma_{\rm leg}^{2}(f)}{\langle f\rangle^{2}}",
+    r"\frac{\sigma_{\mathrm{leg}}^{2}(f)}{\langle f\rangle^{2}}",
     "σ²(f on a leg)/⟨f⟩²",
 )
 

@@ -19,7 +19,9 @@ phi = Symbol("phi", r"\phi", "φ", real=True)
 # standard deviation of the radii (a length)
 sigma = Symbol("sigma", r"\sigma_{\delta r}", "σ_δr", positive=True)
 epsilon = Symbol("epsilon", r"\varepsilon", "ε", real=True)  # strength, for linearising
-f_load = Symbol("f_load", r"f^{\rm load}", positive=True)  # magnitude of the load on a surface bead
+f_load = Symbol(
+    "f_load", r"f^{\mathrm{load}}", positive=True
+)  # magnitude of the load on a surface bead
 m_g = Symbol("m_g", "mg", "mg", positive=True)  # weight of a bead under a bulk load
 z = Symbol("z", real=True)  # relative height j/M
 # a load in any direction, −(L⁺n⁺ + L⁻n⁻) on a bead (forces), and t = L⁻/L⁺
@@ -44,11 +46,11 @@ SCALES = (r, spacing, f_load)
 """What other quantities are measured in; written in front of other parameters."""
 
 # base vectors and reciprocal vectors: linear symbols, read by ``symbolic.algebra.bases``
-n_plus = Symbol("n_plus", r"\hat{\bf n}^{+}", "n⁺")
-n_minus = Symbol("n_minus", r"\hat{\bf n}^{-}", "n⁻")
-b_plus = Symbol("b_plus", r"{\bf b}^{+}", "b⁺")
-b_minus = Symbol("b_minus", r"{\bf b}^{-}", "b⁻")
-e_y = Symbol("e_y", r"\hat{\bf e}_{y}")  # the upward vertical unit vector
+n_plus = Symbol("n_plus", r"\hat{\mathbf{n}}^{+}", "n⁺")
+n_minus = Symbol("n_minus", r"\hat{\mathbf{n}}^{-}", "n⁻")
+b_plus = Symbol("b_plus", r"\mathbf{b}^{+}", "b⁺")
+b_minus = Symbol("b_minus", r"\mathbf{b}^{-}", "b⁻")
+e_y = Symbol("e_y", r"\hat{\mathbf{e}}_{y}")  # the upward vertical unit vector
 
 VECTORS = (n_plus, n_minus, b_plus, b_minus, e_y)
 
@@ -88,28 +90,28 @@ class DeltaR(SiteFunction):
 class Position(SiteFunction):
     """x_ij: centre of bead (i, j) in the ordered packing (vector)."""
 
-    latex_head, text_head, in_code = r"{\bf x}", "x", "x"
+    latex_head, text_head, in_code = r"\mathbf{x}", "x", "x"
     is_vector = True
 
 
 class DeltaX(SiteFunction):
     """δx_ij: displacement of bead (i, j) to first order (vector)."""
 
-    latex_head, text_head, in_code = r"\delta{\bf x}", "δx", "dx"
+    latex_head, text_head, in_code = r"\delta\mathbf{x}", "δx", "dx"
     is_vector = True
 
 
 class DeltaNPlus(SiteFunction):
     """δn⁺_ij: change of the direction from bead (i, j) to bead (i+1, j+1) (vector)."""
 
-    latex_head, text_head, in_code = r"\delta\hat{\bf n}", "δn", "dn_plus"
+    latex_head, text_head, in_code = r"\delta\hat{\mathbf{n}}", "δn", "dn_plus"
     branch, is_vector = "+", True
 
 
 class DeltaNMinus(SiteFunction):
     """δn⁻_ij: change of the direction from bead (i, j) to bead (i−1, j+1) (vector)."""
 
-    latex_head, text_head, in_code = r"\delta\hat{\bf n}", "δn", "dn_minus"
+    latex_head, text_head, in_code = r"\delta\hat{\mathbf{n}}", "δn", "dn_minus"
     branch, is_vector = "-", True
 
 
@@ -130,7 +132,7 @@ class ForceMinus(SiteFunction):
 class Load(SiteFunction):
     """F^load on bead (k, l) (vector)."""
 
-    latex_head, text_head, in_code = r"{\bf F}^{\rm load}", "Fˡᵒᵃᵈ", "load"
+    latex_head, text_head, in_code = r"\mathbf{F}^{\mathrm{load}}", "Fˡᵒᵃᵈ", "load"
     is_vector = True
 
 

@@ -54,12 +54,15 @@ class Derived:
         """What JSON can hold: verdicts, checks and mutants of each equation, times in seconds."""
         return outcomes_data(self.outcomes)
 
-    def latex(self) -> dict[str, str]:
-        """LaTeX by file name: a fragment for each equation, and a document that reads them."""
+    def latex(self, columns: int = 1) -> dict[str, str]:
+        """LaTeX by file name: a fragment for each equation, and a document that reads them.
+
+        The fragments fit text of one column, or of two. Raises ``ValueError`` for any other number.
+        """
         about = [(one.derivation, finding(one)) for one in self.outcomes]
         about.sort(key=lambda pair: list(modules()).index(pair[0].number))
         return {
-            **{fragment_name(one): statement_latex(one) for one, _ in about},
+            **{fragment_name(one): statement_latex(one, columns) for one, _ in about},
             DOCUMENT: document(about),
         }
 

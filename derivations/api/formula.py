@@ -9,7 +9,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.code import python_source, sympy_source
 from force_diffusion.symbolic.printing.latex import RELATIONS
-from force_diffusion.symbolic.printing.lines import latex_body
+from force_diffusion.symbolic.printing.lines import column_width, latex_body
 from force_diffusion.symbolic.printing.text import text
 
 
@@ -68,8 +68,10 @@ class Formula:
     def _vocabulary(self) -> dict[str, Any]:
         return vocabulary(self._lines)
 
-    def latex(self) -> str:
+    def latex(self, columns: int = 1) -> str:
         r"""LaTeX for mathematics mode, which needs amsmath alone; long formulas in several lines.
+
+        The lines fit text of one column, or of two. Raises ``ValueError`` for any other number.
 
         >>> import force_diffusion as fd
         >>> print(fd.equation(15).latex())
@@ -78,7 +80,7 @@ class Formula:
         M^{*} &\propto \left( \frac{\sigma_{\delta r}}{r} \right)^{-2/3}
         \end{aligned}
         """
-        return latex_body(self._lines, RELATIONS[self._relation])
+        return latex_body(self._lines, RELATIONS[self._relation], column_width(columns))
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex()}$"

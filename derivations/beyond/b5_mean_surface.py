@@ -35,7 +35,7 @@ from force_diffusion.symbolic.variances.variance import ClosedForm
 
 MEAN = Symbol(
     "mean_force_ratio",
-    r"\frac{\langle f^{\pm}_{ij}\rangle}{f^{\rm load}/2 n_{y}}",
+    r"\frac{\langle f^{\pm}_{ij}\rangle}{f^{\mathrm{load}}/2 n_{y}}",
     "⟨f^±_ij⟩/(f_load/2n_y)",
 )
 

@@ -29,7 +29,11 @@ def watched(numbers: Iterable[Number], watch: Silence) -> "Derived":
 
 
 def derive(
-    numbers: Sequence[Number], out: Path | None, as_json: bool, overwrite: bool = False
+    numbers: Sequence[Number],
+    out: Path | None,
+    as_json: bool,
+    overwrite: bool = False,
+    columns: int = 1,
 ) -> int:
     """Derive these equations and their premises: 0 if all are proved, else 1.
 
@@ -58,7 +62,9 @@ def derive(
                 one.derivation.number: (one.derivation, finding(one)) for one in found.outcomes
             }
             about = [parts[number] for number in modules() if number in parts]
-            folder.write({**found.latex(), DOCUMENT: document(about)}, [one for _, one in about])
+            folder.write(
+                {**found.latex(columns), DOCUMENT: document(about)}, [one for _, one in about]
+            )
     watch.summary(f"{found.counts()}." + (f" Written to {printable(str(out))}." if out else ""))
     if as_json:
         print(json.dumps(found.data(), indent=2), flush=True)

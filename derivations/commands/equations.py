@@ -41,6 +41,11 @@ class Place(StrEnum):
     LEG_FORCE = "leg-force"
 
 
+Columns = Annotated[
+    int, typer.Option(min=1, max=2, help="Columns of the text that the LaTeX goes into.")
+]
+
+
 def equation_number(word: str) -> Number:
     """An equation's number or label from outside text, which is read and never evaluated."""
     known = modules()
@@ -64,13 +69,14 @@ def derive(
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the results as JSON and nothing else.")
     ] = False,
+    columns: Columns = 1,
     overwrite: Overwrite = False,
 ) -> None:
     """Prove equations, and the ones that they rest on, and check them."""
     from force_diffusion.derivations.commands import deriving
 
     wanted = [equation_number(word) for word in numbers] if numbers else list(modules())
-    raise typer.Exit(deriving.derive(wanted, out, as_json, overwrite))
+    raise typer.Exit(deriving.derive(wanted, out, as_json, overwrite, columns))
 
 
 def show(
@@ -90,6 +96,7 @@ def show(
             "of them), leg (the contact on a leg of the cone) or leg-force (its magnitude).",
         ),
     ] = None,
+    columns: Columns = 1,
 ) -> None:
     """Print one equation, without deriving it."""
     place = equation_number(number)
@@ -107,13 +114,13 @@ def show(
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
-    print(_written(shown, wanted, form))
+    print(_written(shown, wanted, form, columns))
 
 
-def _written(shown: "Formula", wanted: "Equation", form: Form) -> str:
+def _written(shown: "Formula", wanted: "Equation", form: Form, columns: int) -> str:
     match form:
         case Form.LATEX:
-            return f"\\begin{{equation}}\n{shown.latex()}\n\\end{{equation}}"
+            return f"\\begin{{equation}}\n{shown.latex(columns)}\n\\end{{equation}}"
         case Form.SYMPY:
             return shown.sympy_code()
         case Form.PYTHON:

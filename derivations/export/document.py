@@ -17,7 +17,7 @@ from force_diffusion.derivations.export.terminal import (
 )
 from force_diffusion.derivations.framework.record import Derivation, Outcome
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
-from force_diffusion.symbolic.printing.lines import latex_body
+from force_diffusion.symbolic.printing.lines import column_width, latex_body
 
 DOCUMENT = "equations.tex"
 
@@ -51,9 +51,10 @@ READING = (
 """What the words of a report mean."""
 
 
-def statement_latex(derivation: Derivation) -> str:
-    """The printed equation as one numbered display, ready to paste."""
-    body = latex_body(derivation.printed, RELATIONS[derivation.relation])
+def statement_latex(derivation: Derivation, columns: int = 1) -> str:
+    """The printed equation as one numbered display, ready to paste into text of 1 or 2 columns."""
+    relation = RELATIONS[derivation.relation]
+    body = latex_body(derivation.printed, relation, column_width(columns))
     return f"\\begin{{equation}}\n{body}\n\\end{{equation}}\n"
 
 

@@ -22,7 +22,7 @@ _MATHS = {
     "∃": r"\exists ",
 }  # fmt: skip
 _RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-", strict=True))
-_WORDS = {"ˡᵒᵃᵈ": r"^{\rm load}"}
+_WORDS = {"ˡᵒᵃᵈ": r"^{\mathrm{load}}"}
 _LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉₊₋", "0123456789+-", strict=True))
 _TEXT = {
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#",
@@ -34,7 +34,7 @@ _TEXT = {
 _RUN = re.compile("([⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻]+)|([₀₁₂₃₄₅₆₇₈₉₊₋]+)")
 _INDEXED = re.compile(r"_(?:\(([^()]*)\)|([A-Za-z0-9δ]+|±))")
 _VECTOR = re.compile(r"(?<![A-Za-z\\{])n(?=\^\{[-+]|\^?\\pm)")
-_FORCE = re.compile(r"F(?=\^\{\\rm load)")
+_FORCE = re.compile(r"F(?=\^\{\\mathrm\{load)")
 _RECIPROCAL = re.compile(r"(?<![A-Za-z\\{])b(?=\^\{[-+]|\^?\\pm)")
 _NAMES = re.compile(r"(?<![A-Za-z\\])(max|min)(?![A-Za-z])")
 _POWER = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\d+))")
@@ -78,9 +78,9 @@ def _is_mathematics(word: str) -> bool:
 def _lowered(found: re.Match[str]) -> str:
     name = found[1] or found[2]
     if name == "load":
-        return r"^{\rm load}"
+        return r"^{\mathrm{load}}"
     upright = name.isalpha() and len(name) > 2  # a word, as in f_load
-    return rf"_{{\rm {name}}}" if upright else f"_{{{name}}}"
+    return rf"_{{\mathrm{{{name}}}}}" if upright else f"_{{{name}}}"
 
 
 def _run(found: re.Match[str]) -> str:
@@ -110,8 +110,8 @@ def _set_mathematics(word: str) -> str:
         word = word.replace(raised, source)
     word = _ROOT.sub(r"\\sqrt{\1}", _RUN.sub(_run, _INDEXED.sub(_lowered, word)))
     word = "".join(map(_character, _FLOAT.sub(_power_of_ten, word)))
-    word = _FORCE.sub(r"{\\bf F}", word)
-    word = _RECIPROCAL.sub(r"{\\bf b}", _VECTOR.sub(r"\\hat{\\bf n}", word))
+    word = _FORCE.sub(r"\\mathbf{F}", word)
+    word = _RECIPROCAL.sub(r"\\mathbf{b}", _VECTOR.sub(r"\\hat{\\mathbf{n}}", word))
     return _NAMES.sub(r"\\\1 ", word)
 
 
@@ -178,7 +178,7 @@ def prose_latex(words: str) -> str:
     r"""A sentence as LaTeX; neighbouring pieces of mathematics are set as one formula.
 
     >>> print(prose_latex("Eq. 2 for j ≥ 1: δr_(i−1,j) is a length & n⁺ a unit vector."))
-    Eq. 2 for $j \geq  1$: $\delta r_{i-1,j}$ is a length \& $\hat{\bf n}^{+}$ a unit vector.
+    Eq. 2 for $j \geq  1$: $\delta r_{i-1,j}$ is a length \& $\hat{\mathbf{n}}^{+}$ a unit vector.
     """
     done = []
     for before, formula, after in pieces(words):

@@ -24,7 +24,9 @@ from force_diffusion.symbolic.symbols import (
 
 tilt_plus = Symbol("nu_plus", r"\nu^{+}", "ν⁺")  # n⁻·δn⁺ of the supporting contact along n⁺
 tilt_minus = Symbol("nu_minus", r"\nu^{-}", "ν⁻")  # n⁺·δn⁻ of the supporting contact along n⁻
-tilt_incoming = Symbol("nu_in", r"\nu_{\rm in}", "ν_in")  # the same of an incoming contact force
+tilt_incoming = Symbol(
+    "nu_in", r"\nu_{\mathrm{in}}", "ν_in"
+)  # the same of an incoming contact force
 
 
 def dotted(vector: sympy.Expr, tilts: dict[SiteFunction, sympy.Symbol]) -> sympy.ImmutableMatrix:

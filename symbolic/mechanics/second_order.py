@@ -18,10 +18,10 @@ B_MINUS = sympy.ImmutableMatrix([-1 / (2 * n_x), 1 / (2 * n_y)])
 tilt = Symbol("nu", r"\nu", "ν", real=True)  # n⁻·δn⁺
 
 # components along n⁺ and n⁻ of the separation's second order, and of the unit vector's
-d_plus = Symbol("d_plus", r"\hat{\bf n}^{+}\!\cdot{\bf d}_{2}", "n⁺·d₂", real=True)
-d_minus = Symbol("d_minus", r"\hat{\bf n}^{-}\!\cdot{\bf d}_{2}", "n⁻·d₂", real=True)
-u_plus = Symbol("u_plus", r"\hat{\bf n}^{+}\!\cdot{\bf u}_{2}", "n⁺·u₂", real=True)
-u_minus = Symbol("u_minus", r"\hat{\bf n}^{-}\!\cdot{\bf u}_{2}", "n⁻·u₂", real=True)
+d_plus = Symbol("d_plus", r"\hat{\mathbf{n}}^{+}\!\cdot\mathbf{d}_{2}", "n⁺·d₂", real=True)
+d_minus = Symbol("d_minus", r"\hat{\mathbf{n}}^{-}\!\cdot\mathbf{d}_{2}", "n⁻·d₂", real=True)
+u_plus = Symbol("u_plus", r"\hat{\mathbf{n}}^{+}\!\cdot\mathbf{u}_{2}", "n⁺·u₂", real=True)
+u_minus = Symbol("u_minus", r"\hat{\mathbf{n}}^{-}\!\cdot\mathbf{u}_{2}", "n⁻·u₂", real=True)
 # the force over its ordered value is 1 + εα₁ + ε²α₂
 alpha_1 = Symbol("alpha_1", r"\alpha_{1}", "α₁", real=True)
 alpha_2 = Symbol("alpha_2", r"\alpha_{2}", "α₂", real=True)

@@ -13,14 +13,15 @@ from force_diffusion.symbolic.printing.structure import in_order, is_negative, w
 from force_diffusion.symbolic.printing.text import PaperText
 from sympy import Add, Basic, Eq, Expr, Mul, Sum, Symbol, Tuple
 
-LINE_WIDTH = 400.0
-"""Points for one line of a displayed equation, number and margins taken off."""
+COLUMNS = {1: 330.0, 2: 222.0}
+"""Points for a line of a displayed equation, by columns of text: the narrowest of usual classes."""
+LINE_WIDTH = COLUMNS[1]
 
 TEXT_WIDTH = 96
 """Characters for one line on a terminal."""
 
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[{}^_&]|\S")
-_NO_WIDTH = {r"\hat", r"\bf", r"\rm", r"\!", r"\displaystyle"}
+_NO_WIDTH = {r"\hat", r"\mathbf", r"\mathrm", r"\!", r"\displaystyle"}
 _SPACES = {r"\,": 1.7, r"\:": 2.2, r"\;": 2.8, r"\quad": 10.0, r"\qquad": 20.0}
 _BINARY = {"+", "-", r"\cdot", "=", r"\sim", r"\approx", r"\leq", r"\geq", "<", ">"}
 _SCRIPT = 0.7
@@ -92,6 +93,87 @@ def pack(pieces: Iterable[tuple[str, float]], room: float, first_room: float) ->
     return lines
 
 
+_OPENING, _CLOSING = {"(", r"\left", r"\biggl"}, {")", r"\right", r"\biggr"}
+_FACTOR = {"(", r"\left", r"\frac", r"\sum"}
+# What must stand before a line that begins with a factor; else it continues a sum, or an argument.
+_NO_FACTOR = _BINARY | {r"\propto", r"\left", "("}
+# A line is broken at an outer place if that leaves no more than this share of it empty.
+_EMPTY = 0.45
+
+
+def folded(source: str, room: float) -> list[str]:
+    r"""Mathematics of one line in several: at sums, relations and products, the outermost first.
+
+    >>> for line in folded(r"a = \left[ b + \frac{c + d}{e} (f - g) \right]", 100):
+    ...     print(line)
+    a = \biggl[ b
+    + \frac{c + d}{e} (f - g) \biggr]
+    """
+    places = list(_breaks(source))
+    lines = []
+    start, lead = 0, ""
+    while width(lead + source[start:]) > room:
+        found = [(d, at) for d, at in places if at > start]
+        found = [(d, at) for d, at in found if width(lead + source[start:at]) <= room]
+        if not found:  # nowhere
+            break
+        enough = (1 - _EMPTY) * room
+        good = [(d, at) for d, at in found if width(lead + source[start:at]) > enough] or found
+        least = min(depth for depth, _ in good)
+        at = max(at for depth, at in good if depth == least)
+        lines.append(lead + source[start:at].rstrip())
+        product = source[at:].startswith(tuple(_FACTOR))
+        start, lead = at, r"\times " if product else ""
+        room -= 0 if len(lines) > 1 else 10  # of \quad
+    return [_sized(line) for line in (*lines, lead + source[start:])]
+
+
+def _breaks(source: str) -> Iterator[tuple[float, int]]:
+    """Places where a line may end, and how many brackets are open; at a product, a half more."""
+    braces = depth = 0
+    before, summed = "", [False]
+    for found in _TOKEN.finditer(source):
+        token, at = found[0], found.start()
+        braces -= token in {"}", r"\end"}
+        if not braces:
+            spaced = source[at - 1 : at] == " " and at
+            sign = token in _BINARY - {r"\cdot"} or token == r"\propto"
+            if spaced and sign and source[found.end() : found.end() + 1] == " ":
+                if before not in _NO_FACTOR:
+                    yield depth, at
+                summed[-1] = False
+            elif spaced and token in _FACTOR:
+                alone = before in _NO_FACTOR or before.isdigit()  # as the 2 of 2 Σ
+                if not (alone or summed[-1]):
+                    yield depth + 0.5, at
+            summed[-1] |= token == r"\sum"
+            if token in _OPENING:
+                depth += 1
+                summed.append(False)
+            elif token in _CLOSING:
+                depth -= 1
+                summed.pop()
+            before = before if token in "[]" and before in _OPENING else token
+        braces += token in {"{", r"\begin"}
+
+
+def _sized(line: str) -> str:
+    """Give brackets a fixed size where the other one of a pair is in another line."""
+    opened: list[int] = []
+    alone = {}
+    for found in re.finditer(r"\\(left|right)(?![a-z])", line):
+        if found[1] == "left":
+            opened.append(found.start())
+        elif opened:
+            opened.pop()
+        else:
+            alone[found.start()] = r"\biggr"
+    alone |= dict.fromkeys(opened, r"\biggl")
+    return re.sub(
+        r"\\(left|right)(?![a-z])", lambda found: alone.get(found.start(), found[0]), line
+    )
+
+
 class _Pieces:
     """The places where one printer's expressions may be broken."""
 
@@ -141,6 +223,18 @@ class _Pieces:
 
 def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) -> list[str]:
     """An equation as the lines of an ``aligned`` environment, without the ``\\\\``."""
+    lines = _at_terms(equation, relation, room)
+    if all(width(line.replace("&", "", 1)) <= room for line in lines):
+        return lines
+    pieces = _Pieces(PaperLatex(), r"\biggl\{", r"\biggr\}")
+    sides = equation.args if isinstance(equation, Eq) else (equation,)
+    joined = (" ".join(piece for piece, _ in pieces.of(side, room)) for side in sides)
+    whole = f" {relation} ".join(joined)
+    first, *others = folded(whole, room)
+    return [f"&{first}", *(rf"&\quad {line}" for line in others)]
+
+
+def _at_terms(equation: Basic, relation: str, room: float) -> list[str]:
     printer = PaperLatex()
     pieces = _Pieces(printer, r"\biggl\{", r"\biggr\}")
     if not isinstance(equation, Eq):
@@ -162,6 +256,17 @@ def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) 
         rhs = pieces.of(equation.rhs, left_over)
     first, *others = pack(rhs, left_over, left_over + 10)
     return [f"{lhs} &{relation} {first}", *(rf"&\quad {line}" for line in others)]
+
+
+def column_width(columns: int) -> float:
+    """Points for a line. Raises ``ValueError`` unless there are one or two columns.
+
+    >>> column_width(2) < column_width(1)
+    True
+    """
+    if isinstance(columns, bool) or columns not in COLUMNS:
+        raise ValueError(f"columns = {columns!r}: must be 1 or 2")
+    return COLUMNS[columns]
 
 
 def _single(formulas: Iterable[Basic]) -> Iterator[Basic]:

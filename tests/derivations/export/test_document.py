@@ -78,12 +78,12 @@ def test_prose_is_escaped_and_set_as_mathematics() -> None:
     )
     assert prose_latex("a sum of the (i, j)") == "a sum of the ($i$, $j$)"
     assert prose_latex("n⁺·δn⁺_ij = 0.") == (
-        r"$\hat{\bf n}^{+}\cdot \delta \hat{\bf n}^{+}_{ij} = 0$."
+        r"$\hat{\mathbf{n}}^{+}\cdot \delta \hat{\mathbf{n}}^{+}_{ij} = 0$."
     )
     assert prose_latex("2√3 r") == r"$2\sqrt{3} r$"
     assert prose_latex("at M* ∝ (σ/r)^(−2/3),") == r"at $M^{*} \propto  (\sigma /r)^{-2/3}$,"
     assert prose_latex("r = 2^-498") == "$r = 2^{-498}$"
-    assert prose_latex("f_load") == r"$f^{\rm load}$"
+    assert prose_latex("f_load") == r"$f^{\mathrm{load}}$"
     assert prose_latex("unknown ☃").endswith(r"\text{[snowman]}$")
 
 

@@ -4,12 +4,14 @@ import re
 
 import pytest
 import sympy
+from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
 from force_diffusion.symbolic.printing.code import python_source, sympy_source
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.lines import (
     LINE_WIDTH,
+    folded,
     latex_body,
     latex_lines,
     text_lines,
@@ -33,6 +35,8 @@ from force_diffusion.symbolic.symbols import (
 from hypothesis import given
 from hypothesis import strategies as st
 
+import force_diffusion as fd
+
 HALF = sympy.Rational(1, 2)
 
 
@@ -43,8 +47,8 @@ HALF = sympy.Rational(1, 2)
         (DeltaR(i - 1, j), r"\delta r_{i-1,j}", "δr_(i−1,j)"),
         (DeltaR(-j + i, 0), r"\delta r_{i-j,0}", "δr_(i−j,0)"),
         (DeltaR(2 + i + j - m, m), r"\delta r_{i+j-m+2,m}", "δr_(i+j−m+2,m)"),
-        (sy.n_plus, r"\hat{\bf n}^{+}", "n⁺"),
-        (DeltaNPlus(i, j), r"\delta\hat{\bf n}^{+}_{ij}", "δn⁺_ij"),
+        (sy.n_plus, r"\hat{\mathbf{n}}^{+}", "n⁺"),
+        (DeltaNPlus(i, j), r"\delta\hat{\mathbf{n}}^{+}_{ij}", "δn⁺_ij"),
         (1 - phi**2, r"1 - \phi^{2}", "1 − φ²"),
         (terms(times(2, z), 1), "2 z + 1", "2 z + 1"),
         (minus(HALF * M), r"-\frac{M}{2}", "−M/2"),
@@ -54,7 +58,8 @@ HALF = sympy.Rational(1, 2)
         (terms(1, Dot(sy.n_plus, DeltaNPlus(i, j))), None, "1 + n⁺·δn⁺_ij"),
         (
             Dot(sy.n_minus, terms(DeltaNPlus(i, j), minus(DeltaNPlus(j, i)))),
-            r"\hat{\bf n}^{-} \cdot (\delta\hat{\bf n}^{+}_{ij} - \delta\hat{\bf n}^{+}_{ji})",
+            r"\hat{\mathbf{n}}^{-} \cdot "
+            r"(\delta\hat{\mathbf{n}}^{+}_{ij} - \delta\hat{\mathbf{n}}^{+}_{ji})",
             "n⁻·(δn⁺_ij − δn⁺_ji)",
         ),
         (
@@ -196,3 +201,24 @@ def test_a_broken_fraction_shows_no_stand_in() -> None:
     for lines in (text_lines(product, room=40), latex_lines(product, room=120.0)):
         assert len(lines) > 1
         assert "GAP" not in " ".join(lines)
+
+
+@pytest.mark.parametrize("room", [120, 222, 330])
+@pytest.mark.parametrize("number", list(modules()))
+def test_lines_put_together_are_the_formula(number: int | str, room: float) -> None:
+    """Nothing is lost or doubled, and a line that was broken fits."""
+    one = fd.equation(number)
+    for formula in (one, *map(one.exact, one.cases)):
+        for line in formula._lines:
+            whole = " ".join(f"{latex(line.lhs)} = {latex(line.rhs)}".split())
+            lines = folded(whole, room)
+            joined = " ".join(lines).replace(r" \times ", " ")
+            assert joined.replace(r"\biggl", r"\left").replace(r"\biggr", r"\right") == whole
+            assert all(width(part) <= room for part in lines[:-1])
+            assert all(part.count(r"\left") == part.count(r"\right") for part in lines)
+
+
+def test_only_one_or_two_columns() -> None:
+    for columns in (0, 3, True):
+        with pytest.raises(ValueError, match="must be 1 or 2"):
+            fd.equation(13).latex(columns)
