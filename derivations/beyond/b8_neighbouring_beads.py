@@ -56,7 +56,7 @@ from force_diffusion.symbolic.variances.variance import leading
 
 MEAN_OF_N = Symbol(
     "mean_of_N_beads",
-    r"\frac{\sigma^2(\overline{p}_{N})}{(f^{\rm load})^{2}}",
+    r"\frac{\sigma^2(\overline{p}_{N})}{(f^{\mathrm{load}})^{2}}",
     "σ²(mean of N p)/f_load²",
 )
 

@@ -60,12 +60,12 @@ from force_diffusion.symbolic.variances.means import covariance, covariances_by_
 
 INSIDE = Symbol(
     "mean_inside",
-    r"\frac{\langle f^{\pm}_{ij}\rangle_{\rm inside}}{f^{\rm load}/2 n_{y}}",
+    r"\frac{\langle f^{\pm}_{ij}\rangle_{\mathrm{inside}}}{f^{\mathrm{load}}/2 n_{y}}",
     "⟨f^±_ij inside⟩/(f_load/2n_y)",
 )
 ON_LEG = Symbol(
     "mean_on_leg",
-    r"\frac{\langle f_{ij}\rangle_{\rm leg}}{f^{\rm load}/2 n_{y}}",
+    r"\frac{\langle f_{ij}\rangle_{\mathrm{leg}}}{f^{\mathrm{load}}/2 n_{y}}",
     "⟨f_ij on a leg⟩/(f_load/2n_y)",
 )
 UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2

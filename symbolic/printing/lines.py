@@ -13,7 +13,7 @@ from force_diffusion.symbolic.printing.structure import in_order, is_negative, w
 from force_diffusion.symbolic.printing.text import PaperText
 from sympy import Add, Basic, Eq, Expr, Mul, Sum, Symbol, Tuple
 
-COLUMNS = {1: 330.0, 2: 222.0}
+COLUMNS = {1: 322.0, 2: 222.0}
 """Points for a line of a displayed equation, by columns of text: the narrowest of usual classes."""
 LINE_WIDTH = COLUMNS[1]
 
@@ -106,8 +106,8 @@ def folded(source: str, room: float) -> list[str]:
 
     >>> for line in folded(r"a = \left[ b + \frac{c + d}{e} (f - g) \right]", 100):
     ...     print(line)
-    a = \biggl[ b
-    + \frac{c + d}{e} (f - g) \biggr]
+    a = \biggl[ b + \frac{c + d}{e}
+    \times (f - g) \biggr]
     """
     places = list(_breaks(source))
     lines = []
