@@ -109,6 +109,7 @@ def folded(source: str, room: float) -> list[str]:
     a = \biggl[ b + \frac{c + d}{e}
     \times (f - g) \biggr]
     """
+    source = split_fraction(source, room)
     places = list(_breaks(source))
     lines = []
     start, lead = 0, ""
@@ -126,6 +127,33 @@ def folded(source: str, room: float) -> list[str]:
         start, lead = at, r"\times " if product else ""
         room -= 0 if len(lines) > 1 else 10  # of \quad
     return [_sized(line) for line in (*lines, lead + source[start:])]
+
+
+def split_fraction(source: str, room: float) -> str:
+    r"""Write a fraction that no line holds as a product, which can be broken.
+
+    >>> print(split_fraction(r"x = \frac{a + b}{c}", 10), split_fraction(r"\frac{a b}{c}", 10))
+    x = \frac{1}{c} \left( a + b \right) \frac{1}{c} a b
+    """
+    for found in re.finditer(r"\\frac(?=\{)", source):
+        middle = _after_braces(source, found.end())
+        end = _after_braces(source, middle)
+        over, under = source[found.end() + 1 : middle - 1], source[middle:end]
+        if width(source[found.start() : end]) > room:
+            if any(depth == 0 for depth, _ in _breaks(over)):
+                over = rf"\left( {over} \right)"
+            return rf"{source[: found.start()]}\frac{{1}}{under} {over}{source[end:]}"
+    return source
+
+
+def _after_braces(source: str, at: int) -> int:
+    """Place after the group in braces that begins at a place."""
+    depth = 0
+    for found in re.finditer(r"[{}]", source[at:].replace(r"\{", "  ").replace(r"\}", "  ")):
+        depth += 1 if found[0] == "{" else -1
+        if not depth:
+            return at + found.end()
+    raise ValueError(f"a brace is not closed: {source[at:]}")
 
 
 def _breaks(source: str) -> Iterator[tuple[float, int]]:
@@ -280,7 +308,10 @@ def _single(formulas: Iterable[Basic]) -> Iterator[Basic]:
 
 def latex_body(equations: Sequence[Basic], relation: str = "=", room: float = LINE_WIDTH) -> str:
     """One or more equations for one display, broken into lines where they are long."""
-    lines = [line for one in _single(equations) for line in latex_lines(one, relation, room)]
+    found = [latex_lines(one, relation, room) for one in _single(equations)]
+    if any(one[0].startswith("&") for one in found):  # one too wide to stand below another's sign
+        found = [[f"&{one[0].replace('&', '', 1)}", *one[1:]] for one in found]
+    lines = [line for one in found for line in one]
     if len(lines) == 1:
         return re.sub(r"^&| &(?==|\\[a-z]+ )", lambda found: found[0][:-1], lines[0], count=1)
     return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
