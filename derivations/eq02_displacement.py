@@ -145,7 +145,12 @@ def steps() -> Iterator[Step]:
     )
     yield Step(
         "So its derivative there must vanish too.",
-        sympy.Tuple(*(equation(sympy.factor(one.order_1), 0) for one in constraints())),
+        sympy.Tuple(
+            *(
+                equation(times(4 * r, terms(across, n_y * contacts.dy, -contacts.radii)), 0)
+                for across in (n_x * contacts.dx, -n_x * contacts.dx)
+            )
+        ),
         _derivative,
         ("step 1",),
     )

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import sympy
 from force_diffusion.derivations import eq08_propagation as eq08
-from force_diffusion.derivations.framework.follows import identity, linear, states, walks
+from force_diffusion.derivations.framework.follows import at, identity, linear, states, walks
 from force_diffusion.derivations.framework.record import Derivation, Step, Witness
 from force_diffusion.derivations.witnesses.both_sides import about, compare, search, straight_below
 from force_diffusion.symbolic.algebra.affine import Region
@@ -72,7 +72,7 @@ def steps() -> Iterator[Step]:
             ForcePlus(*straight_end(q + 1)) / ForcePlus(*straight_end(q)),
             eq08.straight(*straight_end(q)),
         ),
-        states(eq08.PRINTED[0].xreplace(dict(zip(eq08.HERE, straight_end(q), strict=True)))),
+        states(at(eq08.PRINTED[0], dict(zip(eq08.HERE, straight_end(q), strict=True)))),
         ("Eq. 8", "step 1"),
     )
     yield Step(

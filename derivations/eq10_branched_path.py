@@ -6,7 +6,7 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq09_straight_path as eq09
-from force_diffusion.derivations.framework.follows import identity, states, walks
+from force_diffusion.derivations.framework.follows import at, identity, states, walks
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.derivations.witnesses.both_sides import about, compare, inside_cone, search
@@ -96,7 +96,7 @@ def steps() -> Iterator[Step]:
         equation(
             ForceMinus(i - n + 1, j + n - 1) / ForcePlus(i - n, j + n), eq08.branching(i - n, j + n)
         ),
-        states(eq08.PRINTED[1].xreplace({site_r: i - n, site_s: j + n})),
+        states(at(eq08.PRINTED[1], {site_r: i - n, site_s: j + n})),
         ("Eq. 8", "step 3"),
     )
     yield Step(

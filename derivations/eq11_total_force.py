@@ -9,7 +9,7 @@ from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
-from force_diffusion.derivations.framework.follows import states
+from force_diffusion.derivations.framework.follows import at, states
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.derivations.witnesses import remainders
 from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact, search
@@ -112,7 +112,7 @@ TOP = (STRAIGHT_LOAD[0] - 1, M - 1)
 def _put_in(part: int, candidate: sympy.Eq) -> Ruling:
     """Eq. 7 below the straight load, in units of the ordered force, and Eq. 9 from there."""
     at_load = {k: STRAIGHT_LOAD[0], l: STRAIGHT_LOAD[1]}
-    split, carried = eq07.PRINTED[0].xreplace(at_load), eq09.PRINTED.xreplace(at_load)
+    split, carried = at(eq07.PRINTED[0], at_load), at(eq09.PRINTED, at_load)
     in_units = equation(split.lhs / ORDERED, split.rhs / ORDERED)
     return states(in_units, carried, region=INTERIOR)(part, candidate)
 

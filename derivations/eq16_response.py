@@ -319,11 +319,10 @@ def steps() -> Iterator[Step]:
         identity({l: IN_CONE[l]}),
         ("step 1",),
     )
-    exact = at_finite_size()
     yield Step(
         "In the radii (Eqs. 4 and 5) f⁺_ij is a sum of second differences up to the layer below "
         "its turn, as in Eq. 12, and four radii. Exact variance of its vertical component:",
-        equation(ONE_CONTACT, exact["contact"].expression),
+        equation(ONE_CONTACT, CONTACT[-1].expression * UNIT / 4),
         _value(ONE_CONTACT, contact_cases(), sigma**2),
         ("Eq. 11", "step 2"),
     )
@@ -332,7 +331,7 @@ def steps() -> Iterator[Step]:
         "is refuted. What does not is the vertical force p that the "
         "bead gets from both contacts together: their second differences lie on two diagonals, and "
         "where these cross, the common weights add up to zero. Exact, for j ≥ 3:",
-        equation(RESPONSE, exact["bead"].expression),
+        equation(RESPONSE, BEAD[-1].expression * UNIT / 4),
         _value(RESPONSE, bead_cases(), sigma**2),
         ("Eq. 11", "step 2"),
     )
@@ -352,13 +351,13 @@ def steps() -> Iterator[Step]:
     )
     yield Step(
         "The two tilts are independent but for a few radii. Exact, for 2 ≤ j ≤ l − 2:",
-        equation(ON_LEG, exact["leg"].expression),
+        equation(ON_LEG, LEG[-1].expression * UNIT / 4),
         _value(ON_LEG, leg_cases(), sigma**2),
         ("Eq. 11", "step 7"),
     )
     yield Step(
         "The magnitude of that force, over its mean squared:",
-        equation(LEG_MAGNITUDE, exact["leg-force"].expression),
+        equation(LEG_MAGNITUDE, LEG_FORCE[-1].expression * UNIT),
         _value(LEG_MAGNITUDE, leg_force_cases(), sigma**2),
         ("Eq. 11", "step 7"),
     )

@@ -152,7 +152,8 @@ class Steps(tuple[Step, ...]):
         return made
 
     def __str__(self) -> str:
-        return f"{heading(self._derivation)}\n\n{steps_text(self._derivation)}"
+        verdicts = [str(step.ruling) for step in self]
+        return f"{heading(self._derivation)}\n\n{steps_text(self._derivation, verdicts)}"
 
     __repr__ = __str__
 

@@ -70,15 +70,11 @@ def follows_text(step: Step, verdict: str) -> str:
     return f"{verdict}, from {both(step.uses)}" if step.uses else verdict
 
 
-def steps_text(derivation: Derivation, verdicts: Sequence[str] | None = None) -> str:
-    """The steps: the reason, the formula that it gives, the verdict, and what it follows from.
-
-    They are decided here where no verdicts are given.
-    """
+def steps_text(derivation: Derivation, verdicts: Sequence[str]) -> str:
+    """The steps: the reason, the formula that it gives, the verdict, and what it follows from."""
     parts = []
-    steps = list(derivation.steps())
-    found = verdicts or [str(step.ruling) for step in steps]
-    for place, (step, verdict) in enumerate(zip(steps, found, strict=True), start=1):
+    steps = enumerate(zip(derivation.steps(), verdicts, strict=True), start=1)
+    for place, (step, verdict) in steps:
         parts.append(_paragraph(step.reason, f"{place:3}. ", "     "))
         lines = text_lines(step.formula, relation_of(derivation, step), TEXT_WIDTH - 7)
         parts += ["       " + line for line in lines]
