@@ -93,9 +93,12 @@ def explain(
     as_json: _Json = False,
 ) -> None:
     """Say what 'run' would do, and why."""
+    from force_diffusion.numeric.planning.plan import plan_lines
+
     planned = _planned(scene, tolerance, certified)
     warn(scene, planned)
-    print(json.dumps(planned.data(), indent=2) if as_json else planned)
+    data = planned.data()
+    print(json.dumps(data, indent=2) if as_json else "\n".join(plan_lines(data)))
 
 
 def run(

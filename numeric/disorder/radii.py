@@ -175,6 +175,11 @@ class MeasuredRadii:
         return largest * Fraction(math.sqrt(square))
 
     @cached_property
+    def mean(self) -> float:
+        """Mean of δr/r."""
+        return math.fsum(map(float, self.rho.values())) / max(len(self.rho), 1)
+
+    @cached_property
     def least(self) -> Fraction:
         """The smallest |δr|/r that is not 0; 0 if all are 0."""
         return min((abs(v) for v in self.rho.values() if v), default=Fraction(0))
@@ -218,6 +223,11 @@ class ArrayRadii:
         if not largest:
             return Fraction(0)
         return Fraction(largest) * Fraction(float(np.sqrt(np.mean((deltas / largest) ** 2))))
+
+    @cached_property
+    def mean(self) -> float:
+        """Mean of δr/r."""
+        return float(self.values.mean() - float(self.origin)) / float(self.radius)
 
     def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
         """Look the radii up."""

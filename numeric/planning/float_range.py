@@ -7,7 +7,7 @@ word, which would then pass for an answer without error.
 from fractions import Fraction
 
 from ..arithmetic.decimals import short
-from ..disorder.radii import MeasuredRadii, Radii
+from ..disorder.radii import ArrayRadii, MeasuredRadii, Radii
 from ..mechanics.loads import LoadSpec
 from ..scene.scene import Scene
 from ..scene.sections import GivenRadii, SceneError
@@ -33,7 +33,8 @@ def check(scene: Scene, radii: Radii, load: LoadSpec) -> None:
                 f"{WAY_OUT}",
             )
     elif disorder and disorder < LEAST:
-        given = scene.disorder.name if isinstance(scene.disorder, GivenRadii) else "relative_std"
+        given = "file" if isinstance(radii, ArrayRadii) else "relative_std"
+        given = scene.disorder.name if isinstance(scene.disorder, GivenRadii) else given
         raise SceneError(
             f"disorder.{given}",
             disorder,

@@ -13,10 +13,11 @@ from ..arithmetic.systems import (
     BigFloat,
     NumberSystem,
 )
-from ..disorder.radii import DrawnRadii
+from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii
 from ..mechanics.problem import Problem
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
+from ..theory.critical_height import critical_height
 from ..theory.expected import ExpectedTension, expected_tension
 from ..theory.tension import LOADS
 
@@ -172,6 +173,19 @@ class Plan:
                 f"of its {2 * (self.problem.width or 0) * self.problem.height} contacts pull; at "
                 f"this width one does from a height of about {self.tension.height_of_one} on"
             )
+        radii = self.problem.radii
+        spread = radii.relative_std()
+        if isinstance(radii, MeasuredRadii | ArrayRadii) and abs(radii.mean) > float(spread) / 2:
+            notes.append(
+                f"the mean of the given radii differs from packing.radius by {radii.mean:.3g} r: "
+                f"changes, σ/r = {short(spread)} and M* are about packing.radius"
+            )
+        highest = critical_height(spread)
+        if self.tension is None and self.quantity.needs_forces and self.problem.height > highest:
+            notes.append(
+                f"the height M = {self.problem.height} is above M* = {highest:.3g}, where forces "
+                "scatter as widely as they are large: many contacts may pull"
+            )
         return notes
 
     def data(self) -> dict[str, Any]:
@@ -204,7 +218,7 @@ class Plan:
 
     def __str__(self) -> str:
         """Say what would be done, what is left out, and why."""
-        return "\n".join(plan_lines(self.data()))
+        return "\n".join([*plan_lines(self.data()), *map("Note: {}".format, self.notes)])
 
     __repr__ = __str__
 

@@ -2,13 +2,14 @@
 
 from fractions import Fraction
 
+from ..arithmetic.decimals import short
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii, Radii
 from ..lattice.branch import Site
 from ..lattice.regions import Rows
 from ..mechanics.loads import LoadSpec
 from ..scene.scene import Scene
 from ..scene.sections import GivenRadii
-from ..scene.tables import TableError, read_loads, read_radii
+from ..scene.tables import TableError, read_array, read_loads, read_radii
 
 
 def load_of(scene: Scene) -> LoadSpec:
@@ -39,6 +40,16 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
         assert disorder.relative_std is not None
         return DrawnRadii(disorder.kind, disorder.relative_std, disorder.seed, packing.width)
 
+    path = scene.folder / disorder.file
+    if path.suffix == ".npy":
+        values = read_array(path, width=packing.width, height=packing.height)
+        if abs(Fraction(float(values.mean())) - packing.radius) > packing.radius / 2:
+            raise TableError(
+                f"disorder.file: {path.name}: the mean radius is {values.mean():.3g}, and "
+                f"packing.radius is {short(packing.radius)}: is it in another unit?"
+            )
+        return ArrayRadii(values[None], packing.radius, packing.radius)
+
     def needed(site: Site) -> bool:
         i, j = site
         if not rows:  # line sums look up what they need
@@ -46,8 +57,9 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
         return j < len(rows) and rows[j].first <= i <= rows[j].last
 
     measured = read_radii(
-        scene.folder / disorder.file,
+        path,
         radius=packing.radius,
+        spacing=packing.s,
         width=packing.width,
         height=packing.height,
         needed=needed,

@@ -210,7 +210,8 @@ class Outcome:
 
     def __str__(self) -> str:
         """Say what was found, how accurately, and what was done for it."""
-        return "\n".join(outcome_lines(self.data(rows=False), self.count))
+        notes = map("Note: {}".format, self.plan.notes)
+        return "\n".join([*outcome_lines(self.data(rows=False), self.count), *notes])
 
     __repr__ = __str__
 

@@ -131,7 +131,7 @@ class Disorder(Section):
     file: str | None = None
 
 
-def _radii(value: object) -> Array:
+def radii_array(value: object) -> Array:
     """Hold a copy of an array of finite numbers."""
     if np.ma.isMaskedArray(value):
         raise ValueError("must have no masked entries: fill them in")
@@ -162,8 +162,8 @@ class GivenRadii(Disorder):
     """
 
     kind: Literal["given"] = "given"  # type: ignore[assignment]
-    radii: Annotated[Any, BeforeValidator(_radii)] = None
-    delta_r: Annotated[Any, BeforeValidator(_radii)] = None
+    radii: Annotated[Any, BeforeValidator(radii_array)] = None
+    delta_r: Annotated[Any, BeforeValidator(radii_array)] = None
 
     def __init__(self, /, **values: Any) -> None:
         """Check that one of the two is given."""

@@ -1,6 +1,7 @@
 """Measured radii and loads from CSV files: decimals read exactly, every error naming its line."""
 
 import csv
+import math
 import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -8,11 +9,16 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TextIO
 
+import numpy as np
+
 from ..arithmetic.decimals import parse, short
 from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.systems import Array
+from .sections import radii_array
 
 Site = tuple[int, int]
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}", re.ASCII)
+_NO_FILE = "there is no such file"
 LONGEST_LINE = 20_000  # characters; a number has at most 5000
 MOST = 10**100  # of δr/r: gaps between beads are measured in float64, which holds their squares
 
@@ -30,20 +36,29 @@ def _named(key: str) -> Iterator[None]:
         raise TableError(f"{key}: {error}") from None
 
 
-def _rows(path: Path, header: list[str]) -> Iterator[tuple[str, Site, list[Fraction]]]:
+Row = tuple[str, list[str], list[str]]
+"""Where it stands, the header that it stands under, and what it says."""
+
+
+def _rows(path: Path, *headers: list[str]) -> Iterator[Row]:
     try:
         if not path.is_file():  # a device or a pipe may have no end
-            why = "must be an ordinary file" if path.exists() else "there is no such file"
+            why = "must be an ordinary file" if path.exists() else _NO_FILE
             raise TableError(f"{path}: {why}")
         with path.open(encoding="utf-8-sig", newline="") as file:
             reader = csv.reader(_lines(path, file), strict=True)
             first = next(reader, None)
-            if first is None or [name.strip() for name in first] != header:
-                raise TableError(f"{path.name}: the first line must be {','.join(header)}")
+            header = [name.strip() for name in first or ()]
+            if header not in headers:
+                allowed = " or ".join(map(",".join, headers))
+                raise TableError(f"{path.name}: the first line must be {allowed}")
             for row in reader:
                 if not row:
                     continue
-                yield _parsed(f"{path.name}, line {reader.line_num}", row, header)
+                where = f"{path.name}, line {reader.line_num}"
+                if len(row) != len(header):
+                    raise TableError(f"{where}: {len(row)} values where {len(header)} are expected")
+                yield where, header, row
     except OSError as error:
         raise TableError(f"{path}: can't be read ({error.strerror})") from None
     except (UnicodeDecodeError, csv.Error) as error:
@@ -62,9 +77,8 @@ def _lines(path: Path, file: TextIO) -> Iterator[str]:
         yield line
 
 
-def _parsed(where: str, row: list[str], header: list[str]) -> tuple[str, Site, list[Fraction]]:
-    if len(row) != len(header):
-        raise TableError(f"{where}: {len(row)} values where {len(header)} are expected")
+def _parsed(where: str, header: list[str], row: list[str]) -> tuple[Site, list[Fraction]]:
+    """Read a bead (i, j), and the numbers after it."""
     coordinates = []
     for name, text in zip(header[:2], row, strict=False):
         if not _WHOLE.fullmatch(text.strip()):
@@ -74,13 +88,39 @@ def _parsed(where: str, row: list[str], header: list[str]) -> tuple[str, Site, l
             )
         coordinates.append(int(text))
     site = (coordinates[0], coordinates[1])
+    return site, _numbers(f"{where}: bead {site}", header[2:], row[2:])
+
+
+def _numbers(where: str, header: list[str], row: list[str]) -> list[Fraction]:
     values = []
-    for name, text in zip(header[2:], row[2:], strict=True):
+    for name, text in zip(header, row, strict=True):
         try:
             values.append(parse(text))
         except ValueError as error:
-            raise TableError(f"{where}: bead {site}: {name}: {error}") from None
-    return where, site, values
+            raise TableError(f"{where}: {name}: {error}") from None
+    return values
+
+
+def _on_lattice(
+    where: str, x: Fraction, y: Fraction, *, radius: Fraction, spacing: Fraction, width: int | None
+) -> Site:
+    """Name the site of the ordered packing, bead (0, 0) at the origin, nearest to a place."""
+    across, up = float(x / spacing), float(y / radius)
+    step = 2 * math.sqrt(1 - float(spacing / (4 * radius)) ** 2)
+    best: tuple[float, Site] | None = None
+    for j in (math.floor(up / step), math.floor(up / step) + 1):
+        i = 2 * round(across - (j % 2) / 2) + j % 2
+        off = math.hypot((across - i / 2) * float(spacing / radius), up - j * step)
+        if best is None or off < best[0]:
+            best = (off, (i, j))
+    assert best is not None
+    off, (i, j) = best
+    if not off < 0.5:
+        raise TableError(
+            f"{where}: x = {short(x)}, y = {short(y)} lies {off:.2g} r from the nearest site "
+            f"{(i, j)} of the ordered packing, and half of r is allowed: bead (0, 0) is at 0, 0"
+        )
+    return (i if width is None else i % (2 * width)), j
 
 
 def _check_site(where: str, site: Site, width: int | None, height: int) -> None:
@@ -99,17 +139,25 @@ def read_radii(
     path: Path,
     *,
     radius: Fraction,
+    spacing: Fraction,
     width: int | None,
     height: int,
     needed: Callable[[Site], bool],
 ) -> dict[Site, Fraction]:
-    """Read ``i,j,delta_r`` into {(i, j): δr/r}, keeping only ``needed`` beads.
+    """Read ``i,j,delta_r``, ``i,j,r`` or ``x,y,r`` into {(i, j): δr/r}, keeping ``needed`` beads.
 
-    ``radius`` is r, in the unit of the file. A periodic packing's file must name each of its
-    W (M + 1) beads once. Raises ``TableError``.
+    ``radius`` is r, ``spacing`` s, in the unit of the file; beads at x, y are put on the nearest
+    site. A periodic packing's file must name each of its W (M + 1) beads once. Raises
+    ``TableError``.
     """
     rho: dict[Site, Fraction] = {}
-    for where, site, (delta,) in _rows(path, ["i", "j", "delta_r"]):
+    for where, header, row in _rows(path, ["i", "j", "delta_r"], ["i", "j", "r"], ["x", "y", "r"]):
+        if header[0] == "x":
+            x, y, delta = _numbers(where, header, row)
+            site = _on_lattice(where, x, y, radius=radius, spacing=spacing, width=width)
+        else:
+            site, (delta,) = _parsed(where, header, row)
+        delta -= radius if header[2] == "r" else 0
         _check_site(where, site, width, height)
         if delta <= -radius:
             raise TableError(
@@ -128,7 +176,37 @@ def read_radii(
             for i in range(j % 2, 2 * width, 2):
                 if (i, j) not in rho:
                     raise TableError(f"{path.name}: bead {(i, j)} is missing")
+    if abs(mean := math.fsum(map(float, rho.values())) / max(len(rho), 1)) > 0.5:
+        raise TableError(
+            f"{path.name}: the mean radius is {1 + mean:.3g} times packing.radius = "
+            f"{short(radius)}: is it in another unit, or are radii listed as delta_r, not as r?"
+        )
     return rho
+
+
+@_named("disorder.file")
+def read_array(path: Path, *, width: int | None, height: int) -> Array:
+    """Read radii from a NumPy file (.npy) of shape (M + 1, W), layer 0 first, as float64.
+
+    Raises ``TableError``.
+    """
+    if width is None:
+        raise TableError(f"{path.name}: an array needs packing.width: a slab has no last column")
+    if not path.is_file():
+        raise TableError(f"{path}: {'must be an ordinary file' if path.exists() else _NO_FILE}")
+    try:
+        values = np.load(path, mmap_mode="r", allow_pickle=False)
+    except (OSError, ValueError, EOFError) as error:
+        raise TableError(f"{path.name}: is no NumPy file of numbers ({error})") from None
+    if values.shape != (height + 1, width):
+        raise TableError(
+            f"{path.name}: an array of shape {values.shape}; the packing has {height + 1} layers, "
+            f"base included, of {width} beads"
+        )
+    try:
+        return radii_array(values)
+    except ValueError as error:
+        raise TableError(f"{path.name}: {error}") from None
 
 
 @_named("load.file")
@@ -137,7 +215,8 @@ def read_loads(
 ) -> dict[Site, tuple[Fraction, Fraction]]:
     """Read ``i,j,fx,fy`` into {(i, j): (fx, fy)/magnitude}. Raises ``TableError``."""
     loads: dict[Site, tuple[Fraction, Fraction]] = {}
-    for where, site, (fx, fy) in _rows(path, ["i", "j", "fx", "fy"]):
+    for where, header, row in _rows(path, ["i", "j", "fx", "fy"]):
+        site, (fx, fy) = _parsed(where, header, row)
         _check_site(where, site, width, height)
         if site in loads:
             raise TableError(f"{where}: bead {site} is named twice")
