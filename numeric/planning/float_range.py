@@ -57,7 +57,7 @@ def check(scene: Scene, radii: Radii, load: LoadSpec) -> None:
         size = max(abs(fx), abs(fy))
         if size and not (least <= size <= MOST and least <= size * unit <= MOST):
             raise SceneError(
-                "load.file",
-                scene.load.file,
+                "load.file" if scene.load.file else "load.pressure",
+                scene.load.file or scene.load.pressure,
                 f"the load on bead {site} is {short(size)} times load.magnitude, which {allowed}",
             )

@@ -23,6 +23,14 @@ def load_of(scene: Scene) -> LoadSpec:
             width=packing.width,
             height=packing.height,
         )
+    if load.pressure and load.at is not None:  # loads on single beads, one by one
+        assert packing.width is not None
+        down = Fraction(load.pressure) / load.magnitude
+        top = packing.height
+        single = {(i, top): (Fraction(0), -down) for i in range(top % 2, 2 * packing.width, 2)}
+        site = int(load.at[0]), int(load.at[1])
+        single[site] = Fraction(0), single.get(site, (0, Fraction(0)))[1] - 1
+        return LoadSpec("file", top, packing.width, Fraction(0), None, single)
     at = None if load.at is None else (int(load.at[0]), int(load.at[1]))
     return LoadSpec(load.kind, packing.height, packing.width, load.angle_deg, at, single)
 

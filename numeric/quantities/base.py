@@ -134,7 +134,7 @@ class Quantity(ABC):
         """Bound the beads to be solved, before a single row of them is made."""
         layers = self.height + 1
         beads = layers * (self.width or layers)
-        if self.scene.load.at is not None:
+        if self.scene.load.at is not None and not self.scene.load.pressure:
             top = int(self.scene.load.at[1])
             layers, beads = top + 1, regions.triangle_beads(top)
         return beads if self.width is None else min(beads, self.width * layers)

@@ -46,7 +46,7 @@ class SingleContact(ContactQuantity):
 
     def most_beads(self) -> int:
         """Bound the beads to be solved."""
-        if self.scene.load.at is not None:
+        if self.scene.load.at is not None and not self.scene.load.pressure:
             return super().most_beads()
         beads = regions.contact_beads(self.contact.j, self.height)
         return beads if self.width is None else min(beads, self.width * (self.height + 1))

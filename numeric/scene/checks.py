@@ -153,9 +153,30 @@ def _check_load(load: Load, packing: Packing) -> None:
             raise SceneError("load.at", None, 'is required with kind = "point", as at = [k, l]')
         if len(load.at) != 2:
             raise SceneError("load.at", load.at, "must be a bead, [k, l]")
-        _check_site(packing, "load.at", load.at, packing.height)
+        _check_load_site(packing, load.at)
     elif load.at is not None:
         raise SceneError("load.at", load.at, 'needs kind = "point"')
+    if load.pressure:
+        _check_pressure(load, packing)
+
+
+def _check_load_site(packing: Packing, at: Any) -> None:
+    if not 0 <= at[1] <= packing.height:  # above all, as a bead there would be
+        raise SceneError("load.at", at, f"j must be from 0 to {packing.height}, the surface")
+    _check_site(packing, "load.at", at, packing.height)
+
+
+def _check_pressure(load: Load, packing: Packing) -> None:
+    if load.kind != "point":
+        raise SceneError("load.pressure", load.pressure, 'comes beside kind = "point"')
+    if load.pressure < 0:
+        raise SceneError("load.pressure", load.pressure, "must not be negative")
+    if load.angle_deg:
+        allowed = "comes beside a point load straight down: give a file of loads for others"
+        raise SceneError("load.pressure", load.pressure, allowed)
+    if packing.width is None:
+        allowed = "needs packing.width: the surface of a slab has no end"
+        raise SceneError("load.pressure", load.pressure, allowed)
 
 
 def _check_site(packing: Packing, key: str, site: Any, highest: int) -> None:
@@ -179,6 +200,9 @@ def _check_ask(ask: Ask, packing: Packing, load: Load) -> None:
     _check_at(ask, packing)
     if ask.quantity == "response" and load.kind != "point":
         raise SceneError("load.kind", load.kind, 'must be "point" for quantity = "response"')
+    if ask.quantity == "response" and load.pressure:
+        allowed = 'must be 0 for quantity = "response", which is that to the point load alone: ask '
+        raise SceneError("load.pressure", load.pressure, f'{allowed}for "contact_forces"')
     wide = ask.quantity in {"contact_forces", "base_reactions"} and load.kind in {
         "surface",
         "bulk",

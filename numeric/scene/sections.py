@@ -186,7 +186,8 @@ class Load(Section):
     """The load; angles in degrees from straight down, positive towards +i.
 
     ``kind``: "surface" (on every bead of layer M), "bulk" (on every bead), "point" (on the bead
-    ``at`` = (k, l)) or "file" (``file`` lists i, j, fx, fy). ``magnitude`` is the unit of force.
+    ``at`` = (k, l)) or "file" (``file`` lists i, j, fx, fy). ``magnitude`` is the load on a bead.
+    ``pressure`` is a load straight down on every bead of the surface, beside a point load.
     """
 
     section = "load"
@@ -194,6 +195,7 @@ class Load(Section):
     magnitude: Number = Fraction(1)
     angle_deg: Number = Fraction(0)
     at: Bead | None = None
+    pressure: Number = Fraction(0)
     file: str | None = None
 
 
