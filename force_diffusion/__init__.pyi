@@ -29,6 +29,8 @@ from .numeric.scene.sections import Packing as Packing
 from .numeric.scene.sections import PointLoad as PointLoad
 from .numeric.scene.sections import SceneError as SceneError
 from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
+from .numeric.studies.cascade.study import CascadeStudy as CascadeStudy
+from .numeric.studies.cascade.study import cascade as cascade
 from .numeric.studies.cost.result import CostStudy as CostStudy
 from .numeric.studies.cost.study import cost as cost
 from .numeric.studies.stability.study import StabilityStudy as StabilityStudy

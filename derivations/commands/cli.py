@@ -45,6 +45,10 @@ COMMANDS = {
         "stability",
         "Measure what stability costs: errors and lost bits of both forms, time beside them.",
     ),
+    "cascade": (
+        "cascade",
+        "Open one contact that pulls as weakly as one pleases, and count what changes.",
+    ),
     "ensemble": (
         "ensemble",
         "Statistics over many packings, on many cores, kept in a file as they come.",

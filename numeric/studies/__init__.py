@@ -1,1 +1,1 @@
-"""Studies: what accuracy costs, and what stability costs."""
+"""Studies: what accuracy and stability cost, and what a contact that opens sets off."""

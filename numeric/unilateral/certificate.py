@@ -52,7 +52,7 @@ def certify(
     stay where they are. The caller activates ``system``. Raises ``UndecidedError`` where more bits
     may help, and ``UnfinishedError`` where they don't.
     """
-    place = _coordinates(grains, backbone)
+    place = grains.coordinates(backbone)
     A = grains.jacobian(contacts)[:, place].tocsc()
     try:
         factors = splu(A)
@@ -92,11 +92,6 @@ def certify(
         for k in (0, 1):
             enclosed[bead, k] = enclosed[bead, k] + radius
     return Certificate(enclosed, forces, reach, h)
-
-
-def _coordinates(grains: Grains, backbone: Array) -> Array:
-    first = 2 * (backbone - grains.fixed)
-    return np.asarray(np.stack([first, first + 1], axis=1).ravel())
 
 
 def _positive(value: float) -> float:

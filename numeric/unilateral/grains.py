@@ -38,6 +38,11 @@ class Grains:
         """The loads on the free beads, as a vector of the coordinates that may change."""
         return np.asarray(self.load[self.fixed :].ravel())
 
+    def coordinates(self, beads: Array) -> Array:
+        """Give the places of free beads' coordinates among those that may change."""
+        first = 2 * (beads - self.fixed)
+        return np.asarray(np.stack([first, first + 1], axis=1).ravel())
+
     def energy(self) -> float:
         """Potential energy of the load, which falls while beads move."""
         return -float((self.load * self.x).sum())

@@ -57,7 +57,7 @@ def packings(
 
 def _one(problem: Problem, realisation: int, system: Balls, work: Work) -> Relaxed:
     if realisation not in work.kept:
-        work.kept[realisation] = _settled(problem, realisation, work)
+        work.kept[realisation] = settle(problem, realisation, work)
     settled = work.kept[realisation]
     if settled is None:
         return _as_deposited(problem, realisation, system)
@@ -67,9 +67,9 @@ def _one(problem: Problem, realisation: int, system: Balls, work: Work) -> Relax
         )
 
 
-def _settled(problem: Problem, realisation: int, work: Work) -> Settled | None:
+def settle(problem: Problem, realisation: int, work: Work) -> Settled | None:
     """Let beads come to rest; None where the deposited packing has neither tension nor overlap."""
-    grains, supports, overlaps = _start(problem, realisation)
+    grains, supports, overlaps = start(problem, realisation)
     for row in problem.region.rows:
         work.did("radii", row)
         work.did("balanced", row)
@@ -80,7 +80,7 @@ def _settled(problem: Problem, realisation: int, work: Work) -> Settled | None:
             shown(f"{problem.protocol}: {events}", 0)
 
     if supports is not None and not overlaps:
-        forces = _forces(grains, supports)
+        forces = balanced(grains, supports)
         if forces.min() >= -event_driven.SLACK * np.abs(forces).max():
             return None
     before = grains.energy()
@@ -93,7 +93,7 @@ def _settled(problem: Problem, realisation: int, work: Work) -> Settled | None:
                     + ', and protocol = "event-driven" starts from it: choose "linear-programs"'
                 )
             contacts, events = event_driven.relax(grains, supports, progress)
-            forces = _forces(grains, contacts)
+            forces = balanced(grains, contacts)
             bearing = forces > NO_FORCE * forces.max()
             contacts = contacts[bearing]
         else:
@@ -112,7 +112,7 @@ def _settled(problem: Problem, realisation: int, work: Work) -> Settled | None:
     return Settled(grains, contacts, backbone, rattlers, events, before - grains.energy())
 
 
-def _start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None, int]:
+def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None, int]:
     """Deposit the beads; a stretched lattice, and no supports, where some can't be deposited."""
     width, height = problem.width, problem.height
     assert width is not None
@@ -178,8 +178,16 @@ def _load(problem: Problem, region: Region, system: NumberSystem) -> Array:
     return out
 
 
-def _forces(grains: Grains, contacts: Pairs) -> Array:
-    return np.atleast_1d(spsolve(grains.jacobian(contacts).T.tocsc(), -grains.weights))
+def balanced(grains: Grains, contacts: Pairs, backbone: Array | None = None) -> Array:
+    """Balance the forces of as many contacts as there are coordinates of the beads that bear them.
+
+    ``backbone``: the numbers of those beads, by default all free ones.
+    """
+    A, weights = grains.jacobian(contacts), grains.weights
+    if backbone is not None:
+        place = grains.coordinates(backbone)
+        A, weights = A[:, place], weights[place]
+    return np.atleast_1d(spsolve(A.T.tocsc(), -weights))
 
 
 def _bearing(grains: Grains, pairs: Pairs, forces: Array) -> Pairs:
@@ -206,7 +214,7 @@ def _bearing(grains: Grains, pairs: Pairs, forces: Array) -> Pairs:
 
 def _close(grains: Grains, contacts: Pairs, backbone: Array) -> None:
     """Close the gaps of the contacts by Newton's method."""
-    place = np.stack([2 * (backbone - grains.fixed), 2 * (backbone - grains.fixed) + 1], 1).ravel()
+    place = grains.coordinates(backbone)
     for _ in range(event_driven.ITERATIONS):
         gaps = grains.gaps(contacts)
         if np.abs(gaps).max() < event_driven.CLOSED / 5:
@@ -233,8 +241,8 @@ def _free(grains: Grains, rattlers: Array) -> None:
         pairs = pairs[np.isin(pairs, rattlers).any(axis=1)]
         if not len(pairs):
             return
-        place = np.stack([2 * (rattlers - grains.fixed), 2 * (rattlers - grains.fixed) + 1], 1)
-        A = grains.jacobian(pairs)[:, place.ravel()]
+        place = grains.coordinates(rattlers)
+        A = grains.jacobian(pairs)[:, place]
         widened = np.concatenate([-A.toarray(), np.ones((len(pairs), 1))], axis=1)
         cost = np.zeros(widened.shape[1])
         cost[-1] = -1
@@ -243,7 +251,7 @@ def _free(grains: Grains, rattlers: Array) -> None:
         if found.status:
             return
         move = np.zeros(grains.unknowns)
-        move[place.ravel()] = found.x[:-1]
+        move[place] = found.x[:-1]
         grains.x = grains.x.copy()
         grains.x[grains.fixed :] += move.reshape(-1, 2)
 

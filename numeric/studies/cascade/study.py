@@ -1,0 +1,233 @@
+"""The paper's question: does a single negative force set off a cascade of rearrangements?
+
+In each packing σ is raised, with the same deviates, to where the first contact loses its force, and
+by a millionth more: exactly one contact then pulls, by about 1e-6 of the load. Contacts become
+unilateral, the beads move until none pulls, and what has changed is counted. All of it is measured,
+in float64; nothing here is proved.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import count, islice
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from ... import tables
+from ...arithmetic.errors import ForceDiffusionError
+from ...arithmetic.systems import Array
+from ...figures.library import drawing
+from ...mechanics.problem import Problem
+from ...mechanics.work import Work
+from ...planning.planner import plan
+from ...scene.scene import Scene
+from ...scene.sections import Ask, BulkLoad, Disorder, Effects, Packing, SurfaceLoad
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Protocol = Literal["linear-programs", "event-driven"]
+LOADS = {"surface": SurfaceLoad, "bulk": BulkLoad}
+# σ/r is known to this share of itself; tension of about this size is left.
+JUST = Fraction(1, 10**6)
+# Forces that change by more than these shares of the mean force are counted, and beads that move
+# further than this, in units of r.
+CHANGES, MOVED = (0.01, 0.1), 1e-3
+HEAD = (
+    "One contact pulls by a millionth of the load, and opens; means over packings, ± two "
+    "standard errors.\n"
+    "load      M    W packings      M/M*   first at j/M    forces >1%   forces >10%    beads moved"
+    "  new contacts   events"
+)
+
+
+@dataclass(frozen=True)
+class Cascade:
+    """One packing before and after; shares are between 0 and 1.
+
+    ``relative_std``: σ/r at which the first contact loses its force; ``of_critical``: M/M* there;
+    ``layer``: j/M of that contact. Packings whose beads overlap before any contact pulls are left
+    out, so that ``packing``, which is also the seed, may leave gaps. ``forces_1``, ``forces_10``:
+    contacts, of those before or after, whose force changed by more than 1 % and 10 % of the mean
+    force. ``moved``: beads that moved by more than 1e-3 r, rattlers left out. ``new``: contacts
+    that were none before.
+    """
+
+    load: str
+    height: int
+    width: int
+    packing: int
+    relative_std: float
+    of_critical: float
+    layer: float
+    forces_1: float
+    forces_10: float
+    moved: float
+    new: float
+    events: int
+
+
+@dataclass(frozen=True)
+class CascadeStudy:
+    """What opened contacts changed, packing by packing."""
+
+    cascades: tuple[Cascade, ...]
+    protocol: str
+
+    def rows(self) -> list[tables.Row]:
+        """A row a packing, ready for a data frame."""
+        return [asdict(one) for one in self.cascades]
+
+    @cached_property
+    def arrays(self) -> dict[str, Array]:
+        """The columns, each of shape (packings,)."""
+        return tables.columns_of(self.rows())
+
+    def summary(self) -> list[tables.Row]:
+        """Mean and standard error of each share, by load and height."""
+        return [_summed(group) for group in self._groups()]
+
+    def _groups(self) -> Iterator[list[Cascade]]:
+        for load, height in dict.fromkeys((one.load, one.height) for one in self.cascades):
+            yield [one for one in self.cascades if (one.load, one.height) == (load, height)]
+
+    def data(self) -> dict[str, Any]:
+        """Give what JSON can hold."""
+        return {"protocol": self.protocol, "summary": self.summary(), "packings": self.rows()}
+
+    def plot(self) -> "Figure":
+        """Draw the shares over the height. Needs matplotlib (the extra ``plots``)."""
+        with drawing():
+            from .plot import draw
+
+            return draw(self.summary())
+
+    def __str__(self) -> str:
+        """Give the summary as a table."""
+        return "\n".join([HEAD, *map(_line, self.summary())])
+
+    __repr__ = __str__
+
+
+def cascade(
+    notice: Callable[[str], None] = lambda _: None,
+    *,
+    heights: Sequence[int] = (8, 12, 16),
+    packings: int = 16,
+    protocol: Protocol = "linear-programs",
+) -> CascadeStudy:
+    """Open one contact that pulls as weakly as one pleases, and count what changes.
+
+    For each of ``heights`` M, under a surface and a bulk load, ``packings`` strips of width 2M with
+    uniform disorder and s = 3 r. By default a minute. ``notice`` is told lines as they come. Raises
+    ``ForceDiffusionError`` for heights below 2 or fewer than two packings.
+
+    >>> import force_diffusion as fd
+    >>> found = fd.cascade(heights=[4], packings=2, protocol="event-driven")
+    >>> len(found.rows()), bool(found.arrays["events"].min() > 0)
+    (4, True)
+    """
+    if packings < 2 or not heights or min(heights) < 2:
+        raise ForceDiffusionError("a cascade needs two packings or more, and heights from 2 on")
+    if protocol not in ("linear-programs", "event-driven"):
+        raise ForceDiffusionError(
+            f'there is no protocol "{protocol}"; there are "linear-programs" and "event-driven"'
+        )
+    notice(HEAD)
+    found: list[Cascade] = []
+    for load in LOADS:
+        for height in heights:
+            group = list(islice(_all_opened(load, height, protocol), packings))
+            notice(_line(_summed(group)))
+            found += group
+    return CascadeStudy(tuple(found), protocol)
+
+
+def _problem(load: str, height: int, number: int, std: Fraction, protocol: Protocol) -> Problem:
+    scene = Scene(
+        packing=Packing(height=height, width=2 * height),
+        disorder=Disorder(kind="uniform", relative_std=std, seed=number),
+        load=LOADS[load](),
+        effects=Effects(contacts="unilateral", protocol=protocol),
+        ask=Ask(quantity="contact_forces"),
+    )
+    return plan(scene).problem
+
+
+def _all_opened(load: str, height: int, protocol: Protocol) -> Iterator[Cascade]:
+    """Give packing after packing, but those in which beads overlap before any contact pulls."""
+    for number in count():
+        found = _opened(load, height, number, protocol)
+        if found is not None:
+            yield found
+
+
+def _opened(load: str, height: int, number: int, protocol: Protocol) -> Cascade | None:
+    """Find σ, open the contact, and compare."""
+    from ...unilateral.relaxation import balanced, settle, start
+
+    low, high = Fraction(0), Fraction(1, 2)
+    while high - low > JUST / 10 * high:
+        middle = (low + high) / 2
+        middle = middle.limit_denominator(10**12)
+        problem = _problem(load, height, number, middle, protocol)
+        grains, supports, overlaps = start(problem, 0)
+        if supports is not None and not overlaps and balanced(grains, supports).min() > 0:
+            low = middle
+        else:
+            high = middle
+    std = high * (1 + JUST)
+    problem = _problem(load, height, number, std, protocol)
+    grains, supports, overlaps = start(problem, 0)
+    if supports is None or overlaps:
+        return None
+    before = balanced(grains, supports)
+    settled = settle(problem, 0, Work())
+    if settled is None:
+        return None
+    after = balanced(settled.grains, settled.contacts, settled.backbone)
+    width = 2 * height
+    old = dict(zip(map(tuple, supports.tolist()), before, strict=True))
+    new = dict(zip(map(tuple, settled.contacts.tolist()), after, strict=True))
+    change = np.array([abs(new.get(pair, 0.0) - old.get(pair, 0.0)) for pair in old | new])
+    mean = float(before.mean())
+    moves = np.hypot(*(settled.grains.x - grains.x)[settled.backbone].T)
+    return Cascade(
+        load, height, width, number,
+        relative_std=float(std),
+        of_critical=height * float(std) ** (2 / 3),
+        layer=int(supports[int(before.argmin())][1]) // width / height,
+        forces_1=float((change > CHANGES[0] * mean).mean()),
+        forces_10=float((change > CHANGES[1] * mean).mean()),
+        moved=float((moves > MOVED).mean()),
+        new=sum(pair not in old for pair in new) / len(new),
+        events=settled.events,
+    )  # fmt: skip
+
+
+SHARES = ("of_critical", "layer", "forces_1", "forces_10", "moved", "new", "events")
+
+
+def _summed(group: Sequence[Cascade]) -> tables.Row:
+    first = group[0]
+    row: tables.Row = {
+        "load": first.load, "height": first.height, "width": first.width, "packings": len(group),
+    }  # fmt: skip
+    for name in SHARES:
+        values = np.array([getattr(one, name) for one in group], dtype=float)
+        row[name] = float(values.mean())
+        row[f"{name}_error"] = float(values.std(ddof=1) / np.sqrt(len(values)))
+    return row
+
+
+def _line(row: tables.Row) -> str:
+    def shown(name: str) -> str:
+        return f"{row[name]:5.3f} ± {2 * row[f'{name}_error']:5.3f}"
+
+    shares = "  ".join(shown(name) for name in SHARES[1:-1])
+    return (
+        f"{row['load']:<8}{row['height']:3}{row['width']:5}{row['packings']:9}  "
+        f"{shown('of_critical')}  {shares}  {row['events']:7.0f}"
+    )
