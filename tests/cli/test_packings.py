@@ -1,0 +1,64 @@
+"""The commands about unilateral contacts as a user calls them."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from force_diffusion.__main__ import main
+
+SCENE = """
+[packing]
+height = 6
+width = 12
+[disorder]
+kind = "uniform"
+relative_std = 0.03
+seed = 2
+[effects]
+contacts = "unilateral"
+[ask]
+quantity = "contact_forces"
+"""
+
+
+def test_run_writes_packings_that_are_proved_again(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene, out = tmp_path / "scene.toml", tmp_path / "out"
+    scene.write_text(SCENE)
+    assert main(["run", str(scene), "--out", str(out)]) == 0
+    data = json.loads((out / "result.json").read_text())
+    assert data["networks"][0]["rest"] == "a strict local minimum"
+    capsys.readouterr()
+    assert main(["check-packings", str(out / "packings.json")]) == 0
+    assert capsys.readouterr().out.startswith("packing 0: proved")
+    packings = json.loads((out / "packings.json").read_text())
+    packings["packings"][0]["radii"][30] = "1.2"
+    (out / "packings.json").write_text(json.dumps(packings))
+    assert main(["check-packings", str(out / "packings.json"), "--json"]) == 3
+    (verdict,) = json.loads(capsys.readouterr().out)
+    assert not verdict["proved"]
+
+
+def test_check_packings_of_something_else(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for content in ("", "{}", SCENE):
+        path = tmp_path / "packings.json"
+        path.write_text(content)
+        assert main(["check-packings", str(path)]) == 2
+        assert "packings.json" in capsys.readouterr().err
+    assert main(["check-packings", str(tmp_path / "none.json")]) == 2
+
+
+def test_cascade_writes_tables_and_a_figure(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["cascade", "--height", "4", "--packings", "2", "--protocol", "event-driven"]
+    assert main([*words, "--out", str(tmp_path / "out"), "--json"]) == 0
+    data = json.loads(capsys.readouterr().out)
+    assert len(data["packings"]) == 4
+    files = {path.name for path in (tmp_path / "out").iterdir()}
+    assert files >= {"cascade.json", "cascade.csv", "cascade.png", "cascade.svg", "cascade.pdf"}
+    assert main(["cascade", "--height", "0"]) == 2
