@@ -135,3 +135,42 @@ def response(
                         change = solved.force((top + across) % (2 * width), layer, branch)[2]
                         found[contact] = found.get(contact, Fraction(0)) + change
     return found
+
+
+@cache
+def moments(height: int, n: tuple[Fraction, Fraction]) -> tuple[tuple[Fraction, Fraction], ...]:
+    """Means at order σ² of f ℓ N_x² and f ℓ N_y² over their ordered values, by layer, r = σ = 1.
+
+    ℓ is the distance of the two centres, N the direction of a contact; a surface load.
+    """
+    from force_diffusion.numeric.mechanics import taylor
+
+    width = 2 * height + 3
+    loads = {
+        (across, height): (Fraction(0), -2 * n[1]) for across in range(height % 2, 2 * width, 2)
+    }
+    found = [[Fraction(0), Fraction(0)] for _ in range(height)]
+    for source in range(height + 1):
+        one = {(source % 2, source): Fraction(1)}
+        solved = taylor.solve(width, height, n=n, rho=one, loads=loads, order=2)
+        for layer in range(height):
+            for across in range(layer % 2, 2 * width, 2):
+                ends = ((across, layer), ((across + 1) % (2 * width), layer + 1))
+                length = [
+                    Fraction(2),
+                    sum((one.get(end, Fraction(0)) for end in ends), Fraction(0)),
+                ]
+                force = solved.force(across, layer, "+")
+                for axis, change in enumerate(solved.direction(across, layer, "+")):
+                    unit = [n[axis] + change[0], *change[1:]]
+                    product = _times(_times(force, [*length, Fraction(0)]), _times(unit, unit))
+                    found[layer][axis] += product[2] / product[0]
+    return tuple((x, y) for x, y in found)
+
+
+def _times(one: list[Fraction], other: list[Fraction]) -> list[Fraction]:
+    """The product of two series, to order ε²."""
+    return [
+        sum((one[k] * other[order - k] for k in range(order + 1)), Fraction(0))
+        for order in range(3)
+    ]

@@ -18,6 +18,7 @@ from . import (
     neighbours,
     notation,
     response,
+    stress,
 )
 from .library import drawing
 from .packings import Notice, Row
@@ -162,6 +163,12 @@ FIGURES = {
         "Mean response to a point load at second order",
         lambda o: mean_response.respond(o.realisations or 20000, o.seed, o.notice),
         mean_response.draw,
+    ),
+    "B10": _Figure(
+        "figureB10",
+        "Mean stress ratio to second order",
+        lambda o: stress.ratios(o.notice),
+        stress.draw,
     ),
 }
 

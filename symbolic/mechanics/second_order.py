@@ -93,3 +93,32 @@ def vertical_balance() -> sympy.Expr:
 
 FORCE = (mean_square / (1 - phi**2) + with_radii / (2 * r) - with_force) / (1 + phi)
 """⟨α₂⟩ from the vertical balance, in means of products of first-order quantities."""
+
+
+with_both = Symbol("C_force_radii", r"\langle\alpha_{1}\rho\rangle", "⟨α₁ρ⟩", real=True)
+
+
+@cache
+def contact_moment() -> sympy.ImmutableMatrix:
+    """Order ε² of f ℓ N_x² and f ℓ N_y² of a contact of length ℓ, over their ordered values."""
+    unit = N_PLUS + epsilon * tilt * B_MINUS + epsilon**2 * (u_plus * B_PLUS + u_minus * B_MINUS)
+    force = 1 + epsilon * alpha_1 + epsilon**2 * alpha_2
+    length = 1 + epsilon * radii / (2 * r)
+    return sympy.ImmutableMatrix(
+        [_order_2(force * length * unit[axis] ** 2) / N_PLUS[axis] ** 2 for axis in range(2)]
+    )
+
+
+def mean_of(expression: sympy.Expr) -> sympy.Expr:
+    """A mean at order ε², with ⟨α₂⟩ and ⟨u₂⟩ put in, in means of products of first order."""
+    turned = expression.xreplace({u_plus: TURN[0], u_minus: TURN[1]})
+    means = {
+        tilt * alpha_1: with_force,
+        tilt * radii: with_radii,
+        alpha_1 * radii: with_both,
+        tilt**2: mean_square,
+        alpha_2: FORCE,
+        d_plus: SETTLED,
+        d_minus: SETTLED,
+    }
+    return sympy.expand(turned).subs(means)

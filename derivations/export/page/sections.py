@@ -16,9 +16,12 @@ Notice = Callable[[str], None]
 REALISATIONS = {"3": 200, "4": 2000, "pf": 2000, "B2": 200, "B5": 2000, "B7": 200, "B9": 2000}
 """Packings in each ensemble of a figure that draws ensembles."""
 
-_PACKINGS = {"1": "One packing.", "2": "No packing: closed forms.", "chains": "One packing."} | {
-    name: f"{n} packings in each ensemble." for name, n in REALISATIONS.items()
-}
+_PACKINGS = {
+    "1": "One packing.",
+    "2": "No packing: closed forms.",
+    "chains": "One packing.",
+    "B10": "Exact Taylor coefficients.",
+} | {name: f"{n} packings in each ensemble." for name, n in REALISATIONS.items()}
 
 
 def figures_part(notice: Notice) -> Part:

@@ -22,6 +22,7 @@ from force_diffusion.numeric.figures import (
     notation,
     packings,
     response,
+    stress,
 )
 from force_diffusion.numeric.figures.catalogue import csv_file
 from force_diffusion.numeric.figures.packings import (
@@ -316,3 +317,13 @@ def test_figure_b9_finds_theory_within_the_bands_and_a_wrong_one_outside() -> No
     assert first.deviation(mean_response.theory(second.spacing)) > 1
     (rows,) = found.tables().values()
     assert len(rows) == 2 * len(found.offsets)
+
+
+def test_figure_b10_agrees_as_fractions_and_would_not_with_another_form() -> None:
+    found = stress.ratios(silent)
+    assert found.agree()
+    other = stress.Ratios((found.measured[1], found.measured[0]))
+    assert not other.agree()
+    assert "does not equal" in other.lines()[0]
+    (rows,) = found.tables().values()
+    assert len(rows) == 2 * stress.HEIGHT
