@@ -193,6 +193,7 @@ DERIVATION = Derivation(
     ),
     premises=(eq04.DERIVATION, eq05.DERIVATION),
     printed=(PRINTED,),
+    loads=("single",),
     steps=steps,
     decide=decide,
     search=search("single", loaded_bead),

@@ -100,6 +100,7 @@ DERIVATION = Derivation(
     assumptions=("first order in δn^±", "the load is vertical"),
     premises=(eq06.DERIVATION,),
     printed=PRINTED,
+    loads=("single",),
     steps=steps,
     decide=decide,
     search=search("single", loaded_bead),

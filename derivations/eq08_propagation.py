@@ -101,6 +101,7 @@ DERIVATION = Derivation(
     assumptions=("first order in δn^±", "bead (r, s) carries no load of its own"),
     premises=(eq06.DERIVATION,),
     printed=PRINTED,
+    loads=("any",),
     steps=steps,
     decide=decide,
     search=search("single", left_edge),

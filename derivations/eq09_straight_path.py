@@ -122,6 +122,7 @@ DERIVATION = Derivation(
     assumptions=("first order in δn^±", "k − i = l − j ≥ 1", "the beads passed carry no load"),
     premises=(eq08.DERIVATION,),
     printed=(PRINTED,),
+    loads=("single",),
     steps=steps,
     decide=decide,
     search=search("single", straight_below),

@@ -182,6 +182,7 @@ DERIVATION = Derivation(
     assumptions=("first order in δn^±", "n is whole and 1 ≤ n < l − j; zero otherwise"),
     premises=(eq08.DERIVATION, eq09.DERIVATION),
     printed=(PRINTED,),
+    loads=("single",),
     steps=steps,
     decide=decide,
     search=search("single", inside_cone),

@@ -240,6 +240,7 @@ DERIVATION = Derivation(
     ),
     premises=(eq04.DERIVATION, eq05.DERIVATION, eq07.DERIVATION, eq09.DERIVATION, eq10.DERIVATION),
     printed=(PRINTED,),
+    loads=("surface",),
     steps=steps,
     decide=decide,
     search=search("surface", each_contact),

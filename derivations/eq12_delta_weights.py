@@ -311,6 +311,7 @@ DERIVATION = Derivation(
     assumptions=("first order in δr", "M → ∞ at fixed z = j/M, 0 < z < 1"),
     premises=(eq11.DERIVATION,),
     printed=(PRINTED,),
+    loads=("surface",),
     relation="≈",
     steps=steps,
     decide=decide,

@@ -191,6 +191,7 @@ DERIVATION = Derivation(
     ),
     premises=(eq11.DERIVATION, eq12.DERIVATION),
     printed=(PRINTED,),
+    loads=("surface",),
     relation="∼",
     exact=at_finite_size,
     steps=steps,

@@ -322,6 +322,7 @@ DERIVATION = Derivation(
         eq13.DERIVATION,
     ),
     printed=(PRINTED,),
+    loads=("bulk",),
     relation="∼",
     exact=at_finite_size,
     steps=steps,

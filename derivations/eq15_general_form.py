@@ -551,6 +551,7 @@ DERIVATION = Derivation(
     ),
     premises=(eq03.DERIVATION, eq13.DERIVATION, eq14.DERIVATION),
     printed=(PRINTED, PRINTED_HEIGHT),
+    loads=("surface", "bulk"),
     relation="∝",
     exact=at_finite_size,
     steps=steps,

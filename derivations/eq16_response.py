@@ -547,6 +547,7 @@ DERIVATION = Derivation(
         eq11.DERIVATION,
     ),
     printed=(PRINTED,),
+    loads=("single",),
     relation="∼",
     exact=at_finite_size,
     steps=steps,

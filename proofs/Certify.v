@@ -4,7 +4,8 @@
     compares them. Nothing here is trusted: a tactic that goes wrong proves nothing. *)
 
 From Coq Require Export ZArith Reals Lia Lra.
-From ForceDiffusion Require Export Roots Model Sums FirstOrder Lattice Geometry Forces Random Weights Variances Cone.
+From ForceDiffusion Require Export Roots Model Sums FirstOrder Lattice Geometry Forces Existence Random Weights Variances
+  Cone.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
@@ -13,7 +14,15 @@ Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
 Ltac positive_things G :=
   pose proof (r_pos G); pose proof (n_x_pos G); pose proof (n_y_pos G);
   pose proof (divisor_positive G).
-Ltac nonzero := cbv beta; repeat split; lra.
+Ltac nonzero :=
+  cbv beta; repeat split;
+  first [lra|repeat first [apply Rmult_integral_contrapositive_currified|apply pow_nonzero]; lra].
+
+(** Equal by arithmetic; if need be with φ = n_y² − n_x² and n_x² + n_y² = 1. *)
+Ltac arithmetic G :=
+  first
+  [field; nonzero
+  |field_simplify_eq; [rewrite ?phi_is; ring [(n_y_squared G)]|nonzero..]].
 
 (** The values and slopes of what a packing consists of. *)
 Ltac of_packing P :=
@@ -44,42 +53,41 @@ Ltac single_sums :=
   repeat (rewrite Sum_plus || rewrite Sum_minus || rewrite Sum_scale || rewrite Sum_over);
   no_zero_sums.
 
-(** Equal by arithmetic in the components, n_x² + n_y² = 1 included. *)
-Ltac by_components G :=
-  rewrite ?phi_is; field_simplify_eq; [ring [(n_y_squared G)]|nonzero].
+Lemma by_parts u v : x_of u = x_of v -> y_of u = y_of v -> u = v.
+Proof. destruct u, v. cbn. intros -> ->. reflexivity. Qed.
 
 Ltac prove_1 :=
-  intros G M rho X P i j H;
+  intros G rho M X i j P H;
   unfold position; rewrite (ordered_position G M rho X P j) by site;
-  unfold add, scale; components; f_equal; ring.
+  apply by_parts; components; arithmetic G.
 
 Ltac prove_2 :=
-  intros G M rho X P i j H Hj; positive_things G;
+  intros G rho M X i j P H Hj; positive_things G;
   rewrite ?(along_plus_step rho i j), ?(along_minus_step rho i j) by lia;
   split; both_sides ltac:(fun _ => of_packing P);
   try nonzero;
   rewrite ?(along_plus_step rho i j), ?(along_minus_step rho i j) by lia;
-  field; nonzero.
+  arithmetic G.
 
 Ltac prove_3 :=
-  intros G M rho X P i j H Hj; positive_things G;
+  intros G rho M X i j P H Hj; positive_things G;
   split; both_sides ltac:(fun _ => of_packing P);
-  try nonzero; single_sums; try solve [field; nonzero]; unfold along_plus, along_minus;
-  replace (j =? 0)%Z with false by lia; same_sums; same_values; field; nonzero.
+  try nonzero; single_sums; try solve [arithmetic G]; unfold along_plus, along_minus;
+  replace (j =? 0)%Z with false by lia; same_sums; same_values; arithmetic G.
 
 Ltac prove_4 :=
-  intros G M rho X P i j H Hj; positive_things G;
+  intros G rho M X i j P H Hj; positive_things G;
   split; both_sides ltac:(fun _ => of_packing P);
-  try nonzero; single_sums; try solve [field; nonzero];
-  (replace (tilt_plus G rho i j) with (2 * r G * tilt_plus G rho i j / (2 * r G)) by (field; nonzero));
-  rewrite tilt_plus_is by lia; same_sums; same_values; by_components G.
+  try nonzero; single_sums; try solve [arithmetic G];
+  (replace (tilt_plus G rho i j) with (2 * r G * tilt_plus G rho i j / (2 * r G)) by (arithmetic G));
+  rewrite tilt_plus_is by lia; same_sums; same_values; arithmetic G.
 
 Ltac prove_5 :=
-  intros G M rho X P i j H Hj; positive_things G;
+  intros G rho M X i j P H Hj; positive_things G;
   split; both_sides ltac:(fun _ => of_packing P);
-  try nonzero; single_sums; try solve [field; nonzero];
-  (replace (tilt_minus G rho i j) with (2 * r G * tilt_minus G rho i j / (2 * r G)) by (field; nonzero));
-  rewrite tilt_minus_is by lia; same_sums; same_values; by_components G.
+  try nonzero; single_sums; try solve [arithmetic G];
+  (replace (tilt_minus G rho i j) with (2 * r G * tilt_minus G rho i j / (2 * r G)) by (arithmetic G));
+  rewrite tilt_minus_is by lia; same_sums; same_values; arithmetic G.
 
 (** ** Forces *)
 
@@ -102,11 +110,8 @@ Ltac where_it_is :=
 
 Ltac of_single P L C i j := apply (single_force _ _ _ _ P _ _ _ _ L ltac:(site) C j); site.
 
-Lemma by_parts u v : x_of u = x_of v -> y_of u = y_of v -> u = v.
-Proof. destruct u, v. cbn. intros -> ->. reflexivity. Qed.
-
 Ltac prove_6 :=
-  intros G M rho X P k l F f_load; intros;
+  intros G rho M X k l F f_load P; intros;
   match goal with C : carries _ _ ?load _ |- _ =>
     assert (L : bead M k l) by site;
     assert (A : forall i j, (l < j <= M)%Z -> load i j = zero)
@@ -119,10 +124,10 @@ Ltac prove_6 :=
   lra.
 
 Ltac prove_7 :=
-  intros G M rho X P k l F f_load H Hf C; positive_things G;
+  intros G rho M X k l F f_load P H Hf C; positive_things G;
   assert (L : bead M k l) by site;
   both_sides ltac:(fun _ => of_forces P ltac:(of_single P L C));
-  where_it_is; try nonzero; same_values; field; nonzero.
+  where_it_is; try nonzero; same_values; arithmetic G.
 
 Ltac of_passage P F i j :=
   lazymatch goal with
@@ -135,38 +140,38 @@ Ltac of_passage P F i j :=
   end.
 
 Ltac prove_8 :=
-  intros G M rho X P i j load F; intros; positive_things G; unfold dot; components;
+  intros G rho M X i j F load P; intros; positive_things G; unfold dot; components;
   eapply first_order_by;
   [of_passage P F i j|expand_with ltac:(fun _ => of_packing P)|..]; cbv beta;
-  try nonzero; field; nonzero.
+  try nonzero; arithmetic G.
 
 Ltac prove_9 :=
-  intros G M rho X P k l i j F f_load; intros; positive_things G;
+  intros G rho M X k l i j F f_load P; intros; positive_things G;
   match goal with C : carries _ _ _ _ |- _ =>
     assert (L : bead M k l) by site;
     assert (0 < f_load / (2 * n_y G)) by (apply Rdiv_lt_0_compat; lra);
     both_sides ltac:(fun _ => of_forces P ltac:(of_single P L C))
   end;
-  where_it_is; try nonzero; same_values; field; nonzero.
+  where_it_is; try nonzero; same_values; arithmetic G.
 
 Ltac prove_10 :=
-  intros G M rho X P k l i j n F f_load; intros; positive_things G;
+  intros G rho M X k l i j n F f_load P; intros; positive_things G;
   match goal with C : carries _ _ _ _ |- _ =>
     assert (L : bead M k l) by site;
     assert (0 < f_load / (2 * n_y G)) by (apply Rdiv_lt_0_compat; lra);
     both_sides ltac:(fun _ => of_forces P ltac:(of_single P L C))
   end;
-  where_it_is; try nonzero; same_values; field; nonzero.
+  where_it_is; try nonzero; same_values; arithmetic G.
 
 Ltac of_surface P C i j := apply (surface_force _ _ _ _ P _ _ C j); site.
 
 Ltac prove_11 :=
-  intros G M rho X P i j F f_load; intros; positive_things G;
+  intros G rho M X i j F f_load P; intros; positive_things G;
   match goal with C : carries _ _ _ _ |- _ =>
     both_sides ltac:(fun _ => of_forces P ltac:(of_surface P C))
   end;
   try nonzero; unfold surface_plus, surface_minus; single_sums; same_sums; same_values;
-  field; nonzero.
+  arithmetic G.
 
 (** ** Variances *)
 
@@ -177,12 +182,12 @@ Proof. intros H. apply (IZR_lt 0). site. Qed.
 Lemma bound_is v p b q c : Rabs (v - q) <= c -> p = q -> c = b -> Rabs (v - p) <= b.
 Proof. intros H -> <-. exact H. Qed.
 
-Ltac by_arithmetic G := unfold unit_of; rewrite ?minus_IZR; field; nonzero.
+Ltac by_arithmetic G := unfold unit_of; rewrite ?minus_IZR; arithmetic G.
 
 Ltac prove_13 :=
-  intros G M W sigma L Xs Fs P i j f_load; intros; positive_things G;
+  intros G sigma S M W L Xs Fs i j f_load P; intros; positive_things G;
   match goal with
-  | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, S : 0 < sigma, Hf : 0 < f_load,
+  | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, Hf : 0 < f_load,
     C : forall rho, carries M (Xs rho) (surface M f_load) (Fs rho) |- _ =>
       pose proof (height_positive M i j H);
       destruct (surface_variance G M W sigma S L Xs Fs P i j H HW f_load Hf C) as (A & B & D);
@@ -191,13 +196,13 @@ Ltac prove_13 :=
   split; [assumption|eapply bound_is; [eassumption|by_arithmetic G|by_arithmetic G]].
 
 Ltac prove_14 :=
-  intros G M W sigma L Xs Fs P i j m_g; intros; positive_things G;
+  intros G sigma S M W L Xs Fs i j f_load P; intros; positive_things G;
   match goal with
-  | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, S : 0 < sigma, Hf : 0 < m_g,
-    C : forall rho, carries M (Xs rho) (bulk m_g) (Fs rho) |- _ =>
+  | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, Hf : 0 < f_load,
+    C : forall rho, carries M (Xs rho) (bulk f_load) (Fs rho) |- _ =>
       pose proof (height_positive M i j H);
-      destruct (bulk_variance G M W sigma S L Xs Fs P i j H HW m_g Hf C) as (A & B & D);
-      exists (bulk_linear G M i j m_g)
+      destruct (bulk_variance G M W sigma S L Xs Fs P i j H HW f_load Hf C) as (A & B & D);
+      exists (bulk_linear G M i j f_load)
   end;
   split; [assumption|eapply bound_is; [eassumption|by_arithmetic G|by_arithmetic G]].
 
@@ -209,9 +214,9 @@ Proof.
 Qed.
 
 Ltac prove_12 :=
-  intros G M W sigma L Xs Fs P i j f_load; intros; positive_things G;
+  intros G sigma S M W L Xs Fs i j f_load P; intros; positive_things G;
   match goal with
-  | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, S : 0 < sigma, Hf : 0 < f_load,
+  | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, Hf : 0 < f_load,
     C : forall rho, carries M (Xs rho) (surface M f_load) (Fs rho) |- _ =>
       pose proof (height_positive M i j H);
       exists (fun rho => surface_plus G rho M i j), (by_braces G M i j);
@@ -222,7 +227,7 @@ Ltac prove_12 :=
       [exists 0, (surface_plus G rho M i j)|exists 0, (by_braces G M i j rho)]; (split; [|ring]);
       (eapply expands_to;
         [expand_with ltac:(fun _ => of_forces Pr ltac:(of_surface Pr Cr))|..]);
-      cbv beta; try nonzero; no_zero_sums; try solve [field; nonzero]
+      cbv beta; try nonzero; no_zero_sums; try solve [arithmetic G]
   end;
   unfold by_braces;
   match goal with
@@ -235,7 +240,7 @@ Ltac prove_12 :=
                                  same_values; ring])
           end
       end
-  end; field; nonzero.
+  end; arithmetic G.
 
 Lemma root_constant k : 0 < k -> constant (fun x => sqrt k / (1 - x * x)).
 Proof. intros H x Hx. apply constant_positive; assumption. Qed.
@@ -258,17 +263,17 @@ Proof.
 Qed.
 
 Ltac prove_average k average :=
-  intros G M W sigma L Xs Fs P across f_load; intros; positive_things G;
+  intros G sigma S M W L Xs Fs across f_load P; intros; positive_things G;
   match goal with
   | A : forall j, (0 <= j < M)%Z -> contact M (across j) j /\ (Z.abs (across j) + M + 2 <= W)%Z,
-    HM : (1 <= M)%Z, S : 0 < sigma, Hf : 0 < f_load,
+    HM : (1 <= M)%Z, Hf : 0 < f_load,
     C : forall rho, carries M (Xs rho) _ (Fs rho) |- _ =>
       let Lin := fresh in let B := fresh in
       destruct (average G M W sigma S L Xs Fs P across A HM f_load Hf C) as [Lin B];
       eexists; split; [exact Lin|];
       unfold root_mean_square; cbv beta;
       apply (averages_are G M sigma k); [assumption|assumption|lra|lra
-        |eapply bound_is; [exact B|field|reflexivity]|field; nonzero]
+        |eapply bound_is; [exact B|field|reflexivity]|arithmetic G]
   end.
 
 Ltac prove_15_1 :=
@@ -283,16 +288,16 @@ Proof.
   intros H x Hx. apply Rinv_0_lt_compat, pow_lt, root_is; [lia|]. apply constant_positive; assumption.
 Qed.
 
+Lemma iff_as (a b m n v : R) : (a = v <-> m = n) -> b = a -> forall k, k = n -> (b = v <-> m = k).
+Proof. intros H -> k ->. exact H. Qed.
+
 Ltac prove_critical k :=
   let G := fresh "G" in let sigma := fresh "sigma" in let m := fresh "m" in
-  intros G sigma m S Hm E; positive_things G;
+  intros G sigma m S Hm; positive_things G;
   let c := constr:(sqrt k / (1 - phi G * phi G)) in
   assert (Hc : 0 < c) by (apply Rdiv_lt_0_compat; [apply sqrt_lt_R0|]; lra);
   assert (Hs : 0 < sigma / r G) by (apply Rdiv_lt_0_compat; lra);
-  cbv beta in *;
-  (etransitivity;
-   [apply (critical_height c (sigma / r G) m Hc Hs Hm); (etransitivity; [|exact E]); field; nonzero|]);
-  ring.
+  cbv beta; eapply iff_as; [exact (critical_height c (sigma / r G) m Hc Hs Hm)|arithmetic G|ring].
 
 Ltac prove_15_2 :=
   split;
@@ -304,10 +309,10 @@ Ltac prove_15_2 :=
      [prove_average (1 / 5) bulk_average|prove_critical (1 / 5)]]]].
 
 Ltac prove_16 :=
-  intros G M W sigma L Xs Fs P k l i j p q f_load; intros; positive_things G;
+  intros G sigma S M W L Xs Fs k l i j p q f_load P; intros; positive_things G;
   subst k l;
   match goal with
-  | B : bead M i j, HW : (Z.abs i + M + 2 <= W)%Z, S : 0 < sigma, Hf : 0 < f_load,
+  | B : bead M i j, HW : (Z.abs i + M + 2 <= W)%Z, Hf : 0 < f_load,
     C : forall rho, carries M (Xs rho) (single _ _ f_load) (Fs rho) |- _ =>
       let A := fresh in let D := fresh in let f := fresh in
       destruct (response_variance G M W i j p q B ltac:(site) ltac:(site) ltac:(site) HW sigma L

@@ -6,13 +6,15 @@ From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Forces
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
 
-Theorem lattice_exists : exists G : lattice, r G = 1 /\ n_x G = 3 / 5 /\ n_y G = 4 / 5.
+Theorem lattice_exists x y : 1 / 2 < x -> 1 / 2 < y -> x ^ 2 + y ^ 2 = 1 ->
+  exists G : lattice, r G = 1 /\ n_x G = x /\ n_y G = y.
 Proof.
-  assert (H1 : 0 < 1) by lra. assert (H2 : 1 / 2 < 3 / 5) by lra.
-  assert (H3 : 1 / 2 < 4 / 5) by lra. assert (H4 : (3 / 5) ^ 2 + (4 / 5) ^ 2 = 1) by lra.
-  exists {| r := 1; n_x := 3 / 5; n_y := 4 / 5; r_positive := H1; n_x_above_half := H2;
-            n_y_above_half := H3; unit_vectors := H4 |}. auto.
+  intros Hx Hy H. exists {| r := 1; n_x := x; n_y := y; r_positive := Rlt_0_1;
+    n_x_above_half := Hx; n_y_above_half := Hy; unit_vectors := H |}. auto.
 Qed.
+
+Corollary some_lattice : exists _ : lattice, True.
+Proof. destruct (lattice_exists (3 / 5) (4 / 5)) as [G _]; [lra..|]. exists G. exact I. Qed.
 
 (** ** Packings *)
 
@@ -293,3 +295,20 @@ Proof.
     assert (0 <= IZR (a * a) * (n_x G * n_x G)) by (apply Rmult_le_pos; lra).
     replace ((2 * r G) ^ 2) with (4 * (r G * r G) * 1) by ring. apply Rmult_lt_compat_l; lra.
 Qed.
+
+(** ** Hypotheses of the generated statements can be fulfilled *)
+
+Ltac something :=
+  repeat match goal with |- _ /\ _ => split end;
+  try lra; try reflexivity; try solve [intros; site];
+  lazymatch goal with
+  | |- packing ?G ?M ?rho _ => exact (laid_is_packing G rho M)
+  | |- carries ?M (laid_packing ?G ?rho) ?load _ =>
+      exact (passed_down_carries G M rho _ (laid_is_packing G rho M) load)
+  | |- forall rho, packing ?G ?M rho _ => exact (fun rho => laid_is_packing G rho M)
+  | |- forall rho, carries ?M (laid_packing ?G rho) ?load _ =>
+      exact (fun rho => passed_down_carries G M rho _ (laid_is_packing G rho M) load)
+  | |- near (fun e => f_minus (passed_down ?M (laid_packing ?G ?rho) (single ?k ?l ?f)) ?i ?j e = 0 /\ _) =>
+      refine (proj2 (enters_alone G M rho _ (laid_is_packing G rho M) _ k l f ltac:(site)
+        (passed_down_carries G M rho _ (laid_is_packing G rho M) _) 1 ltac:(lra) ltac:(lia)))
+  end.

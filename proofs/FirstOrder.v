@@ -87,14 +87,6 @@ Proof.
   apply (derivable_pt_lim_div f g 0 d c Hf Hg Hw).
 Qed.
 
-Lemma expands_inv f v d : v <> 0 -> expands f v d -> expands (fun e => / f e) (/ v) (- d / (v * v)).
-Proof.
-  intros Hv H. replace (/ v) with (1 / v) by (field; exact Hv).
-  replace (- d / (v * v)) with ((0 * v - d * 1) / (v * v)) by (field; exact Hv).
-  apply (expands_near (fun e => 1 / f e)); [apply expands_div; auto using expands_const|].
-  apply near_always. intros e. unfold Rdiv. ring.
-Qed.
-
 Lemma expands_sqrt f v d : 0 < v -> expands f v d -> expands (fun e => sqrt (f e)) (sqrt v) (d / (2 * sqrt v)).
 Proof.
   intros Hv [<- Hf]. split; [reflexivity|].
@@ -160,10 +152,7 @@ Lemma first_order_by f g v d w c :
   expands f v d -> expands g w c -> v = w -> d = c -> first_order f g.
 Proof. intros Hf Hg <- <-. exists v, d. split; assumption. Qed.
 
-(** Finds value and slope of a function that is built from known ones; the hints of [expansion]
-    name those of displacements, directions and forces. *)
-Create HintDb expansion.
-
+(** Finds value and slope of a function that is built from known ones. *)
 Ltac expand_with known :=
   lazymatch goal with
   | |- expands (fun _ => ?c) _ _ => apply expands_const

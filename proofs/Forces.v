@@ -131,7 +131,7 @@ Section Forces.
       _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ Ux Uy Vx Vy Sx Sy) as [A B].
     - intros E. assert (0 < n_x * n_y) by (apply Rmult_lt_0_compat; assumption). lra.
     - eapply near_then; [exact (balance _ _ _ _ C i j H Hj)|]. intros e E.
-      unfold balanced in E. rewrite Hl in E. 
+      unfold balanced in E. rewrite Hl in E.
       pose proof (f_equal x_of E) as E1. pose proof (f_equal y_of E) as E2.
       components in E1. components in E2. components. split; lra.
     - assert (Hxy : 0 < n_x * n_y) by (apply Rmult_lt_0_compat; assumption).

@@ -33,16 +33,14 @@ Ltac prove_packing :=
     try (intros F C);
     repeat match goal with |- _ /\ _ => split end;
     lazymatch goal with
-    | C : carries _ _ (surface _ ?f) _ |- expands (f_plus ?F ?i ?j) _ _ =>
-        eapply expands_to; [apply (surface_force _ _ _ _ P _ _ C j); site|fraction|fraction]
-    | C : carries _ _ (surface _ ?f) _ |- expands (f_minus ?F ?i ?j) _ _ =>
-        eapply expands_to; [apply (surface_force _ _ _ _ P _ _ C j); site|fraction|fraction]
-    | C : carries _ _ (single ?k ?l ?f) _ |- expands (f_plus ?F ?i ?j) _ _ =>
-        eapply expands_to; [apply (single_force _ M _ _ P _ k l f ltac:(site) ltac:(site) C j); site
-          |fraction|fraction]
-    | C : carries _ _ (single ?k ?l ?f) _ |- expands (f_minus ?F ?i ?j) _ _ =>
-        eapply expands_to; [apply (single_force _ M _ _ P _ k l f ltac:(site) ltac:(site) C j); site
-          |fraction|fraction]
+    | C : carries _ _ ?load _ |- expands (_ ?F ?i ?j) _ _ =>
+        eapply expands_to;
+        [lazymatch load with
+         | surface _ _ => apply (surface_force _ _ _ _ P _ _ C j)
+         | bulk _ => apply (bulk_force _ _ _ _ P _ _ C j)
+         | single ?k ?l ?f => apply (single_force _ M _ _ P _ k l f ltac:(site) ltac:(site) C j)
+         end; site
+        |fraction|fraction]
     | |- expands _ _ _ =>
         eapply expands_to; [expand_with ltac:(fun _ => of_packing P)|fraction|fraction]
     end

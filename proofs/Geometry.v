@@ -196,12 +196,10 @@ Section Packing.
       rewrite minus_IZR, plus_IZR in SL. rewrite !plus_IZR in SR.
       assert (KP : n_x * dx + n_y * dy = along_plus rho i (j + 1)).
       { apply (Rmult_eq_reg_l (2 * r)); [|lra]. rewrite CP.
-        
         transitivity (2 * r * along_plus rho (i - 1) j +
           2 * r * (rho i (j + 1)%Z + rho (i - 1)%Z j)); [rewrite <- SL; field; lra|ring]. }
       assert (KM : - n_x * dx + n_y * dy = along_minus rho i (j + 1)).
       { apply (Rmult_eq_reg_l (2 * r)); [|lra]. rewrite CM.
-        
         transitivity (2 * r * along_minus rho (i + 1) j +
           2 * r * (rho i (j + 1)%Z + rho (i + 1)%Z j)); [rewrite <- SR; field; lra|ring]. }
       rewrite <- KP, <- KM.

@@ -1,8 +1,8 @@
 (** What the equations speak of: sums, first order, packings, forces, loads, laws of the radii.
 
-    The statements that are generated from the printed equations use the words defined here and
-    nothing else; whoever wants to know what "accepted" means has to read this file alone.
-    Nothing is proved in it. *)
+    The statements that are generated from the printed equations use the words defined here, and
+    [root] of Roots.v in Eq. 15, and nothing else; whoever wants to know what "accepted" means has
+    to read this file alone. Nothing is proved in it. *)
 
 From Coq Require Import ZArith Reals.
 

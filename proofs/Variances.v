@@ -343,26 +343,27 @@ Proof.
   - assert (- x * - x <= 1 / 2 * (1 / 2)) by (apply Rmult_le_compat; lra). lra.
 Qed.
 
-(** Where c m^(3/2) s is 1: a height in proportion to s^(−2/3). *)
-Theorem critical_height c s m : 0 < c -> 0 < s -> 0 < m -> (c * (root 2 m ^ 3 * s)) ^ 2 = 1 ->
-  m = / root 3 c ^ 2 * / root 3 s ^ 2.
+Lemma positive_power x n : 0 < x -> (n <> 0)%nat -> x ^ n = 1 -> x = 1.
 Proof.
-  intros Hc Hs Hm H.
+  intros Hx Hn H. destruct (Rtotal_order x 1) as [L|[E|L]]; [|exact E|].
+  - assert (x ^ n < 1) by (apply pow_lt_1_compat; [lra|lia]). lra.
+  - assert (1 < x ^ n) by (apply Rlt_pow_R1; [lra|lia]). lra.
+Qed.
+
+(** c m^(3/2) s is 1 at one height m, in proportion to s^(−2/3). *)
+Theorem critical_height c s m : 0 < c -> 0 < s -> 0 < m ->
+  (c * (root 2 m ^ 3 * s)) ^ 2 = 1 <-> m = / root 3 c ^ 2 * / root 3 s ^ 2.
+Proof.
+  intros Hc Hs Hm.
   destruct (root_is 2 m ltac:(lia) Hm) as [Pa Ea]. destruct (root_is 3 c ltac:(lia) Hc) as [Pu Eu].
   destruct (root_is 3 s ltac:(lia) Hs) as [Pv Ev].
   set (a := root 2 m) in *. set (u := root 3 c) in *. set (v := root 3 s) in *.
   assert (Px : 0 < u * a * v) by (repeat apply Rmult_lt_0_compat; assumption).
-  assert (P3 : 0 < (u * a * v) ^ 3) by (apply pow_lt, Px).
-  assert (E3 : (u * a * v) ^ 3 = 1).
-  { assert (Z0 : ((u * a * v) ^ 3 - 1) * ((u * a * v) ^ 3 + 1) = 0).
-    { rewrite <- (Rminus_diag_eq _ _ H), <- Eu, <- Ev. ring. }
-    apply Rmult_integral in Z0. destruct Z0; lra. }
-  assert (E1 : u * a * v = 1).
-  { set (x := u * a * v) in *. assert (Z0 : (x - 1) * (x * x + x + 1) = 0)
-      by (rewrite <- (Rminus_diag_eq _ _ E3); ring).
-    apply Rmult_integral in Z0. assert (0 < x * x) by (apply Rmult_lt_0_compat; assumption).
-    destruct Z0; lra. }
-  rewrite <- Ea. replace a with (/ u * / v); [field; lra|].
-  apply (Rmult_eq_reg_l (u * v)); [|apply Rgt_not_eq, Rmult_lt_0_compat; assumption].
-  transitivity (u * a * v); [rewrite E1; field; lra|ring].
+  replace ((c * (a ^ 3 * s)) ^ 2) with ((u * a * v) ^ 6) by (rewrite <- Eu, <- Ev; ring).
+  rewrite <- Ea. split; intros H.
+  - apply positive_power in H; [|exact Px|lia].
+    replace a with (u * a * v * (/ u * / v)) by (field; lra). rewrite H. field. lra.
+  - assert (E : (u * a * v) ^ 2 = 1).
+    { replace ((u * a * v) ^ 2) with (a ^ 2 * (u ^ 2 * v ^ 2)) by ring. rewrite H. field. lra. }
+    apply positive_power in E; [|exact Px|lia]. rewrite E. ring.
 Qed.

@@ -16,6 +16,7 @@ from force_diffusion.derivations.api.evaluation import (
 )
 from force_diffusion.derivations.api.exact import ExactForm
 from force_diffusion.derivations.api.formula import Formula, vocabulary
+from force_diffusion.derivations.coq.record import Recorded, recorded
 from force_diffusion.derivations.export.prose import either
 from force_diffusion.derivations.export.terminal import (
     check_text,
@@ -257,6 +258,16 @@ class Equation(Formula):
         [11, 12]
         """
         return tuple(equation(premise.number) for premise in self._derivation.premises)
+
+    @property
+    def coq(self) -> Recorded:
+        """What Coq said of it when it was last asked; :func:`certify` asks again.
+
+        >>> import force_diffusion as fd
+        >>> print(fd.equation(13).coq)
+        accepted by Coq 8.16.1
+        """
+        return recorded(self._derivation)
 
     @cached_property
     def _vocabulary(self) -> dict[str, Any]:

@@ -2,7 +2,6 @@
 
 import json
 from collections import Counter
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,13 +14,12 @@ from force_diffusion.derivations.framework.catalogue import load
 import force_diffusion as fd
 
 if TYPE_CHECKING:
-    from force_diffusion.derivations.api.certificates import Certificate
+    from force_diffusion.derivations.coq.record import Certificate
 
 STATUSES = (
     "Takes about two minutes. Exit status: 0 all accepted, 1 something is not, or Coq is absent, "
     "2 wrong usage, 3 the disk or a pipe failed, 130 interrupted."
 )
-CERTIFICATE = "certificate.json"
 
 
 def certify(
@@ -44,19 +42,18 @@ def certify(
     overwrite: Overwrite = False,
 ) -> None:
     """Ask Coq, an unrelated checker, whether it accepts the printed equations."""
-    from force_diffusion.derivations.api import certificates
+    from force_diffusion.derivations.api.certificates import stated
+    from force_diffusion.derivations.coq.record import RECORD, sha256
+    from force_diffusion.derivations.coq.workshop import theory
 
     wanted = [equation_number(word) for word in numbers] if numbers else None
-    files = certificates.theory() | certificates.sources(wanted)
-    with output(out, "certify", [*files, CERTIFICATE], overwrite) as folder:
+    files = theory() | {one.file: one.source for one in stated(wanted)}
+    with output(out, "certify", [*files, RECORD], overwrite) as folder:
         with noticing() as notice:
             found = fd.certify(wanted, mutants=mutants, notice=notice)
-        data = {
-            **asdict(found),
-            "files": {name: certificates.sha256(text) for name, text in files.items()},
-        }
+        data = {**found.data(), "files": {name: sha256(text) for name, text in files.items()}}
         if folder:
-            folder.write({**files, CERTIFICATE: json.dumps(data, indent=2) + "\n"})
+            folder.write({**files, RECORD: json.dumps(data, indent=2) + "\n"})
     if as_json:
         print(json.dumps(data, indent=2))
     else:
@@ -76,13 +73,14 @@ def _line(name: str, one: "Certificate", title: str) -> str:
     said = f"{name:<6}  {one!s:<24}  {title}"
     if one.note:
         said += f"\n    {one.note}"
-    if one.mutants:
-        accepted = [change for change in one.mutants if change.accepted]
-        said += f"\n    of {len(one.mutants)} changes {len(accepted)} accepted"
+    if one.changes:
+        said += (
+            f"\n    of {one.changes.made} mutants {one.changes.stated} stated, "
+            f"{len(one.changes.accepted)} accepted"
+        )
     return said + "".join(
         f"\n    accepted, and not equivalent: part {change.part + 1}, {change.change}"
-        for change in one.mutants
-        if change.accepted and not change.equivalent
+        for change in one.wrong
     )
 
 

@@ -2,7 +2,9 @@
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from dataclasses import asdict
 
+from force_diffusion.derivations.coq.record import recorded
 from force_diffusion.derivations.export.manifest import (
     MANIFEST,
     FoundEquation,
@@ -46,7 +48,9 @@ READING = (
     "witness is a comparison of another kind, with exact or high-precision numbers for packings "
     "drawn at random: it agrees or disagrees, and proves nothing. A mutant is the printed "
     "equation with one mechanical change, which the same procedure has to refute; one that is an "
-    "equivalent rewriting is listed with the proof that it is."
+    "equivalent rewriting is listed with the proof that it is. Accepted is a word of "
+    "Coq, an unrelated proof assistant, about the printed equation on exact packings; it is on "
+    "record with the hash of what was asked, and stale once that has changed."
 )
 """What the words of a report mean."""
 
@@ -148,7 +152,7 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
             f"\\section*{{Eq.\\ ({derivation.number}): {prose_latex(derivation.title)}}}\n",
             _numbered(derivation),
             f"\\input{{{fragment_name(derivation).removesuffix('.tex')}}}%\n",
-            f"Verdict: \\textbf{{{found.verdict}}}."
+            f"Verdict: \\textbf{{{found.verdict}}}. Coq: {_coq(found)}."
             + (f" Rests on Eq{plural}.\\ {rests}.\n" if rests else "\n"),
             _part("Symbols", _list("itemize", symbols)),
             _part("Assumptions", _list("itemize", map(prose_latex, derivation.assumptions))),
@@ -160,6 +164,10 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
     )
 
 
+def _coq(found: FoundEquation) -> str:
+    return found.coq.verdict if found.coq else "not certified"
+
+
 def _overview(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
     rows = []
     for derivation, found in parts:
@@ -167,15 +175,15 @@ def _overview(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
         mutants = found.mutants
         rows.append(
             f"({derivation.number}) & {prose_latex(derivation.title)} & "
-            f"{found.verdict} & {kinds.count('proof')} & {kinds.count('witness')} & "
+            f"{found.verdict} & {_coq(found)} & "
+            f"{kinds.count('proof')} & {kinds.count('witness')} & "
             f"{mutants.made} & {mutants.refuted} & {mutants.equivalent} \\\\\n"
         )
     return (
-        "\\begin{center}\\small\n\\begin{tabular}{r>{\\raggedright}p{46mm}lrrrrr}\n\\hline\n"
-        " & & & & & \\multicolumn{3}{c}{mutants} \\\\\n"
-        "Eq. & title & verdict & proofs & witnesses & made & refuted & equivalent \\\\\n\\hline\n"
-        + "".join(rows)
-        + "\\hline\n\\end{tabular}\n\\end{center}\n"
+        "\\begin{center}\\small\n\\begin{tabular}{r>{\\raggedright}p{46mm}llrrrrr}\n\\hline\n"
+        " & & & & & & \\multicolumn{3}{c}{mutants} \\\\\n"
+        "Eq. & title & verdict & Coq & proofs & witnesses & made & refuted & equivalent"
+        " \\\\\n\\hline\n" + "".join(rows) + "\\hline\n\\end{tabular}\n\\end{center}\n"
     )
 
 
@@ -190,6 +198,7 @@ def finding(outcome: Outcome) -> FoundEquation:
             "fragment": fragment_name(derivation),
             "premises": [premise.number for premise in derivation.premises],
             "verdict": str(outcome.verdict),
+            "coq": asdict(recorded(derivation)),
             "checks": [
                 {
                     "kind": check.kind,

@@ -61,6 +61,15 @@ class FoundMutants(_Part):
     changes: tuple[FoundMutant, ...]
 
 
+class FoundByCoq(_Part):
+    """What Coq said of an equation when it was last asked, and the hashes of what is asked now."""
+
+    verdict: Literal["accepted", "stale", "not certified", "not stated"]
+    checker: str
+    theorems: dict[str, str]
+    theory: str
+
+
 class FoundEquation(_Part):
     """What ``derive`` found about one equation; the same on every run."""
 
@@ -72,6 +81,7 @@ class FoundEquation(_Part):
     verdict: Literal["proved", "refuted", "undecided"]
     checks: tuple[FoundCheck, ...]
     mutants: FoundMutants
+    coq: FoundByCoq | None = None
 
 
 class Manifest(_Part):

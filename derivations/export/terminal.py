@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 from textwrap import fill
 from typing import Any
 
+from force_diffusion.derivations.coq.record import recorded
 from force_diffusion.derivations.export.manifest import FoundCheck
 from force_diffusion.derivations.export.prose import both
 from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome, Step
@@ -53,6 +54,8 @@ def statement_text(derivation: Derivation) -> str:
     if derivation.premises:
         numbers = ", ".join(str(premise.number) for premise in derivation.premises)
         parts += ["", f"Rests on Eq{'s' * (len(derivation.premises) > 1)}. {numbers}"]
+    asks = f"'force-diffusion certify {derivation.number}' asks"
+    parts += ["", f"Coq: {recorded(derivation)} ({asks})"]
     if derivation.remarks:
         parts += ["", "Remarks"]
         parts += [_paragraph(words, "  - ", "    ") for words in derivation.remarks]

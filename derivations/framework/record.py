@@ -109,6 +109,7 @@ class Derivation:
     witnesses: tuple[Witness, ...] = ()
     remarks: tuple[str, ...] = ()
     domain: tuple[sympy.Basic, ...] = ()  # relations of whole numbers, where the printed form holds
+    loads: tuple[str, ...] = ()  # "single", "surface", "bulk", or "any" but on the bead passed
     relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
     exact: Callable[[], dict[str, "ExactCase"]] | None = None  # forms at finite size, by case
     # explicit values at which a candidate is false, or None; knows nothing of how it is decided

@@ -1,15 +1,26 @@
 """Coq's verdicts. They take minutes, so they are asked for: FORCE_DIFFUSION_TEST_COQ=required."""
 
 import os
+import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from force_diffusion.derivations.api import certificates
-from force_diffusion.derivations.api.certificates import Verdict, Workshop, certify
-from force_diffusion.derivations.export.coq import Statement, header
-from force_diffusion.derivations.export.coq_packings import packing_statement
+from force_diffusion.derivations.api.certificates import answers, certificate, certify, tried
+from force_diffusion.derivations.coq.packings import packing_statement
+from force_diffusion.derivations.coq.record import Certificate, Verdict
+from force_diffusion.derivations.coq.statements import (
+    NotStatedError,
+    Statement,
+    header,
+    statement,
+)
+from force_diffusion.derivations.coq.workshop import ALLOWED, Workshop, theory
 from force_diffusion.derivations.framework.catalogue import load, modules
 from force_diffusion.derivations.framework.runner import SEEDS
+
+from tests.derivations.test_soundness import FALSE, TRUE, Change
 
 pytestmark = [
     pytest.mark.skipif(
@@ -23,8 +34,15 @@ pytestmark = [
 @pytest.fixture(scope="module")
 def shop(tmp_path_factory: pytest.TempPathFactory) -> Workshop:
     made = Workshop(tmp_path_factory.mktemp("coq"))
-    assert made.compile_theory() == ""
+    made.compile(theory(), print)
+    assert made.trouble(theory()) == ""
     return made
+
+
+def ask(shop: Workshop, made: Statement) -> Certificate:
+    shop.said.pop(made.file, None)
+    shop.compile({made.file: made.source}, print)
+    return certificate(shop, 0, lambda _: [made])
 
 
 def test_every_equation_and_packing_is_accepted() -> None:
@@ -34,7 +52,7 @@ def test_every_equation_and_packing_is_accepted() -> None:
     assert [one.number for one in found.packings] == list(SEEDS)
     for one in (*found.equations, *found.packings):
         assert one.verdict is Verdict.ACCEPTED, one
-        assert set(one.axioms) <= certificates.ALLOWED
+        assert set(one.axioms) <= ALLOWED
 
 
 def test_another_packing_is_not_accepted(shop: Workshop) -> None:
@@ -45,17 +63,41 @@ def test_another_packing_is_not_accepted(shop: Workshop) -> None:
             true,
             hypotheses=tuple(line.replace(number, other) for line in true.hypotheses),
             conclusion=true.conclusion.replace(number, other),
+            companions="",
         )
-        found = certificates.certificate(shop, 0, lambda _, made=changed: [made], "")
-        assert found.verdict is Verdict.NOT_ACCEPTED
+        assert ask(shop, changed).verdict is Verdict.NOT_ACCEPTED
 
 
 @pytest.mark.parametrize("number", modules())
-def test_changed_statements_are_not_accepted(shop: Workshop, number: int) -> None:
-    every_seventh = list(certificates.tried(shop, load(number), lambda at: at % 7 == number % 7))
-    assert every_seventh
-    wrong = [one for one in every_seventh if one.accepted and not one.equivalent]
-    assert not wrong
+def test_mutants_are_not_accepted(shop: Workshop, number: int) -> None:
+    every_seventh = tried(shop, load(number), chosen=lambda at: at % 7 == number % 7)
+    assert every_seventh.stated
+    assert not [one for one in every_seventh.accepted if not one.equivalent]
+
+
+def stated(cases: list[tuple[int, str, Change]]) -> dict[int, Statement]:
+    goals = {}
+    for place, (number, _, change) in enumerate(cases):
+        derivation = load(number)
+        try:
+            goals[place] = statement(derivation, 0, change(derivation.printed[0]))
+        except NotStatedError:
+            continue
+    return goals
+
+
+def test_false_statements_are_not_accepted(shop: Workshop) -> None:
+    said = answers(shop, "False_statements", stated(FALSE))
+    assert len(said) > len(FALSE) / 2
+    assert [FALSE[place][:2] for place, accepted in said.items() if accepted] == []
+
+
+def test_true_rewritings_are_accepted(shop: Workshop) -> None:
+    """Those by n_x² + n_y² = 1; bounds are proved for the printed forms alone."""
+    rewritings = [case for case in TRUE if "n_" in case[1]]
+    said = answers(shop, "Rewritings", stated(rewritings))
+    assert len(said) > 10
+    assert [rewritings[place][:2] for place, accepted in said.items() if not accepted] == []
 
 
 @pytest.mark.parametrize(
@@ -74,8 +116,7 @@ def test_changed_statements_are_not_accepted(shop: Workshop, number: int) -> Non
 def test_what_is_not_proved_is_not_accepted(
     shop: Workshop, says: str, proof: str, trouble: str
 ) -> None:
-    planted = Planted("planted", (), says, proof)
-    found = certificates.certificate(shop, 0, lambda _: [planted], "")
+    found = ask(shop, Planted("planted", (), says, proof))
     assert found.verdict is Verdict.NOT_ACCEPTED
     assert trouble in found.note
 
@@ -90,10 +131,28 @@ class Planted(Statement):
 
 
 def test_a_theory_that_does_not_compile_accepts_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    broken = {**certificates.theory(), "Model.v": "Definition r := ."}
+    broken = {**theory(), "Model.v": "Definition r := ."}
     monkeypatch.setattr(certificates, "theory", lambda: broken)
     found = certify([1])
     assert not found.passed
     (one,) = found.equations
     assert one.verdict is Verdict.NOT_ACCEPTED
     assert "Model.v" in one.note
+
+
+def test_coqchk_finds_what_was_never_compiled(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The real coqchk behind a coqc that says that all is well and writes nothing."""
+    liar = tmp_path / "coqc"
+    liar.write_text(
+        '#!/bin/sh\nif [ "$1" = --print-version ]; then echo "8.16.1 4.14.1"\n'
+        "else echo Closed under the global context\nfi\n"
+    )
+    liar.chmod(0o755)
+    checker = shutil.which("coqchk")
+    assert checker
+    monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{Path(checker).parent}{os.pathsep}/bin")
+    (one,) = certify([1]).equations
+    assert one.verdict is Verdict.NOT_ACCEPTED
+    assert "coqchk" in one.note

@@ -11,6 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from force_diffusion.derivations.coq.record import recorded
 from force_diffusion.derivations.export.document import READING, sentence, statement_latex
 from force_diffusion.derivations.export.page.html import display, prose, symbol
 from force_diffusion.derivations.export.page.parts import Part
@@ -34,7 +35,8 @@ _PACKAGES = (
     "math-core", "numba",
 )  # fmt: skip
 _MARKS = {"proved": "✓", "agrees": "✓", "refuted": "✗", "disagrees": "✗", "undecided": "?",
-          "equivalent": "≡"}  # fmt: skip
+          "equivalent": "≡", "accepted": "✓", "stale": "?", "not certified": "–",
+          "not stated": "–"}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,7 @@ def equation_view(outcome: Outcome, outcomes: Sequence[Outcome]) -> dict[str, An
         "number": derivation.number,
         "title": prose(derivation.title),
         "verdict": str(outcome.verdict),
+        "coq": recorded(derivation),
         "printed": display(derivation.printed, derivation.relation),
         "symbols": [(symbol(one), prose(words)) for one, words in derivation.symbols],
         "assumptions": [prose(sentence(words)) for words in derivation.assumptions],

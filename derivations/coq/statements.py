@@ -7,7 +7,7 @@ which hypotheses of ``Model.v`` an equation is about. Proofs are found by tactic
 
 import re
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy
 from force_diffusion.derivations.framework.record import Derivation
@@ -238,6 +238,20 @@ def _exactly(equation: sympy.Eq) -> str:
 _OF_RHO = f"fun rho {EXPANSION} => let X := Xs rho in let F := Fs rho in"
 _UNIT = "((sigma / r G) ^ 2 / (1 - phi G ^ 2) ^ 2)"
 
+_STATISTICS = {
+    "relative_variance": "relative_variance L f",
+    "relative_deviation": "root_mean_square L f",
+    "response": "variance L f / f_load ^ 2",
+}
+"""Left-hand sides that are a statistic of a quantity f, by the name of their symbol."""
+
+
+def _statistic(side: sympy.Expr) -> str:
+    name = side.name if isinstance(side, sympy.Symbol) else ""
+    if name not in _STATISTICS:
+        raise NotStatedError(f"{side} is no statistic in the words of Model.v")
+    return _STATISTICS[name]
+
 
 def _up_to_variance(size: str) -> Callable[[sympy.Eq], str]:
     """Both sides to first order; the mean square of their difference is at most a size."""
@@ -254,15 +268,13 @@ def _up_to_variance(size: str) -> Callable[[sympy.Eq], str]:
     return conclude
 
 
-def _near(quantity: str, is_in_words: str, size: str) -> Callable[[sympy.Eq], str]:
+def _near(quantity: str, size: str) -> Callable[[sympy.Eq], str]:
     """A statistic of f, which is a quantity to first order, is the right side up to a size."""
 
     def conclude(equation: sympy.Eq) -> str:
-        if not equation.lhs.is_Symbol:
-            raise NotStatedError(f"{equation.lhs} is no statistic")
         return (
-            f"exists f, linearised ({_OF_RHO} {quantity}) f /\\\n"
-            f"    Rabs ({is_in_words} - {_operand(equation.rhs)}) <= {size} * {_UNIT}"
+            f"exists f, linearised ({_OF_RHO} {quantity} {EXPANSION}) f /\\\n"
+            f"    Rabs ({_statistic(equation.lhs)} - {_operand(equation.rhs)}) <= {size} * {_UNIT}"
         )
 
     return conclude
@@ -270,144 +282,223 @@ def _near(quantity: str, is_in_words: str, size: str) -> Callable[[sympy.Eq], st
 
 @dataclass(frozen=True)
 class Frame:
-    """What an equation is about.
+    """What an equation is about, besides what its derivation says: ranges, sites and the load.
 
     Attributes:
-        variables: what is quantified besides packing and indices, as binders.
-        hypotheses: in the words of ``Model.v``, besides that of a packing.
-        on_indices: conditions on indices besides ranges and sites.
-        example: indices for which conditions on indices hold, so that nothing is said of nothing.
+        example: indices that obey all conditions, M first.
         conclude: what an equation says, given the hypotheses.
+        conditions: on indices, besides ranges and sites.
         random: whether the packing is one of a family, with a law of the radii.
     """
 
-    variables: str = ""
-    hypotheses: tuple[str, ...] = ()
-    on_indices: tuple[str, ...] = ()
-    example: tuple[tuple[sympy.Symbol, int], ...] = ()
+    example: dict[sympy.Symbol, int]
     conclude: Callable[[sympy.Eq], str] = _to_first_order
+    conditions: tuple[str, ...] = ()
     random: bool = False
 
 
-_LOADED = "(F : forces) (f_load : R)"
-_SINGLE = ("0 < f_load", "carries M X (single k l f_load) F")
-_BELOW = ((sy.M, 7), (sy.k, 6), (sy.l, 6))
-_AT = ((sy.M, 3), (sy.i, 0), (sy.j, 0))
-_FAR = "(Z.abs i + M + 2 <= W)%Z"  # no horizontal boundary is met
-_RELATIVE = "relative_variance L f"
-_SPREAD = ("0 < sigma", "0 < f_load")
-
-
-def _all_carry(load: str) -> str:
-    return f"(forall rho, carries M (Xs rho) ({load}) (Fs rho))"
-
+_BELOW = {sy.M: 7, sy.k: 6, sy.l: 6}
+_HIGHER = {sy.M: 3, sy.i: 1, sy.j: 1}
+_AT = {sy.M: 3, sy.i: 0, sy.j: 0}
+_VARIANCE = Frame(_AT, _near("f_plus F i j", "56 * IZR M ^ 2"), ("contact M i j",), random=True)
 
 FRAMES = {
-    1: Frame(example=((sy.M, 3), (sy.i, 1), (sy.j, 1)), conclude=_exactly),
-    2: Frame(example=((sy.M, 3), (sy.i, 1), (sy.j, 1))),
-    3: Frame(example=((sy.M, 3), (sy.i, 1), (sy.j, 1))),
-    4: Frame(example=_AT),
-    5: Frame(example=_AT),
-    6: Frame(_LOADED, _SINGLE, example=_BELOW, conclude=_exactly),
-    7: Frame(_LOADED, _SINGLE, example=_BELOW),
-    8: Frame(
-        "(load : Z -> Z -> vector) (F : forces)",
-        (
-            "carries M X load F",
-            "load site_r site_s = zero",
-            "near (fun e => f_minus F site_r site_s e = 0 /\\ f_plus F site_r site_s e <> 0)",
-        ),
-        example=((sy.M, 7), (sy.site_r, 1), (sy.site_s, 5)),
-    ),
-    9: Frame(_LOADED, _SINGLE, example=(*_BELOW, (sy.i, 4), (sy.j, 4))),
+    1: Frame(_HIGHER, _exactly),
+    2: Frame(_HIGHER),
+    3: Frame(_HIGHER),
+    4: Frame(_AT),
+    5: Frame(_AT),
+    6: Frame(_BELOW, _exactly),
+    7: Frame(_BELOW),
+    8: Frame({sy.M: 7, sy.site_r: 1, sy.site_s: 5}),
+    9: Frame({**_BELOW, sy.i: 4, sy.j: 4}),
     10: Frame(
-        _LOADED,
-        _SINGLE,
-        (f"(2 * n = {index(2 * BRANCH_COUNT)})%Z",),
-        (*_BELOW, (sy.i, 2), (sy.j, 0), (sy.n, 1)),
+        {**_BELOW, sy.i: 2, sy.j: 0, sy.n: 1},
+        conditions=(f"(2 * n = {index(2 * BRANCH_COUNT)})%Z",),
     ),
-    11: Frame(_LOADED, ("0 < f_load", "carries M X (surface M f_load) F"), example=_AT),
-    12: Frame(
-        "(f_load : R)",
-        (_FAR, *_SPREAD, _all_carry("surface M f_load")),
-        example=_AT,
-        conclude=_up_to_variance("53 * IZR M ^ 2"),
-        random=True,
-    ),
-    13: Frame(
-        "(f_load : R)",
-        (_FAR, *_SPREAD, _all_carry("surface M f_load")),
-        ("contact M i j",),
-        _AT,
-        _near(f"f_plus F i j {EXPANSION}", _RELATIVE, "56 * IZR M ^ 2"),
-        random=True,
-    ),
-    14: Frame(
-        "(m_g : R)",
-        (_FAR, "0 < sigma", "0 < m_g", _all_carry("bulk m_g")),
-        ("contact M i j",),
-        _AT,
-        _near(f"f_plus F i j {EXPANSION}", _RELATIVE, "56 * IZR M ^ 2"),
-        random=True,
-    ),
+    11: Frame(_AT),
+    12: Frame(_AT, _up_to_variance("53 * IZR M ^ 2"), random=True),
+    13: _VARIANCE,
+    14: _VARIANCE,
     16: Frame(
-        "(f_load : R)",
-        (_FAR, *_SPREAD, _all_carry("single k l f_load")),
+        {sy.M: 3, sy.k: 0, sy.l: 2, sy.i: 0, sy.j: 0, sy.p: 1, sy.q: 1},
+        _near("pressed_down X F i j", "47"),
         (
             *(f"({x.in_code} = {index(at)})%Z" for x, at in IN_CONE.items()),
             "bead M i j",
             "bead M k l",
         ),
-        ((sy.M, 3), (sy.k, 0), (sy.l, 2), (sy.i, 0), (sy.j, 0), (sy.p, 1), (sy.q, 1)),
-        _near(f"pressed_down X F i j {EXPANSION}", "variance L f / f_load ^ 2", "47"),
         random=True,
     ),
 }
-
-_PACKING = "  forall (G : lattice) (M : Z) (rho : radii) (X : centres), packing G M rho X ->"
-_PACKINGS = """  forall (G : lattice) (M W : Z) (sigma : R) (L : law W M sigma)
-    (Xs : radii -> centres) (Fs : radii -> forces),
-  (forall rho, packing G M rho (Xs rho)) ->"""
-
-
 AVERAGES = 15  # the one equation about all layers together
 STATED = (*FRAMES, AVERAGES)
 """Numbers of the equations that can be stated."""
 
-_LAYERS = """  forall (across : Z -> Z) (f_load : R),
-  (forall j, (0 <= j < M)%Z -> contact M (across j) j /\\ (Z.abs (across j) + M + 2 <= W)%Z) ->
-  (1 <= M)%Z -> 0 < sigma -> 0 < f_load ->"""
-_SOME_LAYERS = """exists (M W : Z) (across : Z -> Z), (1 <= M)%Z /\\
-  forall j, (0 <= j < M)%Z -> contact M (across j) j /\\ (Z.abs (across j) + M + 2 <= W)%Z.
-Proof. exists 3%Z, 8%Z, (fun j => j). split; [lia|]. intros j Hj. site. Qed."""
-_LOADS = ("surface M f_load", "bulk f_load")
+
+@dataclass(frozen=True)
+class _Load:
+    """A load in the words of ``Model.v``: what else is quantified on its account, and supposed."""
+
+    words: str
+    variables: str = "(f_load : R)"
+    hypotheses: tuple[str, ...] = ("0 < f_load",)
+    example: tuple[str, ...] = ("1",)
+
+
+_ABOVE_THE_SITE = f"single ({sy.site_r.in_code} + 1) ({sy.site_s.in_code} + 1) 1"
+_LOADS = {
+    "single": _Load("single k l f_load"),
+    "surface": _Load("surface M f_load"),
+    "bulk": _Load("bulk f_load"),
+    "any": _Load(
+        "load",
+        "(load : Z -> Z -> vector)",
+        (
+            "load site_r site_s = zero",
+            "near (fun e => f_minus F site_r site_s e = 0 /\\ f_plus F site_r site_s e <> 0)",
+        ),
+        (_ABOVE_THE_SITE,),
+    ),
+}
+
+
+@dataclass(frozen=True)
+class _Case:
+    """Variables, hypotheses on them, and an example: all that stands before a conclusion.
+
+    ``given`` are variables, and one hypothesis on them, for which the others exist.
+    """
+
+    given: str
+    supposed: tuple[str, ...]
+    variables: str
+    hypotheses: tuple[str, ...]
+    example: tuple[str, ...]
+    law: str = ""  # of the example
+
+    def before(self) -> tuple[str, ...]:
+        """The lines before the conclusion."""
+        return (
+            " ".join([f"  forall {self.given},", *(f"{one} ->" for one in self.supposed)]),
+            f"  forall {self.variables},",
+            *(f"  {hypothesis} ->" for hypothesis in self.hypotheses),
+        )
+
+    def lemma(self, name: str) -> str:
+        """That the hypotheses can be fulfilled."""
+        supposed = "".join(f"{one} -> " for one in self.supposed)
+        return (
+            f"Lemma {name}_is_about_something :\n  forall {self.given}, {supposed}\n"
+            f"  exists {self.variables},\n  {_all(self.hypotheses)}.\n"
+            f"Proof. intros. {self.law}exists {', '.join(self.example)}. something. Qed.\n"
+        )
+
+
+def _with_values(words: str, values: dict[str, str]) -> str:
+    return re.sub(r"\w+", lambda name: values.get(name[0], name[0]), words)
+
+
+def _one_packing(
+    symbols: dict[sympy.Symbol, int], conditions: Iterable[str], load: _Load | None
+) -> _Case:
+    indices = {symbol.in_code: f"{value}%Z" for symbol, value in symbols.items()}
+    height, laid = indices.pop("M"), "(laid_packing G rho)"
+    case = _Case(
+        "(G : lattice) (rho : radii)",
+        (),
+        f"(M : Z) (X : centres) ({' '.join(indices)} : Z)",
+        ("packing G M rho X", *conditions),
+        (height, laid, *indices.values()),
+    )
+    if load is None:
+        return case
+    *sizes, carried = (
+        f"({_with_values(words, {**indices, 'M': height, 'f_load': '1'})})"
+        for words in (*load.example, load.words)
+    )
+    if load.words == "load":
+        carried = sizes[0]
+    return replace(
+        case,
+        variables=f"{case.variables} (F : forces) {load.variables}",
+        hypotheses=(*case.hypotheses, *load.hypotheses, f"carries M X ({load.words}) F"),
+        example=(*case.example, f"(passed_down {height} {laid} {carried})", *sizes),
+    )
+
+
+_FAR = "(Z.abs i + M + 2 <= W)%Z"  # no horizontal boundary is met
+
+
+def _random_packings(
+    variables: str, conditions: Iterable[str], load: _Load, example: dict[str, str]
+) -> _Case:
+    """A family of packings and forces, one for each choice of the radii, and a law of these."""
+    height, window, *others = example.values()
+    carried = f"({_with_values(load.words, {**example, 'f_load': '1'})})"
+    return _Case(
+        "(G : lattice) (sigma : R)",
+        ("0 < sigma",),
+        "(M W : Z) (L : law W M sigma) (Xs : radii -> centres) (Fs : radii -> forces)\n"
+        f"    {variables} {load.variables}",
+        (
+            "(forall rho, packing G M rho (Xs rho))",
+            *conditions,
+            *load.hypotheses,
+            f"(forall rho, carries M (Xs rho) ({load.words}) (Fs rho))",
+        ),
+        (
+            *(height, window, "L", "(laid_packing G)"),
+            f"(fun rho => passed_down {height} (laid_packing G rho) {carried})",
+            *others,
+            *load.example,
+        ),
+        f"destruct (law_exists {window} {height} sigma) as [L _]. ",
+    )
+
+
+def _across_layers(load: _Load) -> _Case:
+    """One contact of each layer, at ``across j`` in layer j."""
+    return _random_packings(
+        "(across : Z -> Z)",
+        (
+            "(1 <= M)%Z",
+            "(forall j, (0 <= j < M)%Z ->\n"
+            "    contact M (across j) j /\\ (Z.abs (across j) + M + 2 <= W)%Z)",
+        ),
+        load,
+        {"M": "3%Z", "W": "8%Z", "across": "(fun j => j)"},
+    )
 
 
 def _averages(derivation: Derivation, part: int, stated: sympy.Eq) -> str:
-    """Eq. 15 for both loads: in proportion, by a constant that depends on φ alone."""
-    deviation = stated.rhs if part == 0 else derivation.printed[0].rhs
-    if stated.lhs != derivation.printed[part].lhs:
-        raise NotStatedError(f"{stated.lhs} is no average")
-    in_proportion = f"(c (phi G) * {_operand(deviation)})"
+    """Eq. 15 for its loads: in proportion, by a constant that depends on φ alone."""
+    first = derivation.printed[0]
+    deviation = stated if part == 0 else first
+    if part == 1 and getattr(stated.lhs, "name", "") != _HEIGHT.name:
+        raise NotStatedError(f"{stated.lhs} is no height")
+    in_proportion = f"(c (phi G) * {_operand(deviation.rhs)})"
     claims = []
-    for load in _LOADS:
-        claim = (
-            f"{_PACKINGS}\n{_LAYERS}\n"
-            f"  {_all_carry(load)} ->\n"
-            "  exists f, (forall j, (0 <= j < M)%Z ->\n"
-            "      linearised (fun rho => f_plus (Fs rho) (across j) j) (f j)) /\\\n"
-            f"    Rabs (root_mean_square L f - {in_proportion}) <= 285 / IZR M * {in_proportion}"
+    for load in derivation.loads:
+        claim = "\n".join(
+            (
+                *_across_layers(_LOADS[load]).before(),
+                "  exists f, (forall j, (0 <= j < M)%Z ->",
+                "      linearised (fun rho => f_plus (Fs rho) (across j) j) (f j)) /\\",
+                f"    Rabs ({_statistic(deviation.lhs)} - {in_proportion}) "
+                f"<= 285 / IZR M * {in_proportion}",
+            )
         )
         if part == 0:
             claims.append(f"(exists c, constant c /\\\n{claim})")
         else:
-            at_height = f"c (phi G) * {_operand(deviation.xreplace({sy.M: _HEIGHT}))}"
+            at_height = f"c (phi G) * {_operand(first.rhs.xreplace({sy.M: _HEIGHT}))}"
             claims.append(
                 f"(exists c d, constant c /\\ constant d /\\ (\n{claim}) /\\\n"
                 "  forall (G : lattice) (sigma M_star : R), 0 < sigma -> 0 < M_star ->\n"
-                f"  ({at_height}) ^ 2 = 1 -> M_star = d (phi G) * {_operand(stated.rhs)})"
+                f"  (({at_height}) ^ 2 = 1 <-> M_star = d (phi G) * {_operand(stated.rhs)}))"
             )
-    return " /\\\n  ".join(claims)
+    return _all(claims)
 
 
 @dataclass(frozen=True)
@@ -419,7 +510,7 @@ class Statement:
         hypotheses: what it is about.
         conclusion: what it says then.
         tactic: of ``proofs/Certify.v``, which should prove it.
-        companions: lemmas about the hypotheses: some indices obey them, and no sum's bounds are
+        companions: lemmas about the hypotheses: they can be fulfilled, and no sum's bounds are
             reversed under them (SymPy reads such sums in another way).
         theory: the file of ``proofs/`` that holds the tactic.
     """
@@ -430,6 +521,16 @@ class Statement:
     tactic: str
     companions: str = ""
     theory: str = "Certify"
+
+    @property
+    def file(self) -> str:
+        """The file that holds it."""
+        return self.file_of(self.name)
+
+    @staticmethod
+    def file_of(name: str) -> str:
+        """The file that holds a theorem."""
+        return f"{name.capitalize()}.v"
 
     @property
     def proposition(self) -> str:
@@ -453,6 +554,15 @@ def header(theory: str = "Certify") -> str:
     )
 
 
+def statements(derivation: Derivation) -> list[Statement]:
+    """The printed equations of a derivation in Coq, part by part.
+
+    Raises:
+        NotStatedError: when there are no words for one.
+    """
+    return [statement(derivation, part) for part in range(len(derivation.printed))]
+
+
 def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = None) -> Statement:
     """State a printed equation of a derivation, or a candidate in its place.
 
@@ -467,37 +577,40 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
     name = f"equation_{derivation.number}" + (f"_part_{part + 1}" if several else "")
     tactic = f"prove_{derivation.number}"
     if derivation.number == AVERAGES:
-        some = f"Lemma {name}_is_about_something : {_SOME_LAYERS}\n"
-        return Statement(
-            name, (), _averages(derivation, part, stated), f"{tactic}_{part + 1}", some
-        )
+        lemmas = [_across_layers(_LOADS[one]).lemma(f"{name}_{one}") for one in derivation.loads]
+        claims = _averages(derivation, part, stated)
+        return Statement(name, (), claims, f"{tactic}_{part + 1}", "\n".join(lemmas))
     if derivation.number not in FRAMES:
         raise NotStatedError(f"Eq. {derivation.number} has no hypotheses in Model.v yet")
     frame = FRAMES[derivation.number]
-    on_indices = dict.fromkeys((*_spoken_of(printed.lhs), *ranges(derivation), *frame.on_indices))
-    indices = " ".join(symbol.in_code for symbol, _ in frame.example if symbol != sy.M)
-    hypotheses = (
-        _PACKINGS if frame.random else _PACKING,
-        f"  forall ({indices} : Z) {frame.variables}".rstrip() + ",",
-        *(f"  {hypothesis} ->" for hypothesis in (*on_indices, *frame.hypotheses)),
+    conditions = tuple(
+        dict.fromkeys((*_spoken_of(printed.lhs), *ranges(derivation), *frame.conditions))
     )
-    companions = [
-        f"Lemma {name}_is_about_something : exists M {indices} : Z,",
-        f"  {_all(on_indices)}.",
-        f"Proof. {' '.join(f'exists {value}%Z.' for _, value in frame.example)} site. Qed.",
-    ]
+    load = _LOADS[derivation.loads[0]] if derivation.loads else None
+    indices = " ".join(symbol.in_code for symbol in frame.example if symbol != sy.M)
+    if frame.random and load:
+        values = {symbol.in_code: f"{value}%Z" for symbol, value in frame.example.items()}
+        window = 2 + frame.example[sy.M] + abs(frame.example[sy.i])
+        case = _random_packings(
+            f"({indices} : Z)",
+            (*conditions, _FAR),
+            load,
+            {"M": values.pop("M"), "W": f"{window}%Z", **values},
+        )
+    else:
+        case = _one_packing(frame.example, conditions, load)
+    companions = case.lemma(name)
     orders = [f"({index(low)} <= {index(high + 1)})%Z" for low, high in _bounds(stated)]
     if orders:
-        companions += [
-            f"Lemma {name}_sums_in_order : forall M {indices} : Z,",
-            f"  {_all(on_indices)} -> {_all(orders)}.",
-            "Proof. site. Qed.",
-        ]
-    return Statement(name, hypotheses, frame.conclude(stated), tactic, "\n".join(companions) + "\n")
+        companions += (
+            f"Lemma {name}_sums_in_order : forall M {indices} : Z,\n"
+            f"  {_all(conditions)} -> {_all(orders)}.\nProof. site. Qed.\n"
+        )
+    return Statement(name, case.before(), frame.conclude(stated), tactic, companions)
 
 
 def _all(conditions: Iterable[str]) -> str:
-    return " /\\ ".join(conditions)
+    return " /\\\n  ".join(conditions)
 
 
 def _bounds(equation: sympy.Eq) -> Iterator[tuple[sympy.Expr, sympy.Expr]]:

@@ -1,24 +1,19 @@
 """Statements for Coq: what is written for what, without Coq."""
 
-import hashlib
-import json
 import re
-from pathlib import Path
+from dataclasses import replace
 
 import pytest
 import sympy
-from force_diffusion.derivations.api import certificates
-from force_diffusion.derivations.export import coq
-from force_diffusion.derivations.export.coq_packings import packing_statement
+from force_diffusion.derivations.coq import statements as coq
+from force_diffusion.derivations.coq.packings import packing_statement
+from force_diffusion.derivations.coq.workshop import theory
 from force_diffusion.derivations.framework.catalogue import load
 from force_diffusion.derivations.witnesses.draws import draw
 from force_diffusion.numeric.mechanics import taylor
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.mutants import mutants
-
-import force_diffusion as fd
-from force_diffusion.__main__ import main
 
 i, j, m = sy.i, sy.j, sy.m
 
@@ -87,77 +82,48 @@ def test_a_change_changes_the_statement_and_not_its_hypotheses(number: int) -> N
             assert other.hypotheses == true.hypotheses
 
 
+def test_a_statistic_is_the_one_that_is_printed() -> None:
+    printed = load(13).printed[0]
+    other = equation(sympy.Symbol("another"), printed.rhs)
+    with pytest.raises(coq.NotStatedError, match="another"):
+        coq.statement(load(13), 0, other)
+
+
+@pytest.mark.parametrize(
+    ("load_of", "words"), [("surface", "surface M f_load"), ("bulk", "bulk f_load")]
+)
+def test_the_load_is_the_one_that_the_derivation_names(load_of: str, words: str) -> None:
+    made = coq.statement(replace(load(13), loads=(load_of,)), 0)
+    assert f"carries M (Xs rho) ({words}) (Fs rho)" in made.proposition
+    assert f"({words.replace('M', '3%Z').replace('f_load', '1')})" in made.companions
+
+
+def test_a_change_of_the_ranges_changes_the_statement() -> None:
+    narrower = replace(load(11), assumptions=("0 ≤ j < M − 1",))
+    assert "(j < M - 1)%Z" in coq.statement(narrower, 0).proposition
+    assert "(j < M - 1)%Z" not in coq.statement(load(11), 0).proposition
+
+
+def test_all_that_is_supposed_is_shown_to_be_possible() -> None:
+    for number in coq.STATED:
+        for made in coq.statements(load(number)):
+            for line in made.hypotheses:
+                if line.endswith(" ->") and "forall" not in line.split("(")[0]:
+                    supposed = line.strip().removesuffix(" ->")
+                    assert supposed in made.companions
+
+
 def test_reversed_bounds_are_asked_about() -> None:
     printed = equation(sy.DeltaX(i, j), sympy.Sum(sy.DeltaR(i, m), (m, 3, j)) * sy.b_plus)
     assert "(3 <= j + 1)%Z" in coq.statement(load(3), 0, printed).companions
 
 
 def test_the_theory_declares_no_axiom_and_admits_nothing() -> None:
-    sources = certificates.theory()
+    sources = theory()
     assert "Model.v" in sources
     forbidden = r"\b(Admitted|Axiom|Parameter|Conjecture|admit|Unset|bypass_check)\b"
     for name, source in sources.items():
         assert not re.search(forbidden, source), name
-
-
-def test_assumptions_are_read_whole() -> None:
-    printed = "Axioms:\nA.b : Prop\nC.d\n  : forall x : nat,\n    x = x\n"
-    assert certificates.axioms_in(printed) == ("A.b", "C.d")
-    assert certificates.axioms_in("Closed under the global context\n") == ()
-    assert certificates.axioms_in("Section Variables:\nx : nat\n") != ()
-
-
-SUMMARY = """
-CONTEXT SUMMARY
-===============
-
-* Theory: Set is predicative
-  
-* Axioms:
-    Coq.Reals.ClassicalDedekindReals.sig_not_dec
-  
-* Constants/Inductives relying on type-in-type: <none>
-  
-* Constants/Inductives relying on unsafe (co)fixpoints: <none>
-  
-* Inductives whose positivity is assumed: <none>
-"""  # noqa: W293
-
-
-def test_the_second_check_is_read_whole() -> None:
-    assert certificates.unexpected(SUMMARY) == ""
-    axiom = "Coq.Reals.ClassicalDedekindReals.sig_not_dec"
-    for good, bad in (
-        (axiom, f"{axiom}\n    ForceDiffusion.Model.trust_me"),
-        ("type-in-type: <none>", "type-in-type: ForceDiffusion.Model.t"),
-        ("Set is predicative", "Set is impredicative"),
-        ("* Inductives whose positivity is assumed: <none>", ""),
-    ):
-        assert certificates.unexpected(SUMMARY.replace(good, bad)) != ""
-
-
-def test_without_coq_nothing_is_accepted(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setenv("PATH", "")
-    assert main(["certify"]) == 1
-    printed = capsys.readouterr().out
-    assert "Coq absent" in printed
-    assert "accepted" not in printed
-    assert "apt-get install coq" in printed
-    assert not fd.certify([3]).passed
-
-
-def test_statements_and_hashes_are_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PATH", "")
-    assert main(["certify", "7", "--out", str(tmp_path)]) == 1
-    said = json.loads((tmp_path / "certificate.json").read_text())
-    assert [one["verdict"] for one in said["equations"]] == ["Coq absent"]
-    for name in ("Model.v", "Equation_7_part_1.v", "Equation_7_part_2.v"):
-        content = (tmp_path / name).read_bytes()
-        assert said["files"][name] == hashlib.sha256(content).hexdigest()
-    listed = json.loads((tmp_path / "manifest.json").read_text())["files"]
-    assert set(listed) == {*said["files"], "certificate.json"}
 
 
 def test_fractions_of_a_packing_are_stated() -> None:

@@ -2,13 +2,14 @@
 
 A packing with rational radii and direction cosines is solved as power series in ε by the sweeps of
 ``numeric/``. The statement says that the theory in Coq has the same values and slopes, as
-fractions: displacements, contact directions, forces under a surface load and under a single load.
+fractions: displacements, contact directions, forces under a surface load, under weights and under a
+load on one bead.
 """
 
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
-from force_diffusion.derivations.export.coq import Statement
+from force_diffusion.derivations.coq.statements import Statement
 from force_diffusion.derivations.witnesses.draws import SmallPacking, draw
 from force_diffusion.numeric.mechanics import taylor
 
@@ -31,8 +32,7 @@ def _expands(what: str, series: Expansion) -> str:
 def _claims(packing: SmallPacking) -> Iterator[str]:
     (across, layer), load = packing.loaded, _fraction(packing.load)
     contacts = dict.fromkeys(packing.contacts)
-    loads = packing.surface_load()
-    solved = _solved(packing, loads)
+    solved = _solved(packing, packing.surface_load())
     for i, j in contacts:
         vectors = {f"delta_x X {i + 1} {j + 1}": solved.displacement(i + 1, j + 1)}
         for branch, sign in _BRANCHES:
@@ -41,6 +41,12 @@ def _claims(packing: SmallPacking) -> Iterator[str]:
             for axis, series in zip("xy", components, strict=True):
                 yield _expands(f"(fun e => {axis}_of ({name} e))", series)
     yield _forces(f"surface {packing.height} {load}", solved, contacts)
+    weights = {
+        (i, j): (Fraction(0), -packing.load)
+        for j in range(1, packing.height + 1)
+        for i in range(j % 2, 2 * packing.width, 2)
+    }
+    yield _forces(f"bulk {load}", _solved(packing, weights), contacts)
     alone = _solved(packing, {packing.loaded: (Fraction(0), -packing.load)})
     period = 2 * packing.width  # Coq's packing is infinite, and has the one load
     nearest = {
@@ -81,17 +87,23 @@ def packing_statement(seed: int) -> Statement:
     radii = "; ".join(
         f"({i}%Z, {j}%Z, {_fraction(value)})" for (i, j), value in sorted(packing.rho.items())
     )
+    rho = f"(periodic {2 * packing.width} [{radii}])"
     n_x, n_y = map(_fraction, packing.n)
-    period = 2 * packing.width
+    variables = "(G : lattice) (rho : radii) (X : centres)"
+    hypotheses = (
+        "r G = 1",
+        f"n_x G = {n_x}",
+        f"n_y G = {n_y}",
+        f"rho = {rho}",
+        f"packing G {packing.height} rho X",
+    )
     return Statement(
         f"packing_{seed}",
-        (
-            "  forall (G : lattice) (rho : radii) (X : centres),",
-            f"  r G = 1 -> n_x G = {n_x} -> n_y G = {n_y} ->",
-            f"  rho = periodic {period} [{radii}] ->",
-            f"  packing G {packing.height} rho X ->",
-        ),
+        (f"  forall {variables},", *(f"  {one} ->" for one in hypotheses)),
         _all(_claims(packing)),
         "prove_packing",
+        f"Lemma packing_{seed}_is_about_something : exists {variables},\n    {_all(hypotheses)}.\n"
+        f"Proof. destruct (lattice_exists {n_x} {n_y}) as [G ?]; [lra..|].\n"
+        f"  exists G, {rho}, (laid_packing G {rho}). something; tauto. Qed.\n",
         theory="Fractions",
     )

@@ -1,0 +1,1 @@
+"""The printed equations as statements for Coq, and Coq at work on them."""

@@ -1,0 +1,257 @@
+"""Coq at work in a folder: files are compiled, as many at once as there are cores, and checked."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from graphlib import TopologicalSorter
+from importlib.resources import files
+from pathlib import Path
+from tempfile import TemporaryFile
+
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+
+LIBRARY = "ForceDiffusion"
+WRITTEN_FOR = "Coq 8.16.1"
+INSTALL = "on Debian and Ubuntu: apt-get install coq; elsewhere: https://coq.inria.fr"
+EXISTENCE = "Existence"  # no theorem rests on it: it says that hypotheses can be fulfilled
+LIMIT = 900.0  # seconds for one file; the slowest takes about ten
+
+ALLOWED = frozenset(
+    {
+        "ClassicalDedekindReals.sig_not_dec",
+        "ClassicalDedekindReals.sig_forall_dec",
+        "FunctionalExtensionality.functional_extensionality_dep",
+    }
+)
+"""Axioms that a theorem may rest on: those of Coq's real numbers, and equality of functions."""
+
+IN_THE_LIBRARY = frozenset(
+    {
+        "Coq.Reals.ClassicalDedekindReals.sig_not_dec",
+        "Coq.Reals.ClassicalDedekindReals.sig_forall_dec",
+        "Coq.Logic.FunctionalExtensionality.functional_extensionality_dep",
+        "Coq.Logic.Classical_Prop.classic",
+    }
+)
+"""What coqchk may find: the same, and an axiom of Coq's library that no theorem uses."""
+
+Notice = Callable[[str], None]
+"""Told what is being done."""
+
+
+class CoqAbsentError(ForceDiffusionError):
+    """There is no Coq on this machine, or none that answers."""
+
+    exit_status = 3
+
+
+@dataclass(frozen=True)
+class Said:
+    """What a program of Coq's said; ``failed`` is why it did not do what it was asked to."""
+
+    printed: str = ""
+    failed: str = ""
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Let an interrupt wait, so that no program is started and then lost."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+class _Running:
+    """A program under way."""
+
+    def __init__(self, folder: Path, program: str, *arguments: str) -> None:
+        self.until = time.monotonic() + LIMIT
+        self.out = TemporaryFile("w+", encoding="utf-8", errors="replace")  # noqa: SIM115
+        self.errors = TemporaryFile("w+", encoding="utf-8", errors="replace")  # noqa: SIM115
+        environment = {name: at for name, at in os.environ.items() if not name.startswith("COQ")}
+        self.process = subprocess.Popen(
+            [program, *arguments],
+            cwd=folder,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=self.out,
+            stderr=self.errors,
+        )
+
+    def over(self) -> bool:
+        """Whether it has ended, or has had its time."""
+        return self.process.poll() is not None or time.monotonic() > self.until
+
+    def end(self) -> Said:
+        """End it; what it said."""
+        late = self.process.poll() is None
+        self.process.kill()
+        status = self.process.wait()
+        said = []
+        for stream in (self.out, self.errors):
+            with stream:
+                stream.seek(0)
+                said.append(stream.read())
+        printed, errors = said
+        if late:
+            return Said(printed, f"no answer within {LIMIT:.0f} s")
+        return Said(printed + errors, (_error(errors) or f"status {status}") if status else "")
+
+
+class Workshop:
+    """A folder in which Coq compiles files.
+
+    Attributes:
+        checker: such as "Coq 8.16.1".
+        said: what Coq said of each file.
+
+    Raises:
+        CoqAbsentError: when there is no Coq.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        for program in ("coqc", "coqchk"):
+            if not shutil.which(program):
+                raise CoqAbsentError(f"{program} is not there. Install Coq: {INSTALL}")
+        self.folder = folder
+        self.said: dict[str, Said] = {}
+        version = self._wait("coqc", "--print-version")
+        found = re.match(r"(\d+(?:\.\w+)+)\s", version.printed)
+        if version.failed or not found:
+            raise CoqAbsentError(
+                f"coqc does not say its version ({version.failed or version.printed.strip()}). "
+                f"Install Coq: {INSTALL}"
+            )
+        self.checker = f"Coq {found[1]}"
+
+    def _wait(self, program: str, *arguments: str) -> Said:
+        running = None
+        try:
+            with _uninterrupted():
+                running = _Running(self.folder, program, *arguments)
+            while not running.over():
+                time.sleep(0.02)
+        finally:
+            said = running.end() if running else Said()
+        return said
+
+    def compile(self, sources: Mapping[str, str], notice: Notice) -> None:
+        """Compile files, those first that others import; ``said`` tells of each.
+
+        What is under way is ended when this is interrupted.
+        """
+        for name, source in sources.items():
+            (self.folder / name).write_text(source, encoding="utf-8")
+        order = TopologicalSorter({name: imports(source) for name, source in sources.items()})
+        order.prepare()
+        ready: list[str] = []
+        running: dict[str, _Running] = {}
+        try:
+            while order.is_active():
+                for name in order.get_ready():
+                    if name in self.said:
+                        order.done(name)
+                    else:
+                        ready.append(name)
+                while ready and len(running) < (os.cpu_count() or 1):
+                    name = ready.pop(0)
+                    notice(name)
+                    with _uninterrupted():
+                        running[name] = _Running(
+                            self.folder, "coqc", "-q", "-R", ".", LIBRARY, name
+                        )
+                for name in [name for name, one in running.items() if one.over()]:
+                    self.said[name] = running.pop(name).end()
+                    order.done(name)
+                if running:
+                    time.sleep(0.02)
+        finally:
+            for one in running.values():
+                one.end()
+
+    def trouble(self, names: Iterable[str]) -> str:
+        """The file among these that failed first, and why; or nothing."""
+        wanted = set(names)
+        for name, said in self.said.items():
+            if name in wanted and said.failed:
+                other = "" if self.checker == WRITTEN_FOR else f" (written for {WRITTEN_FOR})"
+                return f"{name}: {said.failed}{other}"
+        return ""
+
+    def check(self, names: Iterable[str]) -> str:
+        """Let coqchk check compiled files and all they rest on; what went wrong, or nothing."""
+        modules = [f"{LIBRARY}.{name.removesuffix('.v')}" for name in (*names, f"{EXISTENCE}.v")]
+        said = self._wait("coqchk", "-silent", "-o", "-R", ".", LIBRARY, *modules)
+        return f"coqchk: {said.failed}" if said.failed else unexpected(said.printed)
+
+
+def theory() -> dict[str, str]:
+    """The hand-written theory: names and sources of its files."""
+    found = files("force_diffusion.proofs").iterdir()
+    return {
+        one.name: one.read_text(encoding="utf-8")
+        for one in sorted(found, key=lambda one: one.name)
+        if one.name.endswith(".v")
+    }
+
+
+_IMPORTS = re.compile(rf"^From {LIBRARY} Require (?:Import|Export) ([\w\s]+)\.$", re.MULTILINE)
+
+
+def imports(source: str) -> list[str]:
+    """The files of the theory that a file imports.
+
+    >>> imports("From ForceDiffusion Require Import Model Sums.")
+    ['Model.v', 'Sums.v']
+    """
+    return [f"{name}.v" for names in _IMPORTS.findall(source) for name in names.split()]
+
+
+def _error(message: str) -> str:
+    """The error in what Coq prints, on one line."""
+    _, _, error = message.rpartition("Error:")
+    return " ".join((error or message).split())[:200]
+
+
+def axioms_in(printed: str) -> tuple[str, ...] | None:
+    """What ``Print Assumptions`` names, every word at the start of a line but its headings.
+
+    None where it has not printed anything: then nothing was asked, or nobody answered.
+    """
+    lines = [line for line in printed.splitlines() if line and not line[0].isspace()]
+    headings = ("Axioms:", "Closed under the global context")
+    if not any(line in headings for line in lines):
+        return None
+    return tuple(sorted({line.split()[0] for line in lines if line not in headings}))
+
+
+_SECTION = re.compile(r"^\* (.*?):\s*(.*?)(?=^\* |\Z)", re.MULTILINE | re.DOTALL)
+_NONE = (
+    "Constants/Inductives relying on type-in-type",
+    "Constants/Inductives relying on unsafe (co)fixpoints",
+    "Inductives whose positivity is assumed",
+)
+
+
+def unexpected(summary: str) -> str:
+    """What coqchk's summary holds that must not be there, or nothing."""
+    sections = {name: said.strip() for name, said in _SECTION.findall(summary)}
+    if set(sections) != {"Theory", "Axioms", *_NONE}:
+        return "coqchk: its summary is not as expected"
+    if sections["Theory"] != "Set is predicative":
+        return f"coqchk: {sections['Theory']}"
+    for axiom in sections["Axioms"].split():
+        if axiom not in IN_THE_LIBRARY:
+            return f"coqchk: the axiom {axiom}"
+    for name in _NONE:
+        if sections[name] != "<none>":
+            return f"coqchk: {name}: {sections[name]}"
+    return ""

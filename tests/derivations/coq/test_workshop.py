@@ -1,0 +1,173 @@
+"""Coq's answers are read whole; programs in Coq's place that lie, hang, or are another version."""
+
+import hashlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from force_diffusion.derivations.coq import workshop
+from force_diffusion.derivations.coq.record import Verdict
+from force_diffusion.derivations.coq.workshop import (
+    CoqAbsentError,
+    Workshop,
+    axioms_in,
+    unexpected,
+)
+
+import force_diffusion as fd
+from force_diffusion.__main__ import main
+
+
+def test_assumptions_are_read_whole() -> None:
+    printed = "Axioms:\nA.b : Prop\nC.d\n  : forall x : nat,\n    x = x\n"
+    assert axioms_in(printed) == ("A.b", "C.d")
+    assert axioms_in("Closed under the global context\n") == ()
+    assert axioms_in("Section Variables:\nx : nat\n") != ()
+
+
+SUMMARY = """
+CONTEXT SUMMARY
+===============
+
+* Theory: Set is predicative
+  
+* Axioms:
+    Coq.Reals.ClassicalDedekindReals.sig_not_dec
+  
+* Constants/Inductives relying on type-in-type: <none>
+  
+* Constants/Inductives relying on unsafe (co)fixpoints: <none>
+  
+* Inductives whose positivity is assumed: <none>
+"""  # noqa: W293
+
+
+def test_the_second_check_is_read_whole() -> None:
+    assert unexpected(SUMMARY) == ""
+    axiom = "Coq.Reals.ClassicalDedekindReals.sig_not_dec"
+    for good, bad in (
+        (axiom, f"{axiom}\n    ForceDiffusion.Model.trust_me"),
+        ("type-in-type: <none>", "type-in-type: ForceDiffusion.Model.t"),
+        ("Set is predicative", "Set is impredicative"),
+        ("* Inductives whose positivity is assumed: <none>", ""),
+    ):
+        assert unexpected(SUMMARY.replace(good, bad)) != ""
+
+
+def test_without_coq_nothing_is_accepted(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("PATH", "")
+    assert main(["certify"]) == 1
+    printed = capsys.readouterr().out
+    assert "Coq absent" in printed
+    assert "accepted" not in printed
+    assert "apt-get install coq" in printed
+    assert not fd.certify([3]).passed
+
+
+def test_statements_and_hashes_are_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", "")
+    assert main(["certify", "7", "--out", str(tmp_path)]) == 1
+    said = json.loads((tmp_path / "certificate.json").read_text())
+    assert [one["verdict"] for one in said["equations"]] == ["Coq absent"]
+    for name in ("Model.v", "Equation_7_part_1.v", "Equation_7_part_2.v"):
+        content = (tmp_path / name).read_bytes()
+        assert said["files"][name] == hashlib.sha256(content).hexdigest()
+    listed = json.loads((tmp_path / "manifest.json").read_text())["files"]
+    assert set(listed) == {*said["files"], "certificate.json"}
+
+
+VERSION = 'if [ "$1" = --print-version ]; then echo "8.16.1 4.14.1"; exit; fi\n'
+
+
+@pytest.fixture
+def programs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder that is searched first; programs that take Coq's place are put into it."""
+    folder = tmp_path / "programs"
+    folder.mkdir()
+    monkeypatch.setenv("PATH", f"{folder}{os.pathsep}/usr/bin{os.pathsep}/bin")
+    put(folder, "coqchk", "exit 1")
+    return folder
+
+
+def put(folder: Path, name: str, script: str) -> None:
+    (folder / name).write_text(f"#!/bin/sh\n{script}\n")
+    (folder / name).chmod(0o755)
+
+
+@pytest.mark.parametrize(
+    ("script", "trouble"),
+    [
+        ("exit 0", "does not say what it rests on"),
+        ("echo Closed under the global context", "coqchk: status 1"),
+        ("echo Axioms:; echo 'magic : False'", "rests on magic"),
+        ("echo 'Error: no' >&2; exit 1", ": no"),
+        ("kill -9 $$", "status -9"),
+    ],
+)
+def test_a_program_that_checks_nothing_accepts_nothing(
+    programs: Path, script: str, trouble: str
+) -> None:
+    put(programs, "coqc", VERSION + script)
+    found = fd.certify([1])
+    assert not found.passed
+    assert found.equations[0].verdict is Verdict.NOT_ACCEPTED
+    assert trouble in found.equations[0].note
+
+
+def test_trouble_with_another_version_names_the_one_that_it_is_written_for(programs: Path) -> None:
+    put(programs, "coqc", 'case $1 in --print-version) echo "9.1.0 5.2";; *) exit 1;; esac')
+    found = fd.certify([1]).equations[0]
+    assert str(found) == "not accepted by Coq 9.1.0"
+    assert "written for Coq 8.16.1" in found.note
+
+
+@pytest.mark.parametrize("script", ["exit 1", "exit 0", "echo coqc"])
+def test_a_program_without_a_version_is_no_coq(programs: Path, tmp_path: Path, script: str) -> None:
+    put(programs, "coqc", script)
+    with pytest.raises(CoqAbsentError, match="apt-get install coq"):
+        Workshop(tmp_path)
+    assert str(fd.certify([1]).equations[0]) == "Coq absent"
+
+
+def test_a_program_that_does_not_answer_is_ended(
+    programs: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    put(programs, "coqc", VERSION + "exec sleep 60")
+    monkeypatch.setattr(workshop, "LIMIT", 0.2)
+    started = time.monotonic()
+    found = fd.certify([1]).equations[0]
+    assert time.monotonic() - started < 30
+    assert "no answer within" in found.note
+
+
+def test_an_interrupt_ends_what_is_under_way_and_leaves_nothing(
+    programs: Path, tmp_path: Path
+) -> None:
+    put(programs, "coqc", VERSION + f'echo $$ >> "{tmp_path}/started"\nexec sleep 60')
+    out, scratch = tmp_path / "out", tmp_path / "scratch"
+    scratch.mkdir()
+    command = [sys.executable, "-m", "force_diffusion", "certify", "1", "--out", str(out)]
+    running = subprocess.Popen(
+        command, env={**os.environ, "TMPDIR": str(scratch)}, stderr=subprocess.PIPE, text=True
+    )
+    started = tmp_path / "started"
+    while not (started.exists() and started.read_text().endswith("\n")):
+        assert running.poll() is None
+        time.sleep(0.05)
+    running.send_signal(signal.SIGINT)
+    _, said = running.communicate(timeout=30)
+    assert running.returncode == 130
+    assert "interrupted" in said
+    assert "Traceback" not in said
+    for number in map(int, started.read_text().split()):
+        with pytest.raises(ProcessLookupError):
+            os.kill(number, 0)
+    assert not out.exists()
+    assert not list(scratch.iterdir())
