@@ -136,7 +136,7 @@ class Recorded:
 
     Attributes:
         verdict: "accepted"; "stale", if the statement or the theory has changed since; "not
-            certified"; or "not stated", where there are no words for it.
+            on record"; or "not stated", where there are no words for it.
         checker: "Coq 8.16.1", if it was accepted.
         theorems: SHA-256 of the statements as they are now, by name.
         theory: SHA-256 of the theory as it is now.
@@ -173,7 +173,7 @@ def recorded(derivation: Derivation) -> Recorded:
         now = {one.name: sha256(one.proposition) for one in statements(derivation)}
     except NotStatedError:
         now = {}
-    record, verdict, checker = _record(), "not certified" if now else str(Verdict.NOT_STATED), ""
+    record, verdict, checker = _record(), "not on record" if now else str(Verdict.NOT_STATED), ""
     for one in record["equations"]:
         if one["number"] == derivation.number and one["verdict"] == Verdict.ACCEPTED:
             same = one["theorems"] == now and record["theory"] == _theory_now()

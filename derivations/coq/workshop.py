@@ -62,7 +62,8 @@ class Said:
 @contextmanager
 def _uninterrupted() -> Iterator[None]:
     """Let an interrupt wait, so that no program is started and then lost."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    waiting = {signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, waiting)
     try:
         yield
     finally:

@@ -165,7 +165,7 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
 
 
 def _coq(found: FoundEquation) -> str:
-    return found.coq.verdict if found.coq else "not certified"
+    return found.coq.verdict if found.coq else "not on record"
 
 
 def _overview(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
@@ -180,7 +180,8 @@ def _overview(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
             f"{mutants.made} & {mutants.refuted} & {mutants.equivalent} \\\\\n"
         )
     return (
-        "\\begin{center}\\small\n\\begin{tabular}{r>{\\raggedright}p{46mm}llrrrrr}\n\\hline\n"
+        "\\begin{center}\\small\\setlength{\\tabcolsep}{4pt}\n"
+        "\\begin{tabular}{r>{\\raggedright}p{42mm}llrrrrr}\n\\hline\n"
         " & & & & & & \\multicolumn{3}{c}{mutants} \\\\\n"
         "Eq. & title & verdict & Coq & proofs & witnesses & made & refuted & equivalent"
         " \\\\\n\\hline\n" + "".join(rows) + "\\hline\n\\end{tabular}\n\\end{center}\n"

@@ -64,7 +64,7 @@ class FoundMutants(_Part):
 class FoundByCoq(_Part):
     """What Coq said of an equation when it was last asked, and the hashes of what is asked now."""
 
-    verdict: Literal["accepted", "stale", "not certified", "not stated"]
+    verdict: Literal["accepted", "stale", "not on record", "not stated"]
     checker: str
     theorems: dict[str, str]
     theory: str

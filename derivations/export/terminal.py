@@ -54,8 +54,7 @@ def statement_text(derivation: Derivation) -> str:
     if derivation.premises:
         numbers = ", ".join(str(premise.number) for premise in derivation.premises)
         parts += ["", f"Rests on Eq{'s' * (len(derivation.premises) > 1)}. {numbers}"]
-    asks = f"'force-diffusion certify {derivation.number}' asks"
-    parts += ["", f"Coq: {recorded(derivation)} ({asks})"]
+    parts += ["", f"Coq: {recorded(derivation)}"]
     if derivation.remarks:
         parts += ["", "Remarks"]
         parts += [_paragraph(words, "  - ", "    ") for words in derivation.remarks]

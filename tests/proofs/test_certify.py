@@ -17,7 +17,7 @@ from force_diffusion.derivations.coq.statements import (
     statement,
 )
 from force_diffusion.derivations.coq.workshop import ALLOWED, Workshop, theory
-from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.derivations.framework.catalogue import load, paper
 from force_diffusion.derivations.framework.runner import SEEDS
 
 from tests.derivations.test_soundness import FALSE, TRUE, Change
@@ -48,7 +48,7 @@ def ask(shop: Workshop, made: Statement) -> Certificate:
 def test_every_equation_and_packing_is_accepted() -> None:
     found = certify()
     assert found.passed
-    assert [one.number for one in found.equations] == list(modules())
+    assert [one.number for one in found.equations] == list(paper())
     assert [one.number for one in found.packings] == list(SEEDS)
     for one in (*found.equations, *found.packings):
         assert one.verdict is Verdict.ACCEPTED, one
@@ -68,7 +68,7 @@ def test_another_packing_is_not_accepted(shop: Workshop) -> None:
         assert ask(shop, changed).verdict is Verdict.NOT_ACCEPTED
 
 
-@pytest.mark.parametrize("number", modules())
+@pytest.mark.parametrize("number", paper())
 def test_mutants_are_not_accepted(shop: Workshop, number: int) -> None:
     every_seventh = tried(shop, load(number), chosen=lambda at: at % 7 == number % 7)
     assert every_seventh.stated

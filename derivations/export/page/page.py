@@ -35,7 +35,7 @@ _PACKAGES = (
     "math-core", "numba",
 )  # fmt: skip
 _MARKS = {"proved": "✓", "agrees": "✓", "refuted": "✗", "disagrees": "✗", "undecided": "?",
-          "equivalent": "≡", "accepted": "✓", "stale": "?", "not certified": "–",
+          "equivalent": "≡", "accepted": "✓", "stale": "?", "not on record": "–",
           "not stated": "–"}  # fmt: skip
 
 

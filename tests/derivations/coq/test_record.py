@@ -8,7 +8,7 @@ from force_diffusion.derivations.coq import record
 from force_diffusion.derivations.coq.record import Certificate, Change, Changes, Verdict, recorded
 from force_diffusion.derivations.export.document import finding, section_latex
 from force_diffusion.derivations.export.manifest import Manifest
-from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.derivations.framework.catalogue import load, paper
 from force_diffusion.derivations.framework.record import Derivation, Outcome
 from force_diffusion.symbolic.as_printed import equation, times
 from force_diffusion.symbolic.kernel.decisions import Verdict as Proof
@@ -23,7 +23,7 @@ def other_than_printed(number: int) -> Derivation:
     return replace(derivation, printed=(equation(printed.lhs, times(2, printed.rhs)),))
 
 
-@pytest.mark.parametrize("number", modules())
+@pytest.mark.parametrize("number", paper())
 def test_every_equation_is_on_record_as_it_is_printed(number: int) -> None:
     """If this fails, ask Coq again: CONTRIBUTING.md says how."""
     assert str(fd.equation(number).coq) == "accepted by Coq 8.16.1"
@@ -31,7 +31,7 @@ def test_every_equation_is_on_record_as_it_is_printed(number: int) -> None:
 
 def test_the_record_holds_mutants_of_every_equation() -> None:
     said = record._record()["equations"]
-    assert [one["number"] for one in said] == list(modules())
+    assert [one["number"] for one in said] == list(paper())
     for one in said:
         assert one["changes"]["stated"] > 5
         assert all(change["equivalent"] for change in one["changes"]["accepted"])
@@ -57,9 +57,9 @@ def test_nothing_else_counts_as_accepted(monkeypatch: pytest.MonkeyPatch, verdic
     for one in said["equations"]:
         one["verdict"] = verdict
     monkeypatch.setattr(record, "_record", lambda: said)
-    assert str(recorded(load(1))) == "not certified"
+    assert str(recorded(load(1))) == "not on record"
     monkeypatch.setattr(record, "_record", lambda: {"theory": "", "equations": []})
-    assert str(recorded(load(1))) == "not certified"
+    assert str(recorded(load(1))) == "not on record"
 
 
 def test_lists_and_documents_say_so(
@@ -76,12 +76,12 @@ def test_lists_and_documents_say_so(
         Manifest(program="force-diffusion", files={}, equations=(found,)).text()
     ).equations == (found,)
     assert "Coq: accepted." in section_latex(load(13), found)
-    assert "Coq: not certified." in section_latex(load(13), found.model_copy(update={"coq": None}))
+    assert "Coq: not on record." in section_latex(load(13), found.model_copy(update={"coq": None}))
     assert "accepted by Coq 8.16.1" in shown("show", "13")
-    assert shown("list").count("accepted ") == len(modules())
+    assert shown("list").count("accepted ") == len(paper())
     monkeypatch.setattr(record, "_theory_now", lambda: "0" * 64)
     assert "has changed since" in shown("show", "13")
-    assert shown("list").count("stale ") == len(modules())
+    assert shown("list").count("stale ") == len(paper())
 
 
 def test_verdicts_in_words() -> None:

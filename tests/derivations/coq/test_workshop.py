@@ -147,8 +147,9 @@ def test_a_program_that_does_not_answer_is_ended(
     assert "no answer within" in found.note
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupt_ends_what_is_under_way_and_leaves_nothing(
-    programs: Path, tmp_path: Path
+    programs: Path, tmp_path: Path, number: int
 ) -> None:
     put(programs, "coqc", VERSION + f'echo $$ >> "{tmp_path}/started"\nexec sleep 60')
     out, scratch = tmp_path / "out", tmp_path / "scratch"
@@ -161,13 +162,13 @@ def test_an_interrupt_ends_what_is_under_way_and_leaves_nothing(
     while not (started.exists() and started.read_text().endswith("\n")):
         assert running.poll() is None
         time.sleep(0.05)
-    running.send_signal(signal.SIGINT)
+    running.send_signal(number)
     _, said = running.communicate(timeout=30)
     assert running.returncode == 130
     assert "interrupted" in said
     assert "Traceback" not in said
-    for number in map(int, started.read_text().split()):
+    for process in map(int, started.read_text().split()):
         with pytest.raises(ProcessLookupError):
-            os.kill(number, 0)
+            os.kill(process, 0)
     assert not out.exists()
     assert not list(scratch.iterdir())
