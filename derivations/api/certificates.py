@@ -78,7 +78,10 @@ def certify(
 
     Raises:
         NoSuchFormError: there is no equation of that number.
+        TypeError: ``numbers`` is a single one.
     """
+    if isinstance(numbers, int | str):
+        raise TypeError(f"certify takes several numbers: certify([{numbers!r}])")
     wanted: list[Number] = list(paper())
     if numbers is not None:
         wanted = [equation(number).number for number in numbers]

@@ -181,7 +181,7 @@ def _overview(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
         )
     return (
         "\\begin{center}\\small\\setlength{\\tabcolsep}{4pt}\n"
-        "\\begin{tabular}{r>{\\raggedright}p{42mm}llrrrrr}\n\\hline\n"
+        "\\begin{tabular}{r>{\\raggedright}p{40mm}llrrrrr}\n\\hline\n"
         " & & & & & & \\multicolumn{3}{c}{mutants} \\\\\n"
         "Eq. & title & verdict & Coq & proofs & witnesses & made & refuted & equivalent"
         " \\\\\n\\hline\n" + "".join(rows) + "\\hline\n\\end{tabular}\n\\end{center}\n"

@@ -86,6 +86,12 @@ def test_statements_and_hashes_are_written(tmp_path: Path, monkeypatch: pytest.M
 VERSION = 'if [ "$1" = --print-version ]; then echo "8.16.1 4.14.1"; exit; fi\n'
 
 
+@pytest.mark.parametrize("number", [13, "13"])
+def test_a_single_number_is_refused_in_words(number: object) -> None:
+    with pytest.raises(TypeError, match="several numbers"):
+        fd.certify(number)
+
+
 @pytest.fixture
 def programs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder that is searched first; programs that take Coq's place are put into it."""

@@ -37,6 +37,14 @@ def made(*derivations: Derivation, parts: Sequence[Part] = ()) -> str:
     return page(outcomes, parts, "force-diffusion report", "2001-02-03 04:05 UTC")
 
 
+def test_what_coq_said_stands_beside_the_verdict() -> None:
+    """Of an equation that is printed otherwise it has said nothing that still holds."""
+    text = made(fakes.PREMISE)
+    assert 'class="verdict stale"' in text
+    assert "Coq: accepted by Coq 8.16.1, and has changed since." in text
+    assert 'class="verdict accepted"' not in text
+
+
 class Outline(HTMLParser):
     """Open elements, to see that each is closed, and all attributes."""
 
