@@ -131,7 +131,10 @@ def _written(shown: "Formula", wanted: "Equation", form: Form, columns: int) -> 
 
 
 def list_equations() -> None:
-    """List the equations, and what Coq said of them when it was last asked."""
+    """List the equations.
+
+    Beside each stands what Coq said of it when it was last asked.
+    """
     for one in map(fd.equation, modules()):
         print(f"{one.number!s:>3}  {one.name:<20}  {one.coq.verdict:<13}  {one.title}")
 
