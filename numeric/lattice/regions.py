@@ -43,12 +43,15 @@ def downward_cone(loaded: Iterable[Site], width: int | None) -> Rows:
     """
     own: dict[int, Layer] = {}
     for i, j in loaded:
-        own[j] = hull(own.get(j, Layer(j, i, 0)), Layer(j, i, 1), width)
-    top = max(own, default=0)
-    rows = [own.get(top, Layer(top, top % 2, 0))]
+        bead = Layer(j, i, 1)
+        own[j] = hull(own[j], bead, width) if j in own else bead
+    if not own:
+        return (Layer(0, 0, 0),)
+    top = max(own)
+    rows = [own[top]]
     for m in range(top - 1, -1, -1):
-        below = supports(rows[-1], width) if rows[-1].count else Layer(m, m % 2, 0)
-        rows.append(hull(below, own.get(m, Layer(m, m % 2, 0)), width))
+        below = supports(rows[-1], width)
+        rows.append(hull(below, own[m], width) if m in own else below)
     return tuple(reversed(rows))
 
 
