@@ -79,7 +79,7 @@ def test_products_of_all_pairs(rows: list[list[float]]) -> None:
 
 @given(SAMPLES)
 def test_bytes_can_be_read_back(samples: list[float]) -> None:
-    for one in sums(np.array([samples, samples])):
+    for one in sums(np.array([samples, samples[::-1]])):
         written = one.to_bytes()
         read, end = ExactSum.from_bytes(memoryview(written + b"rest"), (2,))
         assert (read, end) == (one, len(written))
@@ -97,6 +97,34 @@ def test_rounding_is_close_and_knows_only_the_number(samples: list[float]) -> No
     assert abs(Fraction(found) - meant) <= Fraction(math.ulp(found))
     more = first + ExactSum.of([(-70, np.array(0)), (60, np.array(0))], ())
     assert more.rounded().tobytes() == first.rounded().tobytes()
+
+
+@given(SAMPLES, SAMPLES)
+def test_each_row_has_its_own_sum(one: list[float], other: list[float]) -> None:
+    values = np.zeros((2, max(len(one), len(other))))
+    values[0, : len(one)], values[1, : len(other)] = one, other
+    both = total(digits(values), (2,))
+    assert both.fractions() == [sum(exactly(row)) for row in values]
+    first = both.reshaped(1, 2)
+    assert first.over(1).fractions() == [sum(exactly(values.reshape(-1)))]
+    assert first.over(0) == both
+    assert (first.over(1) == ExactSum.zero(1)) == (not any(first.over(1).fractions()))
+    assert both != (0, both.limbs)
+
+
+@given(SAMPLES, st.sampled_from([-300, -7, 3, 300]))
+def test_rounding_takes_a_power_of_two_along(samples: list[float], shift: int) -> None:
+    values = np.array([v for v in samples if 1e-200 < abs(v) < 1e200] or [1.0])
+    found = float(total(digits(values), ()).rounded(shift))
+    meant = sum(exactly(values)) * Fraction(2) ** shift
+    assert abs(Fraction(found) - meant) <= Fraction(math.ulp(found))
+
+
+def test_pairs_of_whole_numbers_and_of_nothing_but_zeros() -> None:
+    ones = np.ones((2, 5))
+    assert total_matrix(digits(ones), 2).fractions() == [5, 5, 5]
+    assert total_matrix(digits(0 * ones), 2).fractions() == [0, 0, 0]
+    assert total(digits(0 * ones), (2,)) == ExactSum.zero(2)
 
 
 def test_many_of_the_largest_digits_do_not_overflow() -> None:
