@@ -113,7 +113,8 @@ def _known(error: BaseException) -> int:
 
 
 def _failed(error: Exception, message: str, status: int) -> int:
-    names = reversed(getattr(error, "__notes__", []))  # the outermost was added last
+    notes = dict.fromkeys(reversed(getattr(error, "__notes__", [])))  # the outermost came last
+    names = [name for name in notes if name not in message.partition(":")[0]]
     tell(": ".join([*names, message]))
     return status
 

@@ -3,7 +3,10 @@
 from collections.abc import Callable
 from dataclasses import replace
 from importlib import import_module
+from numbers import Real
+from operator import index
 from pathlib import Path
+from typing import SupportsIndex
 
 from ..arithmetic.errors import ForceDiffusionError, NotReachedError
 from ..arithmetic.machine import cores, memory_limit
@@ -72,12 +75,18 @@ def ensemble(
             f"ensemble takes a scene, not {type(scene).__name__}: Scene(…) or read_scene(path)"
         )
     size = _size(scene, realisations)
-    if until is not None and not 0 < until < 1:
+    if until is not None and not 0 < _number("until", until) < 1:
         raise ArgumentError("until", f"{until:g}", "must lie between 0 and 1, such as 0.01")
-    if not 0 < confidence < 1:
+    if not 0 < _number("confidence", confidence) < 1:
         raise ArgumentError(
             "confidence", f"{confidence:g}", "must lie between 0 and 1, such as 0.95"
         )
+    if reach is not None:
+        _number("reach", reach)
+    if scheduler is not None and not isinstance(scheduler, str):
+        raise ArgumentError("scheduler", scheduler, 'must be an address, or "local"')
+    if store is not None and not isinstance(store, str | Path):
+        raise ArgumentError("store", store, "must be the name of a file")
     # Loaded before the memory is shared out: in a full one its library waits for ever.
     import_module("scipy.special")
     m = replace(measurement(scene, covariance=covariance, reach=reach), expected=size)
@@ -123,15 +132,23 @@ def _size(scene: Scene, realisations: int | None) -> int:
             more = f"{allowed}; say how many here or with realisations (--realisations N)"
             raise SceneError("ask.realisations", scene.ask.realisations, more)
         return scene.ask.realisations
-    if not 2 <= realisations <= MOST:
+    if not isinstance(realisations, SupportsIndex) or not 2 <= index(realisations) <= MOST:
         raise ArgumentError("realisations", realisations, allowed)
-    return realisations
+    return index(realisations)
+
+
+def _number(name: str, value: object) -> float:
+    if not isinstance(value, Real):
+        raise ArgumentError(name, value, "must be a number")
+    return float(value)
 
 
 def _executor(m: Measurement, size: int, workers: int | None, scheduler: str | None) -> Executor:
     """Choose who solves: this process, others on this machine, or a cluster."""
-    if workers is not None and not 1 <= workers <= MOST_WORKERS:
-        raise ArgumentError("workers", workers, f"must lie between 1 and {MOST_WORKERS}")
+    whole = workers is None or isinstance(workers, SupportsIndex)
+    if not whole or (workers is not None and not 1 <= workers <= MOST_WORKERS):
+        allowed = f"must be a whole number between 1 and {MOST_WORKERS}"
+        raise ArgumentError("workers", workers, allowed)
     if scheduler in {None, LOCAL}:
         room = max(1, memory_limit() // (m.plan.memory + BATCH))
         if workers is not None and workers > room:

@@ -2,11 +2,13 @@
 
 import csv
 import io
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from operator import index
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, SupportsIndex
 
 from ..arithmetic.errors import ForceDiffusionError
+from ..scene.sections import SceneError
 from . import (
     chains,
     comparison,
@@ -207,8 +209,8 @@ def figure(
         command: what every file says that made it.
 
     Raises:
-        NoSuchFigureError: there is no such figure or model, or too few realisations.
-        SceneError: heights or a seed that can't be.
+        NoSuchFigureError: there is no such figure or model.
+        SceneError: heights, realisations or a seed that can't be.
         UnbuildableError, NotStandingError: radii of such a height can't be built or stand.
         MissingLibraryError: there is no matplotlib.
     """
@@ -222,8 +224,13 @@ def figure(
                 f"there is no model {model!r} beside figure {name}: give 'q-model' with figure 3 "
                 "or 'double-y' with figure 4"
             )
-    if realisations is not None and realisations < LEAST_REALISATIONS:
-        raise NoSuchFigureError(f"realisations = {realisations}: give at least 16")
+    if realisations is not None and not (
+        isinstance(realisations, SupportsIndex) and index(realisations) >= LEAST_REALISATIONS
+    ):
+        allowed = f"must be a whole number from {LEAST_REALISATIONS} on"
+        raise SceneError("realisations", realisations, allowed)
+    if not isinstance(heights, Iterable) or isinstance(heights, str):
+        raise SceneError("heights", heights, "must be a list of whole numbers, such as [16, 32]")
     with drawing():
         from . import style
 

@@ -79,6 +79,7 @@ def packings(
                 solved = all_solved if len(parts) == 1 else all_solved.some(part)
             if physical is not None and solved.packing is not None:
                 with work.timed(PHYSICAL):
+                    physical.looks_at = chunk
                     physical.look_at_gaps(solved.packing)
                     if solved.forces is not None:
                         physical.look_at_forces(solved.forces)

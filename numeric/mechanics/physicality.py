@@ -6,6 +6,7 @@ touching are told apart. Signs of forces are those of the arithmetic that solved
 they are certified.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -36,6 +37,10 @@ class Physicality:
     contacts: int = 0
     forces_known: bool = False
     first_tensile: Contact | None = None
+    smallest_in: int = 0
+    first_tensile_in: int = 0
+    """Realisations, or packings of a batch, that the two were found in."""
+    looks_at: Sequence[int] = (0,)
 
     @property
     def sound(self) -> bool:
@@ -127,7 +132,9 @@ class Physicality:
         self.undecided_gaps += int(np.count_nonzero(np.abs(gap) <= RESOLUTION))
         smallest = float(gap.min())
         if self.smallest_gap is None or not smallest >= self.smallest_gap:
-            q = int(np.flatnonzero(inside)[np.argwhere(gap == gap.min())[0][-1]])
+            *batch, at = np.argwhere(gap == gap.min())[0]
+            self.smallest_in = self.looks_at[int(batch[0]) if batch else 0]
+            q = int(np.flatnonzero(inside)[at])
             i = here.first + 2 * q
             period = 2 * width if width is not None else None
             self.smallest_gap = smallest
@@ -155,7 +162,8 @@ class Physicality:
                 self.tensile += int(np.count_nonzero(pulls))
                 self.undecided_signs += int(np.count_nonzero(undecided))
                 if pulls.any() and self.first_tensile is None:
-                    q = int(np.argwhere(pulls)[0][-1])
+                    *batch, q = map(int, np.argwhere(pulls)[0])
+                    self.first_tensile_in = self.looks_at[batch[0] if batch else 0]
                     self.first_tensile = Contact(
                         layer.first + 2 * q - branch.side, layer.j - 1, branch
                     )

@@ -236,6 +236,7 @@ def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
         "whole": whole,
         "smallest_gap": _length(found.smallest_gap, plan.scene.packing.radius),
         "smallest_gap_between": None if found.between is None else [list(s) for s in found.between],
+        "smallest_gap_realisation": found.smallest_in if problem.realisations > 1 else None,
         "overlaps": found.overlaps,
         "tensile_contacts": found.tensile if found.forces_known else None,
         "undecided": found.undecided_gaps + found.undecided_signs,
@@ -251,6 +252,8 @@ def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
         )
     if found.first_tensile is not None:
         data["first_tensile"] = found.first_tensile._asdict()
+        if problem.realisations > 1:
+            data["first_tensile"]["realisation"] = found.first_tensile_in
     return data
 
 

@@ -1,6 +1,8 @@
 """Contact forces and positions for radii of one's own, as arrays."""
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -126,6 +128,16 @@ class Solution:
     __repr__ = __str__
 
 
+@contextmanager
+def _named_as_here() -> Iterator[None]:
+    """Name arguments of ``solve`` in errors, and not the keys of a scene that they become."""
+    try:
+        yield
+    except SceneError as error:
+        name = error.key.removeprefix("packing.").removeprefix("disorder.")
+        raise SceneError(name, error.value, error.allowed) from None
+
+
 def solve(
     radii: Any = None,
     *,
@@ -169,7 +181,8 @@ def solve(
     """
     if (radii is None) == (delta_r is None):
         raise SceneError("radii", None, "give either radii or delta_r")
-    given = GivenRadii(radii=radii) if delta_r is None else GivenRadii(delta_r=delta_r)
+    with _named_as_here():
+        given = GivenRadii(radii=radii) if delta_r is None else GivenRadii(delta_r=delta_r)
     if load is not None and not isinstance(load, Load):
         allowed = "must be SurfaceLoad(), BulkLoad(), PointLoad(at=(k, l)) or Load(kind=…)"
         raise SceneError("load", load, allowed)
@@ -189,18 +202,19 @@ def solve(
         )
     if radius is None:
         radius = Fraction(float(given.values.mean())) if delta_r is None else 1
-    scene = Scene(
-        packing=Packing(
-            height=shape[-2] - 1,
-            width=shape[-1],
-            radius=radius,
-            spacing=spacing,
-            allow_images=allow_images,
-        ),
-        disorder=given,
-        load=SurfaceLoad() if load is None else load,
-        ask=Ask(quantity="contact_forces", realisations=shape[0] if len(shape) == 3 else 1),
-    )
+    with _named_as_here():
+        scene = Scene(
+            packing=Packing(
+                height=shape[-2] - 1,
+                width=shape[-1],
+                radius=radius,
+                spacing=spacing,
+                allow_images=allow_images,
+            ),
+            disorder=given,
+            load=SurfaceLoad() if load is None else load,
+            ask=Ask(quantity="contact_forces", realisations=shape[0] if len(shape) == 3 else 1),
+        )
     asked = None if tolerance is None else read_tolerance(tolerance)
     try:
         system = FLOAT64 if arithmetic is None else system_of(arithmetic)

@@ -63,7 +63,7 @@ def _check_packing(p: Packing) -> None:
         raise SceneError("packing.radius", p.radius, "must be greater than 0")
     if not 4 * p.radius**2 < p.s**2 < 12 * p.radius**2 or p.s < 0:
         ratio = decimal_string(p.s / p.radius, None)
-        ratio = ratio if len(ratio) <= 45 else short(p.s / p.radius)
+        ratio = ratio if len(ratio) <= 15 else f"about {short(p.s / p.radius)}"
         raise SceneError(
             "packing.spacing",
             p.s,

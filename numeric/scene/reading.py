@@ -33,7 +33,13 @@ def read_scene(path: Path, kind: type[S]) -> S:
         raise SceneError(str(path), None, f"can't be read ({error.strerror})") from None
     if len(content) > LARGEST_FILE:
         raise SceneError(str(path), None, f"a scene has at most {LARGEST_FILE} bytes")
-    return parse_scene(text, kind, path.parent)
+    try:
+        return parse_scene(text, kind, path.parent)
+    except SceneError as error:
+        if error.key == "scene":
+            raise SceneError(str(path), None, error.allowed) from None
+        error.add_note(path.name)
+        raise
 
 
 def _lines_with_keys(text: str) -> Iterator[str]:

@@ -6,6 +6,7 @@ that Python prints for it.
 
 import difflib
 import operator
+from collections.abc import Iterator
 from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
@@ -13,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
 import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
-from ..arithmetic.decimals import decimal_string, exact
+from ..arithmetic.decimals import decimal_string, exact, short
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
 
@@ -27,7 +28,7 @@ class SceneError(ForceDiffusionError, ValueError):
         super().__init__(
             f"{key} = {shown}: {allowed}" if value is not None else f"{key}: {allowed}"
         )
-        self.key, self.allowed = key, allowed
+        self.key, self.value, self.allowed = key, value, allowed
 
 
 class Written(Decimal):
@@ -81,6 +82,9 @@ else:
     Place = Annotated[list[int | str], _listed]
 
 
+MOST = 10**40  # as long as numbers are shown in full
+
+
 class Section(BaseModel):
     """A section: unknown keys are errors, types are not converted, nothing changes afterwards.
 
@@ -98,6 +102,24 @@ class Section(BaseModel):
             super().__init__(**values)
         except ValidationError as error:
             raise explained(error, type(self), values) from None
+
+    def __repr_args__(self) -> "Iterator[tuple[str | None, Any]]":
+        for name, value in super().__repr_args__():
+            yield name, _Shortly(value) if isinstance(value, Fraction) and _long(value) else value
+
+
+def _long(value: Fraction) -> bool:
+    return max(abs(value.numerator), value.denominator) > MOST
+
+
+class _Shortly:
+    """A number of thousands of digits, as ``repr`` shows it."""
+
+    def __init__(self, value: Fraction) -> None:
+        self.value = value
+
+    def __repr__(self) -> str:
+        return short(self.value)
 
 
 class Packing(Section):

@@ -125,6 +125,8 @@ def _lines(rows: list[Row]) -> dict[tuple[str, str], list[Row]]:
     found: dict[tuple[str, str], list[Row]] = {}
     for row in rows:
         found.setdefault((row.way, _family(row)), []).append(row)
+    for line in found.values():
+        line.sort(key=lambda row: row.realisations or 0)  # ensembles by their size
     return found
 
 

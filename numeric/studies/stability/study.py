@@ -112,6 +112,9 @@ def stability(
     >>> bool(found.arrays["closed_forms"]["relative_error"].max() < 1e-14)
     True
     """
+    if not callable(notice):
+        told = f"stability takes a function that is told lines, not {type(notice).__name__}"
+        raise TypeError(told)
     for name in only:
         if name not in FILES:
             raise ForceDiffusionError(f'there is no table "{name}"; there are {", ".join(FILES)}')

@@ -1,0 +1,94 @@
+"""Small things that users tripped over: what is wrong is said in their words."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+
+import force_diffusion as fd
+from force_diffusion.__main__ import main
+
+SCENE = fd.Scene(
+    packing=fd.Packing(height=4, width=8),
+    disorder=fd.Disorder(kind="uniform", relative_std=1e-4),
+    ask=fd.Ask(quantity="profile"),
+)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"realisations": "a"}, {"realisations": 10.5}, {"workers": "x"}, {"until": "a"},
+        {"confidence": "a"}, {"reach": "a"}, {"store": 5}, {"scheduler": 5},
+    ],
+)  # fmt: skip
+def test_wrong_types_for_an_ensemble(wrong: dict[str, Any]) -> None:
+    (name,) = wrong
+    with pytest.raises(ForceDiffusionError, match=rf"^{name} = "):
+        fd.ensemble(SCENE, **{"realisations": 10, **wrong})
+
+
+@pytest.mark.parametrize("wrong", [{"heights": 5}, {"realisations": "a"}, {"realisations": -1}])
+def test_wrong_types_for_a_figure(wrong: dict[str, Any]) -> None:
+    (name,) = wrong
+    with pytest.raises(fd.SceneError, match=rf"^{name} = "):
+        fd.figure(3, **wrong)
+
+
+def test_a_wrong_type_for_a_study() -> None:
+    with pytest.raises(TypeError, match="a function that is told lines, not int"):
+        fd.stability(5)  # type: ignore[arg-type]
+
+
+def test_a_huge_number_can_be_shown() -> None:
+    assert "radius=1e+4999" in repr(fd.Packing(height=4, width=9, radius=10**4999))
+    assert "radius=Fraction(5, 2)" in repr(fd.Packing(height=4, width=9, radius=2.5))
+
+
+def test_a_file_that_is_no_scene_is_named(tmp_path: Path, capsys: Any) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text("root:x:0")
+    with pytest.raises(fd.SceneError, match=r"mine\.toml: is no valid TOML"):
+        fd.read_scene(path)
+    for name in (str(path), "nope.toml"):
+        assert main(["run", name]) == 2
+        assert capsys.readouterr().err.count(Path(name).name) == 1
+    path.write_text("packing = {height = 0}\nask = {quantity = 'profile'}")
+    assert main(["run", str(path)]) == 2
+    assert capsys.readouterr().err.startswith("force-diffusion: mine.toml: packing.height = 0")
+
+
+def test_a_load_above_the_packing_is_told_so() -> None:
+    with pytest.raises(fd.SceneError, match="j must be from 0 to 4, the surface"):
+        fd.Scene(
+            packing=fd.Packing(height=4, width=8),
+            load=fd.PointLoad(at=(3, 8)),
+            ask=fd.Ask(quantity="contact_forces"),
+        )
+
+
+def test_solve_names_its_own_arguments() -> None:
+    radii = 1 + 1e-3 * np.random.default_rng(1).uniform(-1, 1, (5, 12))
+    wrong: dict[str, Any]
+    for wrong, says in (
+        ({"radii": radii, "spacing": 9}, r"^spacing = 9: .* \(it is about 8\.99\d* r\)"),
+        ({"radii": radii, "radius": 9}, "^radius = 9"),
+        ({"radii": "a"}, "^radii = "),
+        ({"delta_r": [["a"]]}, "^delta_r = "),
+    ):
+        with pytest.raises(fd.SceneError, match=says):
+            fd.solve(**wrong)
+
+
+def test_what_is_odd_about_a_batch_names_the_packing() -> None:
+    radii = 1 + 1e-3 * np.random.default_rng(1).uniform(-1, 1, (4, 5, 12))
+    radii[2] += 0.13 * np.random.default_rng(2).uniform(-1, 1, (5, 12))
+    physical = fd.solve(radii).forces.data()["physical"]
+    assert physical["smallest_gap_realisation"] == 2
+    assert physical["first_tensile"]["realisation"] == 2
+    radii[3, 0, 5] = 5.0
+    with pytest.raises(ForceDiffusionError) as caught:
+        fd.solve(radii)
+    assert caught.value.__notes__ == ["packing 3"]
