@@ -199,10 +199,14 @@ DERIVATION = Derivation(
     search=search,
     claims=(
         Claim(
-            "exact forms at the base and below the surface",
+            "leading orders of the exact forms at the base and below the surface",
             lambda: edges_follow(exact_forms(), PRINTED.rhs),
         ),
-        Claim("no radius has more than O(1/M) of the variance, in any layer", _no_radius_dominates),
+        Claim(
+            "at fixed z, and in the layers next to base and surface, no radius has more than "
+            "O(1/M) of the variance: what Lindeberg's theorem needs",
+            _no_radius_dominates,
+        ),
     ),
     witnesses=(
         Witness(

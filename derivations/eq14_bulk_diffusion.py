@@ -333,11 +333,12 @@ DERIVATION = Derivation(
             "loads superpose, and one on layer l feels radii of layers ≤ l alone", _superposition
         ),
         Claim(
-            "exact forms at the base and below the surface",
+            "leading orders of the exact forms at the base and below the surface",
             lambda: edges_follow(exact_forms(), PRINTED.rhs),
         ),
         Claim(
-            "no radius has more than O(1/M) of the variance, in any layer",
+            "at fixed z, and in the layers next to base and surface, no radius has more than "
+            "O(1/M) of the variance: what Lindeberg's theorem needs",
             lambda: no_radius_dominates(eq11.in_radii(bulk_force()), exact_forms()),
         ),
         Claim("one layer below the surface both loads agree", _one_layer_below_the_surface),

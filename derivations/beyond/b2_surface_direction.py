@@ -161,9 +161,10 @@ DERIVATION = Derivation(
     search=search,
     claims=(
         Claim("for t = 1 it is Eq. 13, exactly", lambda: is_vertical(exact_forms(), eq13)),
-        Claim("exact forms at the base and below the surface", _edges),
+        Claim("leading orders of the exact forms at the base and below the surface", _edges),
         Claim(
-            "no radius has more than O(1/M) of the variance, in any layer",
+            "at fixed z, and in the layers next to base and surface, no radius has more than "
+            "O(1/M) of the variance",
             lambda: no_radius_dominates(b1.in_radii(0), exact_forms()),
         ),
         Claim(

@@ -146,7 +146,8 @@ DERIVATION = Derivation(
     claims=(
         Claim("for t = 1 it is Eq. 14, exactly", lambda: is_vertical(exact_forms(), eq14)),
         Claim(
-            "no radius has more than O(1/M) of the variance, in any layer",
+            "at fixed z, and in the layers next to base and surface, no radius has more than "
+            "O(1/M) of the variance",
             lambda: no_radius_dominates(b1.put_in_radii(bulk_force()), exact_forms()),
         ),
         Claim("as n⁻ is unloaded, f⁺ keeps the variance of its own tilt", _unloaded),

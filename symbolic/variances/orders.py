@@ -65,5 +65,6 @@ def no_radius_dominates(force: sympy.Expr, forms: dict[str, ClosedForm]) -> Ruli
         for case, (at, region, *_) in CASES.items()
     ]
     return from_test(
-        max(shares) == -1, "a radius has a share of order 1/M in the variance, in every layer"
+        max(shares) == -1,
+        "a radius has a share of order 1/M in the variance, at fixed z and for j = 0, 1 and M − 1",
     )
