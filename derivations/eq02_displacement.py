@@ -175,6 +175,7 @@ def steps() -> Iterator[Step]:
         equation(sympy.Pow(ROWS, -1, evaluate=False), ROWS.inv()),
         _inverse,
         ("step 3",),
+        positive=(ROWS,),
     )
     yield Step(
         "Applied to both right-hand sides:",

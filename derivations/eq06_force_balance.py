@@ -15,6 +15,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     all_of,
     cartesian,
     decide_identity,
+    undecided,
 )
 from force_diffusion.symbolic.mechanics.balance import (
     FORCES,
@@ -66,7 +67,10 @@ def _differentiated(_: int, candidate: sympy.Eq) -> Ruling:
     def rational(side: sympy.Expr) -> sympy.Expr:
         return side.doit().xreplace({DISTANCE: ROOT, 1 / DISTANCE: 1 / ROOT})
 
-    difference = sympy.together(rational(candidate.lhs) - rational(candidate.rhs))
+    difference = rational(candidate.lhs) - rational(candidate.rhs)
+    if not all(power.exp.is_Integer for power in difference.atoms(sympy.Pow)):
+        return undecided("a root of another distance is left")
+    difference = sympy.together(difference)
     return decide_identity(sympy.expand(difference).subs(ROOT**2, DISTANCE**2), sympy.Integer(0))
 
 
@@ -84,6 +88,7 @@ def steps() -> Iterator[Step]:
             )
         ),
         _differentiated,
+        positive=(DISTANCE**2,),
     )
     yield Step(
         "That gradient points from the support to the bead, and is a unit vector: n⁺ + δn⁺ from "
@@ -91,6 +96,7 @@ def steps() -> Iterator[Step]:
         equation(terms(*(slope**2 for slope in gradient)), 1),
         _differentiated,
         ("step 1",),
+        positive=(DISTANCE**2,),
     )
     yield Step("The load and the two forces add up to zero.", PRINTED, decide, ("step 1", "step 2"))
     yield Step(
@@ -169,6 +175,7 @@ def solving(system: Solved, dotted: str, uses: tuple[str, ...]) -> Iterator[Step
         sympy.Tuple(*map(equation, FORCES, system.solution)),
         is_solution,
         ("step 1",),
+        positive=(system.determinant,),
     )
     yield Step(
         "Expanded in ε, the values at ε = 0 and the derivatives there:",

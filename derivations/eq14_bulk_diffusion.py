@@ -74,7 +74,7 @@ RELATIVE_VARIANCE = Symbol(
     "relative_variance", r"\frac{\sigma_f^2(z)}{\langle f\rangle_z^2}", "σ_f²(z)/⟨f⟩_z²"
 )
 UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
-MEAN_FORCE = Symbol("mean_force", r"\langle f\rangle_z", "⟨f⟩_z")
+MEAN_FORCE = Symbol("mean_force", r"\langle f\rangle_z", "⟨f⟩_z", positive=True)
 
 PRINTED = equation(
     RELATIVE_VARIANCE,

@@ -276,6 +276,7 @@ def steps() -> Iterator[Step]:
             equation(MEAN_SQUARE, average.expression),
             _average(load),
             (f"Eq. {LOADS[load].DERIVATION.number}",),
+            positive=(M - 1, k),
         )
         for height, value in average.exceptions:
             yield Step(
@@ -341,6 +342,7 @@ def steps() -> Iterator[Step]:
             sympy.exp(-(terms(1, -FORCE) ** 2) / (2 * SQUARE)) / sympy.sqrt(2 * sympy.pi * SQUARE),
         ),
         _gaussian,
+        positive=(sympy.pi,),
     )
     for place, load in enumerate(LOADS):
         yield Step(

@@ -87,6 +87,7 @@ def exact_steps(
             equation(quantity, form.expression),
             identity({quantity: form.expression}),
             (inside or source,) if where == "in the interior" else (source,),
+            positive=(M - 1,),  # where it is divided by, j = 1 and M ≥ 3
         )
         where = "at the edge"
     small = {(size, at): value for form in forms.values() for size, at, value in form.exceptions}

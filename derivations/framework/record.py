@@ -39,6 +39,7 @@ class Step:
             for what is shown and for anything else.
         uses: what it follows from: "Eq. 2" for a premise, "step 1" for an earlier step.
         relation: how the equation relates its sides: "=", "≈" or "∼".
+        positive: what it divides by, or takes a root of, and what is positive by its meaning.
     """
 
     reason: str
@@ -46,6 +47,7 @@ class Step:
     decide: Callable[[int, sympy.Eq], Ruling]
     uses: tuple[str, ...] = ()
     relation: str = "="
+    positive: tuple[sympy.Basic, ...] = ()
 
     @property
     def equations(self) -> tuple[sympy.Eq, ...]:
@@ -56,9 +58,15 @@ class Step:
     def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
         """Rule on a candidate for one of its equations; what can't be read is undecided."""
         try:
-            return self.decide(part, candidate)
+            ruling = self.decide(part, candidate)
         except (ArithmeticError, TypeError, ValueError) as failure:
             return undecided(f"it could not be read: {failure or type(failure).__name__}")
+        if ruling.verdict is not Verdict.PROVED:
+            return ruling
+        known = {one: sympy.Dummy(positive=True) for one in self.positive}
+        sides = (side.xreplace(known) for side in candidate.args)
+        reason = without_value(sympy.Eq(*sides, evaluate=False), in_the_limit=self.relation != "=")
+        return undecided(reason) if reason else ruling
 
     @cached_property
     def ruling(self) -> Ruling:

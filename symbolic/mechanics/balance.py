@@ -72,6 +72,7 @@ class Solved:
         balance: n⁺ and n⁻ times the balance, in FORCES; both vanish.
         rows: the same as equations, what the supports have to carry on the right.
         solution: the forces, exact in ε.
+        determinant: what they are divided by; 1 − φ² at ε = 0.
         at_zero: (f⁺, f⁻) at ε = 0.
         slope: their derivatives with respect to ε there.
         meaning: what the tilts ν stand for, as dot products.
@@ -80,6 +81,7 @@ class Solved:
     balance: tuple[sympy.Expr, sympy.Expr]
     rows: tuple[sympy.Eq, sympy.Eq]
     solution: tuple[sympy.Expr, sympy.Expr]
+    determinant: sympy.Expr
     at_zero: tuple[sympy.Expr, sympy.Expr]
     slope: tuple[sympy.Expr, sympy.Expr]
     meaning: dict[sympy.Symbol, sympy.Expr]
@@ -108,7 +110,8 @@ def solve(
     matrix = sympy.ImmutableMatrix(system.jacobian(list(FORCES)))
     right = dotted(carried, tilts)
     # not matrix.inv(): it guesses by numbers whether the determinant is zero
-    solution = matrix.adjugate() * right / matrix.det()
+    determinant = matrix.det()
+    solution = matrix.adjugate() * right / determinant
     at_zero, slope = solution.subs(epsilon, 0), sympy.diff(solution, epsilon).subs(epsilon, 0)
     meaning = {
         tilt: Dot(n_minus if isinstance(atom, DeltaNPlus) else n_plus, atom)
@@ -122,6 +125,7 @@ def solve(
         tuple(system),
         (rows[0], rows[1]),
         tuple(solution),
+        determinant,
         tuple(map(_in_lowest_terms, at_zero)),
         tuple(map(_in_lowest_terms, slope)),
         meaning,

@@ -169,6 +169,19 @@ def test_a_wrong_step_fails_the_run(number: int, place: int, change) -> None:
     assert failed.name == f"step {place}"
 
 
+@pytest.mark.parametrize(
+    ("number", "place", "divisor"),
+    [(2, 4, sy.phi), (4, 2, sy.j - 3), (11, 5, sy.n_x - sy.n_y), (13, 4, 2 * sy.z - 1),
+     (14, 5, sy.M - 4), (16, 4, sy.phi), (13, 14, 2 * sy.z - 1)],
+)  # fmt: skip
+def test_what_may_vanish_is_not_cancelled_in_a_step(number: int, place: int, divisor) -> None:
+    step = list(load(number).steps())[place - 1]
+    left, right = step.equations[0].args
+    one = sympy.Mul(divisor, sympy.Pow(divisor, -1, evaluate=False), evaluate=False)
+    wrong = sympy.Eq(left, sympy.Mul(one, right, evaluate=False), evaluate=False)
+    assert step.rule_on(0, wrong).verdict is not Verdict.PROVED
+
+
 def test_the_constraint_that_is_shown_is_what_eq_2_is_compared_with(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
