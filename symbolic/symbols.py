@@ -36,6 +36,9 @@ M = Symbol("M", integer=True, positive=True)
 
 N = Symbol("N", integer=True, positive=True)  # neighbouring contacts or beads of one layer
 
+d = Symbol("d", integer=True, positive=True)  # dimensions, and supports of a bead
+kappa = Symbol("kappa", r"\kappa", "κ", positive=True)  # squared length of a reciprocal vector
+
 INDICES = (i, j, k, l, m, n, p, q, site_r, site_s, M)
 """All index symbols, in the fixed order that normal forms use."""
 

@@ -13,7 +13,7 @@ from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
 import force_diffusion as fd
 
-NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5", "B7", "B9", "B10")
+NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5", "B7", "B9", "B10", "B11")
 MODELS = {"q-model": "3", "double-y": "4"}
 LEAST_REALISATIONS, MOST_REALISATIONS = 16, 1_000_000
 HIGHEST, MOST_HEIGHTS = 10_000, 6
@@ -47,7 +47,7 @@ def figures(
         list[str] | None,
         typer.Argument(
             metavar="WHICH",
-            help="Figures: 1, 2, 3, 4, pf, chains, B2, B5, B7, B9, B10; all of them by default.",
+            help="Figures: 1, 2, 3, 4, pf, chains, B2, B5, B7, B9, B10, B11; by default all.",
         ),
     ] = None,
     out: Annotated[Path, out_option("PNG, SVG, PDF and CSV")] = Path("figures"),

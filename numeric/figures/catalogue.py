@@ -13,6 +13,7 @@ from . import (
     chains,
     comparison,
     diffusion,
+    dimensions,
     directions,
     distribution,
     mean_forces,
@@ -171,6 +172,12 @@ FIGURES = {
         "Mean stress ratio to second order",
         lambda o: stress.ratios(o.notice),
         stress.draw,
+    ),
+    "B11": _Figure(
+        "figureB11",
+        "Diffusion of forces in two, three and four dimensions",
+        lambda o: dimensions.widths(o.notice),
+        dimensions.draw,
     ),
 }
 

@@ -21,6 +21,7 @@ _PACKINGS = {
     "2": "No packing: closed forms.",
     "chains": "One packing.",
     "B10": "Exact Taylor coefficients.",
+    "B11": "Exact weights.",
 } | {name: f"{n} packings in each ensemble." for name, n in REALISATIONS.items()}
 
 

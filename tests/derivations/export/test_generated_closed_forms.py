@@ -222,3 +222,11 @@ def test_means_of_neighbours_are_those_of_exact_packings(
             form(height, layer, 2, phi, ONE, ONE)
         with pytest.raises(ValueError, match=r"j = .*allowed"):
             form(height, count, count, phi, ONE, ONE)
+
+
+def test_in_two_dimensions_the_leading_order_is_eq_13() -> None:
+    at = (7, Fraction(2, 5)), (Fraction(1, 3), ONE, ONE)
+    flat = closed_forms.surface_diffusion(*at[0], *at[1])
+    assert closed_forms.diffusion_in_dimensions(2, *at[0], *at[1]) == flat
+    with pytest.raises(ValueError, match="d = 1"):
+        closed_forms.diffusion_in_dimensions(1, *at[0], *at[1])

@@ -14,6 +14,7 @@ from force_diffusion.numeric.figures import (
     chains,
     comparison,
     diffusion,
+    dimensions,
     directions,
     distribution,
     mean_forces,
@@ -327,3 +328,16 @@ def test_figure_b10_agrees_as_fractions_and_would_not_with_another_form() -> Non
     assert "does not equal" in other.lines()[0]
     (rows,) = found.tables().values()
     assert len(rows) == 2 * stress.HEIGHT
+
+
+def test_figure_b11_is_exact_in_two_dimensions_and_near_the_leading_order_in_others() -> None:
+    found = dimensions.widths(silent)
+    phi = float(dimensions.PHI)
+    known = [
+        math.sqrt(closed_forms.surface_variance(dimensions.HEIGHT, j, phi, 1.0, 1.0))
+        for j in range(dimensions.HEIGHT)
+    ]
+    assert found.exact[0] == pytest.approx(known, rel=1e-13)
+    # the next order is a share of 1/M or so
+    assert found.ratios() == pytest.approx([1, 1, 1], abs=2 / dimensions.HEIGHT)
+    assert found.exact[1][0] > 1.3 * found.exact[0][0]

@@ -1,0 +1,100 @@
+"""Packings of spheres, solved exactly, against the first-order weights of any dimension."""
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from functools import cache
+from itertools import product
+from typing import Any
+
+import mpmath
+from force_diffusion.numeric.mechanics.any_dimension import (
+    Bead,
+    force_weights,
+    stepped,
+    together,
+)
+
+DIGITS, STRENGTH = 50, mpmath.mpf(10) ** -20
+
+
+@cache
+def spheres(phi: Fraction, height: int, layer: int) -> tuple[tuple[Bead, Any], ...]:
+    """Weights of the same force in three dimensions, by enlarging one sphere after the other.
+
+    Spheres are placed by Newton's method on the three contact conditions, and forces follow from
+    the balance of each sphere; a weight is the central difference at strength 1e-20, 50 digits.
+    """
+    with mpmath.workdps(DIGITS):
+        parts = force_weights(3, height, layer, phi)
+        beads = [bead for bead, weight in together(parts).items() if weight]
+        found = []
+        for bead in beads:
+            plus, minus = (_force({bead: sign * STRENGTH}, phi, height, layer) for sign in (1, -1))
+            found.append((bead, (plus - minus) / (2 * STRENGTH)))
+        return tuple(found)
+
+
+def _force(deviation: Mapping[Bead, Any], phi: Fraction, height: int, layer: int) -> Any:
+    """The force of the contact, the ordered one being 1."""
+    cosine = mpmath.mpf(phi.numerator) / phi.denominator
+    gram = mpmath.matrix(3, 3)
+    for a, c in product(range(3), repeat=2):
+        gram[a, c] = 1 if a == c else cosine
+    columns = mpmath.cholesky(gram)  # its rows are three unit vectors with these dot products
+    base = [columns[a, :].T for a in range(3)]
+    placed: dict[Bead, Any] = {}
+
+    def radius(bead: Bead) -> Any:
+        return 1 + deviation.get(bead, mpmath.mpf(0))
+
+    def place(bead: Bead) -> Any:
+        if bead not in placed:
+            here = 2 * sum((base[a] * bead[a] for a in range(3)), mpmath.matrix(3, 1))
+            if sum(bead):
+                here = _rest(here, bead)
+            placed[bead] = here
+        return placed[bead]
+
+    def _rest(here: Any, bead: Bead) -> Any:
+        supports = [stepped(bead, a, -1) for a in range(3)]
+        for _ in range(4):  # quadratic: 1e-20, 1e-40, done
+            apart = [here - place(support) for support in supports]
+            jacobian, wrong = mpmath.matrix(3, 3), mpmath.matrix(3, 1)
+            for a, support in enumerate(supports):
+                jacobian[a, :] = 2 * apart[a].T
+                reach = radius(bead) + radius(support)
+                wrong[a] = (apart[a].T * apart[a])[0] - reach**2
+            here = here - mpmath.lu_solve(jacobian, wrong)
+        return here
+
+    def unit(bead: Bead, axis: int) -> Any:
+        upper = stepped(bead, axis)
+        return (place(upper) - place(bead)) / (radius(upper) + radius(bead))
+
+    load = sum(base, mpmath.matrix(3, 1))
+    below: dict[Bead, Any] = {}
+
+    def lower(bead: Bead) -> Any:
+        """Forces of the three contacts below a bead."""
+        if bead not in below:
+            carried = load.copy()
+            if sum(bead) < height:
+                carried = mpmath.matrix(3, 1)
+                for a in range(3):
+                    carried += unit(bead, a) * lower(stepped(bead, a))[a]
+            matrix = mpmath.matrix(3, 3)
+            for a in range(3):
+                matrix[:, a] = unit(stepped(bead, a, -1), a)
+            below[bead] = mpmath.lu_solve(matrix, carried)
+        return below[bead]
+
+    return lower((layer + 1, 0, 0))[0]
+
+
+def remainders(phi: Fraction, height: int, layer: int) -> Iterator[tuple[Bead, Any]]:
+    """How far the weights of spheres are from the fractions."""
+    exact = together(force_weights(3, height, layer, phi))
+    with mpmath.workdps(DIGITS):
+        for bead, weight in spheres(phi, height, layer):
+            stated = mpmath.mpf(exact[bead].numerator) / exact[bead].denominator
+            yield bead, abs(weight - stated)

@@ -1,0 +1,75 @@
+"""First-order weights of a contact force on the lattice of any dimension, as fractions.
+
+Every bead rests on d others, along d base vectors of equal mutual dot product φ; a bead is named by
+d whole numbers, whose sum is its layer. A surface load along the sum of the base vectors, r = 1.
+"""
+
+from collections import defaultdict
+from collections.abc import Mapping
+from fractions import Fraction
+from itertools import product
+
+Bead = tuple[int, ...]
+Weights = dict[Bead, Fraction]
+
+
+def stepped(bead: Bead, axis: int, count: int = 1) -> Bead:
+    """The bead so many steps up along a base vector."""
+    return (*bead[:axis], bead[axis] + count, *bead[axis + 1 :])
+
+
+def reciprocal(dimension: int, phi: Fraction) -> tuple[Fraction, Fraction]:
+    """b^a·b^a and b^a·b^c of the reciprocal vectors."""
+    below = (1 - phi) * (1 + (dimension - 1) * phi)
+    return (1 + (dimension - 2) * phi) / below, -phi / below
+
+
+def force_weights(
+    dimension: int, height: int, layer: int, phi: Fraction
+) -> tuple[Weights, Weights]:
+    """Weights in δr of f/⟨f⟩ above bead (layer, 0, …) along the first vector, r = 1.
+
+    Two parts that add up: the line sums along the contact's own vector, and all others. To first
+    order f of a bead's lower contact is what enters it and b^a·Σ_c(δn^c − δn^c below).
+    """
+    own, other = reciprocal(dimension, phi)
+    parts: tuple[Weights, Weights] = defaultdict(Fraction), defaultdict(Fraction)
+
+    def line_sum(to: Weights, bead: Bead, along: int, factor: Fraction) -> None:
+        top = sum(bead)
+        for below in range(top + 1 if top else 0):
+            share = factor if below in (0, top) else 2 * factor
+            to[stepped(bead, along, -below)] += share
+
+    def tilt(to: Weights, bead: Bead, up: int, along: int, factor: Fraction) -> None:
+        upper = stepped(bead, up)
+        line_sum(to, upper, along, factor)
+        line_sum(to, bead, along, -factor)
+        for end in (bead, upper):
+            to[end] -= phi * factor
+
+    start = (layer, *(0 for _ in range(dimension - 1)))
+    for count in range(1, height - layer + 1):
+        bead = stepped(start, 0, count)
+        for up, along in product(range(dimension), repeat=2):
+            if up == along:
+                continue
+            to, factor = (parts[0], own / 2) if along == 0 else (parts[1], other / 2)
+            if sum(bead) < height:
+                tilt(to, bead, up, along, factor)
+            tilt(to, stepped(bead, up, -1), up, along, -factor)
+    return parts
+
+
+def squared(weights: Mapping[Bead, Fraction]) -> Fraction:
+    """Sum of squares."""
+    return sum((w**2 for w in weights.values()), Fraction(0))
+
+
+def together(parts: tuple[Weights, Weights]) -> Weights:
+    """Both parts added."""
+    total: Weights = defaultdict(Fraction)
+    for part in parts:
+        for bead, weight in part.items():
+            total[bead] += weight
+    return total
