@@ -6,11 +6,10 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from enum import StrEnum
 from functools import cache
-from importlib.resources import files
 from typing import Any
 
 from force_diffusion.derivations.coq.statements import NotStatedError, statements
-from force_diffusion.derivations.coq.workshop import theory
+from force_diffusion.derivations.coq.workshop import PROOFS, theory
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.record import Derivation
 
@@ -157,7 +156,7 @@ class Recorded:
 @cache
 def _record() -> dict[str, Any]:
     try:
-        text = (files("force_diffusion.proofs") / RECORD).read_text(encoding="utf-8")
+        text = (PROOFS / RECORD).read_text(encoding="utf-8")
     except FileNotFoundError:
         return {"theory": "", "equations": []}
     found: dict[str, Any] = json.loads(text)

@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from graphlib import TopologicalSorter
-from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryFile
 
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
+PROOFS = Path(__file__).parents[2] / "proofs"
 LIBRARY = "ForceDiffusion"
 WRITTEN_FOR = "Coq 8.16.1"
 INSTALL = "on Debian and Ubuntu: apt-get install coq; elsewhere: https://coq.inria.fr"
@@ -196,12 +196,7 @@ class Workshop:
 
 def theory() -> dict[str, str]:
     """The hand-written theory: names and sources of its files."""
-    found = files("force_diffusion.proofs").iterdir()
-    return {
-        one.name: one.read_text(encoding="utf-8")
-        for one in sorted(found, key=lambda one: one.name)
-        if one.name.endswith(".v")
-    }
+    return {file.name: file.read_text(encoding="utf-8") for file in sorted(PROOFS.glob("*.v"))}
 
 
 _IMPORTS = re.compile(rf"^From {LIBRARY} Require (?:Import|Export) ([\w\s]+)\.$", re.MULTILINE)
