@@ -22,7 +22,7 @@ from .workers import InProcess, Pool, WorkersError
 
 MOST, MOST_WORKERS = 10**9, 1024
 # Bytes of a batch of small packings, on top of those of one.
-BATCH = 100_000_000
+BATCH = 200_000_000
 # Seconds of work from which on starting more processes repays.
 WORTH_WORKERS = 5
 LOCAL = "local"

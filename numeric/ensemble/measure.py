@@ -55,6 +55,11 @@ class Measurement:
         """What is solved."""
         return self.plan.problem
 
+    @cached_property
+    def many(self) -> Problem:
+        """What is solved, with as many realisations as there will be."""
+        return replace(self.problem, realisations=self.expected)
+
     @property
     def _of(self) -> ContactQuantity:
         assert isinstance(self.plan.quantity, ContactQuantity)

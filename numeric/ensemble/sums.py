@@ -136,7 +136,9 @@ def measured(m: Measurement, realisations: Sequence[int], work: Work | None = No
     Who sums up decides no bit: exact sums have but one value.
     """
     work = Work() if work is None else work
-    problem = replace(m.problem, realisations=max(m.expected, len(realisations)))
+    problem = m.many
+    if m.expected < len(realisations):
+        problem = replace(problem, realisations=len(realisations))
     over_contacts = [none(m)]
     packings: list[Array] = []
     tally: Tally | None = None

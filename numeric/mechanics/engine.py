@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
+from weakref import ref
 
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.machine import cores
@@ -26,14 +27,26 @@ COMPILED_FROM = 2_000_000
 BLOCK = 10_000
 # Beads that are swept together: their arrays still fit into a cache.
 TOGETHER = 200_000
+# Where it does not matter how many are: numbers of a row, for which calls of NumPy cost little, and
+# beads at the most.
+ROW, MOST = 4096, 1_100_000
+
+
+# The sweeps of the last ensemble, for its next block; nobody has them who does not take them away.
+_kept: "list[tuple[ref[Problem], Sweeps, Loads | None]]" = []
 
 
 def chunk_size(problem: Problem, system: NumberSystem) -> int:
     """Say how many realisations are swept together: as many as keep the arrays small."""
-    one_by_one = problem.stop_at_tension or problem.route == Route.LINE_SUMS
-    if system.dtype is object or one_by_one:
+    if not _in_batches(problem, system):
         return 1
     return max(1, TOGETHER // max(problem.region.beads, 1))
+
+
+def _in_batches(problem: Problem, system: NumberSystem) -> bool:
+    """Say whether several realisations may be swept together."""
+    one_by_one = problem.stop_at_tension or problem.route == Route.LINE_SUMS
+    return not (system.dtype is object or one_by_one)
 
 
 def packings(
@@ -56,42 +69,50 @@ def packings(
     """
     work = Work() if work is None else work
     size = chunk_size(problem, system)
-    sweeps = None if plainly else _compiled(problem, system)
-    loads = None if plainly else _loads(problem, system)
-    together = size if sweeps is None else size * -(-cores() // size)
-    for at in range(0, len(realisations), together):
-        batch = realisations[at : at + together]
-        parts = [slice(k, min(k + size, len(batch))) for k in range(0, len(batch), size)]
-        all_solved = None
-        if len(parts) > 1:
-            # If one can't be built, they are solved part by part, so that the first is named.
-            with suppress(ForceDiffusionError):
-                all_solved = _solved(problem, batch, system, work, sweeps, loads)
-        if any_number and all_solved is not None:
-            parts = [slice(0, len(batch))]
-        for part in parts:
-            chunk = batch[part]
-            if plainly:
-                solved = solve_plainly(problem, chunk, system, work)
-            elif all_solved is None:
-                solved = _solved(problem, chunk, system, work, sweeps, loads)
-            else:
-                solved = all_solved if len(parts) == 1 else all_solved.some(part)
-            if physical is not None and solved.packing is not None:
-                with work.timed(PHYSICAL):
-                    physical.looks_at = chunk
-                    physical.look_at_gaps(solved.packing)
-                    if solved.forces is not None:
-                        physical.look_at_forces(solved.forces)
-                work.did_rows("checked", solved.packing.region.rows, len(chunk))
-            yield solved, chunk
+    sweeps, loads = (None, None) if plainly else _ready(problem, system)
+    together = size
+    if sweeps is not None:
+        together = size * -(-cores() // size)
+    elif any_number and _in_batches(problem, system):
+        region = problem.region
+        together = max(size, min(ROW // max(region.widest, 1), MOST // max(region.beads, 1)))
+    try:
+        for at in range(0, len(realisations), together):
+            batch = realisations[at : at + together]
+            parts = [slice(k, min(k + size, len(batch))) for k in range(0, len(batch), size)]
+            all_solved = None
+            if len(parts) > 1:
+                # If one can't be built, they are solved part by part, so that the first is named.
+                with suppress(ForceDiffusionError):
+                    all_solved = _solved(problem, batch, system, work, sweeps, loads)
+            if any_number and all_solved is not None:
+                parts = [slice(0, len(batch))]
+            for part in parts:
+                chunk = batch[part]
+                if plainly:
+                    solved = solve_plainly(problem, chunk, system, work)
+                elif all_solved is None:
+                    solved = _solved(problem, chunk, system, work, sweeps, loads)
+                else:
+                    solved = all_solved if len(parts) == 1 else all_solved.some(part)
+                if physical is not None and solved.packing is not None:
+                    with work.timed(PHYSICAL):
+                        physical.looks_at = chunk
+                        physical.look_at_gaps(solved.packing)
+                        if solved.forces is not None:
+                            physical.look_at_forces(solved.forces)
+                    work.did_rows("checked", solved.packing.region.rows, len(chunk))
+                yield solved, chunk
+    finally:
+        if sweeps is not None and any_number:
+            _kept[:] = [(ref(problem, lambda _: _kept.clear()), sweeps, loads)]
 
 
 def solve(
     problem: Problem, realisations: Sequence[int], system: NumberSystem, work: Work
 ) -> Solved:
     """Solve some realisations together; the caller activates ``system``."""
-    sweeps, loads = _compiled(problem, system), _loads(problem, system)
+    sweeps, loads = _ready(problem, system)
     return _solved(problem, realisations, system, work, sweeps, loads)
 
 
@@ -138,6 +159,15 @@ def _solved(
     return Solved(system, solved, forces, None)
 
 
+def _ready(problem: Problem, system: NumberSystem) -> "tuple[Sweeps | None, Loads | None]":
+    """Give what all realisations have alike: the compiled sweeps, if they are taken, and loads."""
+    with suppress(IndexError):
+        last, sweeps, loads = _kept.pop()
+        if last() is problem:
+            return sweeps, loads
+    return _compiled(problem, system), _loads(problem, system)
+
+
 def _loads(problem: Problem, system: NumberSystem) -> Loads | None:
     """Give the loads, the same for all realisations; None where no sweep needs them."""
     if not problem.needs_forces or problem.route not in {Route.EXACT, Route.FIRST_ORDER}:
@@ -149,8 +179,8 @@ def _loads(problem: Problem, system: NumberSystem) -> Loads | None:
 def _compiled(problem: Problem, system: NumberSystem) -> "Sweeps | None":
     """Give the compiled sweeps, same numbers: for much work in float64, where numba is."""
     much = problem.region.beads * problem.realisations >= COMPILED_FROM
-    sweeps = problem.route in {Route.EXACT, Route.FIRST_ORDER}  # of the latter only the radii
-    if not (much and sweeps and system is FLOAT64):
+    swept = problem.route in {Route.EXACT, Route.FIRST_ORDER}  # of the latter only the radii
+    if not (much and swept and system is FLOAT64):
         return None
     try:
         from . import compiled

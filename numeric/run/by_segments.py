@@ -22,6 +22,7 @@ from ..planning.plan import ESTIMATE, Plan
 from ..quantities.answer import Answer, at_home, in_units
 from ..quantities.base import Block, Listed, Table, contact_changes
 from ..quantities.profile import Profile
+from ..scene.source import program_version
 from ..statistics.moments import Moments
 from .checkpoint import Checkpoint
 
@@ -93,7 +94,7 @@ def by_segments(plan: Plan, work: Work, checkpoint: Path | None = None) -> tuple
 def _key(plan: Plan) -> dict[str, Any]:
     """Describe what decides the numbers that are kept."""
     scene = plan.scene.model_dump(mode="json", exclude={"folder": True})
-    return {"scene": scene, "layers": plan.problem.segment}
+    return {"scene": scene, "layers": plan.problem.segment, "version": program_version()}
 
 
 def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
