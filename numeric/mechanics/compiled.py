@@ -466,6 +466,7 @@ class Descent:
         self.starts = region.starts[: len(rows) + 1] if whole else starts(rows)
         widest = region.widest if whole else max(row.count for row in rows)
         self.size = int(self.starts[-1]), widest
+        self.beads = int(self.starts[-1] - self.starts[1])  # that pass forces on
         self.runs = tables.of_loads(rows, region, self.F.start, self.F.missing)
         self.lowest = next((j + 1 for j in range(len(rows) - 1, 0, -1) if not rows[j].count), 1)
         self.g = self.lost = np.empty((0, 2, 0))
@@ -589,7 +590,7 @@ class Sweeps:
         if solved is None:
             return packing.deposit(n_x, region, rho, system, work)  # which names the bead
         if work is not None:
-            work.did_rows("deposited", region.rows, len(solved.block))
+            work.did_rows("deposited", region.rows, region.beads * len(solved.block))
         return solved
 
     def sweep_down(
@@ -629,7 +630,7 @@ def _swept(
             solved, descent.rows, loads, linear=linear, stop_at_tension=stop_at_tension, work=work
         )
     if work is not None:
-        work.did_rows("balanced", descent.rows[:0:-1], len(found.g))
+        work.did_rows("balanced", descent.rows[:0:-1], descent.beads * len(found.g))
     return found
 
 
@@ -652,7 +653,7 @@ def deposit(
     if solved is None:
         return packing.deposit(n_x, region, rho, system, work)
     if work is not None:
-        work.did_rows("deposited", region.rows, len(solved.block))
+        work.did_rows("deposited", region.rows, region.beads * len(solved.block))
     return solved
 
 

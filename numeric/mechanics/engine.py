@@ -101,7 +101,8 @@ def packings(
                         physical.look_at_gaps(solved.packing)
                         if solved.forces is not None:
                             physical.look_at_forces(solved.forces)
-                    work.did_rows("checked", solved.packing.region.rows, len(chunk))
+                    region = solved.packing.region
+                    work.did_rows("checked", region.rows, region.beads * len(chunk))
                 yield solved, chunk
     finally:
         if sweeps is not None and any_number:
@@ -136,7 +137,8 @@ def _solved(
             if sweeps is None
             else sweeps.radii(realisations)
         )
-    work.did_rows("radii", problem.region.rows, len(realisations))
+    beads = problem.region.beads * len(realisations)
+    work.did_rows("radii", problem.region.rows, beads)
     if problem.route == Route.EXACT:
         deposit = packing.deposit if sweeps is None else sweeps.deposit
         with work.timed("deposit"):

@@ -115,7 +115,7 @@ class Segments:
         with work.timed("radii"):
             draw = self._ready(Drawing(problem.radii, region), "rho")
             rho, rows = draw([self.realisation])
-        work.did_rows("radii", region.rows)
+        work.did_rows("radii", region.rows, region.beads)
         with work.timed("deposit"):
             deposit = self._ready(Deposition(problem.n_x, region), "block")
             base = self.kept.get(f"c{number}") if number else None
@@ -123,7 +123,7 @@ class Segments:
             if solved is None:  # then this names the bead
                 on = None if base is None else (base[0], base[1])
                 return packing.deposit(problem.n_x, region, rows, FLOAT64, work, on=on)
-        work.did_rows("deposited", region.rows)
+        work.did_rows("deposited", region.rows, region.beads)
         return solved
 
     def _balanced(self, number: int, solved: SolvedPacking) -> Forces | None:
@@ -147,7 +147,7 @@ class Segments:
                 self.kept.put(
                     f"F{number}", np.stack([found.ordered.plus[1], found.ordered.minus[1]])
                 )
-        self.work.did_rows("balanced", rows[:0:-1])
+        self.work.did_rows("balanced", rows[:0:-1], descent.beads)
         return found
 
     def _loads(self, row: Layer) -> tuple[Array | None, Array | None]:

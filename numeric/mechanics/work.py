@@ -46,13 +46,14 @@ class Work:
         if self.progress is not None:
             self.progress(kind, beads)
 
-    def did_rows(self, kind: str, rows: Sequence[Layer], times: int = 1) -> None:
-        """Count rows of beads at once."""
-        if self.trace:
-            for layer in rows:
-                self.did(kind, layer, times)
-        else:
-            self.did(kind, Layer(0, 0, sum(layer.count for layer in rows)), times)
+    def did_rows(self, kind: str, rows: Sequence[Layer], beads: int) -> None:
+        """Count rows of beads at once; ``beads`` are all that were visited."""
+        if not self.trace:
+            self.did(kind, Layer(0, 0, beads))
+            return
+        rows = [layer for layer in rows if layer.count]
+        for layer in rows:
+            self.did(kind, layer, beads // sum(row.count for row in rows))
 
     def uses(self, name: str) -> None:
         """Note the number system of a pass."""

@@ -107,13 +107,14 @@ def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
         low = packing.region.rows[0].j
         physical.look_at_gaps(packing, range(layers.start - low, layers.stop - low))
         physical.look_at_forces(forces, layers)
-    work.did_rows("checked", [problem.region.rows[j] for j in layers])
+    rows = problem.region.rows[layers.start : layers.stop]
+    work.did_rows("checked", rows, sum(row.count for row in rows))
     if isinstance(quantity, Profile):
         assert problem.width is not None
         gatherer = quantity.gatherer(problem, FLOAT64)
         stop = layers.stop if segment.number + 1 < segment.of else problem.height + 1
-        rows = [full_layer(j, problem.width) for j in range(layers.start, stop) if j]
-        blocks = [Block(branch, row) for row in rows for branch in Branch]
+        whole = [full_layer(j, problem.width) for j in range(layers.start, stop) if j]
+        blocks = [Block(branch, row) for row in whole for branch in Branch]
         gatherer.take(contact_changes(solved, blocks, 1))
         keys = list(gatherer.found)
         found = [(F, m.unit, m.count, m.mean, m.square) for F, m in gatherer.found.values()]
