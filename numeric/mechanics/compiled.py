@@ -296,15 +296,15 @@ def _gap(
 @compiled
 def _gaps(
     rho: Array, block: Array, runs: Array, lattice: Array, phi: tuple[float, float], found: Array
-) -> tuple[float, int, int, int, int]:
-    """Measure all gaps: the smallest, its run and place in it, overlaps, what is too close to tell.
+) -> tuple[float, tuple[int, int, int], int, int]:
+    """Measure all gaps: the smallest, its (run, place in it, packing), overlaps, what is too close.
 
     The last is −1 where a gap is no number. ``runs`` is the table ``runs.of_pairs``, ``lattice``
     has what kinds of pairs have in common (``physicality.of_lattice``), ``phi`` what all have;
     ``found`` is as long as the longest run and one more. Of equal gaps the first is named: layer
     and kind after layer and kind, in each packing after packing.
     """
-    smallest, run, place = np.inf, -1, 0
+    smallest, run, place, packing_of = np.inf, -1, 0, 0
     overlaps = undecided = first = 0
     while first < len(runs):
         last = first
@@ -318,24 +318,24 @@ def _gaps(
                     rho[k], (block[k, 0], block[k, 1]), runs[r], lattice[runs[r, 3]], phi, found
                 )
                 if close < 0:
-                    return smallest, run, place, overlaps, close
+                    return smallest, (run, place, packing_of), overlaps, close
                 overlaps += over
                 undecided += close
                 if least < smallest:
-                    smallest, run = least, r
+                    smallest, run, packing_of = least, r, k
                     place = 0
                     while found[place] != smallest:
                         place += 1
         first = last
-    return smallest, run, place, overlaps, undecided
+    return smallest, (run, place, packing_of), overlaps, undecided
 
 
 def gaps(
     solved: CompiledPacking, layers: range
-) -> tuple[float, tuple[int, int] | None, int, int] | None:
+) -> tuple[float, tuple[int, int, int] | None, int, int] | None:
     """Give the smallest gap, between which beads, overlaps, and gaps too close to tell.
 
-    Beads by their number in the region. None where a gap is no number.
+    Two beads by their number in the region, and the packing. None where a gap is no number.
     """
     region = solved.region
     runs = tables.of_pairs(region, layers, physicality.NEIGHBOURS)
@@ -343,12 +343,12 @@ def gaps(
     lattice = np.array([kind[:4] for kind in kinds])
     found = np.empty(region.widest + 1)
     phi = kinds[0][4], kinds[0][5]
-    smallest, run, q, overlaps, undecided = _gaps(
+    smallest, (run, q, which), overlaps, undecided = _gaps(
         solved.flat, solved.block, runs, lattice, phi, found
     )
     if undecided < 0:
         return None
-    beads = None if run < 0 else (int(runs[run, 0] + q), int(runs[run, 1] + q))
+    beads = None if run < 0 else (int(runs[run, 0] + q), int(runs[run, 1] + q), which)
     return smallest, beads, overlaps, undecided
 
 

@@ -99,8 +99,8 @@ class Physicality:
         if beads is not None and (self.smallest_gap is None or not smallest >= self.smallest_gap):
             width = packing.region.width
             period = None if width is None else 2 * width
-            (i, j), (other_i, other_j) = (packing.region.site(bead) for bead in beads)
-            self.smallest_gap = smallest
+            (i, j), (other_i, other_j) = (packing.region.site(bead) for bead in beads[:2])
+            self.smallest_gap, self.smallest_in = smallest, self.looks_at[beads[2]]
             self.between = (_home(i, period), j), (_home(other_i, period), other_j)
         return True
 

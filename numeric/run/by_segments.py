@@ -42,7 +42,9 @@ class _Part:
         """Keep it; what was measured first, so that it is whole once its words are there."""
         columns = [np.asarray(column, dtype=float) for column in self.numbers.values()]
         kept.put(f"numbers{number}", np.stack(columns) if columns else np.empty(0))
-        words = [asdict(self.physical), self.index, list(self.numbers)]
+        physical = asdict(self.physical)
+        del physical["looks_at"]  # the one realisation
+        words = [physical, self.index, list(self.numbers)]
         letters = np.frombuffer(json.dumps(words).encode(), np.uint8)
         kept.put(f"words{number}", letters.astype(float))
 
@@ -154,7 +156,7 @@ def _table(plan: Plan, parts: list[_Part]) -> Table:
 
 def _physical(plan: Plan, parts: list[_Part]) -> Physicality:
     """Merge what was found, the lowest layers first."""
-    found = Physicality()
+    found = Physicality(looks_at=range(1))
     for part in parts:
         found.above(part.physical)
     if found.first_tensile is not None:
