@@ -299,6 +299,17 @@ def _one_more_term() -> Ruling:
     )
 
 
+_ONE_LAYER = "Δ in one layer, with a weight of order M: of the variance M², and M³ is kept"
+EQUIVALENT = {
+    "lower bound m = 1 shifted to 0": _ONE_LAYER,
+    "lower bound m = 1 shifted to 2": _ONE_LAYER,
+    "upper bound m = M shifted to M + 1": "Δ in the layer M + 1, with the weight −1",
+    "upper bound m = M shifted to M − 1": "the weight at m = M is M − m = 0: nothing is left out",
+    "case m ≤ j shifted to j + 1": "at m = j + 1 the weights of the two cases differ by 1",
+    "case m ≤ j shifted to j − 1": "at m = j the two cases agree: nothing changes",
+}
+"""The mechanical changes that say the same at leading order, and why."""
+
 DERIVATION = Derivation(
     number=12,
     name="delta_weights",
@@ -313,6 +324,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     loads=("surface",),
     relation="≈",
+    equivalent=EQUIVALENT,
     steps=steps,
     decide=decide,
     search=search,

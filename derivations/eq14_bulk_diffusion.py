@@ -234,6 +234,8 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
 
 def search(candidate: sympy.Eq) -> str | None:
     """Values at growing M where the candidate and the exact variance part."""
+    if candidate.lhs != RELATIVE_VARIANCE:
+        return None
     return parts_in_the_limit(exact_forms()["interior"].expression, candidate.rhs, LAYERS)
 
 

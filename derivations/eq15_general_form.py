@@ -30,6 +30,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     refuted,
     undecided,
 )
+from force_diffusion.symbolic.kernel.searches import not_proportional
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.structure import rebuilt
 from force_diffusion.symbolic.printing.text import text
@@ -403,6 +404,18 @@ def _decide_for(load: str, part: int, side: sympy.Expr) -> Ruling:
     return proved(f"{what} is {text(limit.to_sympy())}")
 
 
+def search(candidate: sympy.Eq) -> str | None:
+    """Values at which the candidate is no positive number, or not in proportion to the exact one.
+
+    What differs between the loads is a number; the surface load is enough.
+    """
+    side = candidate.rhs
+    if candidate.lhs == DEVIATION:
+        mean = averages()["surface"].rational.to_sympy()
+        return not_proportional(side, side**2 / mean)
+    return not_proportional(side, side**3 * UNIT) if candidate.lhs == HEIGHT else None
+
+
 def _squared_ratio(first: RationalFunction, part: int, side: sympy.Expr) -> RationalFunction:
     if part == 0:
         return first / FIELD.from_sympy(side**2)
@@ -558,6 +571,7 @@ DERIVATION = Derivation(
     exact=at_finite_size,
     steps=steps,
     decide=decide,
+    search=search,
     claims=(
         Claim("as M* → ∞ the exact mean is 1 at M* + 1/6 and at M* − 11/24", _height_next_order),
         Claim(

@@ -378,6 +378,8 @@ INSIDE_PLACES = tuple(
 
 def search(candidate: sympy.Eq) -> str | None:
     """Sites inside of a growing cone where the candidate and the exact variance part."""
+    if candidate.lhs != RESPONSE:
+        return None
     exact = interior().to_sympy()
     return parts_in_the_limit(exact, candidate.rhs.xreplace(IN_CONE), INSIDE_PLACES)
 

@@ -17,6 +17,8 @@ from force_diffusion.derivations.export.terminal import (
     mutant_counts,
     outcomes_data,
     summary_line,
+    tried_counts,
+    tried_text,
     trouble_lines,
 )
 from force_diffusion.derivations.framework.catalogue import Number, load, modules, with_premises
@@ -68,7 +70,9 @@ class Derived:
 
     def __str__(self) -> str:
         lines = [line for one in self.outcomes for line in (summary_line(one), *trouble_lines(one))]
-        return "\n".join([*lines, f"{self.counts()}."])
+        return "\n".join(
+            [*lines, *filter(None, [tried_text(tried_counts(self.outcomes))]), f"{self.counts()}."]
+        )
 
     __repr__ = __str__
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from force_diffusion.derivations.commands.output import output
 from force_diffusion.derivations.commands.progress import Silence, display
+from force_diffusion.derivations.export.terminal import tried_counts, tried_text
 from force_diffusion.derivations.framework.catalogue import Number, load, modules, with_premises
 from force_diffusion.numeric.arithmetic.errors import printable
 
@@ -65,6 +66,8 @@ def derive(
             folder.write(
                 {**found.latex(columns), DOCUMENT: document(about)}, [one for _, one in about]
             )
+    if on := tried_text(tried_counts(found.outcomes)):
+        watch.summary(on)
     watch.summary(f"{found.counts()}." + (f" Written to {printable(str(out))}." if out else ""))
     if as_json:
         print(json.dumps(found.data(), indent=2), flush=True)

@@ -16,6 +16,8 @@ from force_diffusion.derivations.export.terminal import (
     mutant_counts,
     relation_of,
     step_verdicts,
+    tried_counts,
+    tried_text,
 )
 from force_diffusion.derivations.framework.record import Derivation, Outcome
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
@@ -170,9 +172,12 @@ def _coq(found: FoundEquation) -> str:
 
 def _overview(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
     rows = []
+    tried: Counter[str] = Counter()
     for derivation, found in parts:
         kinds = [check.kind for check in found.checks]
         mutants = found.mutants
+        if found.statements:
+            tried.update(found.statements.model_dump())
         rows.append(
             f"({derivation.number}) & {prose_latex(derivation.title)} & "
             f"{found.verdict} & {_coq(found)} & "
@@ -184,7 +189,10 @@ def _overview(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
         "\\begin{tabular}{r>{\\raggedright}p{40mm}llrrrrr}\n\\hline\n"
         " & & & & & & \\multicolumn{3}{c}{mutants} \\\\\n"
         "Eq. & title & verdict & Coq & proofs & witnesses & made & refuted & equivalent"
-        " \\\\\n\\hline\n" + "".join(rows) + "\\hline\n\\end{tabular}\n\\end{center}\n"
+        " \\\\\n\\hline\n"
+        + "".join(rows)
+        + "\\hline\n\\end{tabular}\n\\end{center}\n"
+        + f"{tried_text(tried)}\n"
     )
 
 
@@ -216,11 +224,12 @@ def finding(outcome: Outcome) -> FoundEquation:
                         "change": mutant.change,
                         "kind": mutant.kind,
                         "verdict": mutant.verdict,
-                        "note": mutant.ruling.note,
+                        "note": mutant.note,
                     }
                     for mutant in outcome.mutants
                 ],
             },
+            "statements": tried_counts([outcome]),
         }
     )
 

@@ -70,6 +70,15 @@ class FoundByCoq(_Part):
     theory: str
 
 
+class FoundStatements(_Part):
+    """How many false statements were tried and refuted, and how many true ones and proved."""
+
+    false: int
+    refuted: int
+    true: int
+    proved: int
+
+
 class FoundEquation(_Part):
     """What ``derive`` found about one equation; the same on every run."""
 
@@ -82,6 +91,7 @@ class FoundEquation(_Part):
     checks: tuple[FoundCheck, ...]
     mutants: FoundMutants
     coq: FoundByCoq | None = None
+    statements: FoundStatements | None = None
 
 
 class Manifest(_Part):

@@ -1,7 +1,7 @@
 """Derivations and their outcomes as plain text or JSON, for a terminal or a pipe."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from textwrap import fill
 from typing import Any
 
@@ -99,7 +99,7 @@ def check_text(check: Check) -> str:
 def mutant_text(mutant: Mutant) -> str:
     """One changed equation that the checker did not refute."""
     kind = "equivalent rewriting" if mutant.equivalent else str(mutant.ruling.verdict)
-    note = f". {mutant.ruling.note}" if mutant.ruling.note else ""
+    note = f". {mutant.note}" if mutant.note else ""
     return _paragraph(f"{kind}: {mutant.change}{note}", "  - ", "    ")
 
 
@@ -122,6 +122,31 @@ def counts_text(outcome: Outcome) -> str:
     return words
 
 
+def tried_counts(outcomes: Iterable[Outcome]) -> dict[str, int]:
+    """How many statements were false and refuted, and how many true and proved."""
+    on = [one for outcome in outcomes for one in outcome.tried]
+    false = [one.ruling.verdict for one in on if not one.statement.holds]
+    true = [one.ruling.verdict for one in on if one.statement.holds]
+    return {
+        "false": len(false),
+        "refuted": false.count(Verdict.REFUTED),
+        "true": len(true),
+        "proved": true.count(Verdict.PROVED),
+    }
+
+
+def tried_text(counts: Mapping[str, int]) -> str:
+    """The same in words; "" where none was tried."""
+    if not counts["false"] + counts["true"]:
+        return ""
+    left = counts["false"] - counts["refuted"], counts["true"] - counts["proved"]
+    return (
+        f"Tried on {counts['false']} false statements: none proved, {counts['refuted']} refuted, "
+        f"{left[0]} undecided; on {counts['true']} true ones: none refuted, {counts['proved']} "
+        f"proved, {left[1]} undecided."
+    )
+
+
 def outcome_text(outcome: Outcome) -> str:
     """A derivation from its title to its verdict."""
     derivation = outcome.derivation
@@ -129,7 +154,12 @@ def outcome_text(outcome: Outcome) -> str:
     steps = steps_text(derivation, step_verdicts(outcome.checks))
     parts = [statement_text(derivation), "", "Steps", steps, "", "Checks"]
     parts += [check_text(check) for check in outcome.checks if check.kind != "step"]
-    parts += [f"  - {counts_text(outcome)}", *map(mutant_text, survivors), ""]
+    parts += [f"  - {counts_text(outcome)}", *map(mutant_text, survivors)]
+    parts += [
+        _paragraph(words, "  - ", "    ")
+        for words in [tried_text(tried_counts([outcome]))]
+        if words
+    ] + [""]
     parts.append(f"Eq. {derivation.number} is {outcome.verdict} ({outcome.seconds:.2f} s)")
     return "\n".join(parts)
 
@@ -159,6 +189,15 @@ def trouble_lines(outcome: Outcome) -> list[str]:
         for mutant in outcome.mutants
         if mutant.ruling.verdict not in (Verdict.PROVED, Verdict.REFUTED)
     ]
+    lines += [
+        _paragraph(
+            f"undecided: a true statement ({one.statement.reason}). {one.ruling.note}",
+            "  - ",
+            "    ",
+        )
+        for one in outcome.tried
+        if one.is_open
+    ]
     return lines
 
 
@@ -178,6 +217,7 @@ def outcomes_data(outcomes: Iterable[Outcome]) -> dict[str, Any]:
                 for check in outcome.checks
             ],
             "mutants": mutant_counts(outcome),
+            "statements": tried_counts([outcome]),
             "seconds": round(outcome.seconds, 6),
         }
         for outcome in outcomes

@@ -1,16 +1,18 @@
 """The shape of a derivation: what every ``eqNN_…`` module states, and what running it yields."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
+from force_diffusion.derivations.witnesses.both_sides import AbsentError
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.algebra.explicit import AmbiguousError
+from force_diffusion.symbolic.kernel.corpus import Statement, statements
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
@@ -18,7 +20,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     refuted,
     undecided,
 )
-from force_diffusion.symbolic.kernel.language import in_few_symbols, unreadable, without_value
+from force_diffusion.symbolic.kernel.language import unreadable, usual_form, without_value
 from force_diffusion.symbolic.printing.text import text
 
 
@@ -122,6 +124,10 @@ class Derivation:
     exact: Callable[[], dict[str, "ExactCase"]] | None = None  # forms at finite size, by case
     # explicit values at which a candidate is false, or None; knows nothing of how it is decided
     search: Callable[[sympy.Eq], str | None] | None = None
+    # mechanical changes that say the same at the order decided, each with the reason why
+    equivalent: Mapping[str, str] = field(default_factory=dict)
+    # false statements, and true ones in another form, that the procedure is tried on
+    tries: Callable[[sympy.Eq, str, int], Iterable[Statement]] = statements
 
     def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
         """Rule on a candidate for one of ``printed``: decided, in the language, and searched.
@@ -131,7 +137,7 @@ class Derivation:
         """
         if reason := unreadable(candidate, self.printed, [symbol for symbol, _ in self.symbols]):
             return undecided(reason)
-        candidate = in_few_symbols(candidate, self.printed)
+        candidate = usual_form(candidate, self.printed)
         try:
             ruling = self.decide(part, candidate)
         except (NotExactError, AmbiguousError, RecursionError) as failure:
@@ -141,12 +147,12 @@ class Derivation:
             proven, ruling = False, undecided(reason)
         if ruling.verdict is Verdict.REFUTED and not self._needs_packings(part, candidate):
             return ruling
-        found = self.search(candidate) if self.search else None
+        try:
+            found = self.search(candidate) if self.search else None
+        except AbsentError as reason:
+            return undecided(str(reason)) if proven else refuted(f"on an exact packing: {reason}")
         if found and proven:
-            raise KernelError(
-                f"the checker is at fault: it proved {_shown(candidate)} as Eq. {self.number}, and "
-                f"that is false: {found}"
-            )
+            raise self.fault(candidate, f"proved, yet false: {found}")
         if found:
             return refuted(found)
         if ruling.verdict is Verdict.REFUTED:
@@ -161,6 +167,13 @@ class Derivation:
         if candidate.lhs == self.printed[part].lhs and candidate.rhs:
             return not all(isinstance(one, sy.DeltaR | sy.SecondDifference) for one in held)
         return True
+
+    def fault(self, statement: sympy.Eq, words: str) -> KernelError:
+        """The error that says what the checker got wrong."""
+        return KernelError(
+            f"the checker is at fault, and its verdicts count for nothing. Of Eq. {self.number} it "
+            f"got wrong: {_shown(statement)} ({words})"
+        )
 
 
 def _shown(candidate: sympy.Eq) -> str:
@@ -217,6 +230,12 @@ class Mutant:
     change: str
     equation: sympy.Eq
     ruling: Ruling
+    reason: str = ""  # why it is an equivalent rewriting
+
+    @property
+    def note(self) -> str:
+        """What the ruling rests on, and why it is an equivalent rewriting where it is one."""
+        return ". ".join(filter(None, (self.reason, self.ruling.note)))
 
     @property
     def equivalent(self) -> bool:
@@ -230,6 +249,19 @@ class Mutant:
 
 
 @dataclass(frozen=True)
+class Tried:
+    """A statement that is known to be false, or true, and what the checker said of it."""
+
+    statement: Statement
+    ruling: Ruling
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is true and not proved."""
+        return self.statement.holds and self.ruling.verdict is not Verdict.PROVED
+
+
+@dataclass(frozen=True)
 class Outcome:
     """All that running one derivation found."""
 
@@ -237,4 +269,5 @@ class Outcome:
     verdict: Verdict
     checks: tuple[Check, ...]
     mutants: tuple[Mutant, ...] = field(default=())
+    tried: tuple[Tried, ...] = field(default=())
     seconds: float = 0.0

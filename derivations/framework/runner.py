@@ -11,6 +11,7 @@ from force_diffusion.derivations.framework.record import (
     Mutant,
     Outcome,
     Step,
+    Tried,
     Witness,
 )
 from force_diffusion.derivations.witnesses.draws import draw
@@ -79,20 +80,55 @@ def _on_all(witness: Witness) -> Ruling:
 
 
 def judged_mutants(derivation: Derivation, watch: Watch = _silent) -> Iterator[Mutant]:
-    """Change each printed equation mechanically and let the same procedure rule on it."""
+    """Change each printed equation mechanically and let the same procedure rule on it.
+
+    Raises:
+        KernelError: one is proved that is not listed as an equivalent rewriting.
+    """
     from force_diffusion.symbolic.kernel.mutants import mutants
 
     watch(derivation, "mutants")
     for place, equation in enumerate(derivation.printed):
         for kind, change, mutated in mutants(equation):
-            yield Mutant(kind, change, mutated, derivation.rule_on(place, mutated))
+            ruling = derivation.rule_on(place, mutated)
+            reason = derivation.equivalent.get(change, "")
+            if ruling.verdict is Verdict.PROVED and not reason:
+                raise derivation.fault(
+                    mutated, f"proved, a change that is not listed as equivalent: {change}"
+                )
+            yield Mutant(kind, change, mutated, ruling, reason)
 
 
-def overall(checks: Iterable[Check], mutants: Iterable[Mutant] = ()) -> Verdict:
+def tried(derivation: Derivation, watch: Watch = _silent) -> Iterator[Tried]:
+    """Try the same procedure on statements that are known to be false, or true.
+
+    One of each kind for each printed equation; other ones for other equations.
+
+    Raises:
+        KernelError: a false one is proved, or a true one refuted.
+    """
+    watch(derivation, "false and true statements")
+    turn = sum(map(ord, str(derivation.number)))
+    for place, equation in enumerate(derivation.printed):
+        for statement in derivation.tries(equation, derivation.relation, turn):
+            ruling = derivation.rule_on(place, statement.equation)
+            wrong = Verdict.REFUTED if statement.holds else Verdict.PROVED
+            if ruling.verdict is wrong:
+                truth = "true" if statement.holds else "false"
+                raise derivation.fault(
+                    statement.equation, f"{wrong}, yet {truth}: {statement.reason}"
+                )
+            yield Tried(statement, ruling)
+
+
+def overall(
+    checks: Iterable[Check], mutants: Iterable[Mutant] = (), on: Iterable[Tried] = ()
+) -> Verdict:
     """Verdict on an equation from all that was found about it.
 
-    A mutant that is proved is an equivalent rewriting, with its proof, and speaks for nobody.
-    One that the checker neither refutes nor proves shows that the checker can't tell.
+    A mutant that is proved is a listed equivalent rewriting, and speaks for nobody.
+    One that the checker neither refutes nor proves shows that the checker can't tell, and so does
+    a true statement that it does not prove.
     """
     found = {check.verdict for check in checks}
     if found & {Verdict.REFUTED, Verdict.DISAGREES}:
@@ -100,6 +136,8 @@ def overall(checks: Iterable[Check], mutants: Iterable[Mutant] = ()) -> Verdict:
     if Verdict.UNDECIDED in found or Verdict.PROVED not in found:
         return Verdict.UNDECIDED
     if any(mutant.ruling.verdict is Verdict.UNDECIDED for mutant in mutants):
+        return Verdict.UNDECIDED
+    if any(one.is_open for one in on):
         return Verdict.UNDECIDED
     return Verdict.PROVED
 
@@ -128,8 +166,9 @@ def run(
         *witnesses(derivation, watch),
     )
     mutants = tuple(judged_mutants(derivation, watch))
-    verdict = overall(checks, mutants)
-    return Outcome(derivation, verdict, checks, mutants, perf_counter() - start)
+    on = tuple(tried(derivation, watch))
+    verdict = overall(checks, mutants, on)
+    return Outcome(derivation, verdict, checks, mutants, on, perf_counter() - start)
 
 
 def run_all(derivations: Iterable[Derivation], watch: Watch = _silent) -> Iterator[Outcome]:

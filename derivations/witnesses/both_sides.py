@@ -264,6 +264,12 @@ def compare(equation: sympy.Eq, packing: SmallPacking, load: str, points: Points
     return _compare(equation, Truth(packing, load), points)
 
 
+def _beside(side: Dual | Vector, other: Dual | Vector) -> Dual | Vector:
+    """The number 0 beside a vector is the zero vector."""
+    zero = Dual(Fraction(0))
+    return (zero, zero) if side == zero and isinstance(other, tuple) else side
+
+
 def _compare(
     equation: sympy.Eq, truth: Truth, points: Points, *, where_it_is: bool = False
 ) -> Ruling:
@@ -278,8 +284,7 @@ def _compare(
             if where_it_is:
                 continue
             raise
-        if equation.rhs == 0 and isinstance(left, tuple):
-            right = Dual(Fraction(0)), Dual(Fraction(0))
+        left, right = _beside(left, right), _beside(right, left)
         if left != right:
             where = ", ".join(f"{symbol} = {value}" for symbol, value in at.items())
             sides = " but ".join(
@@ -298,18 +303,36 @@ def _drawn(seed: int, load: str) -> Truth:
     return Truth(draw(seed), load)
 
 
+def search(load: str, points: Points) -> Callable[[sympy.Eq], str | None]:
+    """What looks for an exact packing on which an equation fails.
+
+    It raises ``AbsentError`` for an equation that speaks of what no packing holds.
+    """
+
+    def fails(candidate: sympy.Eq) -> str | None:
+        whole = candidate.has(sy.M)  # M is the height of these packings: nothing is above it
+        for seed in range(4):
+            try:
+                found = _compare(candidate, _drawn(seed, load), points, where_it_is=not whole)
+            except explicit.DivisionError as reason:
+                return f"on an exact packing: {reason}"
+            except explicit.AmbiguousError:
+                return None
+            if found.verdict is Verdict.DISAGREES:
+                return f"on an exact packing, {found.note}"
+        return None
+
+    return fails
+
+
 def refute(candidate: sympy.Eq, load: str, points: Points) -> Ruling:
     """Refute an equation by an exact packing on which it fails, or leave it undecided."""
-    whole = candidate.has(sy.M)  # M is the height of these packings: nothing is above it
-    for seed in range(4):
-        try:
-            found = _compare(candidate, _drawn(seed, load), points, where_it_is=not whole)
-        except (AbsentError, explicit.DivisionError) as reason:
-            return refuted(f"on an exact packing: {reason}")
-        except explicit.AmbiguousError as reason:
-            return undecided(str(reason))
-        if found.verdict is Verdict.DISAGREES:
-            return refuted(f"on an exact packing, {found.note}")
+    try:
+        found = search(load, points)(candidate)
+    except AbsentError as reason:
+        return refuted(f"on an exact packing: {reason}")
+    if found:
+        return refuted(found)
     return undecided("no exact packing refutes it, and it is not decided in this form")
 
 
@@ -318,13 +341,3 @@ def about(candidate: sympy.Eq, subject: sympy.Expr, load: str, points: Points) -
     if decide_identity(candidate.lhs, subject).verdict is Verdict.PROVED:
         return None
     return refute(candidate, load, points)
-
-
-def search(load: str, points: Points) -> Callable[[sympy.Eq], str | None]:
-    """What looks for an exact packing on which an equation fails."""
-
-    def fails(candidate: sympy.Eq) -> str | None:
-        found = refute(candidate, load, points)
-        return found.note if found.verdict is Verdict.REFUTED else None
-
-    return fails

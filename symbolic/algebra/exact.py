@@ -226,7 +226,10 @@ class RationalFunction:
         full = list(self.domain.context.gens())
         for symbol, image in images.items():
             full[self.domain.position[symbol]] = image.numerator
-        return self._same(self.numerator.compose(*full), self.denominator.compose(*full))
+        denominator = self.denominator.compose(*full)
+        if denominator == 0:
+            raise NotExactError("a divisor vanishes for a value that is put in")
+        return self._same(self.numerator.compose(*full), denominator)
 
     def derivative(self, symbol: sympy.Expr) -> "RationalFunction":
         """The derivative with respect to a generator."""

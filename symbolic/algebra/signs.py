@@ -57,8 +57,8 @@ def never_zero(expression: sympy.Expr, positive: Symbols = (), nonnegative: Symb
 def _of_factor(factor: sympy.Expr, positive: Symbols, nonnegative: Symbols) -> int:
     if factor.free_symbols == {z}:
         return _on_interval(sympy.Poly(factor, z), sympy.S.Zero, sympy.S.One)
-    if factor.free_symbols <= _COSINES:
-        return _of_cosines(factor)
+    if factor.free_symbols <= _COSINES and (found := _of_cosines(factor)):
+        return found
     return _of_terms(factor, positive, nonnegative)
 
 

@@ -11,7 +11,7 @@ from itertools import chain
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.signs import sign
+from force_diffusion.symbolic.algebra.signs import never_zero, sign
 from force_diffusion.symbolic.printing.text import text
 
 SUMMATION = (sy.m, sy.n)
@@ -52,15 +52,49 @@ def unreadable(
     return next(chain(_sums(candidate, free), _indices(candidate)), "")
 
 
-def in_few_symbols(candidate: sympy.Eq, printed: Collection[sympy.Eq]) -> sympy.Eq:
-    """The same statement with s = 4 r n_x put in, and z = j/M where no z is printed."""
+def usual_form(candidate: sympy.Eq, printed: Collection[sympy.Eq]) -> sympy.Eq:
+    """The same statement about a printed left-hand side, where it can be brought to that.
+
+    s = 4 r n_x is put in, and z = j/M where no z is printed. Sides are exchanged; what is all on
+    one side is taken apart; a factor that both sides have, and that vanishes nowhere, is left out.
+    """
     image = {sy.spacing: 4 * sy.r * sy.n_x}
     if not any(line.has(sy.z) for line in printed):
         image[sy.z] = sy.j / sy.M
-    if not candidate.has(*image):
-        return candidate
-    left, right = (side.xreplace(image) for side in candidate.args)
+    left, right = (side.xreplace(image) if side.has(*image) else side for side in candidate.args)
+    subjects = [line.lhs for line in printed]
+    if left == 0 or (right in subjects and left not in subjects):
+        left, right = right, left
+    if right == 0 and isinstance(left, sympy.Add):
+        for term in left.args:
+            if term in subjects:
+                rest = [-other for other in left.args if other is not term]
+                return sympy.Eq(term, sympy.Add(*rest, evaluate=False), evaluate=False)
+    for subject in subjects:
+        if left != subject and (factors := _beside(left, subject)):
+            others = _factors(right)
+            if right == 0 or all(others.count(one) >= factors.count(one) for one in factors):
+                for factor in factors:
+                    if right:
+                        others.remove(factor)
+                left, right = subject, sympy.Mul(*others, evaluate=False)
     return sympy.Eq(left, right, evaluate=False)
+
+
+def _beside(side: sympy.Expr, subject: sympy.Expr) -> list[sympy.Expr]:
+    """The factors of a side beside the subject, all of which vanish nowhere; else none."""
+    factors = _factors(side)
+    for part in _factors(subject):
+        if part not in factors:
+            return []
+        factors.remove(part)
+    return factors if all(map(never_zero, factors)) else []
+
+
+def _factors(side: sympy.Expr) -> list[sympy.Expr]:
+    if not isinstance(side, sympy.Mul):
+        return [side]
+    return [factor for part in side.args for factor in _factors(part)]
 
 
 def without_value(candidate: sympy.Eq, *, in_the_limit: bool) -> str:

@@ -19,11 +19,13 @@ from force_diffusion.symbolic.printing.text import text
 HIGHEST_POWER = 20
 SIZES = (10**100, 10**200)
 HEIGHTS = tuple(Fraction(*z) for z in ((1, 2), (1, 3), (1, 4), (1, 6), (3, 4), (1, 100), (99, 100)))
-COSINES = tuple(Fraction(*c) for c in ((0, 1), (1, 4), (-1, 4), (1, 3), (49, 100), (-49, 100)))
+COSINES = tuple(Fraction(*c) for c in ((0, 1), (-1, 4), (1, 4), (1, 3), (49, 100), (-49, 100)))
 DIRECTIONS = tuple(
     (Fraction(x, length), Fraction(y, length))
     for x, y, length in ((3, 4, 5), (4, 3, 5), (20, 21, 29), (21, 20, 29), (119, 120, 169))
 )
+
+_LOW = Fraction(1, 3)
 
 Place = Mapping[sympy.Symbol, Fraction]
 _OTHERS = {sy.sigma: Fraction(3, 7), sy.r: Fraction(7, 3), sy.t: Fraction(21, 55)}
@@ -50,6 +52,12 @@ def _is_rational(expression: sympy.Basic) -> bool:
     return isinstance(expression, sympy.Rational | sympy.Symbol)
 
 
+@cache
+def _number(exact: sympy.Expr, values: tuple[tuple[sympy.Symbol, Fraction], ...]) -> Fraction:
+    """Value of an exact form, which many candidates are compared with."""
+    return explicit.number(exact, dict(values))
+
+
 def parts_in_the_limit(
     exact: sympy.Expr, candidate: sympy.Expr, places: tuple[Place, ...]
 ) -> str | None:
@@ -60,7 +68,9 @@ def parts_in_the_limit(
     """
     if not _is_rational(candidate):
         return None
-    for geometry, place in product(_geometries(candidate), places):
+    for (a, geometry), (b, place) in product(enumerate(_geometries(candidate)), enumerate(places)):
+        if min(a, b) > 1:
+            continue  # every φ at two places, and every place at two φ
         shares = []
         where = ", ".join(
             [f"{text(sy.phi)} = {geometry[sy.phi]}"]
@@ -76,7 +86,7 @@ def parts_in_the_limit(
                 return f"it has no value at {where}"
             except explicit.AmbiguousError:
                 return None
-            true = explicit.number(exact, values)
+            true = _number(exact, tuple(values.items()))
             shares.append(abs(found - true) / true)
         if shares[1] > Fraction(1, 1000) and shares[1] * 10 > shares[0]:
             return f"at {where}, size = 10²⁰⁰, it differs by the share {float(shares[1]):.3g}"
@@ -85,6 +95,45 @@ def parts_in_the_limit(
 
 LAYERS: tuple[Place, ...] = tuple({sy.M: Fraction(1), sy.j: z} for z in HEIGHTS)
 """Layers at fixed z, M growing."""
+
+_APART: tuple[dict[sympy.Symbol, Fraction | int], ...] = (
+    {},
+    {sy.M: 10**120},
+    {sy.sigma: Fraction(5, 11)},
+    {sy.r: Fraction(1, 13)},
+    {sy.z: _LOW},
+)
+
+
+def not_proportional(side: sympy.Expr, ratio: sympy.Expr) -> str | None:
+    """Where a positive quantity has no value or is not positive, or ``ratio`` is not one number.
+
+    The ratio has to be the same at one φ whatever else is put in, M being large: to 30 digits, of
+    which three are compared.
+    """
+    for cosine in COSINES:
+        found = []
+        for changed in _APART:
+            values = {sy.M: 10**60, sy.z: Fraction(1, 2), **_OTHERS, sy.phi: cosine, **changed}
+            image = {symbol: sympy.Rational(value) for symbol, value in values.items()}
+            for n, square in ((sy.n_x, 1 - image[sy.phi]), (sy.n_y, 1 + image[sy.phi])):
+                image[n] = sympy.sqrt(square / 2)
+            value, share = (part.xreplace(image).evalf(30) for part in (side, ratio))
+            where = ", ".join(
+                f"{text(one)} = {float(values[one]):.6g}" for one in (sy.phi, *changed)
+            )
+            if value.free_symbols:
+                return None
+            if value.has(sympy.zoo, sympy.nan, sympy.oo):
+                return f"it has no value at {where}"
+            if not value.is_positive:
+                return f"it is {value.evalf(3)}, which is not positive, at {where}"
+            found.append((share, where))
+        for share, where in found[1:]:
+            if abs(share / found[0][0] - 1) > Fraction(1, 1000):
+                return f"it is off by a factor that {where} changes"
+    return None
+
 
 HEIGHTS_AT = {Fraction(1, 2): range(8, 24, 2), Fraction(1, 3): range(12, 36, 3)}
 """Heights of packings at which a layer z M is looked at; all of them in the region of the limit."""

@@ -63,10 +63,19 @@ def test_json_follows_its_schema(made_up, capsys: pytest.CaptureFixture[str]) ->
     assert list(content) == ["equations"]
     assert [entry["number"] for entry in content["equations"]] == [1, 2]
     for entry in content["equations"]:
-        assert list(entry) == ["number", "name", "verdict", "checks", "mutants", "seconds"]
+        assert list(entry) == [
+            "number",
+            "name",
+            "verdict",
+            "checks",
+            "mutants",
+            "statements",
+            "seconds",
+        ]
         assert entry["verdict"] in ("proved", "refuted", "undecided")
         assert entry["seconds"] >= 0
         assert list(entry["mutants"]) == ["made", "refuted", "equivalent"]
+        assert list(entry["statements"]) == ["false", "refuted", "true", "proved"]
         for check in entry["checks"]:
             assert list(check) == ["kind", "verdict", "seconds"]
             allowed = {

@@ -6,6 +6,7 @@ import sympy
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.symbolic.as_printed import equation, terms
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
+from force_diffusion.symbolic.kernel.mutants import mutants
 from force_diffusion.symbolic.symbols import DeltaR, SecondDifference, i, j
 
 TRUE = equation(SecondDifference(i, j), terms(DeltaR(i, j), DeltaR(i - 1, j)))
@@ -38,6 +39,7 @@ PREMISE = Derivation(
     claims=(Claim("a claim", lambda: always(Verdict.PROVED)),),
     witnesses=(Witness("a witness", lambda seed: always(Verdict.AGREES)),),
     remarks=("A remark about n⁺·δn⁺ = 0.",),
+    tries=lambda *_: (),
 )
 
 CONCLUSION = replace(PREMISE, number=2, name="conclusion", title="B", premises=(PREMISE,))
@@ -54,6 +56,12 @@ def with_witness(verdict: Verdict) -> Derivation:
 def with_step(verdict: Verdict) -> Derivation:
     doubtful = Step("So it is.", SAME, lambda *_: always(verdict), ("step 1",))
     return replace(CONCLUSION, steps=lambda: [*CONCLUSION.steps(), doubtful])
+
+
+def lenient() -> Derivation:
+    """Its procedure proves everything, and every change is listed as equivalent."""
+    changes = {one.change: "for a reason" for one in mutants(TRUE)}
+    return replace(PREMISE, decide=lambda *_: always(Verdict.PROVED), equivalent=changes)
 
 
 def with_blind_checker() -> Derivation:

@@ -21,6 +21,8 @@ from force_diffusion.derivations.export.terminal import (
     mutant_counts,
     relation_of,
     step_verdicts,
+    tried_counts,
+    tried_text,
 )
 from force_diffusion.derivations.framework.record import Derivation, Outcome
 from force_diffusion.symbolic.kernel.decisions import Verdict
@@ -83,7 +85,7 @@ def equation_view(outcome: Outcome, outcomes: Sequence[Outcome]) -> dict[str, An
         "witnesses": [_noted(str(c.verdict), c.name, c.note) for c in kinds["witness"]],
         "counts": mutant_counts(outcome),
         "mutants": [
-            Note(mutant.verdict, prose(mutant.change), prose(mutant.ruling.note))
+            Note(mutant.verdict, prose(mutant.change), prose(mutant.note))
             for mutant in outcome.mutants
         ],
         "remarks": [prose(words) for words in derivation.remarks],
@@ -130,6 +132,7 @@ def page(outcomes: Sequence[Outcome], parts: Sequence[Part], command: str, made:
             **{kind: sum(count[kind] for count in counts) for kind in counts[0]},
             "seconds": f"{sum(outcome.seconds for outcome in outcomes):.1f}",
         },
+        tried=tried_text(tried_counts(outcomes)),
         marks=_MARKS,
         reading=READING,
         graph=proof_graph(outcomes),

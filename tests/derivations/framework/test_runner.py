@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+import sympy
 from force_diffusion.derivations.commands.alone import run_alone
 from force_diffusion.derivations.export.terminal import (
     mutant_counts,
@@ -11,8 +12,10 @@ from force_diffusion.derivations.export.terminal import (
     trouble_lines,
 )
 from force_diffusion.derivations.framework.catalogue import modules, with_premises
+from force_diffusion.derivations.framework.record import KernelError
 from force_diffusion.derivations.framework.runner import run
-from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.kernel.corpus import Statement
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 
 from tests.derivations import fakes
 
@@ -56,12 +59,45 @@ def test_nothing_is_better_than_its_premises(verdict: Verdict) -> None:
 
 
 def test_an_equivalent_mutant_is_listed_with_its_proof() -> None:
-    lenient = replace(fakes.PREMISE, decide=lambda *_: fakes.always(Verdict.PROVED))
-    outcome = run(lenient)
+    outcome = run(fakes.lenient())
     counts = mutant_counts(outcome)
     assert counts["equivalent"] == counts["made"] > 0
     assert outcome.verdict is Verdict.PROVED
     assert outcome_text(outcome).count("equivalent rewriting: ") == counts["made"]
+    assert outcome_text(outcome).count(". for a reason. said so") == counts["made"]
+
+
+def test_an_equivalent_mutant_that_is_not_listed_is_a_fault_of_the_checker() -> None:
+    with pytest.raises(KernelError, match="not listed as equivalent"):
+        run(replace(fakes.lenient(), equivalent={}))
+
+
+@pytest.mark.parametrize(
+    ("holds", "verdict", "faulty"),
+    [
+        (True, Verdict.REFUTED, True),
+        (False, Verdict.PROVED, True),
+        (True, Verdict.UNDECIDED, False),
+        (False, Verdict.UNDECIDED, False),
+    ],
+)
+def test_statements_of_known_truth_try_the_checker(
+    holds: bool, verdict: Verdict, faulty: bool
+) -> None:
+    other = sympy.Eq(fakes.TRUE.lhs, fakes.TRUE.lhs, evaluate=False)
+    statement = Statement(holds, "a kind", "because", other)
+
+    def decide(part: int, candidate: sympy.Eq) -> Ruling:
+        return fakes.always(verdict) if candidate == other else fakes.decide(part, candidate)
+
+    derivation = replace(fakes.PREMISE, decide=decide, tries=lambda *_: [statement])
+    if faulty:
+        with pytest.raises(KernelError, match="because"):
+            run(derivation)
+    else:
+        outcome = run(derivation)
+        assert outcome.verdict is (Verdict.UNDECIDED if holds else Verdict.PROVED)
+        assert bool(trouble_lines(outcome)) is holds
 
 
 def test_premises_come_first_and_once() -> None:

@@ -1,0 +1,194 @@
+"""Checkers with a planted fault: ``derive`` itself must end with a status that is not 0."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import pytest
+import sympy
+from force_diffusion.derivations import eq03_extrapolation as eq03
+from force_diffusion.derivations import eq12_delta_weights as eq12
+from force_diffusion.derivations.framework.catalogue import Number, load, modules
+from force_diffusion.symbolic.algebra import affine, signs
+from force_diffusion.symbolic.algebra.affine import Region
+from force_diffusion.symbolic.algebra.linear_forms import LinearForm
+from force_diffusion.symbolic.algebra.reading import Reader
+from force_diffusion.symbolic.kernel import decisions
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, proved, refuted
+from force_diffusion.symbolic.variances import orders
+
+from force_diffusion.__main__ import main
+
+FAULT = "force-diffusion: the checker is at fault"
+Plant = pytest.MonkeyPatch
+
+
+@pytest.fixture(autouse=True)
+def _nothing_is_remembered() -> Iterator[None]:
+    signs.sign.cache_clear()
+    yield
+    signs.sign.cache_clear()
+
+
+@pytest.fixture
+def derive(monkeypatch: Plant, capsys: pytest.CaptureFixture[str]) -> Callable[..., Any]:
+    """Derive one equation through the command, its premises taken as proved."""
+
+    def command(number: Number, *arguments: str, **planted: Any) -> tuple[int, str, str]:
+        table = {number: replace(load(number), premises=(), **planted)}
+        for module in ("commands.deriving", "api.derived"):
+            monkeypatch.setattr(f"force_diffusion.derivations.{module}.load", table.__getitem__)
+        status = main(["derive", str(number), *arguments])
+        printed = capsys.readouterr()
+        return status, printed.out, printed.err
+
+    return command
+
+
+def in_all_derivations(monkeypatch: Plant, name: str, planted: object) -> None:
+    """Put a function of the kernel's in place of the true one, wherever it has been imported."""
+    monkeypatch.setattr(decisions, name, planted)
+    for stem in modules().values():
+        module = import_module(f"force_diffusion.derivations.{stem}")
+        if hasattr(module, name):
+            monkeypatch.setattr(module, name, planted)
+
+
+@pytest.mark.parametrize("number", modules())
+def test_it_proves_all(derive: Callable[..., Any], number: Number) -> None:
+    status, _, said = derive(number, decide=lambda *_: proved("of course"))
+    assert status == 1
+    assert said.startswith(FAULT)
+
+
+@pytest.mark.parametrize("number", modules())
+def test_it_refutes_all(derive: Callable[..., Any], number: Number) -> None:
+    status, printed, said = derive(number, decide=lambda *_: refuted("never"))
+    assert status == 1
+    assert said.startswith(FAULT) or "0 proved" in printed or "1 undecided." in printed
+
+
+def test_nothing_is_written_by_a_checker_at_fault(
+    derive: Callable[..., Any], tmp_path: Path
+) -> None:
+    folder = tmp_path / "out"
+    status, _, said = derive(3, "--out", str(folder), decide=lambda *_: proved("of course"))
+    assert status == 1
+    assert said.startswith(FAULT)
+    assert not folder.exists() or not list(folder.iterdir())
+
+
+def test_all_of_overlooks_what_is_undecided(derive: Callable[..., Any], monkeypatch: Plant) -> None:
+    def lenient(*rulings: Ruling) -> Ruling:
+        wrong = [one for one in rulings if one.verdict is Verdict.REFUTED]
+        return wrong[0] if wrong else proved("nothing was refuted")
+
+    in_all_derivations(monkeypatch, "all_of", lenient)
+    status, _, said = derive(15)
+    assert status == 1
+    assert said.startswith(FAULT)
+
+
+@pytest.mark.parametrize("number", [1, 2, 3, 4, 5])
+@pytest.mark.parametrize("fault", ["any for all", "a component skipped"])
+def test_vectors_are_compared_in_part(
+    derive: Callable[..., Any], monkeypatch: Plant, number: int, fault: str
+) -> None:
+    monkeypatch.setattr(decisions, "counterexample", lambda *_, **__: None)
+    if fault == "any for all":
+        monkeypatch.setattr(decisions, "all", any, raising=False)
+    else:
+        whole = Reader.vector
+        monkeypatch.setattr(
+            Reader, "vector", lambda self, side: (whole(self, side)[0], LinearForm())
+        )
+    status, printed, said = derive(number)
+    assert status == 1
+    assert said.startswith(FAULT) or "1 undecided." in printed
+
+
+def test_eq_12_keeps_an_order_too_many(derive: Callable[..., Any], monkeypatch: Plant) -> None:
+    kept = eq12.variance_kept
+    monkeypatch.setattr(eq12, "variance_kept", lambda candidate: kept(candidate) + 1)
+    status, _, said = derive(12)
+    assert status == 1
+    assert said.startswith(FAULT)
+
+
+@pytest.mark.parametrize("number", [13, 14])
+def test_an_order_too_many(derive: Callable[..., Any], monkeypatch: Plant, number: int) -> None:
+    order, forms = (
+        orders.order,
+        load(number).exact
+        and import_module(f"force_diffusion.derivations.{modules()[number]}").exact_forms(),
+    )
+    exact = forms["interior"].value
+    monkeypatch.setattr(
+        orders, "order", lambda value, *sizes: order(value, *sizes) + (value is exact)
+    )
+    status, _, said = derive(number)
+    assert status == 1
+    assert said.startswith(FAULT)
+
+
+@pytest.mark.parametrize("number", modules())
+def test_only_one_sign_of_phi(
+    derive: Callable[..., Any], monkeypatch: Plant, number: Number
+) -> None:
+    """Roots are counted for 0 < φ < ½ alone: n_x² is between ¼ and ½ there."""
+    whole = signs._on_interval
+
+    def half(polynomial: sympy.Poly, low: sympy.Expr, high: sympy.Expr) -> int:
+        return whole(polynomial, low, sympy.Rational(1, 2) if low else high)
+
+    monkeypatch.setattr(signs, "_on_interval", half)
+    status, _, said = derive(number)
+    assert status == 1
+    assert said.startswith(FAULT)
+
+
+def test_a_base_case_is_dropped(derive: Callable[..., Any], monkeypatch: Plant) -> None:
+    whole = eq03.decide_linear
+
+    def step_alone(*sides: sympy.Expr, **options: Any) -> Ruling:
+        region: Region = sides[2]
+        return whole(*sides, **options) if len(region) else proved("j = 1 was not looked at")
+
+    monkeypatch.setattr(eq03, "decide_linear", step_alone)
+    status, _, said = derive(3)
+    assert status == 1
+    assert said.startswith(FAULT)
+
+
+def test_the_layer_at_the_base_is_dropped_from_a_region(
+    derive: Callable[..., Any], monkeypatch: Plant
+) -> None:
+    whole = eq03.Region
+    monkeypatch.setattr(
+        eq03, "Region", lambda bounds: whole(dict.fromkeys(bounds, 5) if bounds else {})
+    )
+    status, _, said = derive(3)
+    assert status == 1
+    assert said.startswith(FAULT)
+
+
+@pytest.mark.parametrize("number", [3, 4, 5])
+@pytest.mark.parametrize(("low", "high"), [(1, 0), (0, 1), (0, -1)])
+def test_a_sum_is_off_by_one(
+    derive: Callable[..., Any], monkeypatch: Plant, number: int, low: int, high: int
+) -> None:
+    whole = LinearForm.summed
+
+    def off(form: LinearForm, index: sympy.Symbol, *ends: affine.Affine) -> LinearForm:
+        return whole(form, index, affine.shifted(ends[0], low), affine.shifted(ends[1], high))
+
+    monkeypatch.setattr(LinearForm, "summed", off)
+    status, printed, said = derive(number)
+    assert status == 1
+    assert said.startswith(FAULT) or "undecided" in printed
+
+
+def test_the_kernel_without_a_plant_is_right(derive: Callable[..., Any]) -> None:
+    assert derive(3)[0] == 0
