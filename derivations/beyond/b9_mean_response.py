@@ -18,6 +18,7 @@ from force_diffusion.derivations.witnesses.squared_weights import compare
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD
+from force_diffusion.symbolic.algebra.signs import never_zero
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
@@ -257,8 +258,9 @@ def decide(part: int, candidate: sympy.Eq) -> Ruling:
     """Compare with the balance of the beads."""
     subject, mean = ((INSIDE, entry()), (ON_LEG, 1 + leg()))[part]
     ruling = decide_in_field(candidate.rhs, candidate.lhs.xreplace({subject: mean}))
-    if ruling.verdict is Verdict.PROVED and not candidate.lhs.has(subject):
-        return undecided("the left-hand side does not speak of the mean response")
+    weight = sympy.diff(candidate.lhs, subject)
+    if ruling.verdict is Verdict.PROVED and not never_zero(weight):
+        return undecided("the left-hand side is not shown to tell the mean response everywhere")
     return ruling
 
 
