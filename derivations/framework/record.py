@@ -163,8 +163,9 @@ class Derivation:
         """Whether unequal weights refute nothing, as it holds quantities that depend on others."""
         if self.relation != "=" or not self.search:
             return False
-        held = candidate.rhs.atoms(sy.SiteFunction)
-        if candidate.lhs == self.printed[part].lhs and candidate.rhs:
+        printed = self.printed[part]
+        held = candidate.rhs.atoms(sy.SiteFunction) | printed.rhs.atoms(sy.SiteFunction)
+        if candidate.lhs == printed.lhs and candidate.rhs:
             return not all(isinstance(one, sy.DeltaR | sy.SecondDifference) for one in held)
         return True
 

@@ -172,6 +172,8 @@ def evaluate(expression: sympy.Expr, truth: Truth, at: Values) -> Dual | Vector:
 def _quantity(kind: str, i: Fraction, j: Fraction, truth: Truth) -> Dual | Vector:
     if i.denominator != 1 or (i + j) % 2:
         raise NoSiteError(f"({i}, {j}) is no site")
+    if j < 0:
+        raise AbsentError(f"({i}, {j}) is below the base")
     try:
         return truth.quantity(kind, int(i), int(j))
     except (ValueError, IndexError) as reason:

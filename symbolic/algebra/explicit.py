@@ -88,6 +88,8 @@ def _sum(*parts: Weights) -> Weights:
 
 
 def _base_vectors(values: Values) -> dict[sympy.Symbol, tuple[Fraction, Fraction]]:
+    if sy.n_x not in values:
+        raise AmbiguousError("no values for the base vectors")
     x, y = Fraction(values[sy.n_x]), Fraction(values[sy.n_y])
     return {
         sy.n_plus: (x, y),

@@ -241,6 +241,14 @@ def _in_one_component(direction: sympy.Expr) -> Rule:
     return rule
 
 
+def _near_the_base(source: Source) -> Made:
+    for layer in (sy.j, sy.l, sy.site_s):
+        if source.relation == "=" and layer in source.free:
+            once = (layer - 1) * Sum(1, (sy.m, layer, 2))  # one in layer 2, an empty sum above it
+            wrong = source.right(_plus(source.term(_MILLIONTH) * once))
+            yield f"wrong at {text(layer)} = 2 alone", wrong
+
+
 def _as_large_somewhere(source: Source) -> Made:
     if source.relation not in "≈∼":
         return
@@ -487,6 +495,7 @@ FALSE: dict[str, tuple[Rule, ...]] = {
     "nothing said": (_nothing_said,),
     "another size": (_another_factor, _another_power, _added),
     "another component": tuple(map(_in_one_component, _DIRECTIONS)),
+    "wrong in one layer": (_near_the_base,),
     "as large at one place": (_as_large_somewhere,),
     "not positive": (_negative_or_zero,),
     "another sum": (_sums, _empty_sums),

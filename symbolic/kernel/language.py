@@ -56,7 +56,7 @@ def usual_form(candidate: sympy.Eq, printed: Collection[sympy.Eq]) -> sympy.Eq:
     """The same statement about a printed left-hand side, where it can be brought to that.
 
     s = 4 r n_x is put in, and z = j/M where no z is printed. Sides are exchanged; what is all on
-    one side is taken apart; a factor that both sides have, and that vanishes nowhere, is left out.
+    one side is taken apart; factors beside the subject that vanish nowhere go to the other side.
     """
     image = {sy.spacing: 4 * sy.r * sy.n_x}
     if not any(line.has(sy.z) for line in printed):
@@ -71,24 +71,27 @@ def usual_form(candidate: sympy.Eq, printed: Collection[sympy.Eq]) -> sympy.Eq:
                 rest = [-other for other in left.args if other is not term]
                 return sympy.Eq(term, sympy.Add(*rest, evaluate=False), evaluate=False)
     for subject in subjects:
-        if left != subject and (factors := _beside(left, subject)):
+        if left != subject and (ratio := _over(left, subject)):
+            above, below = ratio
             others = _factors(right)
-            if right == 0 or all(others.count(one) >= factors.count(one) for one in factors):
-                for factor in factors:
-                    if right:
-                        others.remove(factor)
-                left, right = subject, sympy.Mul(*others, evaluate=False)
+            for factor in above:
+                if factor in others:
+                    others.remove(factor)
+                elif right:
+                    others.append(sympy.Pow(factor, -1, evaluate=False))
+            return sympy.Eq(subject, sympy.Mul(*others, *below, evaluate=False), evaluate=False)
     return sympy.Eq(left, right, evaluate=False)
 
 
-def _beside(side: sympy.Expr, subject: sympy.Expr) -> list[sympy.Expr]:
-    """The factors of a side beside the subject, all of which vanish nowhere; else none."""
-    factors = _factors(side)
+def _over(side: sympy.Expr, subject: sympy.Expr) -> tuple[list[sympy.Expr], ...] | None:
+    """Factors of a side over those of the subject, if all of them vanish nowhere."""
+    above, below = _factors(side), []
     for part in _factors(subject):
-        if part not in factors:
-            return []
-        factors.remove(part)
-    return factors if all(map(never_zero, factors)) else []
+        if part in above:
+            above.remove(part)
+        else:
+            below.append(part)
+    return (above, below) if all(map(never_zero, (*above, *below))) else None
 
 
 def _factors(side: sympy.Expr) -> list[sympy.Expr]:

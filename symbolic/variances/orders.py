@@ -4,7 +4,7 @@ import sympy
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
 from force_diffusion.symbolic.kernel.decisions import Ruling, from_test, proved, refuted, undecided
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.symbols import M, j, phi, r, sigma, z
+from force_diffusion.symbolic.symbols import INDICES, M, j, phi, r, sigma, z
 from force_diffusion.symbolic.variances.variance import (
     CASES,
     ClosedForm,
@@ -22,6 +22,9 @@ def compare_leading_order(exact: RationalFunction, candidate: sympy.Expr) -> Rul
         difference = (exact - FIELD.from_sympy(candidate.xreplace({z: j / M}))).reduced()
     except NotExactError as reason:
         return undecided(str(reason))
+    strange = [s for s in INDICES if difference.holds(s) and s not in (M, j) and not exact.holds(s)]
+    if strange:
+        return refuted(f"exact − candidate depends on {', '.join(map(text, strange))}")
     if difference.is_zero():
         return proved("equal at every order")
     power = order(difference)

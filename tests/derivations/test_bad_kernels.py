@@ -17,6 +17,7 @@ from force_diffusion.symbolic.algebra.linear_forms import LinearForm
 from force_diffusion.symbolic.algebra.reading import Reader
 from force_diffusion.symbolic.kernel import decisions
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, proved, refuted
+from force_diffusion.symbolic.symbols import j
 from force_diffusion.symbolic.variances import orders
 
 from force_diffusion.__main__ import main
@@ -162,13 +163,8 @@ def test_a_base_case_is_dropped(derive: Callable[..., Any], monkeypatch: Plant) 
     assert said.startswith(FAULT)
 
 
-def test_the_layer_at_the_base_is_dropped_from_a_region(
-    derive: Callable[..., Any], monkeypatch: Plant
-) -> None:
-    whole = eq03.Region
-    monkeypatch.setattr(
-        eq03, "Region", lambda bounds: whole(dict.fromkeys(bounds, 5) if bounds else {})
-    )
+def test_layers_are_dropped_from_a_region(derive: Callable[..., Any], monkeypatch: Plant) -> None:
+    monkeypatch.setattr(eq03, "LAYERS_ABOVE", Region({j: 5}))
     status, _, said = derive(3)
     assert status == 1
     assert said.startswith(FAULT)

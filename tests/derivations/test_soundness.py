@@ -185,7 +185,7 @@ def test_the_whole_corpus(number: int | str) -> None:
             assert (verdict is Verdict.PROVED) is one.holds, one
             found[one.holds, verdict] += 1
     assert sum(found.values()) >= 140
-    assert found[False, Verdict.REFUTED] >= 40
+    assert found[False, Verdict.REFUTED] >= 30
 
 
 def test_every_kind_is_tried_where_it_can_be() -> None:
