@@ -50,14 +50,17 @@ def plain(row: Mapping[str, Any]) -> Row:
     return {n: float(value) if isinstance(value, Decimal) else value for n, value in row.items()}
 
 
-def html_table(rows: Sequence[Mapping[str, Any]], words: Iterable[str]) -> str:
-    """Show the first rows as a table in HTML, and lines of words below it."""
+def html_table(
+    rows: Sequence[Mapping[str, Any]], words: Iterable[str], count: int | None = None
+) -> str:
+    """Show the first of ``count`` rows as a table in HTML, and lines of words below it."""
+    left = (len(rows) if count is None else count) - SHOWN
     heads = "".join(f"<th>{escape(name)}</th>" for name in (rows[0] if rows else {}))
     body = "".join(
         "<tr>" + "".join(f"<td>{_cell(value)}</td>" for value in row.values()) + "</tr>"
         for row in rows[:SHOWN]
     )
-    more = f"<p>… and {len(rows) - SHOWN} more rows</p>" if len(rows) > SHOWN else ""
+    more = f"<p>… and {left} more rows</p>" if left > 0 else ""
     below = "<br>".join(map(escape, words))
     return f"<table><tr>{heads}</tr>{body}</table>{more}<p>{below}</p>"
 

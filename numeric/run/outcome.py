@@ -18,7 +18,7 @@ from ..mechanics.work import Work
 from ..planning.plan import ESTIMATE, Plan, plan_lines
 from ..quantities.answer import Answer
 from ..statistics import histogram
-from ..tables import Row, html_table, rows_of
+from ..tables import SHOWN, Row, html_table, rows_of
 from ..text import rows_of_text, text_of
 from ..theory.critical_height import critical_height
 from ..unilateral.network import Network
@@ -217,7 +217,9 @@ class Outcome:
 
     def _repr_html_(self) -> str:
         """Show the first rows as a table in a notebook."""
-        return html_table(self.decimals(), summary_lines(self.data(rows=False), self.count))
+        first = {name: text[:SHOWN] for name, text in self.text.items()}
+        lines = summary_lines(self.data(rows=False), self.count)
+        return html_table(rows_of_text(first, self.whole_numbers), lines, self.count)
 
 
 def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
