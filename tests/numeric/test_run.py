@@ -570,3 +570,10 @@ def test_a_point_load_beside_a_pressure_is_the_file_of_both(
     assert both.physical is not None
     assert both.physical.sound
     assert not alone[0].physical.sound
+
+
+def test_a_notebook_shows_the_first_rows_and_says_how_many_there_are() -> None:
+    shown = answer(basic(6, 14))._repr_html_()
+    assert shown.count("<tr>") == 21
+    assert "and 148 more rows" in shown
+    assert "contact_forces: 168 rows" in shown

@@ -121,7 +121,7 @@ def _family(row: Row) -> str:
 
 
 def _lines(rows: list[Row]) -> dict[tuple[str, str], list[Row]]:
-    """Collect the rows that a line joins: one way in one family of arithmetic, by error."""
+    """Collect the rows that a line joins: one way in one family of arithmetic, by size or error."""
     found: dict[tuple[str, str], list[Row]] = {}
     for row in rows:
         found.setdefault((row.way, _family(row)), []).append(row)

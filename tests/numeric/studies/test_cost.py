@@ -258,3 +258,21 @@ def test_arrays_rows_and_decimals_say_the_same() -> None:
         assert row["error"] == error == pytest.approx(float(exact["error"]), rel=0.01)
         assert (row["certified_bound"] is None) == (row["arithmetic"][:3] != "arb")
     assert found._repr_html_().count("<tr>") == 1 + min(len(rows), 20)
+
+
+def test_a_line_joins_ensembles_by_their_size() -> None:
+    """Errors of ensembles scatter: by error, a line would go back and forth in time."""
+    plot = pytest.importorskip("force_diffusion.numeric.studies.cost.plot")
+    nothing: dict[str, Any] = dict.fromkeys(
+        ("model_error", "rounding_error", "sampling_error", "certified_bound")
+    )
+    rows = [
+        Row(
+            "Monte Carlo", "float64", N, Decimal(error), **nothing,
+            seconds=N / 100, seconds_min=0.1, seconds_max=9.0, runs=3,
+            peak_bytes=1, peak_is_bound=False,
+        )
+        for N, error in ((40, "0.01"), (10, "0.02"), (160, "0.03"))
+    ]  # fmt: skip
+    (line,) = plot._lines(rows).values()
+    assert [row.realisations for row in line] == [10, 40, 160]
