@@ -2,16 +2,20 @@
 
 import json
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from force_diffusion.derivations.commands.cli import shell_line
 from force_diffusion.derivations.commands.guard import about, say
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import images, noticing
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
 
 import force_diffusion as fd
+
+if TYPE_CHECKING:
+    from force_diffusion.numeric.figures.catalogue import PaperFigure
+    from force_diffusion.numeric.figures.packings import Notice
 
 NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5", "B7", "B9", "B10", "B11")
 MODELS = {"q-model": "3", "double-y": "4"}
@@ -47,7 +51,8 @@ def figures(
         list[str] | None,
         typer.Argument(
             metavar="WHICH",
-            help="Figures: 1, 2, 3, 4, pf, chains, B2, B5, B7, B9, B10, B11; by default all.",
+            help="Figures: 1, 2, 3, 4, pf, chains, B2, B5, B7, B9, B10, B11; by default all. A "
+            "scene of your own, FILE.toml, is answered and drawn.",
         ),
     ] = None,
     out: Annotated[Path, out_option("PNG, SVG, PDF and CSV")] = Path("figures"),
@@ -82,10 +87,13 @@ def figures(
 ) -> None:
     """Draw the paper's figures anew, from exact packings."""
     wanted = list(dict.fromkeys(which or NAMES))
+    scenes = {name: Path(name).stem for name in wanted if name.endswith(".toml")}
     for name in wanted:
-        if name not in NAMES:
+        if name not in NAMES and name not in scenes:
             raise typer.BadParameter(
-                f"There is no figure '{name}'. Give any of {', '.join(NAMES)}.", param_hint="WHICH"
+                f"There is no figure '{printable(name)}'. Give any of {', '.join(NAMES)}, or a "
+                "scene, FILE.toml.",
+                param_hint="WHICH",
             )
     chosen = None if heights is None else _heights(heights)
     if chosen is not None and "3" not in wanted:
@@ -117,7 +125,12 @@ def figures(
     words += ["--seed", str(seed)]
     words += [word for model in beside or [] for word in ("--with", model)]
     command = shell_line([*words, "--out", str(out)])
-    stems = [FIGURES[name].file for name in wanted]
+    stems = [scenes.get(name) or FIGURES[name].file for name in wanted]
+    if len(set(stems)) < len(stems):
+        raise typer.BadParameter(
+            "several figures would have the same files; give scenes other names.",
+            param_hint="WHICH",
+        )
     names = [file for stem in stems for file in (*images(stem), f"{stem}.csv", f"{stem}.json")]
     with noticing() as notice, output(out, "figures", names, overwrite) as folder:
         data, files = _made(
@@ -142,9 +155,12 @@ def _made(
     files: dict[str, str | bytes] = {}
     for name in wanted:
         own = [model for model in beside if MODELS[model] == name]
-        with about(f"figure {name}"):
+        with about(Path(name).name if name.endswith(".toml") else f"figure {name}"):
             try:
-                made = fd.figure(name, beside=own, command=command, **options)
+                if name.endswith(".toml"):
+                    made = _own(Path(name), command, options["notice"])
+                else:
+                    made = fd.figure(name, beside=own, command=command, **options)
             except ForceDiffusionError as error:
                 if name != "3":
                     raise
@@ -160,6 +176,27 @@ def _made(
         stem = next(iter(made.files)).partition(".")[0]
         files |= {**made.files, f"{stem}.json": text + "\n"}
     return data, files
+
+
+def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":
+    """Answer a scene, and draw the answer; a question that has no figure raises ``SceneError``."""
+    from force_diffusion.numeric.figures import style
+    from force_diffusion.numeric.figures.catalogue import PaperFigure
+    from force_diffusion.numeric.run.outcome import outcome_lines
+    from force_diffusion.numeric.text import csv_bytes
+
+    scene, name = fd.read_scene(path), path.stem
+    notice(f"{name}: solving")
+    found = scene.run()
+    title = f"{printable(name)}: {scene.ask.quantity}"
+    notice(f"{name}: drawing")
+    files: dict[str, str | bytes] = {
+        **style.images(found.plot, name, title, command),
+        f"{name}.csv": csv_bytes(found.text),
+    }
+    about = found.data(rows=False)
+    lines = [line for line in outcome_lines(about, found.count) if not line.startswith(" ")]
+    return PaperFigure(title, files, {"answer": about}, lines)
 
 
 def register(app: typer.Typer) -> None:

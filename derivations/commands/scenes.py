@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from force_diffusion.derivations.commands.cli import command_line, shell_line
 from force_diffusion.derivations.commands.guard import about as named
-from force_diffusion.derivations.commands.guard import in_range
+from force_diffusion.derivations.commands.guard import in_range, say
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import (
     Quiet,
@@ -25,6 +25,7 @@ from force_diffusion.derivations.commands.shared import (
     warn,
     write,
 )
+from force_diffusion.derivations.commands.sweep import Seed, Settings, name_of, variants
 from force_diffusion.derivations.export.answers import Format
 from force_diffusion.derivations.export.tables import csv_text
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
@@ -57,7 +58,9 @@ _Certified = Annotated[
 ]
 
 
-def _planned(scene: Path, tolerance: str | None, certified: bool) -> "Plan":
+def _planned(
+    scene: Path, tolerance: str | None, certified: bool, changes: dict[str, str] | None = None
+) -> "Plan":
     """Read and plan a scene."""
     from force_diffusion.numeric.arithmetic.decimals import parse
     from force_diffusion.numeric.arithmetic.machine import memory_limit
@@ -72,7 +75,7 @@ def _planned(scene: Path, tolerance: str | None, certified: bool) -> "Plan":
             raise ForceDiffusionError(f"--tolerance = {tolerance}: must lie between 0 and 1")
     try:
         with named(scene.name):
-            found = fd.read_scene(scene)
+            found = fd.read_scene(scene, changes)
         if certified and asked is None and found.ask.tolerance is None:
             raise ForceDiffusionError(
                 "--certified needs a tolerance: give --tolerance T, such as 1e-30"
@@ -116,18 +119,47 @@ def run(
             help="Where a packing that the memory does not hold goes on after an interruption.",
         ),
     ] = None,
+    settings: Settings = None,
+    seed: Seed = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Answer a scene's question."""
+    checked(written, out)
+    asked = variants(settings, seed)
+    if len(asked) > 1 and checkpoint is not None:
+        raise ForceDiffusionError("--checkpoint is of one scene: leave it out, or set one value")
+    plans = [_planned(scene, tolerance, certified, one) for one in asked]  # all are checked first
+    for planned, changes in zip(plans, asked, strict=True):
+        words = [word for key, value in changes.items() for word in ("--set", f"{key}={value}")]
+        folder = out
+        if len(asked) > 1:
+            varied = {k: v for k, v in changes.items() if any(one[k] != v for one in asked)}
+            folder = None if out is None else out / name_of(varied)
+            if not (as_json or quiet):
+                say(f"# {', '.join(f'{key} = {value}' for key, value in varied.items())}")
+        question = shell_line(["run", str(scene), *words]) if words else f"run {scene}"
+        _answer(planned, scene, question, folder, written, as_json, quiet, checkpoint, overwrite)
+
+
+def _answer(
+    planned: "Plan",
+    scene: Path,
+    question: str,
+    out: Path | None,
+    written: Format,
+    as_json: bool,
+    quiet: bool,
+    checkpoint: Path | None,
+    overwrite: bool,
+) -> None:
+    """Answer one scene, and print or write the answer."""
     from force_diffusion.numeric.run.outcome import outcome_lines
 
-    checked(written, out)
-    planned = _planned(scene, tolerance, certified)
     warn(scene, planned)
     unilateral = planned.scene.effects.contacts == "unilateral"
     names = ["result.json", f"{planned.scene.ask.quantity}.{written}"]
     names += ["packings.json"] * unilateral
-    with output(out, f"run {scene}", names, overwrite) as folder:
+    with output(out, question, names, overwrite) as folder:
         found = _solved(planned, scene, quiet, checkpoint)
         about = found.data(rows=False)
         about["source"] = sourced(about["source"], scene, command_line())

@@ -1,12 +1,13 @@
 """Figure 3 drawn: simulation, exact finite-M curves and the printed curve; below, their ratio."""
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .. import closed_forms
 from . import style
-from .comparison import NOTEWORTHY, Comparison, Height
+from .comparison import LEVEL, NOTEWORTHY, Comparison, Height
 from .models.q_model import weight_variance
 from .packings import PAPER_STD, PHI
 
@@ -31,7 +32,7 @@ def _theory_and_simulation(axes: Axes, data: Comparison) -> None:
     one_layer = [closed_forms.surface_diffusion(1, v, float(PHI), PAPER_STD, 1.0) for v in z]
     scale = 1e4
     axes.plot(z, scale * np.sqrt(one_layer), "--", color="black", label="Eq. (13), printed")
-    handles = [style.line("black", "--", "Eq. (13), printed")]
+    handles: list[Artist] = [style.line("black", "--", "Eq. (13), printed")]
     handles.append(style.line("0.35", "-", "exact at finite $M$"))
     for number, one in enumerate(data.heights):
         colour, marker = style.series(number)
@@ -51,6 +52,7 @@ def _theory_and_simulation(axes: Axes, data: Comparison) -> None:
             label=f"simulated, $M={one.height}$",
         )  # fmt: skip
         handles.append(points)
+    handles.append(style.shade("0.35", f"{LEVEL:.0%} band"))
     axes.set_xlim(0, 1)
     axes.set_ylim(0, None)
     axes.tick_params(labelbottom=False)
@@ -109,7 +111,7 @@ def _shapes(axes: Axes, data: Comparison) -> None:
             label=f"$q$-model, $M={one.height}$",
         )  # fmt: skip
     axes.set_xlim(0, 1)
-    axes.set_ylim(0, 1.15)
+    axes.set_ylim(0, 1.04)
     axes.set_xlabel("relative height $z=j/M$")
     axes.set_ylabel(r"$\sigma(z)\,/\,\sigma(0)$")
     axes.legend(loc="lower left")

@@ -111,6 +111,8 @@ def draw(data: Diffusion) -> "Figure":
             style.line("0.35", "-", rf"$\pm\sigma$, exact at $M={data.height}$"),
             style.line("black", "--", "Eq. (13), printed"),
             style.line("black", ":", "Brownian"),
+            style.shade("0.35", r"within $\pm\sigma$", 0.45),
+            style.shade("0.35", r"within $\pm2\sigma$", 0.18),
         ],
         loc="outside lower center", ncols=3, columnspacing=1.0, handletextpad=0.5,
     )  # fmt: skip

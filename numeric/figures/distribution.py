@@ -172,15 +172,11 @@ def _histogram(axes: "Axes", one: Sample, look: tuple[str, str]) -> None:
     name = f"{one.kind} radii, $M={one.height}$"
     parts.densities(axes, middle, density, error, look, name)
     axes.set_xlim(-4, 4)
-    axes.set_ylim(5e-5, 20)
+    axes.set_ylim(8e-5, 1)
     axes.set_xlabel(r"$(f-\langle f\rangle)\,/\,\sigma_f$")
     axes.set_ylabel(r"$\sigma_f\,P(f)$")
-    axes.legend(loc="upper right")
-    axes.text(
-        0.03, 0.95,
-        f"Kolmogorov–Smirnov {_p(one.smirnov)}\nAnderson–Darling {_p(one.anderson)}",
-        transform=axes.transAxes, va="top", fontsize=7,
-    )  # fmt: skip
+    tests = f"Kolmogorov–Smirnov {_p(one.smirnov)}\nAnderson–Darling {_p(one.anderson)}"
+    axes.legend(loc="lower center", title=tests, title_fontsize=7)  # below the curve
 
 
 def _p(value: float) -> str:

@@ -9,7 +9,7 @@ from ..arithmetic.systems import Array
 from . import parts, style
 from .models.double_y import Profile
 from .packings import N_X
-from .response import CUTS, Response
+from .response import CUTS, LEVEL, Response
 
 
 def draw(data: Response) -> Figure:
@@ -20,8 +20,8 @@ def draw(data: Response) -> Figure:
         panels = figure.subplots(2, 2, height_ratios=(1, 1.05)).ravel().tolist()
         _double_y(panels[3], data.double_y)
     else:
-        figure = style.figure(style.PAGE, 3.3)
-        grid = figure.add_gridspec(2, 2, width_ratios=(1, 1.1))
+        figure = style.figure(style.PAGE, 3.4)
+        grid = figure.add_gridspec(2, 2, width_ratios=(0.85, 1.1))
         cells = (grid[0, 0], grid[1, 0], grid[:, 1])
         panels = [figure.add_subplot(cell) for cell in cells]
     _map(panels[0], data, data.mean, r"$\langle p\rangle\,/\,f^{\rm load}$", where, 0.5)
@@ -76,24 +76,21 @@ def _cuts(axes: Axes, data: Response) -> None:
         data.sites(lower)[1:-1] / data.apex, data.one_contact[lower][1:-1],
         color=style.series(2)[0], lw=0.9, ls=":",
     )  # fmt: skip
-    axes.text(
-        0.1, 26, f"one contact, $j={lower}$", color=style.series(2)[0], fontsize=7.5, va="center"
-    )
-    axes.annotate(
-        "legs of the cone", (0, 23 / 1.5), ha="center", va="center", color="0.3", fontsize=7.5
-    )
+    axes.text(0, 5, "legs of the cone", ha="center", va="center", color="0.3", fontsize=7.5)
     axes.set_xlim(-1.08, 1.4)
     axes.set_ylim(0, None)
     axes.set_xlabel("horizontal position $i/l$")
     axes.set_ylabel(VARIANCE)
-    axes.legend(
+    axes.figure.legend(
         handles=[
             style.line("0.3", "-", "exact first order"),
             style.line("black", "--", "Eq. (16), printed"),
             Line2D([], [], color="0.3", marker="o", ls="", ms=2.6, mew=0.6, mfc="white",
                    label="simulated"),
+            style.shade("0.3", f"{LEVEL:.0%} band of all"),
+            style.line(style.series(2)[0], ":", f"one contact, $j={lower}$"),
         ],
-        loc="lower center", ncols=3, columnspacing=1.0,
+        loc="outside lower center", ncols=5, columnspacing=1.2,
     )  # fmt: skip
 
 
@@ -104,8 +101,8 @@ def _double_y(axes: Axes, found: tuple[Profile, ...]) -> None:
         axes.stairs(one.density, one.edges, color=colour, ls=dashes, lw=1.0, label=one.name)
     cone = float(N_X / (1 - N_X**2) ** 0.5)
     for x in (-cone, cone):
-        axes.axvline(x, color="0.6", lw=0.6, ls=(0, (1, 1.5)), zorder=0)
-    axes.annotate("the packing's cone", (cone, 2.2), (1.35, 2.2), va="center", fontsize=7)
+        axes.axvline(x, color="0.6", lw=0.6, ls=(0, (1, 1.5)), zorder=0,
+                     label="the packing's cone" if x > 0 else None)  # fmt: skip
     axes.set_xlim(-3, 3)
     axes.set_ylim(0, None)
     axes.set_xlabel("horizontal position $x/H$")

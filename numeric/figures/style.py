@@ -17,6 +17,7 @@ from matplotlib.backend_bases import RendererBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
@@ -67,6 +68,11 @@ def series(number: int) -> tuple[str, str]:
 def line(colour: str, dashes: Dashes, name: str) -> Line2D:
     """Give a line for a legend."""
     return Line2D([], [], color=colour, linestyle=dashes, label=name)
+
+
+def shade(colour: str, name: str, alpha: float = 0.25) -> Patch:
+    """Give a patch for a legend."""
+    return Patch(facecolor=colour, alpha=alpha, lw=0, label=name)
 
 
 @contextmanager

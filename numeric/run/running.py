@@ -4,6 +4,7 @@
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -148,6 +149,10 @@ class Scene(scene.Scene):
         return run(self.explain(tolerance, certified=certified), progress, checkpoint=checkpoint)
 
 
-def read_scene(path: str | Path) -> Scene:
-    """Read and check a scene file. Raises ``SceneError``."""
-    return reading.read_scene(Path(path), Scene)
+def read_scene(path: str | Path, changes: Mapping[str, str] | None = None) -> Scene:
+    """Read and check a scene file. Raises ``SceneError``.
+
+    ``changes`` are keys whose values are others than in the file, as it would have them:
+    ``{"packing.height": "16", "disorder.kind": "normal"}``.
+    """
+    return reading.read_scene(Path(path), Scene, changes or {})

@@ -2,8 +2,9 @@
 
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import TypeVar
 
 from .scene import Scene
@@ -15,11 +16,16 @@ MOST_DOTS = 200
 S = TypeVar("S", bound=Scene)
 # Digits that Python reads of an integer.
 MOST_DIGITS = 4300
+_WORD = re.compile(r"(?!(true|false|inf|nan)$)[A-Za-z][A-Za-z_-]*", re.ASCII)
+LONGEST_VALUE = 6000
 _LONG = re.compile(rf"(?<![\w.])[0-9][0-9_]{{{MOST_DIGITS},}}", re.ASCII)
 
 
-def read_scene(path: Path, kind: type[S]) -> S:
-    """Read and check a scene file. Raises ``SceneError``."""
+def read_scene(path: Path, kind: type[S], changes: Mapping[str, str] = MappingProxyType({})) -> S:
+    """Read and check a scene file. Raises ``SceneError``.
+
+    ``changes`` are keys, as "packing.height", with values as a scene file has them.
+    """
     try:
         if not path.is_file():  # a device or a pipe may have no end
             why = "a scene must be an ordinary file" if path.exists() else "there is no such file"
@@ -34,12 +40,25 @@ def read_scene(path: Path, kind: type[S]) -> S:
     if len(content) > LARGEST_FILE:
         raise SceneError(str(path), None, f"a scene has at most {LARGEST_FILE} bytes")
     try:
-        return parse_scene(text, kind, path.parent)
+        return parse_scene(text, kind, path.parent, changes)
     except SceneError as error:
         if error.key == "scene":
             raise SceneError(str(path), None, error.allowed) from None
         error.add_note(path.name)
         raise
+
+
+def _value(name: str, written: str) -> object:
+    """Read one value; a bare word is a string."""
+    if _WORD.fullmatch(written):
+        return written
+    try:
+        if len(written) > LONGEST_VALUE or "\n" in written:
+            raise ValueError
+        found: object = tomllib.loads(f"value = {written}", parse_float=Written)["value"]
+    except (ValueError, ArithmeticError, RecursionError):
+        raise SceneError(name, written, "is no value of TOML, such as 8, 1e-4 or normal") from None
+    return found
 
 
 def _lines_with_keys(text: str) -> Iterator[str]:
@@ -50,7 +69,12 @@ def _lines_with_keys(text: str) -> Iterator[str]:
             yield line
 
 
-def parse_scene(text: str, kind: type[S], folder: Path = Path()) -> S:
+def parse_scene(
+    text: str,
+    kind: type[S],
+    folder: Path = Path(),
+    changes: Mapping[str, str] = MappingProxyType({}),
+) -> S:
     """Check the text of a scene, whose files lie in ``folder``. Raises ``SceneError``.
 
     >>> parse_scene('packing = {height = 4}\\nask = {quantity = "profle"}', Scene)
@@ -77,6 +101,12 @@ did you mean "profile"?
         ) from None
     if "folder" in raw:
         raise SceneError("folder", raw["folder"], unknown("folder", Scene))
+    for name, written in changes.items():
+        section, _, key = name.partition(".")
+        keys = raw.setdefault(section, {})
+        if not key or "." in key or not isinstance(keys, dict):
+            raise SceneError(name, None, "is no key of a section, such as packing.height")
+        keys[key] = _value(name, written)
     try:
         return kind(**raw, folder=folder)
     except SceneError as error:  # say the number as it was written, not as it was understood

@@ -202,3 +202,35 @@ def test_interrupted(
 
 def test_the_command_knows_every_figure() -> None:
     assert tuple(catalogue.FIGURES) == figures_command.NAMES
+
+
+def test_a_scene_of_ones_own_is_answered_and_drawn(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene, out = tmp_path / "my $cene.toml", tmp_path / "out"
+    scene.write_text(
+        "packing = {height = 4, width = 9, spacing = 2.6}\n"
+        'disorder = {kind = "two-point", relative_std = 1e-3}\nask = {quantity = "profile"}\n'
+    )
+    status, printed, err = call(capsys, scene, "--out", out)
+    assert (status, err) == (0, "")
+    assert "float64" in printed
+    command = json.loads((out / "my $cene.json").read_text())["command"]
+    check_images(out, "my $cene", command)
+    table = list(csv.DictReader(io.StringIO((out / "my $cene.csv").read_text())))
+    assert len(table) == 8
+    again = tmp_path / "other" / scene.name
+    status, _, err = call(capsys, scene, again, "--out", out)
+    assert status == 2
+    assert "the same files" in err
+
+
+def test_a_scene_without_a_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
+        'packing = {height = 4, width = 9}\nask = {quantity = "contact", at = [0, 0, "+"]}\n'
+    )
+    status, _, err = call(capsys, scene, "--out", tmp_path / "out")
+    assert status == 2
+    assert "scene.toml: " in err
+    assert not (tmp_path / "out").exists()

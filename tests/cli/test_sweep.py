@@ -1,0 +1,90 @@
+"""``--set`` and ``--seed``: scenes with other values than their files have."""
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import pytest
+
+from force_diffusion.__main__ import main
+
+SCENE = """
+packing = {height = 3, width = 6}
+disorder = {kind = "uniform", relative_std = 1e-3}
+ask = {quantity = "profile"}
+"""
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    path = tmp_path / "scene.toml"
+    path.write_text(SCENE)
+    return path
+
+
+def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
+    status = main([str(a) for a in arguments])
+    shown = capsys.readouterr()
+    return status, shown.out, shown.err
+
+
+def rows(text: str) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def test_a_value_is_that_of_a_changed_file(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    changed = scene.with_name("changed.toml")
+    text = SCENE.replace("height = 3", "height = 4")
+    changed.write_text(text.replace('"uniform"', '"normal", seed = 7'))
+    status, plain, _ = call(capsys, "run", changed, "--json")
+    assert status == 0
+    words = ("--set", "packing.height=4", "--set", "disorder.kind=normal", "--seed", 7)
+    status, found, _ = call(capsys, "run", scene, *words, "--json")
+    assert status == 0
+    assert json.loads(found)["results"] == json.loads(plain)["results"]
+
+
+def test_a_sweep_answers_every_combination_in_a_folder_of_its_own(
+    scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    words = ("--set", "packing.height=2,3,4", "--set", "disorder.seed=0,1", "--out", out)
+    status, _, err = call(capsys, "run", scene, *words, "--set", "load.kind=bulk")
+    assert (status, err) == (0, "")
+    assert sorted(one.name for one in out.iterdir()) == [
+        f"packing.height={M},disorder.seed={seed}" for M in (2, 3, 4) for seed in (0, 1)
+    ]
+    for one in out.iterdir():
+        height = int(one.name[len("packing.height=")])
+        assert len(rows((one / "profile.csv").read_text())) == 2 * height
+    status, printed, _ = call(capsys, "run", scene, "--set", "packing.height=2,3")
+    assert status == 0
+    assert "# packing.height = 2\n" in printed
+    assert "# packing.height = 3\n" in printed
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--set", "height"], "sets nothing"),
+        (["--set", "=3"], "sets nothing"),
+        (["--set", "packing.height=2", "--set", "packing.height=3"], "more than once"),
+        (["--set", "height=3"], "no key of a section"),
+        (["--set", "a.b.c=3"], "no key of a section"),
+        (["--set", "packing.hieght=3"], 'did you mean "height"'),
+        (["--set", "packing.height=3]"], "is no value of TOML"),
+        (["--set", "packing.height="], "is no value of TOML"),
+        (["--set", f"packing.height=9{'9' * 5000}"], "is no value of TOML"),
+        (["--set", "packing.height=2,0"], "greater than or equal to 1"),
+        (["--set", f"disorder.seed={','.join(map(str, range(1001)))}"], "1001 scenes"),
+        (["--set", "disorder.seed=1", "--seed", "2"], "leave one out"),
+    ],
+)
+def test_wrong_settings(
+    words: list[str], says: str, scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    status, shown, err = call(capsys, "run", scene, *words, "--out", tmp_path / "out")
+    assert (status, shown) == (2, "")
+    assert says in " ".join(err.split())
+    assert not (tmp_path / "out").exists()
