@@ -40,8 +40,8 @@ WRONG = [
     (["list", "13"], "13"),
     (
         ["prove", "13"],
-        "no command 'prove'. Use derive, certify, show, list, examples, run, explain, cost, "
-        "stability, ensemble, ensemble-status, figures or report",
+        "no command 'prove'. Use derive, certify, show, list, examples, run, explain, "
+        "check-packings, cost, stability, cascade, ensemble, ensemble-status, figures or report",
     ),
 ]
 

@@ -125,6 +125,7 @@ def test_pairs_of_whole_numbers_and_of_nothing_but_zeros() -> None:
     assert total_matrix(digits(ones), 2).fractions() == [5, 5, 5]
     assert total_matrix(digits(0 * ones), 2).fractions() == [0, 0, 0]
     assert total(digits(0 * ones), (2,)) == ExactSum.zero(2)
+    assert total(digits(np.zeros((2, 0))), (2,)) == ExactSum.zero(2)
 
 
 def test_many_of_the_largest_digits_do_not_overflow() -> None:
