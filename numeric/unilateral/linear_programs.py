@@ -46,12 +46,16 @@ def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array
             )
         progress(program)
         if gain < GAIN * scale:
+            _, forces = _solved(grains, pairs, vertex=True)
             return pairs, forces, program
     raise UnfinishedError(f"beads still move after {MOST_PROGRAMS} linear programs")
 
 
-def _solved(grains: Grains, pairs: Pairs) -> tuple[Array, Array]:
-    """Solve one program by interior points: moves, and forces as multipliers of the gaps."""
+def _solved(grains: Grains, pairs: Pairs, *, vertex: bool = False) -> tuple[Array, Array]:
+    """Solve one program by interior points: moves, and forces as multipliers of the gaps.
+
+    At a ``vertex``, which takes longer, forces are exactly zero but for those of a basis.
+    """
     try:
         import highspy
     except ImportError:
@@ -73,7 +77,7 @@ def _solved(grains: Grains, pairs: Pairs) -> tuple[Array, Array]:
     program.a_matrix_.value_ = A.data
     solver = highspy.Highs()  # type: ignore[no-untyped-call]
     for option, value in (
-        ("output_flag", False), ("solver", "ipm"), ("run_crossover", "off"), ("threads", 1),
+        ("output_flag", False), ("solver", "ipm"), ("run_crossover", "on" if vertex else "off"), ("threads", 1),
     ):  # fmt: skip
         solver.setOptionValue(option, value)
     solver.passModel(program)
