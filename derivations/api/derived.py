@@ -96,7 +96,7 @@ def derive(
 ) -> Derived:
     """Prove equations and all that they rest on, check them, and try to prove their mutants.
 
-    All 16 take seconds. :meth:`Equation.prove` is the same for one equation.
+    All of them take a minute. :meth:`Equation.prove` is the same for one equation.
 
     >>> import force_diffusion as fd
     >>> found = fd.derive([2])

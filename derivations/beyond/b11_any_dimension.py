@@ -128,10 +128,13 @@ def steps() -> Iterator[Step]:
     """The recursion in line sums; which of them matter; squares."""
     yield Step(
         "Let a bead rest on d others, along base vectors n^a of equal mutual dot product φ. The "
-        "reciprocal vectors have the products, between themselves and with each other,",
+        "reciprocal vectors have the products κ, with themselves, and κ′, with each other:",
         sympy.Tuple(
-            equation(kappa, KAPPA),
-            equation(CROSS, CROSSED),
+            equation(
+                times(kappa, terms(1, -phi), terms(1, times(terms(d, -1), phi))),
+                terms(1, times(terms(d, -2), phi)),
+            ),
+            equation(times(CROSS, terms(1, -phi), terms(1, times(terms(d, -1), phi))), -phi),
         ),
         lambda part, candidate: identity(({kappa: KAPPA}, {CROSS: CROSSED})[part])(0, candidate),
     )

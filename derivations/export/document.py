@@ -170,7 +170,14 @@ def _coq(found: FoundEquation) -> str:
     return found.coq.verdict if found.coq else "not on record"
 
 
-def _overview(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
+def _overview(parts: Sequence[tuple[Derivation, FoundEquation]]) -> str:
+    """The paper's equations in one table, those beyond it in another: a page ends in between."""
+    of_paper = [part for part in parts if isinstance(part[0].number, int)]
+    beyond = [part for part in parts if not isinstance(part[0].number, int)]
+    return "\n".join(_table(some) for some in (of_paper, beyond) if some)
+
+
+def _table(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
     rows = []
     tried: Counter[str] = Counter()
     for derivation, found in parts:
