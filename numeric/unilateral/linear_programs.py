@@ -76,8 +76,9 @@ def _solved(grains: Grains, pairs: Pairs, *, vertex: bool = False) -> tuple[Arra
     program.a_matrix_.index_ = A.indices
     program.a_matrix_.value_ = A.data
     solver = highspy.Highs()  # type: ignore[no-untyped-call]
+    crossover = "on" if vertex else "off"
     for option, value in (
-        ("output_flag", False), ("solver", "ipm"), ("run_crossover", "on" if vertex else "off"), ("threads", 1),
+        ("output_flag", False), ("solver", "ipm"), ("run_crossover", crossover), ("threads", 1),
     ):  # fmt: skip
         solver.setOptionValue(option, value)
     solver.passModel(program)
