@@ -163,6 +163,8 @@ DERIVATION = Derivation(
         (DeltaX(i, j), "displacement of bead (i, j)"),
         (DeltaR(i, j), "deviation of the radius of bead (i, j)"),
         (m, "layer of a bead on one of the two diagonals down to the base"),
+        (b_plus, "reciprocal vector: n⁺·b⁺ = 1, n⁻·b⁺ = 0"),
+        (b_minus, "reciprocal vector: n⁻·b⁻ = 1, n⁺·b⁻ = 0"),
     ),
     assumptions=(
         "first order in δr",

@@ -133,6 +133,10 @@ DERIVATION = Derivation(
     symbols=(
         (DeltaNPlus(i, j), "change of the direction from (i, j) to (i+1, j+1)"),
         (DeltaR(i, j), "deviation of the radius of bead (i, j)"),
+        (n_plus, "direction of the ordered contact, up and to the right"),
+        (b_plus, "reciprocal vector: n⁺·b⁺ = 1, n⁻·b⁺ = 0"),
+        (b_minus, "reciprocal vector: n⁻·b⁻ = 1, n⁺·b⁻ = 0"),
+        (m, "layer of a bead on a diagonal down to the base"),
     ),
     assumptions=("first order in δr", "fixed base; j ≥ 0"),
     premises=(eq01.DERIVATION, eq03.DERIVATION),

@@ -120,6 +120,10 @@ DERIVATION = Derivation(
     symbols=(
         (DeltaNMinus(i, j), "change of the direction from (i, j) to (i−1, j+1)"),
         (DeltaR(i, j), "deviation of the radius of bead (i, j)"),
+        (n_minus, "direction of the ordered contact, up and to the left"),
+        (b_plus, "reciprocal vector: n⁺·b⁺ = 1, n⁻·b⁺ = 0"),
+        (b_minus, "reciprocal vector: n⁻·b⁻ = 1, n⁺·b⁻ = 0"),
+        (m, "layer of a bead on a diagonal down to the base"),
     ),
     assumptions=("first order in δr", "fixed base; j ≥ 0"),
     premises=(eq01.DERIVATION, eq03.DERIVATION, eq04.DERIVATION),

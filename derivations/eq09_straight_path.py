@@ -117,6 +117,9 @@ DERIVATION = Derivation(
     symbols=(
         (ForcePlus(*ENTRY), "force entering below the loaded bead (k, l) along n⁺"),
         (ForcePlus(i, j), "force of a contact straight below it, k − i = l − j"),
+        (DeltaNPlus(i, j), "change of the direction from (i, j) to (i+1, j+1)"),
+        (n_minus, "direction of the ordered contacts, up and to the left"),
+        (phi, "n⁺·n⁻"),
         (q, "number of beads passed"),
     ),
     assumptions=("first order in δn^±", "k − i = l − j ≥ 1", "the beads passed carry no load"),

@@ -36,12 +36,16 @@ _INDEXED = re.compile(r"_(?:\(([^()]*)\)|([A-Za-z0-9δ]+|±))")
 _VECTOR = re.compile(r"(?<![A-Za-z\\{])n(?=\^\{[-+]|\^?\\pm)")
 _FORCE = re.compile(r"F(?=\^\{\\mathrm\{load)")
 _RECIPROCAL = re.compile(r"(?<![A-Za-z\\{])b(?=\^\{[-+]|\^?\\pm)")
-_NAMES = re.compile(r"(?<![A-Za-z\\])(max|min)(?![A-Za-z])")
+_NAMES = re.compile(r"(?<![A-Za-z\\])(max|min|exp)(?![A-Za-z])")
 _POWER = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\d+))")
 _STAR = re.compile(r"(?<=[A-Za-z])\*")
 _ROOT = re.compile(r"√(\d+|\([^()]*\))")
 _PUNCTUATION = re.compile(r"(?P<open>[(“\"]*)(?P<core>.*?)(?P<close>[)”\".,;:?!]*)", re.DOTALL)
 _FLOAT = re.compile(r"(?<![A-Za-z0-9.])(\d(?:\.\d+)?)e([+-]\d+)(?![A-Za-z0-9])")
+# In LaTeX, where a bracket is in the words beside a formula.
+_CLOSED_LATE = re.compile(r"\$([^$]+)\$\)")
+_OPENED_EARLY = re.compile(r"\(\$([^$]+)\$")
+_COORDINATES = re.compile(r"\(\$([^$]+)\$, \$([^$]+)\$\)")
 _SYMBOLIC = re.compile(
     "[" + re.escape("".join([*_MATHS, *_RAISED, *_LOWERED, *_WORDS])) + "_^=+*/<>|0-9]"
 )
@@ -185,4 +189,20 @@ def prose_latex(words: str) -> str:
         plain = len(formula) == 1 and formula[0].isdecimal()
         text = formula[0] if plain else f"${formula_latex(formula)}$" if formula else ""
         done.append(f"{_set_text(before)}{text}{_set_text(after)}")
-    return " ".join(done)
+    return _with_brackets(" ".join(done))
+
+
+def _with_brackets(source: str) -> str:
+    """Take brackets into the formula that they belong to: pairs, and what else has one half."""
+    if r"\$" in source:  # a dollar that begins no formula
+        return source
+    source = _CLOSED_LATE.sub(lambda found: _joined(found, "(", ")"), source)
+    source = _OPENED_EARLY.sub(lambda found: _joined(found, ")", "("), source)
+    return _COORDINATES.sub(r"$(\1, \2)$", source)
+
+
+def _joined(found: re.Match[str], more: str, fewer: str) -> str:
+    formula = found[1]
+    if formula.count(more) != formula.count(fewer) + 1:
+        return found[0]
+    return f"${formula})$" if more == "(" else f"$({formula}$"
