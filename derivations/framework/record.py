@@ -20,7 +20,12 @@ from force_diffusion.symbolic.kernel.decisions import (
     refuted,
     undecided,
 )
-from force_diffusion.symbolic.kernel.language import unreadable, usual_form, without_value
+from force_diffusion.symbolic.kernel.language import (
+    says_less,
+    unreadable,
+    usual_form,
+    without_value,
+)
 from force_diffusion.symbolic.printing.text import text
 
 
@@ -143,7 +148,10 @@ class Derivation:
         except (NotExactError, AmbiguousError, RecursionError) as failure:
             ruling = undecided(str(failure))
         proven = ruling.verdict is Verdict.PROVED
-        if proven and (reason := without_value(candidate, in_the_limit=self.relation != "=")):
+        if proven and (
+            reason := without_value(candidate, in_the_limit=self.relation != "=")
+            or says_less(candidate, self.printed[part])
+        ):
             proven, ruling = False, undecided(reason)
         if ruling.verdict is Verdict.REFUTED and not self._needs_packings(part, candidate):
             return ruling

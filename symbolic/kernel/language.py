@@ -108,6 +108,21 @@ def without_value(candidate: sympy.Eq, *, in_the_limit: bool) -> str:
     return next(_values(candidate, in_the_limit), "")
 
 
+def says_less(candidate: sympy.Eq, printed: sympy.Eq) -> str:
+    """Why it may say less than the printed equation of what that is about; "" when it does not.
+
+    What is multiplied by a factor that vanishes somewhere says nothing there.
+    """
+    known = _COMMON | {*sy.PARAMETERS} | printed.rhs.free_symbols
+    observed = sorted(printed.lhs.free_symbols - known, key=str)
+    if candidate.lhs == printed.lhs or not observed:
+        return ""
+    told, meant = (sympy.diff(one.lhs - one.rhs, observed[0]) for one in (candidate, printed))
+    if never_zero(sympy.cancel(told / meant)):
+        return ""
+    return f"it is not shown to tell {text(observed[0])} everywhere"
+
+
 def _strangers(candidate: sympy.Basic, known: Collection[sympy.Basic]) -> Iterator[str]:
     names = {symbol.name for symbol in known}
     for symbol in sorted(candidate.atoms(sympy.Symbol) - set(known), key=str):
