@@ -523,6 +523,8 @@ def statements(printed: sympy.Eq, relation: str, turn: int | None = None) -> Ite
         for kind, rules in kinds.items():
             for rule in rules:
                 made = list(rule(source))
+                if sy.d in source.free:  # n_x and n_y are of the plane
+                    made = [one for one in made if not (holds and one[1].has(sy.n_x, sy.n_y))]
                 if turn is not None and made:
                     made = [made[turn % len(made)]]
                 for reason, equation in made:

@@ -40,6 +40,8 @@ def unreadable(
     known = _COMMON | own | {one for one in named if isinstance(one, sympy.Symbol)}
     if sy.M in own:
         known.add(sy.z)
+    if sy.d in own:  # the plane has n_x and n_y, other dimensions have not
+        known -= {sy.n_x, sy.n_y, sy.spacing}
     if strange := next(_strangers(candidate, known), ""):
         return strange
     try:
