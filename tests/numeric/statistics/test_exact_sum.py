@@ -43,6 +43,7 @@ def exactly(values: Array) -> list[Fraction]:
 @given(SAMPLES)
 def test_sums_are_those_of_fractions(samples: list[float]) -> None:
     values = np.array(samples)
+    assert all((np.abs(q) <= 2**21).all() for _, q in digits(values))  # products then fit
     first, second = sums(values)
     assert first.fractions() == [sum(exactly(values))]
     assert rows_and_squares(values[None]) == (first.reshaped(1), second.reshaped(1))
