@@ -16,6 +16,7 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Callable
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from random import Random
 
@@ -195,9 +196,8 @@ def main() -> int:
     print(f"seed {options.seed}", flush=True)
     root = Path.cwd() / f"fuzz-{options.seed}"
     root.mkdir()
-    sys.stdout, shown = io.StringIO(), sys.stdout
-    program(["explain", str(SCENES[0])])  # what every process needs is loaded once
-    sys.stdout = shown
+    with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+        program(["explain", str(SCENES[0])])  # what every process needs is loaded once
     whole = whole_store(root / "whole")
     statuses: Counter[int] = Counter()
     start, number, wrong = time.monotonic(), options.case or 0, 0
@@ -218,9 +218,7 @@ def main() -> int:
         if options.case is None:
             shutil.rmtree(folder)
         number += 1
-    print(
-        f"{number - (options.case or 0)} cases, {wrong} ended badly; again: --seed {options.seed}"
-    )
+    print(f"{statuses.total()} cases by status: {dict(sorted(statuses.items()))}, {wrong} wrong")
     return 1 if wrong else 0
 
 
