@@ -108,11 +108,10 @@ def fast_ratio(rounds: int = 101) -> float:
     median of the rounds' ratios is given. Raises ``ImportError`` without numba.
     """
     import numpy as np
-    from force_diffusion.numeric.mechanics import compiled as fast
     from peers import Problem
 
     height, width = 256, 512
-    solve = Problem(height, width).solver(sweeps=fast)
+    solve = Problem(height, width).again()
     a, b = np.linspace(1, 2, (height + 1) * width), np.linspace(2, 3, (height + 1) * width)
 
     def reference() -> None:
