@@ -37,6 +37,9 @@ class Kept(Protocol):
     def put(self, name: str, values: Array) -> None:
         """Keep an array."""
 
+    def drop(self, name: str) -> None:
+        """Forget what this run needs no more, if it takes memory."""
+
 
 class InMemory:
     """Keeps in memory."""
@@ -52,6 +55,10 @@ class InMemory:
     def put(self, name: str, values: Array) -> None:
         """Keep an array."""
         self._kept[name] = values
+
+    def drop(self, name: str) -> None:
+        """Forget it."""
+        self._kept.pop(name, None)
 
 
 @dataclass(frozen=True)
@@ -106,6 +113,8 @@ class Segments:
         found = None
         if self.problem.needs_forces:
             found = self._balanced(number, solved)
+        for name in (f"c{number}", f"g{number + 1}", f"F{number + 1}"):
+            self.kept.drop(name)
         whole, first = self._whole(solved, found, low), low + 1 if number else 0
         return Segment(number, self.count, first, last, whole, solved)
 

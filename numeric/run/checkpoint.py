@@ -91,6 +91,9 @@ class Checkpoint:
         self._write(content)
         self._places[name] = at, values.shape
 
+    def drop(self, name: str) -> None:
+        """Nothing is ever forgotten: another run may need it."""
+
     def _write(self, content: bytes) -> int:
         try:
             self._file.write(content)
