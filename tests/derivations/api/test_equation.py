@@ -74,7 +74,7 @@ STANDARD = {
     "frac", "left", "right", "sum", "delta", "sigma", "phi", "langle", "rangle", "hat", "bf", "rm",
     "cdot", "begin", "end", "approx", "sim", "propto", "Delta", "biggl", "biggr", "quad", "qquad",
     "leq", "overline", "int", "sqrt", "operatorname", "limits", "infty", "nu", "rho", "varepsilon",
-    "pm", "kappa", "mathrm", "mathbf",
+    "pm", "kappa", "mathrm", "mathbf", "times",
 }  # fmt: skip
 
 
