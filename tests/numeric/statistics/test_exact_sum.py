@@ -100,6 +100,16 @@ def test_rounding_is_close_and_knows_only_the_number(samples: list[float]) -> No
     assert more.rounded().tobytes() == first.rounded().tobytes()
 
 
+@given(SAMPLES)
+def test_equal_numbers_have_equal_bytes_whatever_was_added(samples: list[float]) -> None:
+    first, second = sums(np.array(samples))
+    for one in (first, second, first + second):
+        assert not len(one.limbs) or (one.limbs[0].any() and one.limbs[-1].any())
+    nothing, _ = sums(np.array([*samples, *(-v for v in samples)]))
+    assert nothing == ExactSum.zero()
+    assert nothing.to_bytes() == ExactSum.zero().to_bytes()
+
+
 @given(SAMPLES, SAMPLES)
 def test_each_row_has_its_own_sum(one: list[float], other: list[float]) -> None:
     values = np.zeros((2, max(len(one), len(other))))
@@ -144,6 +154,16 @@ def test_many_of_the_largest_digits_do_not_overflow() -> None:
 def test_what_is_not_finite_is_refused(odd: float) -> None:
     with pytest.raises(ArithmeticError, match="not finite"):
         digits(np.array([1.0, odd]))
+
+
+def test_digits_beyond_their_range_are_refused() -> None:
+    for digit, good in ((-(2**21), True), (2**21 - 1, True), (2**21, False), (-(2**21) - 1, False)):
+        written = memoryview(ExactSum(0, np.array([digit])).to_bytes())
+        if good:
+            assert ExactSum.from_bytes(written, ())[0].fractions() == [digit]
+        else:
+            with pytest.raises(ValueError, match="digits"):
+                ExactSum.from_bytes(written, ())
 
 
 def test_damaged_digits_are_refused() -> None:
