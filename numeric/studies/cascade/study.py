@@ -139,7 +139,7 @@ def cascade(
     found: list[Cascade] = []
     for load in LOADS:
         for height in heights:
-            group = list(islice(_all_opened(load, height, protocol), packings))
+            group = list(islice(_all_opened(load, height, protocol, notice), packings))
             notice(_line(_summed(group)))
             found += group
     return CascadeStudy(tuple(found), protocol)
@@ -156,10 +156,21 @@ def _problem(load: str, height: int, number: int, std: Fraction, protocol: Proto
     return plan(scene).problem
 
 
-def _all_opened(load: str, height: int, protocol: Protocol) -> Iterator[Cascade]:
-    """Give packing after packing, but those in which beads overlap before any contact pulls."""
+def _all_opened(
+    load: str, height: int, protocol: Protocol, notice: Callable[[str], None]
+) -> Iterator[Cascade]:
+    """Give packing after packing, but those in which beads overlap before any contact pulls.
+
+    Those in which beads do not come to rest are told, and left out.
+    """
+    from ...unilateral.event_driven import UnfinishedError
+
     for number in count():
-        found = _opened(load, height, number, protocol)
+        try:
+            found = _opened(load, height, number, protocol)
+        except UnfinishedError as error:
+            notice(f"{load} load, M = {height}, packing {number} is left out: {error}")
+            continue
         if found is not None:
             yield found
 
