@@ -20,6 +20,7 @@ from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, Domain, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
 from force_diffusion.symbolic.algebra.reading import Reader
+from force_diffusion.symbolic.algebra.signs import never_zero
 from force_diffusion.symbolic.as_printed import equation, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
@@ -180,11 +181,18 @@ SIZES = Domain((M, z, phi, kappa, sigma, r, d))
 
 
 def _order_in_M(expression: sympy.Expr) -> int:
-    """Degree in M at fixed z of a rational function; very negative for zero."""
+    """Degree in M at fixed z of a rational function; very negative for zero.
+
+    Raises:
+        NotExactError: what the denominator goes as may vanish at some z or φ.
+    """
     value = SIZES.from_sympy(expression.xreplace({j: z * M}))
     if value.is_zero():
         return -(10**9)
     place = SIZES.position[M]
+    below = RationalFunction(SIZES, value.denominator, SIZES.context.constant(1))
+    if not never_zero(below.coefficients(M)[-1].to_sympy()):
+        raise NotExactError("the order is not shown to hold at every z and φ")
     return int(value.numerator.degrees()[place]) - int(value.denominator.degrees()[place])
 
 
