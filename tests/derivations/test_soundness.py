@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import pytest
 import sympy
+from force_diffusion.derivations.eq11_total_force import in_radii
 from force_diffusion.derivations.framework.catalogue import load, modules
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.corpus import FALSE as FALSE_KINDS
@@ -106,10 +107,18 @@ FALSE: list[tuple[int, str, Change]] = [
         "a Δ is the next",
         sides(lambda a, b: (SecondDifference(i, j), SecondDifference(i, j + 1))),
     ),
+    (12, "a large radius on both sides", sides(lambda a, b: (a + HUGE, 2 * b + HUGE))),
+    (12, "0 = 0 at z = ½", sides(lambda a, b: ((2 * j - M) * a, (2 * j - M) * b))),
+    (12, "neighbours", sides(lambda a, b: (ForcePlus(i, j) - ForcePlus(i + 2, j), sympy.S.Zero))),
+    (13, "depends on l", plus(sy.l * M**2 * UNIT)),
+    (13, "as large where z = φ + ½", plus(M**3 / (1 + M * (z - phi - Rational(1, 2)) ** 2))),
+    (4, "0/0 at the base", over_itself(j)),
+    (10, "a sum over n", plus(Sum(sy.n, (sy.n, 1, 2)) - Sum(sy.n, (sy.n, 1, 3)))),
     (16, "depends on z", plus(z)),
     (16, "as large for j = 0", plus(sy.l**2 / (1 + sy.l * phi**2))),
 ]
 
+HUGE = M**2 * DeltaR(i, j)
 SHADOWED = Sum(Sum(DeltaR(i, m), (m, 1, m)), (m, 1, j))
 
 UNREADABLE: list[tuple[int, str, Change]] = [
@@ -140,6 +149,23 @@ TRUE: list[tuple[int, str, Change]] = [
     (12, "M times", sides(lambda a, b: (M * a, M * b))),
     (12, "with the force's unit", lambda eq: eq.xreplace({f_load: f_load})),
 ]
+
+
+DEPENDENT: list[tuple[int, str, Change]] = [
+    (3, "Eq. 2", lambda eq: load(2).printed[0]),
+    (2, "Eq. 3", lambda eq: load(3).printed[0]),
+    (1, "from the bead below", lambda eq: Eq(eq.lhs, BELOW + 2 * sy.r * sy.n_plus)),
+    (11, "in the radii", on_the_right(in_radii)),
+    (3, "at another bead", lambda eq: eq.xreplace({i: i + 2})),
+    (12, "Eq. 11", lambda eq: Eq(eq.lhs, load(11).printed[0].rhs - 1, evaluate=False)),
+]
+"""True for a reason that the decision may not see."""
+BELOW = sy.Position(i - 1, j - 1)
+
+
+@pytest.mark.parametrize(("number", "change"), [(n, c) for n, _, c in DEPENDENT])
+def test_what_is_true_for_another_reason_is_not_refuted(number: int, change: Change) -> None:
+    assert ruling(number, change).verdict is not Verdict.REFUTED
 
 
 def ruling(number: int, change: Change) -> Ruling:
