@@ -583,6 +583,9 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
     if derivation.number not in FRAMES:
         raise NotStatedError(f"Eq. {derivation.number} has no hypotheses in Model.v yet")
     frame = FRAMES[derivation.number]
+    strange = stated.free_symbols & set(sy.INDICES) - printed.free_symbols - set(frame.example)
+    if strange:
+        raise NotStatedError(f"{min(map(str, strange))} is no index of Eq. {derivation.number}")
     conditions = tuple(
         dict.fromkeys((*_spoken_of(printed.lhs), *ranges(derivation), *frame.conditions))
     )
