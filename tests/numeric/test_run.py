@@ -80,6 +80,11 @@ def test_the_stated_error_holds(sections: dict[str, dict[str, Any]]) -> None:
     for (_, a), (_, b) in zip(numbers(rough, True), numbers(sharp, True), strict=True):
         error = abs(Fraction(a) - Fraction(b))
         allowed = Fraction(rough.accuracy.error_bound) * largest * Fraction(21, 20)
+        # digits of statistics end two beyond their standard error, which cuts a twentieth of it off
+        scatter = [
+            float(e) for es in rough.standard_errors.values() for e in es if math.isfinite(e)
+        ]
+        allowed += Fraction(max(scatter, default=0.0)) / 20
         assert error <= allowed + abs(Fraction(b)) * Fraction(1, 10**16)
 
 
