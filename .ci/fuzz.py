@@ -30,6 +30,37 @@ MEMORY = 4 * 2**30
 ENDED = {0, 2, 3, 130}
 QUICK = {"explain", "ensemble-status"}
 
+# Values that are good at least somewhere, so that changes reach beyond what reads a scene.
+GOOD = {
+    "height": ["1", "2", "3", "5", "9", "16"],
+    "width": ["1", "2", "3", "4", "8", "32"],
+    "spacing": ["2.05", "3.0", "3.4641", "3.99", "4.0"],
+    "kind": ['"uniform"', '"normal"', '"surface"', '"bulk"', '"point"'],
+    "relative_std": ["0", "1e-30", "1e-9", "1e-3", "0.01", "0.1"],
+    "angle_deg": ["0", "10", "-29", "60"],
+    "pressure": ["0", "0.5", "1"],
+    "at": ["[0, 4]", "[1, 1]", '[1, 1, "+"]', '[0, 0, "-"]'],
+    "allow_images": ["true", "false"],
+    "geometry": ['"ordered"', '"exact"', '"first-order"'],
+    "contacts": ['"unilateral"', '"bilateral"'],
+    "protocol": ['"linear-programs"', '"event-driven"'],
+    "stop_at_tension": ["true", "false"],
+    "quantity": [
+        '"contact_forces"', '"contact"', '"profile"', '"histogram"', '"response"', '"positions"',
+        '"base_reactions"',
+    ],
+    "tolerance": ["1e-3", "1e-12", "1e-30"],
+    "certified": ["true", "false"],
+    "realisations": ["1", "2", "5"],
+    "bins": ["2", "10"],
+}  # fmt: skip
+SECTIONS = {
+    "packing": ["height", "width", "spacing", "allow_images"],
+    "disorder": ["kind", "relative_std"],
+    "load": ["kind", "angle_deg", "pressure", "at"],
+    "effects": ["geometry", "contacts", "protocol", "stop_at_tension"],
+    "ask": ["quantity", "tolerance", "certified", "realisations", "bins", "at"],
+}
 VALUES = [
     "0", "-1", "1", "2", "7", "1e-3", "1e-300", "1e-5000", "1e999999999", "-0.0", "nan", "-inf",
     "true", "[]", "[[[[1]]]]", "[0, 0]", '[0, 0, "+"]', '[-7, 1, "-"]', "{}", '""', '"surface"',
@@ -45,12 +76,28 @@ KEYS = [
 WORDS = ["i,j,fx,fy", "i,j,delta_r", "1,1,0,-1", "0,0,1e-3", "x", "1,1,nan,1", "\x00", "9" * 400]
 
 
+def set_key(lines: list[str], section: str, key: str, value: str) -> list[str]:
+    """Give the lines of a scene in which a key has this value; its section is added if missing."""
+    head = f"[{section}]"
+    if head not in lines:
+        return [*lines, head, f"{key} = {value}"]
+    first = lines.index(head) + 1
+    stop = next((k for k in range(first, len(lines)) if lines[k].startswith("[")), len(lines))
+    within = [line for line in lines[first:stop] if line.split("=")[0].strip() != key]
+    return [*lines[:first], f"{key} = {value}", *within, *lines[stop:]]
+
+
 def scene(random: Random, folder: Path) -> list[str]:
     """Write an example scene with something changed, and say what is asked of it."""
     source = random.choice(SCENES)
     shutil.copy(source.with_name("radii.csv"), folder)
     lines = source.read_text(encoding="utf-8").splitlines()
-    for _ in range(random.choice([1, 1, 1, 2, 3, 8])):
+    mild = random.random() < 0.5
+    for _ in range(random.choice([1, 2, 3, 4]) if mild else 0):
+        section = random.choice(list(SECTIONS))
+        key = random.choice(SECTIONS[section])
+        lines = set_key(lines, section, key, random.choice(GOOD[key]))
+    for _ in range(0 if mild else random.choice([1, 1, 1, 2, 3, 8])):
         at = random.randrange(len(lines))
         kind = random.randrange(6)
         if kind <= 1 and "=" in lines[at]:
@@ -65,7 +112,7 @@ def scene(random: Random, folder: Path) -> list[str]:
         else:
             lines.insert(at, f"[{random.choice(['packing', 'disorder', 'load', 'effects', 'x'])}]")
     content = bytearray("\n".join(lines).encode())
-    if random.random() < 0.2:
+    if not mild and random.random() < 0.2:
         for _ in range(random.choice([1, 1, 5])):
             content[random.randrange(len(content))] = random.randrange(256)
     name = random.choice(["scene.toml"] * 5 + ["$x^{$.toml", "a\x1b[2Jb.toml", "δ.toml"])

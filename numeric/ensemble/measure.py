@@ -143,6 +143,12 @@ def measurement(
         raise SceneError("ask.quantity", ask.quantity, f"an ensemble is of {_either(KNOWN)}")
     if scene.effects.stop_at_tension:
         raise SceneError("effects.stop_at_tension", True, "an ensemble needs whole packings")
+    if scene.effects.contacts == "unilateral":
+        raise SceneError(
+            "effects.contacts",
+            "unilateral",
+            "an ensemble is of packings on the lattice; ask run for several (ask.realisations)",
+        )
     if ask.tolerance is not None:
         raise SceneError(
             "ask.tolerance", ask.tolerance, "an ensemble is solved in float64: leave it out"

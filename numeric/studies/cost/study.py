@@ -64,6 +64,12 @@ def cost(scene: Scene, notice: Notice = lambda _: None) -> CostStudy:
         raise TypeError(
             f"cost takes a scene, not {type(scene).__name__}: Scene(…) or read_scene(path)"
         )
+    if scene.effects.contacts == "unilateral":
+        raise SceneError(
+            "effects.contacts",
+            "unilateral",
+            "costs are compared of packings on the lattice, in which no contact opens",
+        )
     plan = planner.plan(scene, Fraction(1, 10))
     if plan.problem.route == Route.ORDERED:
         why = "every change is exactly zero here: there is nothing that errors could be relative to"

@@ -1,0 +1,74 @@
+"""Every question under every effect, asked of every command: an answer, or words that say why."""
+
+from itertools import product
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+import force_diffusion as fd
+from force_diffusion.__main__ import main
+
+# what an effect needs said in the scene
+EFFECTS = {
+    "exact": "",
+    "first-order": 'geometry = "first-order"',
+    "stop": "stop_at_tension = true",
+    "linear-programs": 'contacts = "unilateral"',
+    "event-driven": 'contacts = "unilateral"\nprotocol = "event-driven"',
+}
+LOADS = {
+    "surface": 'kind = "surface"',
+    "bulk": 'kind = "bulk"',
+    "point": 'kind = "point"\nat = [0, 4]',
+}
+SCENE = """
+packing = {{height = 4, width = 8}}
+disorder = {{kind = "uniform", relative_std = 0.01, seed = 1}}
+[load]
+{load}
+[effects]
+{effects}
+[ask]
+quantity = "{quantity}"
+{contact}
+"""
+COMMANDS = {
+    "explain": [],
+    "run": ["--out", "results", "--overwrite"],
+    "ensemble": ["--realisations", "3", "--workers", "1"],
+    "cost": ["--out", "costs", "--overwrite"],
+}
+QUESTIONS = get_args(fd.Ask.model_fields["quantity"].annotation)
+
+
+def test_the_questions_are_all() -> None:
+    assert "contact_forces" in QUESTIONS
+    assert len(QUESTIONS) >= 7
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("quantity", QUESTIONS)
+def test_an_answer_or_words(
+    command: str,
+    quantity: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    answered = 0
+    for (load, said), (effect, effects) in product(LOADS.items(), EFFECTS.items()):
+        if command == "cost" and (load != "surface" or effect in {"exact", "first-order"}):
+            continue  # answered in seconds each: test_cost.py has them
+        contact = 'at = [1, 1, "+"]' if quantity == "contact" else ""
+        path = tmp_path / f"{load}_{effect}.toml"
+        path.write_text(
+            SCENE.format(load=said, effects=effects, quantity=quantity, contact=contact)
+        )
+        status = main([command, path.name, *COMMANDS[command]])
+        shown = capsys.readouterr()
+        assert status in {0, 2, 3}, (path.name, shown.err)
+        assert status == 0 or shown.err.startswith(("force-diffusion: ", "usage")), shown.err
+        answered += status == 0
+    assert answered or command in {"ensemble", "cost"}
