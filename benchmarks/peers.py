@@ -67,7 +67,8 @@ class Problem:
 
     def again(self) -> Callable[[], Any]:
         """Give a function that solves it by compiled sweeps, in memory that stays."""
-        from force_diffusion.numeric.mechanics.compiled import Deposition, Descent
+        from force_diffusion.numeric.mechanics.compiled_forces import Descent
+        from force_diffusion.numeric.mechanics.compiled_packing import Deposition
 
         region, rho = self.region, self.radii()
         deposit, sweep = Deposition(self.n_x, region), Descent(region, region.rows, self.loads())

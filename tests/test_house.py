@@ -53,9 +53,32 @@ def floors(graph: dict[str, set[str]]) -> dict[str, int]:
     return found
 
 
+def modules(folder: str) -> dict[str, set[str]]:
+    """Give the files of a folder by their full names, each with those that it imports."""
+    names = {
+        ".".join(["force_diffusion", *path.relative_to(ROOT).with_suffix("").parts]): path
+        for path in sorted((ROOT / folder).rglob("*.py"))
+    }
+    return {
+        name: {
+            known
+            for full in imported(path)
+            for known in (full, full.rpartition(".")[0])
+            if known in names and known != name
+        }
+        for name, path in names.items()
+    }
+
+
 @pytest.mark.parametrize("folder", ["numeric", "symbolic", "derivations"])
 def test_no_room_is_in_a_circle(folder: str) -> None:
     assert floors(rooms(folder))
+
+
+@pytest.mark.parametrize("folder", ["numeric", "symbolic", "derivations"])
+def test_no_file_is_in_a_circle(folder: str) -> None:
+    """Imports within functions and for types are imports, too."""
+    assert floors(modules(folder))
 
 
 def test_the_rooms_of_numeric_are_few_floors_high() -> None:

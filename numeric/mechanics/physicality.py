@@ -1,27 +1,20 @@
 """Is a solved packing physical? Gaps between beads that should not touch, and signs of forces.
 
-Gaps are measured in float64 from the deviations: (|d|² − D²)/(|d| + D) with D the sum of the radii,
-where the ordered part of the numerator is an exact rational, so that packings within 1e-12 of
-touching are told apart. Signs of forces are those of the arithmetic that solved them: with balls
-they are certified.
+Signs of forces are those of the arithmetic that solved them: with balls they are certified.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 
 import numpy as np
 
 from ..arithmetic.systems import Array, as_floats
 from ..lattice.branch import Contact
 from .forces import Forces, pulling
+from .gaps import NEIGHBOURS, RESOLUTION, gaps
 from .packing import CompiledPacking, SolvedPacking
 
 PHYSICAL = "check that it is physical"
-# Neighbours that don't touch in the ordered packing, to the right or above, nearest first.
-NEIGHBOURS = ((2, 0), (0, 2), (3, 1), (-3, 1), (1, 3), (-1, 3))
-# Gaps smaller than this, in units of r, are below the rounding of the float64 check.
-RESOLUTION = 1e-14
 
 
 @dataclass
@@ -88,9 +81,9 @@ class Physicality:
 
     def _compiled(self, packing: CompiledPacking, layers: range) -> bool:
         """Do the same by a compiled loop; say whether it could."""
-        from .compiled import gaps
+        from . import compiled_gaps
 
-        found = gaps(packing, layers)
+        found = compiled_gaps.gaps(packing, layers)
         if found is None:
             return False
         smallest, beads, overlaps, undecided = found
@@ -127,7 +120,7 @@ class Physicality:
         up = c_plus[j + dj][..., other] - c_plus[j][..., inside]
         um = c_minus[j + dj][..., other] - c_minus[j][..., inside]
         both = rho[j][..., inside] + rho[j + dj][..., other]
-        gap = _gaps(packing.n_x, offset, up, um, both)
+        gap = gaps(packing.n_x, offset, up, um, both)
         self.overlaps += int(np.count_nonzero(gap < -RESOLUTION))
         self.undecided_gaps += int(np.count_nonzero(np.abs(gap) <= RESOLUTION))
         smallest = float(gap.min())
@@ -171,25 +164,3 @@ class Physicality:
 
 def _home(i: int, period: int | None) -> int:
     return i if period is None else i % period
-
-
-def of_lattice(n_x: Fraction, offset: tuple[int, int]) -> tuple[float, ...]:
-    """Give what gaps of pairs at lattice distance ``offset`` have in common.
-
-    The shares of the two components in the change of the square of the distance, that square (of
-    the ordered packing, exact) as it is and less 4, 2 φ and 1 − φ².
-    """
-    di, dj = offset
-    phi = 1 - 2 * n_x**2
-    square = 4 * (di**2 * n_x**2 + dj**2 * (1 - n_x**2))
-    return di + dj, dj - di, float(square), float(square - 4), 2 * float(phi), float(1 - phi**2)
-
-
-def _gaps(n_x: Fraction, offset: tuple[int, int], up: Array, um: Array, both: Array) -> Array:
-    """Give the gaps of pairs at lattice distance ``offset``, in units of r."""
-    along, across, square, least, twice_phi, det = of_lattice(n_x, offset)
-    size = (up * up + um * um - twice_phi * up * um) / det
-    change = 2 * (along * up + across * um) + size
-    distance = np.sqrt(np.maximum(square + change, 0))
-    excess = least + (change - 4 * both - both * both)
-    return np.asarray(excess / (distance + 2 + both))

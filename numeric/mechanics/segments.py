@@ -16,7 +16,9 @@ from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import PerBranch
 from ..lattice.layers import Layer, LazyRows, Region, pick
 from . import forces, packing
-from .compiled import Deposition, Descent, Drawing
+from .compiled import Drawing
+from .compiled_forces import Descent
+from .compiled_packing import Deposition
 from .forces import Forces, Loads
 from .loads import on_rows
 from .packing import CompiledPacking, SolvedPacking

@@ -7,7 +7,7 @@ matplotlib (the extra ``plots``).
 import math
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -20,10 +20,7 @@ from matplotlib.transforms import Bbox
 
 from ...arithmetic.errors import printable
 from ...figures import style
-from .rows import Row
-
-if TYPE_CHECKING:
-    from .result import CostStudy
+from .rows import Reference, Row
 
 WIDE = 60
 """Decades of error beyond which the axis is one of √digits."""
@@ -44,12 +41,14 @@ DASHES: Mapping[str, tuple[str, Any]] = {
 }
 
 
-def draw(study: "CostStudy", title: str) -> Figure:
+def draw(
+    title: str, ways: Sequence[Row], reference: Reference, sampling_floor: Decimal | None
+) -> Figure:
     """Draw log10 of error against log10 of seconds; digits may lie beyond a float's range."""
     figure = style.figure(style.PAGE, 4.6)
     axes = figure.subplots()
-    rows = [row for row in study.ways if row.error and not _in_vain(row, study.ways)]
-    floor = [math.log10(study.sampling_floor)] if study.sampling_floor else []
+    rows = [row for row in ways if row.error and not _in_vain(row, ways)]
+    floor = [math.log10(sampling_floor)] if sampling_floor else []
     style.powers_of_ten(axes, "x", [_x(row) for row in rows], 0.06)
     levels = [_y(row) for row in rows] + floor
     style.powers_of_ten(axes, "y", levels, 0.06)
@@ -72,9 +71,7 @@ def draw(study: "CostStudy", title: str) -> Figure:
     axes.set_ylabel(
         "measured error / largest |change|" + (", spaced by √digits" if stretched else "")
     )
-    reference = study.reference
-    words = printable(title).replace("$", r"\$")  # no formula
-    name = f"{words}: {study.quantity}" if title else study.quantity
+    name = printable(title).replace("$", r"\$")  # no formula
     axes.set_title(f"{name}; reference {reference.kind}, radius {reference.radius:.1e}", loc="left")
     figure.legend(handles=_keys(lines, bool(floor)), loc="outside lower center", ncols=3)
     figure.draw_without_rendering()  # lays out, so that labels know where points are

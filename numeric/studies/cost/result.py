@@ -69,7 +69,8 @@ class CostStudy:
         with drawing():
             from .plot import draw
 
-            return draw(self, title)
+            name = f"{title}: {self.quantity}" if title else self.quantity
+            return draw(name, self.ways, self.reference, self.sampling_floor)
 
     def __str__(self) -> str:
         """Give the table; * marks the Pareto front."""

@@ -1,0 +1,105 @@
+"""All gaps of packings that were deposited compiled: those of ``gaps``, bit for bit."""
+
+import numpy as np
+
+from ..arithmetic.compiling import compiled
+from ..arithmetic.systems import Array
+from ..lattice import runs as tables
+from .gaps import NEIGHBOURS, RESOLUTION, of_lattice
+from .packing import CompiledPacking
+
+_ALL = 0x7FFF_FFFF_FFFF_FFFF  # all bits of a double but its sign
+
+
+@compiled
+def _gap(
+    own: Array, c: tuple[Array, Array], run: Array, kind: Array, phi: tuple[float, float],
+    found: Array,
+) -> tuple[float, int, int]:  # fmt: skip
+    """Measure the gaps of a run of pairs; give the smallest, overlaps, and what is too close."""
+    a, b, n = run[0], run[1], run[2]
+    c_plus, c_minus = c
+    p_a, p_b, m_a, m_b = (
+        c_plus[a : a + n],
+        c_plus[b : b + n],
+        c_minus[a : a + n],
+        c_minus[b : b + n],
+    )
+    r_a, r_b, gaps, words = own[a : a + n], own[b : b + n], found[:n], found.view(np.int64)
+    along, across, square, excess = kind[0], kind[1], kind[2], kind[3]
+    overlaps = undecided = no_number = 0
+    for q in range(n):
+        up, um = p_b[q] - p_a[q], m_b[q] - m_a[q]
+        both = r_a[q] + r_b[q]
+        size = (up * up + um * um - phi[0] * up * um) / phi[1]
+        change = 2 * (along * up + across * um) + size
+        distance = np.sqrt(max(square + change, 0.0))
+        gap = (excess + (change - 4 * both - both * both)) / (distance + 2 + both)
+        gaps[q] = gap
+        overlaps += gap < -RESOLUTION
+        undecided += abs(gap) <= RESOLUTION
+        no_number += not gap <= np.inf
+    least = np.int64(_ALL)
+    for q in range(n):  # as whole numbers, which are compared together, doubles have their order
+        least = min(least, words[q] ^ ((words[q] >> 63) & _ALL))
+    words[n] = least ^ ((least >> 63) & _ALL)
+    return found[n], overlaps, -1 if no_number else undecided
+
+
+@compiled
+def _gaps(
+    rho: Array, block: Array, runs: Array, lattice: Array, phi: tuple[float, float], found: Array
+) -> tuple[float, tuple[int, int, int], int, int]:
+    """Measure all gaps: the smallest, its (run, place in it, packing), overlaps, what is too close.
+
+    The last is −1 where a gap is no number. ``runs`` is the table ``runs.of_pairs``, ``lattice``
+    has what kinds of pairs have in common (``gaps.of_lattice``), ``phi`` what all have;
+    ``found`` is as long as the longest run and one more. Of equal gaps the first is named: layer
+    and kind after layer and kind, in each packing after packing.
+    """
+    smallest, run, place, packing_of = np.inf, -1, 0, 0
+    overlaps = undecided = first = 0
+    while first < len(runs):
+        last = first
+        while (
+            last < len(runs) and runs[last, 3] == runs[first, 3] and runs[last, 4] == runs[first, 4]
+        ):
+            last += 1
+        for k in range(len(rho)):
+            for r in range(first, last):
+                least, over, close = _gap(
+                    rho[k], (block[k, 0], block[k, 1]), runs[r], lattice[runs[r, 3]], phi, found
+                )
+                if close < 0:
+                    return smallest, (run, place, packing_of), overlaps, close
+                overlaps += over
+                undecided += close
+                if least < smallest:
+                    smallest, run, packing_of = least, r, k
+                    place = 0
+                    while found[place] != smallest:
+                        place += 1
+        first = last
+    return smallest, (run, place, packing_of), overlaps, undecided
+
+
+def gaps(
+    solved: CompiledPacking, layers: range
+) -> tuple[float, tuple[int, int, int] | None, int, int] | None:
+    """Give the smallest gap, between which beads, overlaps, and gaps too close to tell.
+
+    Two beads by their number in the region, and the packing. None where a gap is no number.
+    """
+    region = solved.region
+    runs = tables.of_pairs(region, layers, NEIGHBOURS)
+    kinds = [of_lattice(solved.n_x, offset) for offset in NEIGHBOURS]
+    lattice = np.array([kind[:4] for kind in kinds])
+    found = np.empty(region.widest + 1)
+    phi = kinds[0][4], kinds[0][5]
+    smallest, (run, q, which), overlaps, undecided = _gaps(
+        solved.flat, solved.block, runs, lattice, phi, found
+    )
+    if undecided < 0:
+        return None
+    beads = None if run < 0 else (int(runs[run, 0] + q), int(runs[run, 1] + q), which)
+    return smallest, beads, overlaps, undecided
