@@ -21,7 +21,8 @@ ROUNDS = 7
 PLAIN_LIMIT = 60.0  # seconds for each equation by the plain route
 
 PROOFS = """
-from force_diffusion.derivations.framework.catalogue import load, modules, with_premises
+from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.derivations.framework.runner import proofs
 for derivation in with_premises(map(load, modules())):
     for check in proofs(derivation):
@@ -30,7 +31,7 @@ for derivation in with_premises(map(load, modules())):
 PROOFS_OF_ONE = """
 import sys
 from time import perf_counter
-from force_diffusion.derivations.framework.catalogue import load
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import proofs
 derivation = load(int(sys.argv[1]))
 start = perf_counter()

@@ -17,7 +17,7 @@ Work = Callable[[], Any]
 
 
 def _proofs() -> Work:
-    from force_diffusion.derivations.framework.catalogue import load
+    from force_diffusion.derivations.framework.loading import load
     from force_diffusion.derivations.framework.runner import proofs
 
     derivations = [load(11), load(13)]

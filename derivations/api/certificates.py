@@ -39,7 +39,8 @@ from force_diffusion.derivations.coq.workshop import (
     axioms_in,
     theory,
 )
-from force_diffusion.derivations.framework.catalogue import Number, load, paper
+from force_diffusion.derivations.framework.catalogue import Number, paper
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.derivations.framework.runner import SEEDS
 from force_diffusion.symbolic.kernel.decisions import Verdict as Proof

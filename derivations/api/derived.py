@@ -21,7 +21,8 @@ from force_diffusion.derivations.export.terminal import (
     tried_text,
     trouble_lines,
 )
-from force_diffusion.derivations.framework.catalogue import Number, load, modules, with_premises
+from force_diffusion.derivations.framework.catalogue import Number, modules
+from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.derivations.framework.record import Outcome
 from force_diffusion.derivations.framework.runner import run_all
 from force_diffusion.symbolic.kernel.decisions import Verdict

@@ -28,10 +28,9 @@ from force_diffusion.derivations.export.terminal import (
     steps_text,
     summary_line,
 )
-from force_diffusion.derivations.framework.catalogue import (
-    Number as EquationNumber,
-)
-from force_diffusion.derivations.framework.catalogue import allowed, load, modules, with_premises
+from force_diffusion.derivations.framework.catalogue import Number as EquationNumber
+from force_diffusion.derivations.framework.catalogue import allowed, modules
+from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.derivations.framework.record import (
     Check,
     Derivation,

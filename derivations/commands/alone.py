@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from force_diffusion.derivations.commands.guard import WRONG_USAGE, guarded
 from force_diffusion.derivations.export.terminal import outcome_text, summary_line
-from force_diffusion.derivations.framework.catalogue import with_premises
+from force_diffusion.derivations.framework.loading import with_premises
 from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.derivations.framework.runner import run_all
 from force_diffusion.symbolic.kernel.decisions import Verdict

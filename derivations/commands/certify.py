@@ -9,7 +9,7 @@ import typer
 from force_diffusion.derivations.commands.equations import equation_number
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import noticing
-from force_diffusion.derivations.framework.catalogue import load
+from force_diffusion.derivations.framework.loading import load
 
 import force_diffusion as fd
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from force_diffusion.derivations.commands.output import output
 from force_diffusion.derivations.commands.progress import Silence, display
 from force_diffusion.derivations.export.terminal import tried_counts, tried_text
-from force_diffusion.derivations.framework.catalogue import Number, load, modules, with_premises
+from force_diffusion.derivations.framework.catalogue import Number, modules
+from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.numeric.arithmetic.errors import printable
 
 import force_diffusion as fd

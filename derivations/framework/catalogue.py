@@ -3,19 +3,13 @@
 The paper's equations have its numbers, 1 to 16; those of ``beyond/`` are this project's own and
 have labels, "B1" and so on.
 
-Nothing here imports SymPy until a derivation is loaded.
+Nothing here imports SymPy.
 """
 
 import re
 from functools import cache
-from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from force_diffusion.derivations.framework.record import Derivation
+from typing import TypeAlias
 
 Number: TypeAlias = int | str
 """A number of the paper, or a label such as "B1"."""
@@ -50,25 +44,3 @@ def allowed() -> str:
     own = [number for number in modules() if isinstance(number, str)]
     further = f", or {own[0]} to {own[-1]}" if len(own) > 1 else f", or {own[0]}" if own else ""
     return f"from {min(paper())} to {max(paper())}{further}"
-
-
-def load(number: Number) -> "Derivation":
-    """The derivation of one equation."""
-    module = import_module(f"force_diffusion.derivations.{modules()[number]}")
-    derivation: Derivation = module.DERIVATION
-    return derivation
-
-
-def with_premises(wanted: "Iterable[Derivation]") -> "list[Derivation]":
-    """The derivations wanted and all that they rest on, premises first."""
-    ordered: dict[Number, Derivation] = {}
-
-    def visit(derivation: "Derivation") -> None:
-        if derivation.number not in ordered:
-            for premise in derivation.premises:
-                visit(premise)
-            ordered[derivation.number] = derivation
-
-    for derivation in wanted:
-        visit(derivation)
-    return list(ordered.values())

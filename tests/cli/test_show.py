@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 import sympy
-from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.structure import rebuilt
 

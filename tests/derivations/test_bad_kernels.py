@@ -10,7 +10,8 @@ import pytest
 import sympy
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq12_delta_weights as eq12
-from force_diffusion.derivations.framework.catalogue import Number, load, modules
+from force_diffusion.derivations.framework.catalogue import Number, modules
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic.algebra import affine, signs
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm

@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 import sympy
 from force_diffusion.derivations import eq06_force_balance, eq07_load_split, eq08_propagation
-from force_diffusion.derivations.framework.catalogue import Number, load, modules
+from force_diffusion.derivations.framework.catalogue import Number, modules
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.derivations.witnesses.draws import SmallPacking, draw
 from force_diffusion.symbolic import symbols as sy

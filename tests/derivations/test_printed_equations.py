@@ -15,7 +15,7 @@ import mpmath
 import pytest
 import sympy
 from force_diffusion.derivations import eq13_surface_diffusion, eq14_bulk_diffusion
-from force_diffusion.derivations.framework.catalogue import load
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.witnesses import both_sides
 from force_diffusion.derivations.witnesses.both_sides import (
     AbsentError,

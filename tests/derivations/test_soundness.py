@@ -6,7 +6,8 @@ from collections.abc import Callable
 import pytest
 import sympy
 from force_diffusion.derivations.eq11_total_force import in_radii
-from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.corpus import FALSE as FALSE_KINDS
 from force_diffusion.symbolic.kernel.corpus import TRUE as TRUE_KINDS

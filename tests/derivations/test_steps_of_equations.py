@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 import sympy
 from force_diffusion.derivations.eq15_general_form import HEIGHT
-from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.record import Derivation, Step
 from force_diffusion.derivations.framework.runner import proofs, run
 from force_diffusion.symbolic import symbols as sy

@@ -17,7 +17,8 @@ from force_diffusion.derivations.coq.statements import (
     statement,
 )
 from force_diffusion.derivations.coq.workshop import ALLOWED, Workshop, theory
-from force_diffusion.derivations.framework.catalogue import load, paper
+from force_diffusion.derivations.framework.catalogue import paper
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import SEEDS
 
 from tests.derivations.test_soundness import FALSE, TRUE, Change

@@ -8,7 +8,8 @@ from force_diffusion.derivations.coq import record
 from force_diffusion.derivations.coq.record import Certificate, Change, Changes, Verdict, recorded
 from force_diffusion.derivations.export.document import finding, section_latex
 from force_diffusion.derivations.export.manifest import Manifest
-from force_diffusion.derivations.framework.catalogue import load, paper
+from force_diffusion.derivations.framework.catalogue import paper
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.record import Derivation, Outcome
 from force_diffusion.symbolic.as_printed import equation, times
 from force_diffusion.symbolic.kernel.decisions import Verdict as Proof

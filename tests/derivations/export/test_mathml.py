@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from xml.etree import ElementTree
 
 import pytest
-from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import latex_body
 

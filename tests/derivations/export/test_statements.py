@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 from force_diffusion.derivations.export.document import fragment_name, statement_latex
-from force_diffusion.derivations.framework.catalogue import load, modules
+from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.loading import load
 
 GOLDEN = Path(__file__).parents[2] / "golden"
 

@@ -11,7 +11,8 @@ from force_diffusion.derivations.export.terminal import (
     summary_line,
     trouble_lines,
 )
-from force_diffusion.derivations.framework.catalogue import modules, with_premises
+from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.loading import with_premises
 from force_diffusion.derivations.framework.record import KernelError
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic.kernel.corpus import Statement

@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 import pytest
-from force_diffusion.derivations.framework.catalogue import load
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.witnesses.both_sides import (
     each_bead,
     each_contact,

@@ -2,7 +2,8 @@
 
 import pytest
 import sympy
-from force_diffusion.derivations.framework.catalogue import load, paper
+from force_diffusion.derivations.framework.catalogue import paper
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.mechanics.paths import (
     BRANCH_COUNT,
