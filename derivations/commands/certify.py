@@ -9,7 +9,6 @@ import typer
 from force_diffusion.derivations.commands.equations import equation_number
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import noticing
-from force_diffusion.derivations.framework.loading import load
 
 import force_diffusion as fd
 
@@ -45,6 +44,7 @@ def certify(
     from force_diffusion.derivations.api.certificates import stated
     from force_diffusion.derivations.coq.record import RECORD, sha256
     from force_diffusion.derivations.coq.workshop import theory
+    from force_diffusion.derivations.framework.loading import load
 
     wanted = [equation_number(word) for word in numbers] if numbers else None
     files = theory() | {one.file: one.source for one in stated(wanted)}
