@@ -139,14 +139,14 @@ class Comparison:
         facts = self.facts()
         for one, fact in zip(self.heights, facts["heights"], strict=True):
             alone = fact["largest_deviation_in_half_widths"]
-            words = f"M = {one.height}: exact finite-M curve {_inside(alone)}"
+            words = f"M = {one.height}: exact finite-M curve {one.band.verdict(alone)}"
             near = one.height / facts["critical_height"]
             if near > NEAR:
                 words += f"; M = {near:.2g} M*"
             if alone > 1 or fact["largest_correction"] > NOTEWORTHY or near > NEAR:
                 words += (
                     f"; with the nonlinear correction (up to {fact['largest_correction']:.2%}) "
-                    f"{_inside(fact['corrected_deviation_in_half_widths'])}"
+                    f"{one.band.verdict(fact['corrected_deviation_in_half_widths'])}"
                 )
             said.append(words)
         return said
@@ -156,11 +156,6 @@ class Comparison:
 NOTEWORTHY = 0.01
 # … and these parts of M* are told of, whatever the correction is.
 NEAR = 0.5
-
-
-def _inside(deviation: float) -> str:
-    where = "inside" if deviation <= 1 else "outside"
-    return f"{where} the simultaneous {LEVEL:.0%} band ({deviation:.2f} of its half-width)"
 
 
 def compare(

@@ -90,11 +90,8 @@ class Directions:
 
     def lines(self) -> list[str]:
         """Say whether theory holds."""
-        where = "inside" if self.deviation() <= 1 else "outside"
-        return [
-            f"M = {HEIGHT}, {len(ANGLES)} angles, both branches: Eq. B2 {where} the simultaneous "
-            f"{LEVEL:.0%} band ({self.deviation():.2f} of its half-width)"
-        ]
+        verdict = self.band.verdict(self.deviation())
+        return [f"M = {HEIGHT}, {len(ANGLES)} angles, both branches: Eq. B2 {verdict}"]
 
 
 def sweep(realisations: int, seed: int, notice: Notice) -> Directions:
@@ -132,12 +129,9 @@ def draw(data: Directions) -> "Figure":
     found = np.exp(data.band.estimate.log).reshape(2, -1)
     low, high = (edge.reshape(2, -1) for edge in data.band.limits)
     for b, name in enumerate(("+", "-")):
-        colour, marker = style.series(b)
-        axes.plot(fine, curves[b], color=colour, label=f"$f^{name}$, Eq. (B2)")
-        axes.errorbar(
-            ANGLES, found[b], (found[b] - low[b], high[b] - found[b]), fmt=marker, color=colour,
-            mfc="white", ms=3.2, mew=0.7, elinewidth=0.7, label=f"$f^{name}$, simulated",
-        )  # fmt: skip
+        look, error = style.series(b), (found[b] - low[b], high[b] - found[b])
+        axes.plot(fine, curves[b], color=look[0], label=f"$f^{name}$, Eq. (B2)")
+        style.points(axes, ANGLES, found[b], error, look, f"$f^{name}$, simulated")
     for edge in (-LIMIT, LIMIT):
         axes.axvline(edge, color="0.6", ls=":", lw=0.8)
     axes.set_yscale("log")

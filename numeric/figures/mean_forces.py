@@ -1,12 +1,12 @@
 """Figure B5: how the mean contact force departs from that of the ordered packing, at order σ².
 
-Simulated are exact, nonlinear packings, each solved to first order as well: the first-order change
-has mean zero and carries nearly all of the noise, so that the difference of the two shows a shift
-far smaller than the scatter of the forces. The curves are Eqs. B5 and B6.
+Simulated are exact, nonlinear packings, each solved to first order as well (``shifts``). The curves
+are Eqs. B5 and B6.
 """
 
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import product
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -14,24 +14,16 @@ import numpy as np
 from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..scene.sections import BulkLoad, SurfaceLoad
-from ..statistics.bands import Band, averaged, simultaneous
 from .packings import Notice, Row, changes, planned
+from .shifts import LEVEL, STD, Shift, cosine, shift
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 HEIGHT = 12
-STD = 1e-3
-"""σ/r: what is of order σ⁴ is a share (M^(3/2) σ/r)² = 0.002 of the shift or so."""
 SPACINGS = (Fraction(12, 5), Fraction(3))
 """s in units of r: φ = 7/25, where forces fall below z = φ, and φ = −1/8, where all rise."""
 LOADS: tuple[Literal["surface", "bulk"], ...] = ("surface", "bulk")
-LEVEL = 0.99
-
-
-def cosine(spacing: Fraction) -> float:
-    """φ of a spacing in units of r."""
-    return float(1 - 2 * (spacing / 4) ** 2)
 
 
 def theory(load: str, height: int, spacing: Fraction) -> Array:
@@ -42,25 +34,16 @@ def theory(load: str, height: int, spacing: Fraction) -> Array:
 
 @dataclass(frozen=True)
 class Mean:
-    """One load and spacing; ``band`` estimates the shifts themselves, no logarithms, shape (M,)."""
+    """One load and spacing; ``shift`` has shape (M,)."""
 
     load: str
     spacing: Fraction
-    band: Band
-
-    @property
-    def half(self) -> Array:
-        """Half-width of the simultaneous band, in units of (σ/r)²."""
-        return self.band.half
+    shift: Shift
 
     @property
     def exact(self) -> Array:
         """What theory says."""
         return theory(self.load, HEIGHT, self.spacing)
-
-    def deviation(self, curve: Array) -> float:
-        """Largest deviation of a curve in half-widths of the band: inside is ≤ 1."""
-        return float((np.abs(curve - self.band.estimate.log) / self.half).max())
 
 
 @dataclass(frozen=True)
@@ -81,8 +64,8 @@ class MeanForces:
                         "spacing": float(one.spacing),
                         "phi": cosine(one.spacing),
                         "j": j,
-                        "shift_simulated": float(one.band.estimate.log[j]),
-                        "band_half_width": float(one.half[j]),
+                        "shift_simulated": float(one.shift.mean[j]),
+                        "band_half_width": float(one.shift.half[j]),
                         "shift_exact": float(one.exact[j]),
                     }
                 )
@@ -95,20 +78,21 @@ class MeanForces:
             "realisations": self.realisations,
             "relative_std": STD,
             "simultaneous_level": LEVEL,
-            "largest_deviations_in_half_widths": [one.deviation(one.exact) for one in self.means],
+            "largest_deviations_in_half_widths": [
+                one.shift.deviation(one.exact) for one in self.means
+            ],
         }
 
     def lines(self) -> list[str]:
         """Say whether theory holds, and whether a mean without shift would."""
         said = []
         for one in self.means:
-            off, flat = one.deviation(one.exact), one.deviation(np.zeros(HEIGHT))
+            off, flat = one.shift.deviation(one.exact), one.shift.deviation(np.zeros(HEIGHT))
             number = "B5" if one.load == "surface" else "B6"
-            where = "inside" if off <= 1 else "outside"
+            verdict = one.shift.band.verdict(off)
             said.append(
-                f"{one.load} load, s = {float(one.spacing):g} r: Eq. {number} {where} the "
-                f"simultaneous {LEVEL:.0%} band ({off:.2f} of its half-width); no shift at all "
-                f"would be {flat:.1f} of it off"
+                f"{one.load} load, s = {float(one.spacing):g} r: Eq. {number} {verdict}; no shift "
+                f"at all would be {flat:.1f} of it off"
             )
         return said
 
@@ -116,25 +100,23 @@ class MeanForces:
 def simulate(realisations: int, seed: int, notice: Notice) -> MeanForces:
     """Solve all packings exactly and to first order."""
     found = []
-    for spacing in SPACINGS:
-        for load in LOADS:
-            both = []
-            for geometry in ("exact", "first-order"):
-                ensemble = planned(
-                    "profile", height=HEIGHT, width=2 * HEIGHT, seed=seed, std=STD,
-                    realisations=realisations, geometry=geometry, spacing=spacing,
-                    load=SurfaceLoad() if load == "surface" else BulkLoad(),
-                )  # fmt: skip
-                what = f"figure B5, {load} load, s = {float(spacing):g} r, {geometry}"
-                each = [
+    for spacing, load in product(SPACINGS, LOADS):
+
+        def changed(geometry: str, spacing: Fraction = spacing, load: str = load) -> Array:
+            ensemble = planned(
+                "profile", height=HEIGHT, width=2 * HEIGHT, seed=seed, std=STD,
+                realisations=realisations, geometry=geometry, spacing=spacing,
+                load=SurfaceLoad() if load == "surface" else BulkLoad(),
+            )  # fmt: skip
+            what = f"figure B5, {load} load, s = {float(spacing):g} r, {geometry}"
+            return np.concatenate(
+                [
                     (g / F[:, None]).mean(axis=2).reshape(HEIGHT, 2, -1).mean(axis=1).T
                     for F, g in changes(ensemble, range(realisations), notice, what)
                 ]
-                both.append(np.concatenate(each))
-            shift = (both[0] - both[1]) / STD**2
-            mean = shift.mean(axis=0)
-            band = simultaneous(averaged(mean, shift - mean), LEVEL, seed)
-            found.append(Mean(load, spacing, band))
+            )
+
+        found.append(Mean(load, spacing, shift(changed, seed)))
     return MeanForces(realisations, tuple(found))
 
 
@@ -147,17 +129,15 @@ def draw(data: MeanForces) -> "Figure":
     z = np.arange(HEIGHT) / HEIGHT
     for one in data.means:
         axes, place = panels[one.load], SPACINGS.index(one.spacing)
-        colour, marker = style.series(place)
+        look = style.series(place)
         phi = cosine(one.spacing)
         fine = np.linspace(0, 1, 201)
         rising = 2 * (fine - phi) if one.load == "surface" else 2 * fine - phi * (1 + fine)
         unit = (1 - phi**2) * (1 + phi)
-        axes.plot(fine, rising / unit, "--", color=colour, lw=0.8)
-        axes.plot(z, one.exact / HEIGHT, color=colour)
-        axes.errorbar(
-            z, one.band.estimate.log / HEIGHT, one.half / HEIGHT, fmt=marker, color=colour,
-            mfc="white", ms=3.2, mew=0.7, elinewidth=0.7, label=rf"$\phi={phi:g}$, simulated",
-        )  # fmt: skip
+        axes.plot(fine, rising / unit, "--", color=look[0], lw=0.8)
+        axes.plot(z, one.exact / HEIGHT, color=look[0])
+        name = rf"$\phi={phi:g}$, simulated"
+        style.points(axes, z, one.shift.mean / HEIGHT, one.shift.half / HEIGHT, look, name)
     for load, axes in panels.items():
         axes.axhline(0, color="0.6", lw=0.6)
         axes.set_xlim(-0.02, 1)

@@ -12,22 +12,15 @@ import numpy as np
 
 from ..arithmetic.systems import Array
 from ..scene.sections import PointLoad
-from ..statistics.bands import Band, averaged, simultaneous
 from .packings import Notice, Row, forces_of, planned, solved
+from .shifts import LEVEL, STD, Shift, cosine, shift
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 APEX, LAYER = 8, 2
-STD = 1e-3
 SPACINGS = (Fraction(11, 5), Fraction(3))
 """s in units of r: φ = 0.395 with a positive plateau, φ = −1/8 with a negative one."""
-LEVEL = 0.99
-
-
-def cosine(spacing: Fraction) -> float:
-    """φ of a spacing in units of r."""
-    return float(1 - 2 * (spacing / 4) ** 2)
 
 
 def theory(spacing: Fraction) -> Array:
@@ -44,14 +37,10 @@ def theory(spacing: Fraction) -> Array:
 
 @dataclass(frozen=True)
 class Cut:
-    """One spacing; ``band`` estimates the means themselves, shape (l − j − 1,)."""
+    """One spacing; ``shift`` has shape (l − j − 1,)."""
 
     spacing: Fraction
-    band: Band
-
-    def deviation(self, curve: Array) -> float:
-        """Largest deviation of a curve in half-widths of the band: inside is ≤ 1."""
-        return float((np.abs(curve - self.band.estimate.log) / self.band.half).max())
+    shift: Shift
 
 
 @dataclass(frozen=True)
@@ -75,8 +64,8 @@ class MeanResponse:
                     "spacing": float(one.spacing),
                     "phi": cosine(one.spacing),
                     "offset": int(offset),
-                    "mean_simulated": float(one.band.estimate.log[place]),
-                    "band_half_width": float(one.band.half[place]),
+                    "mean_simulated": float(one.shift.mean[place]),
+                    "band_half_width": float(one.shift.half[place]),
                     "mean_exact": float(theory(one.spacing)[place]),
                 }
                 for one in self.cuts
@@ -93,7 +82,7 @@ class MeanResponse:
             "relative_std": STD,
             "simultaneous_level": LEVEL,
             "largest_deviations_in_half_widths": [
-                one.deviation(theory(one.spacing)) for one in self.cuts
+                one.shift.deviation(theory(one.spacing)) for one in self.cuts
             ],
         }
 
@@ -101,12 +90,12 @@ class MeanResponse:
         """Say whether theory holds, and whether no response at all would."""
         said = []
         for one in self.cuts:
-            off = one.deviation(theory(one.spacing))
-            none = one.deviation(np.zeros(len(self.offsets)))
-            where = "inside" if off <= 1 else "outside"
+            off = one.shift.deviation(theory(one.spacing))
+            none = one.shift.deviation(np.zeros(len(self.offsets)))
+            verdict = one.shift.band.verdict(off)
             said.append(
-                f"s = {float(one.spacing):g} r: Eq. B9 {where} the simultaneous {LEVEL:.0%} band "
-                f"({off:.2f} of its half-width); no mean response would be {none:.1f} of it off"
+                f"s = {float(one.spacing):g} r: Eq. B9 {verdict}; no mean response would be "
+                f"{none:.1f} of it off"
             )
         return said
 
@@ -115,8 +104,9 @@ def respond(realisations: int, seed: int, notice: Notice) -> MeanResponse:
     """Solve all packings exactly and to first order."""
     cuts = []
     for spacing in SPACINGS:
-        both = []
-        for geometry in ("exact", "first-order"):
+        ordered = 1 / (2 * np.sqrt((1 + cosine(spacing)) / 2))
+
+        def changed(geometry: str, spacing: Fraction = spacing) -> Array:
             ensemble = planned(
                 "response", height=APEX, width=None, seed=seed, std=STD, geometry=geometry,
                 load=PointLoad(at=(0, APEX)), realisations=realisations, spacing=spacing,
@@ -126,11 +116,9 @@ def respond(realisations: int, seed: int, notice: Notice) -> MeanResponse:
                 _beside(forces_of(answer).change, number)
                 for answer, number in solved(ensemble, range(realisations), notice, what)
             ]
-            both.append(np.concatenate(each))
-        ordered = 1 / (2 * np.sqrt((1 + cosine(spacing)) / 2))
-        change = (both[0] - both[1]) / ordered / STD**2
-        mean = change.mean(axis=0)
-        cuts.append(Cut(spacing, simultaneous(averaged(mean, change - mean), LEVEL, seed)))
+            return np.concatenate(each)
+
+        cuts.append(Cut(spacing, shift(changed, seed, ordered)))
     return MeanResponse(realisations, tuple(cuts))
 
 
@@ -151,13 +139,10 @@ def draw(data: MeanResponse) -> "Figure":
     axes = figure.subplots()
     reach = APEX - LAYER
     for place, one in enumerate(data.cuts):
-        colour, marker = style.series(place)
-        axes.plot(data.offsets, theory(one.spacing), color=colour, lw=0.9)
-        axes.errorbar(
-            data.offsets, one.band.estimate.log, one.band.half, fmt=marker, color=colour,
-            mfc="white", ms=3.2, mew=0.7, elinewidth=0.7,
-            label=rf"$\phi={cosine(one.spacing):g}$, simulated",
-        )  # fmt: skip
+        look = style.series(place)
+        axes.plot(data.offsets, theory(one.spacing), color=look[0], lw=0.9)
+        name = rf"$\phi={cosine(one.spacing):g}$, simulated"
+        style.points(axes, data.offsets, one.shift.mean, one.shift.half, look, name)
     axes.axhline(0, color="0.6", lw=0.6)
     for edge in (-reach, reach):
         axes.axvline(edge, color="0.6", ls=":", lw=0.8)

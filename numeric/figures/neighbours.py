@@ -89,11 +89,8 @@ class Neighbours:
 
     def lines(self) -> list[str]:
         """Say whether theory holds."""
-        where = "inside" if self.deviation() <= 1 else "outside"
-        return [
-            f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8 {where} the simultaneous {LEVEL:.0%} band "
-            f"({self.deviation():.2f} of its half-width)"
-        ]
+        verdict = self.band.verdict(self.deviation())
+        return [f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8 {verdict}"]
 
 
 def simulate(realisations: int, seed: int, notice: Notice) -> Neighbours:
@@ -148,13 +145,11 @@ def draw(data: Neighbours) -> "Figure":
     names = ("contacts of one branch, Eq. (B7)", "beads, vertical force, Eq. (B8)")
     every = np.array(WINDOWS)
     for b, name in enumerate(names):
-        colour, marker = style.series(b)
+        look = style.series(b)
         here = slice(b * len(WINDOWS), (b + 1) * len(WINDOWS))
-        axes.plot(every, exact[here], color=colour, label=name)
-        axes.errorbar(
-            every, found[here], (found[here] - low[here], high[here] - found[here]), fmt=marker,
-            color=colour, mfc="white", ms=3.2, mew=0.7, elinewidth=0.7,
-        )  # fmt: skip
+        axes.plot(every, exact[here], color=look[0], label=name)
+        error = found[here] - low[here], high[here] - found[here]
+        style.points(axes, every, found[here], error, look)
     axes.plot(every, found[0] / np.sqrt(every), ":", color="0.35", label="independent contacts")
     axes.set_xscale("log")
     axes.set_yscale("log")

@@ -106,9 +106,5 @@ def densities(
     axes: Axes, v: Array, density: Array, error: Array | None, look: tuple[str, str], name: str
 ) -> None:
     """Draw densities at v on a logarithmic axis, with their errors if these are known."""
-    colour, marker = look
-    axes.errorbar(
-        v, density, error, fmt=marker, color=colour, mfc="white", ms=3.2, mew=0.7,
-        elinewidth=0.7, label=name,
-    )  # fmt: skip
+    style.points(axes, v, density, error, look, name)
     axes.set_yscale("log")

@@ -70,6 +70,17 @@ def line(colour: str, dashes: Dashes, name: str) -> Line2D:
     return Line2D([], [], color=colour, linestyle=dashes, label=name)
 
 
+def points(
+    axes: Axes, x: Any, y: Any, error: Any, look: tuple[str, str], name: str | None = None
+) -> None:
+    """Draw what was simulated, with error bars; ``look`` is that of a ``series``."""
+    colour, marker = look
+    axes.errorbar(
+        x, y, error, fmt=marker, color=colour, mfc="white", ms=3.2, mew=0.7, elinewidth=0.7,
+        label=name,
+    )  # fmt: skip
+
+
 def shade(colour: str, name: str, alpha: float = 0.25) -> Patch:
     """Give a patch for a legend."""
     return Patch(facecolor=colour, alpha=alpha, lw=0, label=name)

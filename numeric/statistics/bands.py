@@ -95,6 +95,11 @@ class Band:
         """Give the largest deviation of a curve, in units of the half-width: inside is ≤ 1."""
         return float((np.abs(np.log(curve) - self.estimate.log) / self.half).max())
 
+    def verdict(self, deviation: float) -> str:
+        """Say whether a curve with this deviation is inside."""
+        where = "inside" if deviation <= 1 else "outside"
+        return f"{where} the simultaneous {self.level:.0%} band ({deviation:.2f} of its half-width)"
+
 
 def simultaneous(estimate: Estimate, level: float = 0.99, seed: int = 0) -> Band:
     """Give the band that holds all true values with probability ``level``."""

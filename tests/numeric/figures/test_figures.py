@@ -290,11 +290,11 @@ def test_the_components_of_figure_b2_are_those_of_scenes() -> None:
 def test_figure_b5_finds_theory_within_the_bands_and_wrong_ones_outside() -> None:
     found = mean_forces.simulate(400, 1, silent)
     for one in found.means:
-        assert one.deviation(one.exact) <= 1
-        assert one.deviation(np.zeros(mean_forces.HEIGHT)) > 5
-        assert one.deviation(1.2 * one.exact) > 1
+        assert one.shift.deviation(one.exact) <= 1
+        assert one.shift.deviation(np.zeros(mean_forces.HEIGHT)) > 5
+        assert one.shift.deviation(1.2 * one.exact) > 1
     surface, bulk = found.means[:2]
-    assert surface.deviation(bulk.exact) > 1
+    assert surface.shift.deviation(bulk.exact) > 1
     (rows,) = found.tables().values()
     assert len(rows) == 4 * mean_forces.HEIGHT
 
@@ -312,10 +312,10 @@ def test_figure_b7_finds_theory_within_the_band_and_a_wrong_one_outside() -> Non
 def test_figure_b9_finds_theory_within_the_bands_and_a_wrong_one_outside() -> None:
     found = mean_response.respond(6000, 1, silent)
     for one in found.cuts:
-        assert one.deviation(mean_response.theory(one.spacing)) <= 1
-        assert one.deviation(np.zeros(len(found.offsets))) > 1
+        assert one.shift.deviation(mean_response.theory(one.spacing)) <= 1
+        assert one.shift.deviation(np.zeros(len(found.offsets))) > 1
     first, second = found.cuts
-    assert first.deviation(mean_response.theory(second.spacing)) > 1
+    assert first.shift.deviation(mean_response.theory(second.spacing)) > 1
     (rows,) = found.tables().values()
     assert len(rows) == 2 * len(found.offsets)
 
