@@ -65,8 +65,8 @@ def _of_factor(factor: sympy.Expr, positive: Symbols, nonnegative: Symbols) -> i
 def _on_interval(polynomial: sympy.Poly, low: sympy.Expr, high: sympy.Expr) -> int:
     """The sign between low and high, both left out (their roots are counted by Sturm)."""
     inside = polynomial.count_roots(low, high)
-    inside -= sum(polynomial.eval(end) == 0 for end in (low, high))
-    return 0 if inside else int(sympy.sign(polynomial.eval((low + high) / 2)))
+    inside -= sum(polynomial(end) == 0 for end in (low, high))
+    return 0 if inside else int(sympy.sign(polynomial((low + high) / 2)))
 
 
 def _of_cosines(factor: sympy.Expr) -> int:

@@ -200,8 +200,8 @@ def _pole(source: Source) -> Made:
 def _another_factor(source: Source) -> Made:
     if source.relation == "∝":
         return
-    for factor in (2, -1, 1 + _MILLIONTH, 1 - _MILLIONTH, Rational(2, 3)):
-        yield f"{factor} times too large", source.right(_times(sympy.sympify(factor)))
+    for factor in (sympy.Integer(2), -sympy.S.One, 1 + _MILLIONTH, 1 - _MILLIONTH, Rational(2, 3)):
+        yield f"{factor} times too large", source.right(_times(factor))
     for cosine in (
         1 + sy.phi,
         1 + sy.phi * _MILLIONTH,
@@ -403,8 +403,9 @@ def _safe_divisor(source: Source) -> Made:
 
 
 def _multiple(source: Source) -> Made:
-    for factor in (2, -2, sy.r, 1 + sy.phi, _over(2 - sy.phi), sy.n_x):
-        yield f"times {text(sympy.sympify(factor))}", source.both(_times(sympy.sympify(factor)))
+    two = sympy.Integer(2)
+    for factor in (two, -two, sy.r, 1 + sy.phi, _over(2 - sy.phi), sy.n_x):
+        yield f"times {text(factor)}", source.both(_times(factor))
 
 
 def _rearranged(source: Source) -> Made:
@@ -474,8 +475,9 @@ def _lower_order(source: Source) -> Made:
 def _in_proportion(source: Source) -> Made:
     if source.relation != "∝":
         return
-    for factor in (7, 2 + sy.phi, sy.n_x, _over(1 - sy.phi), _over(sy.n_y), 1 + 2 * sy.phi):
-        yield "positive for every φ", source.right(_times(sympy.sympify(factor)))
+    seven = sympy.Integer(7)
+    for factor in (seven, 2 + sy.phi, sy.n_x, _over(1 - sy.phi), _over(sy.n_y), 1 + 2 * sy.phi):
+        yield "positive for every φ", source.right(_times(factor))
     if sy.M in source.free:
         for factor in (1 + 1 / sy.M, 1 - 10**6 / sy.M, 2 + sy.phi / sy.M):
             yield "the same order", source.right(_times(factor))
