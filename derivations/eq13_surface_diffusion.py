@@ -14,7 +14,14 @@ from force_diffusion.derivations.framework.follows import (
     identity,
     summed,
 )
-from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step, Witness
+from force_diffusion.derivations.framework.record import (
+    Claim,
+    Derivation,
+    ExactCase,
+    Step,
+    Witness,
+    usual,
+)
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
@@ -179,13 +186,7 @@ DERIVATION = Derivation(
     number=13,
     name="surface_diffusion",
     title="Variance of the forces under a surface load",
-    symbols=(
-        (sigma, "standard deviation σ_δr of the radii"),
-        (r, "mean radius"),
-        (M, "height of the packing"),
-        (z, "relative height j/M"),
-        (phi, "n⁺·n⁻"),
-    ),
+    symbols=usual(sigma, r, M, z, phi),
     assumptions=(
         "the radii are independent, of zero mean and variance σ²",
         "first order in δr",

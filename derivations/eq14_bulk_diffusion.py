@@ -19,7 +19,14 @@ from force_diffusion.derivations.framework.follows import (
     states,
     summed,
 )
-from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step, Witness
+from force_diffusion.derivations.framework.record import (
+    Claim,
+    Derivation,
+    ExactCase,
+    Step,
+    Witness,
+    usual,
+)
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.affine import Region
@@ -302,11 +309,7 @@ DERIVATION = Derivation(
     name="bulk_diffusion",
     title="Variance of the forces under a bulk load",
     symbols=(
-        (sigma, "standard deviation σ_δr of the radii"),
-        (r, "mean radius"),
-        (M, "height of the packing"),
-        (z, "relative height j/M"),
-        (phi, "n⁺·n⁻"),
+        *usual(sigma, r, M, z, phi),
         (m_g, "weight of a bead"),
     ),
     assumptions=(

@@ -15,6 +15,7 @@ from force_diffusion.derivations.framework.record import (
     Missed,
     Step,
     Witness,
+    usual,
 )
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
@@ -552,11 +553,7 @@ DERIVATION = Derivation(
         (HEIGHT, "height at which the leading order of the mean of σ_f²/⟨f⟩² is one"),
         (MEAN_SQUARE, "mean over all contacts"),
         (TENSILE, "expected fraction of contacts with f < 0"),
-        (sigma, "standard deviation σ_δr of the radii"),
-        (r, "mean radius"),
-        (M, "height of the packing"),
-        (z, "relative height j/M"),
-        (phi, "n⁺·n⁻"),
+        *usual(sigma, r, M, z, phi),
     ),
     assumptions=(
         "the radii are independent, of zero mean and variance σ²",

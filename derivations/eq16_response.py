@@ -17,6 +17,7 @@ from force_diffusion.derivations.framework.record import (
     Missed,
     Step,
     Witness,
+    usual,
 )
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
@@ -531,9 +532,7 @@ DERIVATION = Derivation(
         (f_load, "the load on bead (k, l), downwards"),
         (l, "layer of the loaded bead, j that of the one looked at"),
         (p, "steps along n⁺ from (k, l) down to (i, j); q along n⁻ (p is no force there)"),
-        (sigma, "standard deviation σ_δr of the radii"),
-        (r, "mean radius"),
-        (phi, "n⁺·n⁻"),
+        *usual(sigma, r, phi),
     ),
     assumptions=(
         "the radii are independent, of zero mean and variance σ²",

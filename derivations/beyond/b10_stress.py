@@ -18,6 +18,7 @@ from force_diffusion.derivations.framework.record import (
     ExactCase,
     Step,
     Witness,
+    usual,
 )
 from force_diffusion.derivations.witnesses import second_order as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
@@ -248,10 +249,7 @@ DERIVATION = Derivation(
     symbols=(
         (RATIO, "mean contact moments S = Σ f ℓ N⊗N of a layer, over the ratio (1−φ)/(1+φ)"),
         (VERTICAL, "the vertical one over its value in the ordered packing"),
-        (sigma, "standard deviation σ_δr of the radii"),
-        (r, "mean radius"),
-        (M, "height of the packing"),
-        (phi, "n⁺·n⁻"),
+        *usual(sigma, r, M, phi),
     ),
     assumptions=(
         "the radii are independent, of zero mean and variance σ², of whatever law",

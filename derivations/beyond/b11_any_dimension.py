@@ -10,7 +10,7 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.framework.follows import identity
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness, usual
 from force_diffusion.derivations.witnesses import dimensions as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import compare
@@ -294,10 +294,7 @@ DERIVATION = Derivation(
     symbols=(
         (d, "dimensions; every bead rests on d others, along base vectors with one dot product φ"),
         (kappa, "b^a·b^a = [1 + (d−2)φ]/{(1−φ)[1 + (d−1)φ]}; 1/(1−φ²) for d = 2"),
-        (sigma, "standard deviation σ_δr of the radii"),
-        (r, "mean radius"),
-        (M, "height of the packing"),
-        (z, "relative height j/M"),
+        *usual(sigma, r, M, z),
         (phi, "mutual dot product of the base vectors, −1/d < φ < ½"),
     ),
     assumptions=(

@@ -18,7 +18,7 @@ from force_diffusion.derivations.beyond.directions import (
 )
 from force_diffusion.derivations.framework.exact_cases import exact_cases, variance_steps
 from force_diffusion.derivations.framework.follows import states
-from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step
+from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step, usual
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
@@ -123,11 +123,7 @@ DERIVATION = Derivation(
     title="Variance of the forces under a bulk load in any direction",
     symbols=(
         (t, "L⁻/L⁺ of the load −(L⁺n⁺ + L⁻n⁻) on every bead"),
-        (sigma, "standard deviation σ_δr of the radii"),
-        (r, "mean radius"),
-        (M, "height of the packing"),
-        (z, "relative height j/M"),
-        (phi, "n⁺·n⁻"),
+        *usual(sigma, r, M, z, phi),
     ),
     assumptions=(
         "the radii are independent, of zero mean and variance σ²",

@@ -9,7 +9,7 @@ from force_diffusion.derivations import eq02_displacement as eq02
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations.beyond.means import decide_in_field
 from force_diffusion.derivations.framework.follows import identity
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness, usual
 from force_diffusion.derivations.witnesses import second_order as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
@@ -183,9 +183,7 @@ DERIVATION = Derivation(
     title="Mean displacement of the beads",
     symbols=(
         (MEAN_HEIGHT, "mean vertical displacement of bead (i, j); the horizontal one is 0"),
-        (sigma, "standard deviation σ_δr of the radii"),
-        (r, "mean radius"),
-        (phi, "n⁺·n⁻"),
+        *usual(sigma, r, phi),
     ),
     assumptions=(
         "the radii are independent, of zero mean and variance σ², of whatever law",

@@ -23,6 +23,7 @@ from force_diffusion.derivations.framework.record import (
     ExactCase,
     Step,
     Witness,
+    usual,
 )
 from force_diffusion.derivations.witnesses import second_order as witnesses
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
@@ -132,10 +133,7 @@ DERIVATION = Derivation(
     title="Mean contact force under a surface load, to second order",
     symbols=(
         (MEAN, "mean of f⁺ and of f⁻ over its value in the ordered packing"),
-        (sigma, "standard deviation σ_δr of the radii"),
-        (r, "mean radius"),
-        (M, "height of the packing"),
-        (phi, "n⁺·n⁻"),
+        *usual(sigma, r, M, phi),
     ),
     assumptions=(
         "the radii are independent, of zero mean and variance σ², of whatever law",

@@ -24,6 +24,7 @@ from force_diffusion.derivations.framework.record import (
     ExactCase,
     Step,
     Witness,
+    usual,
 )
 from force_diffusion.derivations.witnesses import second_order as witnesses
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
@@ -121,10 +122,7 @@ DERIVATION = Derivation(
         (MEAN, "mean of f⁺ and of f⁻ over its value in the ordered packing"),
         (m_g, "weight of a bead"),
         (n_y, "vertical component of n^±"),
-        (sigma, "standard deviation σ_δr of the radii"),
-        (r, "mean radius"),
-        (M, "height of the packing"),
-        (phi, "n⁺·n⁻"),
+        *usual(sigma, r, M, phi),
     ),
     assumptions=(
         "the radii are independent, of zero mean and variance σ², of whatever law",

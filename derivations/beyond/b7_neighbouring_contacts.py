@@ -24,7 +24,7 @@ from force_diffusion.derivations.beyond.neighbours import (
     told,
 )
 from force_diffusion.derivations.framework.follows import identity
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness, usual
 from force_diffusion.derivations.witnesses import neighbours as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.symbolic.algebra import explicit
@@ -180,10 +180,7 @@ DERIVATION = Derivation(
     symbols=(
         (MEAN_OF_N, "variance of the mean of f^± over N neighbours of one layer"),
         (N, "number of neighbouring contacts"),
-        (sigma, "standard deviation σ_δr of the radii"),
-        (r, "mean radius"),
-        (M, "height of the packing"),
-        (phi, "n⁺·n⁻"),
+        *usual(sigma, r, M, phi),
     ),
     assumptions=(
         "the radii are independent, of zero mean and variance σ²",

@@ -11,7 +11,7 @@ from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond.mean_forces import SUM_OF_RADII
 from force_diffusion.derivations.beyond.means import decide_in_field
 from force_diffusion.derivations.framework.follows import identity, linear
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness, usual
 from force_diffusion.derivations.witnesses import second_order as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import compare
@@ -367,9 +367,7 @@ DERIVATION = Derivation(
         (INSIDE, "mean of a contact inside of the cone of the load on bead (k, l)"),
         (ON_LEG, "mean on a leg of the cone, over its value in the ordered packing"),
         (l, "layer of the loaded bead"),
-        (sigma, "standard deviation σ_δr of the radii"),
-        (r, "mean radius"),
-        (phi, "n⁺·n⁻"),
+        *usual(sigma, r, phi),
     ),
     assumptions=(
         "the radii are independent, of zero mean and variance σ², of whatever law",

@@ -102,6 +102,20 @@ class Witness:
     run: Callable[[SmallPacking], Ruling]
 
 
+_MEANINGS = {
+    sy.sigma: "standard deviation σ_δr of the radii",
+    sy.r: "mean radius",
+    sy.M: "height of the packing",
+    sy.z: "relative height j/M",
+    sy.phi: "n⁺·n⁻",
+}
+
+
+def usual(*symbols: sympy.Symbol) -> tuple[tuple[sympy.Symbol, str], ...]:
+    """Symbols that stand for the same wherever they are explained."""
+    return tuple((symbol, _MEANINGS[symbol]) for symbol in symbols)
+
+
 @dataclass(frozen=True)
 class Derivation:
     """One numbered equation: what is printed, why it holds, and how it is checked.
