@@ -30,6 +30,7 @@ from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import M, j, m, n, phi, r, sigma, z
 from force_diffusion.symbolic.variances.orders import (
+    UNIT,
     compare_leading_order,
     edges_follow,
     next_order_is,
@@ -67,8 +68,6 @@ def at_finite_size() -> dict[str, ExactCase]:
     """The exact forms, case by case."""
     return exact_cases(RELATIVE_VARIANCE, exact_forms())
 
-
-UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
 
 SQUARES = Symbol("squares", r"\sum w^2", "Σw²")
 """Sum of the squared weights of all radii in Eq. 12, its prefactor left out."""

@@ -64,6 +64,7 @@ from force_diffusion.symbolic.symbols import (
     z,
 )
 from force_diffusion.symbolic.variances.orders import (
+    UNIT,
     compare_leading_order,
     edges_follow,
     next_order_is,
@@ -80,7 +81,6 @@ from force_diffusion.symbolic.variances.weights import take_apart
 RELATIVE_VARIANCE = Symbol(
     "relative_variance", r"\frac{\sigma_f^2(z)}{\langle f\rangle_z^2}", "σ_f²(z)/⟨f⟩_z²"
 )
-UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
 MEAN_FORCE = Symbol("mean_force", r"\langle f\rangle_z", "⟨f⟩_z", positive=True)
 
 PRINTED = equation(

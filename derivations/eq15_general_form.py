@@ -50,6 +50,7 @@ from force_diffusion.symbolic.symbols import (
     z,
 )
 from force_diffusion.symbolic.variances.averages import LayerAverage, layer_average, uniform_order
+from force_diffusion.symbolic.variances.orders import UNIT
 from force_diffusion.symbolic.variances.variance import grows_evenly, leading, order, variance
 
 DEVIATION = Symbol("relative_deviation", r"\frac{\sigma_f}{\langle f\rangle}", "σ_f/⟨f⟩")
@@ -63,7 +64,6 @@ PRINTED = equation(DEVIATION, times(power(M, sympy.Rational(3, 2)), sigma, 1 / r
 PRINTED_HEIGHT = equation(HEIGHT, power(times(sigma, 1 / r), sympy.Rational(-2, 3)))
 
 LOADS = {"surface": eq13, "bulk": eq14}
-UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
 
 LEADING = {"surface": sympy.Integer(1), "bulk": sympy.Rational(1, 5)}
 """Mean of σ_f²/⟨f⟩² over the layers, in units of M³ (σ/r)²/(1−φ²)²."""

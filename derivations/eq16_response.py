@@ -65,6 +65,7 @@ from force_diffusion.symbolic.symbols import (
     sigma,
 )
 from force_diffusion.symbolic.variances.cases import Case, Piece, first_difference, squares_by_case
+from force_diffusion.symbolic.variances.orders import UNIT
 from force_diffusion.symbolic.variances.variance import (
     grows_evenly,
     leading,
@@ -99,7 +100,6 @@ PRINTED = equation(
     times(3 / (2 * (1 - phi**2) ** 2), terms(l, j), power(times(sigma, 1 / r), 2)),
 )
 
-UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
 SIZES = (j, p, q)
 """What grows in the limit: l = j + p + q → ∞ at fixed j/l and (i − k)/l inside of the cone."""
 

@@ -7,7 +7,6 @@ import sympy
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations.beyond import b1_any_direction as b1
 from force_diffusion.derivations.beyond.directions import (
-    UNIT,
     VARIANCE_MINUS,
     VARIANCE_PLUS,
     decided,
@@ -23,7 +22,7 @@ from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test
 from force_diffusion.symbolic.symbols import ForcePlus, L_plus, M, i, j, phi, r, sigma, t, z
-from force_diffusion.symbolic.variances.orders import next_order_is, no_radius_dominates
+from force_diffusion.symbolic.variances.orders import UNIT, next_order_is, no_radius_dominates
 from force_diffusion.symbolic.variances.variance import ClosedForm, exact_variances, leading
 
 

@@ -11,7 +11,6 @@ from force_diffusion.derivations.beyond.neighbours import (
     COVARIANCES,
     FAR,
     OF_MEAN,
-    UNIT,
     Split,
     decided,
     far_is_zero,
@@ -34,6 +33,7 @@ from force_diffusion.symbolic.as_printed import equation, minus, power, terms, t
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import M, N, j, k, p, phi, q, r, sigma, z
+from force_diffusion.symbolic.variances.orders import UNIT
 from force_diffusion.symbolic.variances.variance import leading
 
 MEAN_OF_N = Symbol(

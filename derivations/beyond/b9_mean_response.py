@@ -56,6 +56,7 @@ from force_diffusion.symbolic.symbols import (
 )
 from force_diffusion.symbolic.variances.cases import Case
 from force_diffusion.symbolic.variances.means import covariance, covariances_by_case
+from force_diffusion.symbolic.variances.orders import UNIT
 
 INSIDE = Symbol(
     "mean_inside",
@@ -67,7 +68,6 @@ ON_LEG = Symbol(
     r"\frac{\langle f_{ij}\rangle_{\mathrm{leg}}}{f^{\mathrm{load}}/2 n_{y}}",
     "⟨f_ij on a leg⟩/(f_load/2n_y)",
 )
-UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
 
 PRINTED = (
     equation(

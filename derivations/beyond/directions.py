@@ -12,9 +12,9 @@ from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test, undecided
 from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import M, phi, r, sigma, t
+from force_diffusion.symbolic.symbols import M, t
 from force_diffusion.symbolic.variances.averages import layer_average
-from force_diffusion.symbolic.variances.orders import compare_leading_order
+from force_diffusion.symbolic.variances.orders import UNIT, compare_leading_order
 from force_diffusion.symbolic.variances.variance import ClosedForm
 
 VARIANCE_PLUS = Symbol(
@@ -23,7 +23,6 @@ VARIANCE_PLUS = Symbol(
 VARIANCE_MINUS = Symbol(
     "variance_minus", r"\frac{\sigma_{f^{-}}^2(z)}{\langle f^{-}\rangle^2}", "σ²(f⁻)/⟨f⁻⟩²"
 )
-UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
 
 SUBJECTS = (VARIANCE_PLUS, VARIANCE_MINUS)
 

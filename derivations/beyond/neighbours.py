@@ -20,10 +20,9 @@ from force_diffusion.symbolic.kernel.decisions import (
 )
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.symbols import M, N, i, j, k, phi, r, sigma
+from force_diffusion.symbolic.symbols import M, N, i, j, k, sigma
 from force_diffusion.symbolic.variances.means import covariance, covariances_by_case
 
-UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
 FARTHEST = 2
 """Neighbours that are farther apart than this many places are uncorrelated."""
 

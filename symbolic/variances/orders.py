@@ -15,6 +15,9 @@ from force_diffusion.symbolic.variances.variance import (
     order,
 )
 
+UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
+"""What variances of forces over their mean squared are numbers and powers of M times."""
+
 
 def compare_leading_order(exact: RationalFunction, candidate: sympy.Expr) -> Ruling:
     """Rule on a candidate in M and z: exact − candidate must be of lower order than exact."""
@@ -46,7 +49,7 @@ def same_leading_order(candidate: sympy.Eq) -> Ruling:
 def edges_follow(forms: dict[str, ClosedForm], printed: sympy.Expr) -> Ruling:
     """The exact forms of the base and of the layer below the surface, at leading order in M."""
     at_zero = FIELD.from_sympy(printed.xreplace({z: sympy.Integer(0)}))
-    surface = FIELD.from_sympy(2 * M * (1 + phi**2) * (sigma / r) ** 2 / (1 - phi**2) ** 2)
+    surface = FIELD.from_sympy(2 * M * (1 + phi**2) * UNIT)
     return from_test(
         (leading(forms["base"].value) - at_zero).is_zero()
         and (leading(forms["surface"].value) - surface).is_zero(),
