@@ -6,7 +6,7 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
-from force_diffusion.derivations.framework.exact_cases import exact_cases, variance_steps
+from force_diffusion.derivations.framework import exact_cases
 from force_diffusion.derivations.framework.follows import (
     by_certificate,
     certificate,
@@ -17,7 +17,6 @@ from force_diffusion.derivations.framework.follows import (
 from force_diffusion.derivations.framework.record import (
     Claim,
     Derivation,
-    ExactCase,
     Step,
     Witness,
     usual,
@@ -25,15 +24,11 @@ from force_diffusion.derivations.framework.record import (
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test, undecided
-from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
+from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import M, j, m, n, phi, r, sigma, z
 from force_diffusion.symbolic.variances.orders import (
-    UNIT,
-    compare_leading_order,
     edges_follow,
-    next_order_is,
     no_radius_dominates,
 )
 from force_diffusion.symbolic.variances.variance import (
@@ -62,11 +57,6 @@ PRINTED = equation(
 def exact_forms() -> dict[str, ClosedForm]:
     """Exact σ_f²/⟨f⟩² under a surface load at every layer, from Eq. 11 site by site."""
     return exact_variances(eq11.in_radii(eq11.PRINTED.rhs))
-
-
-def at_finite_size() -> dict[str, ExactCase]:
-    """The exact forms, case by case."""
-    return exact_cases(RELATIVE_VARIANCE, exact_forms())
 
 
 SQUARES = Symbol("squares", r"\sum w^2", "Σw²")
@@ -141,13 +131,11 @@ def steps() -> Iterator[Step]:
         ("Eq. 11", "step 4"),
     )
     force = eq11.in_radii(eq11.PRINTED.rhs)
-    yield from variance_steps(RELATIVE_VARIANCE, eq11.PRINTED.lhs, force, exact_forms(), 5)
-    yield Step(
-        "The next order in M at fixed z:",
-        equation(terms(RELATIVE_VARIANCE, minus(PRINTED.rhs)), times(UNIT, next_order())),
-        lambda _, candidate: next_order_is(RELATIVE_VARIANCE, exact_forms(), candidate),
-        ("Eq. 13", "step 8"),
-        relation="∼",
+    yield from exact_cases.variance_steps(
+        RELATIVE_VARIANCE, eq11.PRINTED.lhs, force, exact_forms(), 5
+    )
+    yield exact_cases.next_order(
+        RELATIVE_VARIANCE, PRINTED.rhs, exact_forms(), next_order(), "Eq. 13", "step 8"
     )
     profile = times(terms(1, -z) ** 2, terms(times(2, z), 1))
     yield Step(
@@ -163,18 +151,8 @@ def next_order() -> sympy.Expr:
     return sympy.Rational(-3, 2) * M**2 * (1 - z) * (1 + 3 * z)
 
 
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """The exact variance less the candidate is of order M² at most."""
-    if candidate.lhs != RELATIVE_VARIANCE:
-        return undecided("the left-hand side is not σ_f²/⟨f⟩²")
-    return compare_leading_order(exact_forms()["interior"].value, candidate.rhs)
-
-
-def search(candidate: sympy.Eq) -> str | None:
-    """Values at growing M where the candidate and the exact variance part."""
-    if candidate.lhs != RELATIVE_VARIANCE:
-        return None
-    return parts_in_the_limit(exact_forms()["interior"].expression, candidate.rhs, LAYERS)
+decide = exact_cases.to_leading_order(RELATIVE_VARIANCE, exact_forms)
+"""The exact variance less a candidate is of order M² at most."""
 
 
 def _no_radius_dominates() -> Ruling:
@@ -195,10 +173,10 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     loads=("surface",),
     relation="∼",
-    exact=at_finite_size,
+    exact=lambda: exact_cases.exact_cases(RELATIVE_VARIANCE, exact_forms()),
     steps=steps,
     decide=decide,
-    search=search,
+    search=exact_cases.parting(RELATIVE_VARIANCE, exact_forms),
     claims=(
         Claim(
             "leading orders of the exact forms at the base and below the surface",

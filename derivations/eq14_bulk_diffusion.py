@@ -10,7 +10,7 @@ from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
-from force_diffusion.derivations.framework.exact_cases import exact_cases, variance_steps
+from force_diffusion.derivations.framework import exact_cases
 from force_diffusion.derivations.framework.follows import (
     by_certificate,
     certificate,
@@ -22,7 +22,6 @@ from force_diffusion.derivations.framework.follows import (
 from force_diffusion.derivations.framework.record import (
     Claim,
     Derivation,
-    ExactCase,
     Step,
     Witness,
     usual,
@@ -33,7 +32,7 @@ from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.algebra.reading import Reader
 from force_diffusion.symbolic.algebra.signs import sign
-from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
+from force_diffusion.symbolic.as_printed import equation, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     all_of,
@@ -42,7 +41,6 @@ from force_diffusion.symbolic.kernel.decisions import (
     proved,
     undecided,
 )
-from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import (
@@ -65,9 +63,7 @@ from force_diffusion.symbolic.symbols import (
 )
 from force_diffusion.symbolic.variances.orders import (
     UNIT,
-    compare_leading_order,
     edges_follow,
-    next_order_is,
     no_radius_dominates,
 )
 from force_diffusion.symbolic.variances.variance import (
@@ -107,11 +103,6 @@ def bulk_force() -> sympy.Expr:
 def exact_forms() -> dict[str, ClosedForm]:
     """Exact σ_f²/⟨f⟩_z² under a bulk load at every layer, from Eq. 11 site by site."""
     return exact_variances(eq11.in_radii(bulk_force()))
-
-
-def at_finite_size() -> dict[str, ExactCase]:
-    """The exact forms, case by case."""
-    return exact_cases(RELATIVE_VARIANCE, exact_forms())
 
 
 AVERAGED = (
@@ -202,15 +193,11 @@ def steps() -> Iterator[Step]:
         decide,
         ("step 2", "step 6"),
     )
-    yield from variance_steps(
+    yield from exact_cases.variance_steps(
         RELATIVE_VARIANCE, ratio, eq11.in_radii(bulk_force()), exact_forms(), 7
     )
-    yield Step(
-        "The next order in M at fixed z:",
-        equation(terms(RELATIVE_VARIANCE, minus(PRINTED.rhs)), times(UNIT, next_order())),
-        lambda _, candidate: next_order_is(RELATIVE_VARIANCE, exact_forms(), candidate),
-        ("Eq. 14", "step 10"),
-        relation="∼",
+    yield exact_cases.next_order(
+        RELATIVE_VARIANCE, PRINTED.rhs, exact_forms(), next_order(), "Eq. 14", "step 10"
     )
     profile = times(terms(1, -z) ** 2, terms(times(4, z), 1))
     yield Step(
@@ -232,18 +219,8 @@ def next_order() -> sympy.Expr:
     return sympy.Rational(3, 8) * M**2 * (1 - z) ** 2
 
 
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """The exact variance less the candidate is of order M² at most."""
-    if candidate.lhs != RELATIVE_VARIANCE:
-        return undecided("the left-hand side is not σ_f²/⟨f⟩²")
-    return compare_leading_order(exact_forms()["interior"].value, candidate.rhs)
-
-
-def search(candidate: sympy.Eq) -> str | None:
-    """Values at growing M where the candidate and the exact variance part."""
-    if candidate.lhs != RELATIVE_VARIANCE:
-        return None
-    return parts_in_the_limit(exact_forms()["interior"].expression, candidate.rhs, LAYERS)
+decide = exact_cases.to_leading_order(RELATIVE_VARIANCE, exact_forms)
+"""The exact variance less a candidate is of order M² at most."""
 
 
 def _superposition() -> Ruling:
@@ -329,10 +306,10 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     loads=("bulk",),
     relation="∼",
-    exact=at_finite_size,
+    exact=lambda: exact_cases.exact_cases(RELATIVE_VARIANCE, exact_forms()),
     steps=steps,
     decide=decide,
-    search=search,
+    search=exact_cases.parting(RELATIVE_VARIANCE, exact_forms),
     claims=(
         Claim(
             "loads superpose, and one on layer l feels radii of layers ≤ l alone", _superposition

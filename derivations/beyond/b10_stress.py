@@ -15,7 +15,6 @@ from force_diffusion.derivations.framework.follows import identity
 from force_diffusion.derivations.framework.record import (
     Claim,
     Derivation,
-    ExactCase,
     Step,
     Witness,
     usual,
@@ -127,11 +126,6 @@ def ratio_forms() -> dict[str, ClosedForm]:
 def vertical_forms() -> dict[str, ClosedForm]:
     """⟨S_yy⟩ over its ordered value, less 1, likewise."""
     return _forms(means()[1])
-
-
-def at_finite_size() -> dict[str, ExactCase]:
-    """The exact forms of the ratio, case by case."""
-    return exact_cases(RATIO - 1, ratio_forms(), "second order")
 
 
 def steps() -> Iterator[Step]:
@@ -260,7 +254,7 @@ DERIVATION = Derivation(
     premises=(eq11.DERIVATION, b4.DERIVATION, b5.DERIVATION),
     printed=PRINTED,
     domain=(sympy.Ge(j, 2), sympy.Ge(M, j + 2)),
-    exact=at_finite_size,
+    exact=lambda: exact_cases(RATIO - 1, ratio_forms(), "second order"),
     steps=steps,
     decide=decide,
     search=search,

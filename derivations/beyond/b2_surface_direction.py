@@ -7,38 +7,26 @@ import sympy
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations.beyond import b1_any_direction as b1
 from force_diffusion.derivations.beyond.directions import (
-    VARIANCE_MINUS,
+    UNLOADED,
     VARIANCE_PLUS,
     decided,
     height_is,
     is_vertical,
+    printed,
     searched,
     witnessed,
 )
-from force_diffusion.derivations.framework.exact_cases import exact_cases, variance_steps
+from force_diffusion.derivations.framework import exact_cases
 from force_diffusion.derivations.framework.follows import identity
-from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step, usual
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, usual
 from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
+from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test
 from force_diffusion.symbolic.symbols import ForcePlus, L_plus, M, i, j, phi, r, sigma, t, z
-from force_diffusion.symbolic.variances.orders import UNIT, next_order_is, no_radius_dominates
+from force_diffusion.symbolic.variances.orders import UNIT, no_radius_dominates
 from force_diffusion.symbolic.variances.variance import ClosedForm, exact_variances, leading
 
-
-def _printed(share: sympy.Expr) -> sympy.Expr:
-    return times(
-        2 * M**3 * share / (1 - phi**2) ** 2,
-        terms(1, -z) ** 2,
-        terms(times(2, z), 1),
-        power(times(sigma, 1 / r), 2),
-    )
-
-
-PRINTED = (
-    equation(VARIANCE_PLUS, _printed(t**2)),
-    equation(VARIANCE_MINUS, _printed(t**-2)),
-)
+PRINTED = printed(sympy.Integer(2), 2)
 
 
 @cache
@@ -47,14 +35,12 @@ def exact_forms() -> dict[str, ClosedForm]:
     return exact_variances(b1.in_radii(0))
 
 
-def at_finite_size() -> dict[str, ExactCase]:
-    """The exact forms for f⁺, case by case; those for f⁻ have 1/t in place of t."""
-    return exact_cases(VARIANCE_PLUS, exact_forms())
-
-
 def next_order() -> sympy.Expr:
     """The M² term at fixed z, without (σ/r)²/(1−φ²)²."""
     return t**2 * eq13.next_order()
+
+
+decide = decided(exact_forms)
 
 
 def steps() -> Iterator[Step]:
@@ -67,13 +53,11 @@ def steps() -> Iterator[Step]:
         ("Eq. 13", "Eq. B1"),
     )
     ratio = ForcePlus(i, j) / L_plus
-    yield from variance_steps(VARIANCE_PLUS, ratio, b1.in_radii(0), exact_forms(), 1, "Eq. B1")
-    yield Step(
-        "The next order in M at fixed z:",
-        equation(terms(VARIANCE_PLUS, minus(PRINTED[0].rhs)), times(UNIT, next_order())),
-        lambda _, candidate: next_order_is(VARIANCE_PLUS, exact_forms(), candidate),
-        ("Eq. B2", "step 4"),
-        relation="∼",
+    yield from exact_cases.variance_steps(
+        VARIANCE_PLUS, ratio, b1.in_radii(0), exact_forms(), 1, "Eq. B1"
+    )
+    yield exact_cases.next_order(
+        VARIANCE_PLUS, PRINTED[0].rhs, exact_forms(), next_order(), "Eq. B2", "step 4"
     )
     yield Step(
         "As L⁻ is taken away, t → 0, the tilt of the contact itself is left, for 1 ≤ j ≤ M − 1: "
@@ -85,18 +69,6 @@ def steps() -> Iterator[Step]:
 
 
 NOTHING = sympy.Integer(0)
-UNLOADED = phi**2 * (4 * j + phi**2) / 2 * UNIT
-"""Variance of f⁺ over (L⁺)² where only n⁺ is loaded, for 1 ≤ j ≤ M − 1."""
-
-
-def decide(part: int, candidate: sympy.Eq) -> Ruling:
-    """The exact variance less the candidate is of order M² at most."""
-    return decided(exact_forms(), part, candidate)
-
-
-def search(candidate: sympy.Eq) -> str | None:
-    """Values at growing M where the candidate and the exact variance part."""
-    return searched(exact_forms(), candidate)
 
 
 def _unloaded() -> Ruling:
@@ -150,10 +122,10 @@ DERIVATION = Derivation(
     premises=(b1.DERIVATION, eq13.DERIVATION),
     printed=PRINTED,
     relation="∼",
-    exact=at_finite_size,
+    exact=lambda: exact_cases.exact_cases(VARIANCE_PLUS, exact_forms()),
     steps=steps,
     decide=decide,
-    search=search,
+    search=searched(exact_forms),
     claims=(
         Claim("for t = 1 it is Eq. 13, exactly", lambda: is_vertical(exact_forms(), eq13)),
         Claim("leading orders of the exact forms at the base and below the surface", _edges),

@@ -7,39 +7,27 @@ import sympy
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.beyond import b1_any_direction as b1
 from force_diffusion.derivations.beyond.directions import (
-    VARIANCE_MINUS,
+    UNLOADED,
     VARIANCE_PLUS,
     decided,
     height_is,
     is_vertical,
+    printed,
     searched,
     witnessed,
 )
-from force_diffusion.derivations.framework.exact_cases import exact_cases, variance_steps
+from force_diffusion.derivations.framework import exact_cases
 from force_diffusion.derivations.framework.follows import states
-from force_diffusion.derivations.framework.record import Claim, Derivation, ExactCase, Step, usual
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, usual
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
+from force_diffusion.symbolic.as_printed import equation, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, from_test
 from force_diffusion.symbolic.symbols import ForcePlus, L_plus, M, i, j, l, phi, r, sigma, t, z
-from force_diffusion.symbolic.variances.orders import UNIT, next_order_is, no_radius_dominates
+from force_diffusion.symbolic.variances.orders import no_radius_dominates
 from force_diffusion.symbolic.variances.variance import ClosedForm, exact_variances
 
-
-def _printed(share: sympy.Expr) -> sympy.Expr:
-    return times(
-        3 * M**3 * share / (10 * (1 - phi**2) ** 2),
-        terms(1, -z) ** 2,
-        terms(times(4, z), 1),
-        power(times(sigma, 1 / r), 2),
-    )
-
-
-PRINTED = (
-    equation(VARIANCE_PLUS, _printed(t**2)),
-    equation(VARIANCE_MINUS, _printed(t**-2)),
-)
+PRINTED = printed(sympy.Rational(3, 10), 4)
 
 
 def bulk_force() -> sympy.Expr:
@@ -53,18 +41,12 @@ def exact_forms() -> dict[str, ClosedForm]:
     return exact_variances(b1.put_in_radii(bulk_force()))
 
 
-def at_finite_size() -> dict[str, ExactCase]:
-    """The exact forms for f⁺, case by case; those for f⁻ have 1/t in place of t."""
-    return exact_cases(VARIANCE_PLUS, exact_forms())
-
-
 def next_order() -> sympy.Expr:
     """The M² term at fixed z, without (σ/r)²/(1−φ²)²."""
     return t**2 * eq14.next_order()
 
 
-UNLOADED = phi**2 * (4 * j + phi**2) / 2 * UNIT
-"""Variance of f⁺ over its mean squared where only n⁺ is loaded, for j ≥ 1."""
+decide = decided(exact_forms)
 
 
 def steps() -> Iterator[Step]:
@@ -88,24 +70,10 @@ def steps() -> Iterator[Step]:
         ("Eq. 14", "step 1"),
     )
     force = b1.put_in_radii(bulk_force())
-    yield from variance_steps(VARIANCE_PLUS, ratio, force, exact_forms(), 2, "Eq. B1")
-    yield Step(
-        "The next order in M at fixed z:",
-        equation(terms(VARIANCE_PLUS, minus(PRINTED[0].rhs)), times(UNIT, next_order())),
-        lambda _, candidate: next_order_is(VARIANCE_PLUS, exact_forms(), candidate),
-        ("Eq. B3", "step 5"),
-        relation="∼",
+    yield from exact_cases.variance_steps(VARIANCE_PLUS, ratio, force, exact_forms(), 2, "Eq. B1")
+    yield exact_cases.next_order(
+        VARIANCE_PLUS, PRINTED[0].rhs, exact_forms(), next_order(), "Eq. B3", "step 5"
     )
-
-
-def decide(part: int, candidate: sympy.Eq) -> Ruling:
-    """The exact variance less the candidate is of order M² at most."""
-    return decided(exact_forms(), part, candidate)
-
-
-def search(candidate: sympy.Eq) -> str | None:
-    """Values at growing M where the candidate and the exact variance part."""
-    return searched(exact_forms(), candidate)
 
 
 def _unloaded() -> Ruling:
@@ -134,10 +102,10 @@ DERIVATION = Derivation(
     premises=(b1.DERIVATION, eq14.DERIVATION),
     printed=PRINTED,
     relation="∼",
-    exact=at_finite_size,
+    exact=lambda: exact_cases.exact_cases(VARIANCE_PLUS, exact_forms()),
     steps=steps,
     decide=decide,
-    search=search,
+    search=searched(exact_forms),
     claims=(
         Claim("for t = 1 it is Eq. 14, exactly", lambda: is_vertical(exact_forms(), eq14)),
         Claim(

@@ -20,7 +20,6 @@ from force_diffusion.derivations.framework.follows import identity
 from force_diffusion.derivations.framework.record import (
     Claim,
     Derivation,
-    ExactCase,
     Step,
     Witness,
     usual,
@@ -56,9 +55,7 @@ def exact_forms() -> dict[str, ClosedForm]:
     return mean_forms(eq11.in_radii(eq11.PRINTED.rhs))
 
 
-def at_finite_size() -> dict[str, ExactCase]:
-    """The exact forms, case by case."""
-    return exact_cases(MEAN - 1, exact_forms(), "second order")
+decide = decided(exact_forms, MEAN)
 
 
 def shift() -> sympy.Expr:
@@ -117,16 +114,6 @@ def steps() -> Iterator[Step]:
     )
 
 
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Compare with the mean from the covariances, for 2 ≤ j ≤ M − 2."""
-    return decided(exact_forms(), MEAN, candidate)
-
-
-def search(candidate: sympy.Eq) -> str | None:
-    """Exact packings in which the mean force is another."""
-    return searched("surface", MEAN, candidate)
-
-
 DERIVATION = Derivation(
     number="B5",
     name="mean_surface",
@@ -143,10 +130,10 @@ DERIVATION = Derivation(
     premises=(eq11.DERIVATION, b4.DERIVATION),
     printed=(PRINTED,),
     domain=(sympy.Ge(j, 2), sympy.Ge(M, j + 2)),
-    exact=at_finite_size,
+    exact=lambda: exact_cases(MEAN - 1, exact_forms(), "second order"),
     steps=steps,
     decide=decide,
-    search=search,
+    search=searched("surface", MEAN),
     claims=(
         Claim(
             "to leading order the shift is 2M(z − φ)(σ/r)²/[(1−φ²)(1+φ)]: forces rise above z = φ "

@@ -21,7 +21,6 @@ from force_diffusion.derivations.framework.exact_cases import exact_cases, exact
 from force_diffusion.derivations.framework.record import (
     Claim,
     Derivation,
-    ExactCase,
     Step,
     Witness,
     usual,
@@ -61,9 +60,7 @@ def exact_forms() -> dict[str, ClosedForm]:
     return mean_forms(eq11.in_radii(eq14.bulk_force()))
 
 
-def at_finite_size() -> dict[str, ExactCase]:
-    """The exact forms, case by case."""
-    return exact_cases(MEAN - 1, exact_forms(), "second order")
+decide = decided(exact_forms, MEAN)
 
 
 def shift() -> sympy.Expr:
@@ -99,16 +96,6 @@ def steps() -> Iterator[Step]:
     )
 
 
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Compare with the mean from the covariances, for 2 ≤ j ≤ M − 2."""
-    return decided(exact_forms(), MEAN, candidate)
-
-
-def search(candidate: sympy.Eq) -> str | None:
-    """Exact packings in which the mean force is another."""
-    return searched("bulk", MEAN, candidate)
-
-
 def _one_layer_below_the_surface() -> Ruling:
     difference = exact_forms()["surface"].value - b5.exact_forms()["surface"].value
     return from_test(difference.is_zero(), "at j = M − 1 Eqs. B5 and B6 agree")
@@ -133,10 +120,10 @@ DERIVATION = Derivation(
     premises=(eq11.DERIVATION, eq14.DERIVATION, b4.DERIVATION, b5.DERIVATION),
     printed=(PRINTED,),
     domain=(sympy.Ge(j, 2), sympy.Ge(M, j + 2)),
-    exact=at_finite_size,
+    exact=lambda: exact_cases(MEAN - 1, exact_forms(), "second order"),
     steps=steps,
     decide=decide,
-    search=search,
+    search=searched("bulk", MEAN),
     claims=(
         Claim(
             "to leading order the shift is M[2z − φ(1 + z)](σ/r)²/[(1−φ²)(1+φ)]: forces rise above "

@@ -5,14 +5,16 @@ from fractions import Fraction
 from types import ModuleType
 
 import sympy
-from force_diffusion.derivations.framework.record import Witness
+from force_diffusion.derivations.framework.follows import Decide
+from force_diffusion.derivations.framework.record import Search, Witness
 from force_diffusion.derivations.witnesses import squared_weights
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
+from force_diffusion.symbolic.as_printed import equation, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test, undecided
 from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import M, t
+from force_diffusion.symbolic.symbols import M, j, phi, r, sigma, t, z
 from force_diffusion.symbolic.variances.averages import layer_average
 from force_diffusion.symbolic.variances.orders import UNIT, compare_leading_order
 from force_diffusion.symbolic.variances.variance import ClosedForm
@@ -31,22 +33,50 @@ def _other_branch(expression: sympy.Expr) -> sympy.Expr:
     return expression.xreplace({t: 1 / t})
 
 
-def decided(forms: dict[str, ClosedForm], part: int, candidate: sympy.Eq) -> Ruling:
+def printed(factor: sympy.Expr, slope: int) -> tuple[sympy.Eq, sympy.Eq]:
+    """Both variances to leading order: a factor of (1−z)²(1 + slope z) t² and of the same /t²."""
+
+    def of(share: sympy.Expr) -> sympy.Expr:
+        return times(
+            factor * M**3 * share / (1 - phi**2) ** 2,
+            terms(1, -z) ** 2,
+            terms(times(slope, z), 1),
+            power(times(sigma, 1 / r), 2),
+        )
+
+    return equation(VARIANCE_PLUS, of(t**2)), equation(VARIANCE_MINUS, of(t**-2))
+
+
+UNLOADED = phi**2 * (4 * j + phi**2) / 2 * UNIT
+"""Variance of f⁺ over its mean squared where n⁺ alone is loaded, for 1 ≤ j ≤ M − 1."""
+
+Forms = Callable[[], dict[str, ClosedForm]]
+
+
+def decided(forms: Forms) -> Decide:
     """The exact variance less the candidate is of lower order; f⁻ is f⁺ with t ↔ 1/t."""
-    if candidate.lhs != SUBJECTS[part]:
-        return undecided("the left-hand side is not the variance that is meant")
-    right = _other_branch(candidate.rhs) if part else candidate.rhs
-    return compare_leading_order(forms["interior"].value, right)
+
+    def decide(part: int, candidate: sympy.Eq) -> Ruling:
+        if candidate.lhs != SUBJECTS[part]:
+            return undecided("the left-hand side is not the variance that is meant")
+        right = _other_branch(candidate.rhs) if part else candidate.rhs
+        return compare_leading_order(forms()["interior"].value, right)
+
+    return decide
 
 
-def searched(forms: dict[str, ClosedForm], candidate: sympy.Eq) -> str | None:
+def searched(forms: Forms) -> Search:
     """Values at growing M where the candidate and the exact variance part."""
-    exact = forms["interior"].expression
-    if candidate.lhs == VARIANCE_MINUS:
-        exact = _other_branch(exact)
-    elif candidate.lhs != VARIANCE_PLUS:
-        return None
-    return parts_in_the_limit(exact, candidate.rhs, LAYERS)
+
+    def search(candidate: sympy.Eq) -> str | None:
+        exact = forms()["interior"].expression
+        if candidate.lhs == VARIANCE_MINUS:
+            exact = _other_branch(exact)
+        elif candidate.lhs != VARIANCE_PLUS:
+            return None
+        return parts_in_the_limit(exact, candidate.rhs, LAYERS)
+
+    return search
 
 
 def is_vertical(forms: dict[str, ClosedForm], vertical: ModuleType) -> Ruling:
@@ -84,7 +114,7 @@ def height_is(forms: dict[str, ClosedForm], share: sympy.Expr) -> Ruling:
     )
 
 
-def witnessed(load: str, forms: Callable[[], dict[str, ClosedForm]]) -> tuple[Witness, ...]:
+def witnessed(load: str, forms: Forms) -> tuple[Witness, ...]:
     """Both branches of exact packings under a load that is not vertical."""
 
     def ratio(packing: SmallPacking) -> Fraction:

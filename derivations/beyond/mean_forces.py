@@ -1,5 +1,6 @@
 """What Eqs. B5 and B6 have in common: the mean force of a layer, from three covariances."""
 
+from collections.abc import Callable
 from fractions import Fraction
 
 import sympy
@@ -7,6 +8,7 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond.means import decide_in_field
 from force_diffusion.derivations.framework.follows import Decide
+from force_diffusion.derivations.framework.record import Search
 from force_diffusion.derivations.witnesses import second_order as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
@@ -46,20 +48,25 @@ def mean_forms(force: sympy.Expr) -> dict[str, ClosedForm]:
     return by_layer(value)
 
 
-def decided(forms: dict[str, ClosedForm], subject: sympy.Symbol, candidate: sympy.Eq) -> Ruling:
-    """The candidate equals the mean in the interior, as a rational function of M, j and φ."""
-    mean = 1 + forms["interior"].expression
-    ruling = decide_in_field(candidate.rhs, candidate.lhs.xreplace({subject: mean}))
-    return ruling
+def decided(forms: Callable[[], dict[str, ClosedForm]], subject: sympy.Symbol) -> Decide:
+    """The candidate equals the mean for 2 ≤ j ≤ M − 2, as a rational function of M, j and φ."""
+
+    def decide(_: int, candidate: sympy.Eq) -> Ruling:
+        mean = 1 + forms()["interior"].expression
+        return decide_in_field(candidate.rhs, candidate.lhs.xreplace({subject: mean}))
+
+    return decide
 
 
-def searched(load: str, subject: sympy.Symbol, candidate: sympy.Eq) -> str | None:
+def searched(load: str, subject: sympy.Symbol) -> Search:
     """Exact packings in which the mean force is another."""
 
     def exact(height: int, layer: int) -> Fraction:
         return 1 + witnesses.means(height, witnesses.N, load)[0][layer]
 
-    return witnesses.fails(candidate, subject, exact, iter([(4, 2), (5, 2), (5, 3)]))
+    return lambda candidate: witnesses.fails(
+        candidate, subject, exact, iter([(4, 2), (5, 2), (5, 3)])
+    )
 
 
 def balances(_: int, candidate: sympy.Eq) -> Ruling:

@@ -1,17 +1,19 @@
 """The closed forms of a variance, layer by layer, as a derivation tells them."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import sympy
-from force_diffusion.derivations.framework.follows import identity
-from force_diffusion.derivations.framework.record import ExactCase, Missed, Step
+from force_diffusion.derivations.framework.follows import Decide, identity
+from force_diffusion.derivations.framework.record import ExactCase, Missed, Search, Step
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.algebra.reading import Reader
-from force_diffusion.symbolic.as_printed import equation, terms, times
+from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, from_test, undecided
+from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import M, j, phi, r, sigma
 from force_diffusion.symbolic.variances.listed import listed, squares, weights
+from force_diffusion.symbolic.variances.orders import UNIT, compare_leading_order, next_order_is
 from force_diffusion.symbolic.variances.variance import (
     CASES,
     ClosedForm,
@@ -98,6 +100,45 @@ def exact_steps(
             identity({quantity: value}),
             (source,),
         )
+
+
+def next_order(
+    variance: sympy.Symbol,
+    printed: sympy.Expr,
+    forms: dict[str, ClosedForm],
+    following: sympy.Expr,
+    *uses: str,
+) -> Step:
+    """Show what the exact form has beyond its printed leading order, in units of ``UNIT``."""
+    return Step(
+        "The next order in M at fixed z:",
+        equation(terms(variance, minus(printed)), times(UNIT, following)),
+        lambda _, candidate: next_order_is(variance, forms, candidate),
+        uses,
+        relation="∼",
+    )
+
+
+def to_leading_order(variance: sympy.Symbol, forms: Callable[[], dict[str, ClosedForm]]) -> Decide:
+    """The exact variance in the interior less the candidate is of lower order."""
+
+    def decide(_: int, candidate: sympy.Eq) -> Ruling:
+        if candidate.lhs != variance:
+            return undecided(f"the left-hand side is not {text(variance)}")
+        return compare_leading_order(forms()["interior"].value, candidate.rhs)
+
+    return decide
+
+
+def parting(variance: sympy.Symbol, forms: Callable[[], dict[str, ClosedForm]]) -> Search:
+    """Values at growing M where the candidate and the exact variance part."""
+
+    def search(candidate: sympy.Eq) -> str | None:
+        if candidate.lhs != variance:
+            return None
+        return parts_in_the_limit(forms()["interior"].expression, candidate.rhs, LAYERS)
+
+    return search
 
 
 def _zero(outcome: bool, what: str) -> Ruling:

@@ -35,6 +35,10 @@ class KernelError(ForceDiffusionError, RuntimeError):
     exit_status = 1
 
 
+Search = Callable[[sympy.Eq], str | None]
+"""Looks for explicit values at which a candidate is false, and tells them."""
+
+
 @dataclass(frozen=True)
 class Step:
     """One line of reasoning: a statement, and the procedure that rules on it.
@@ -141,8 +145,7 @@ class Derivation:
     loads: tuple[str, ...] = ()  # "single", "surface", "bulk", or "any" but on the bead passed
     relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
     exact: Callable[[], dict[str, "ExactCase"]] | None = None  # forms at finite size, by case
-    # explicit values at which a candidate is false, or None; knows nothing of how it is decided
-    search: Callable[[sympy.Eq], str | None] | None = None
+    search: Search | None = None  # knows nothing of how a candidate is decided
     # mechanical changes that say the same at the order decided, each with the reason why
     equivalent: Mapping[str, str] = field(default_factory=dict)
     # false statements, and true ones in another form, that the procedure is tried on
