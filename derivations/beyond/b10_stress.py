@@ -43,8 +43,14 @@ from force_diffusion.symbolic.mechanics.second_order import (
 )
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import L_minus, L_plus, M, j, n_x, n_y, phi, r, sigma, t
-from force_diffusion.symbolic.variances.means import by_layer, covariance
-from force_diffusion.symbolic.variances.variance import ClosedForm, leading, packings, value_at
+from force_diffusion.symbolic.variances.means import covariance
+from force_diffusion.symbolic.variances.variance import (
+    ClosedForm,
+    by_layer,
+    leading,
+    packings,
+    value_at,
+)
 
 RATIO = Symbol(
     "stress_ratio",

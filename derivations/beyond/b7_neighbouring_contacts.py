@@ -1,7 +1,6 @@
 """Eq. B7: the mean over N neighbouring contacts of one branch fluctuates as 1/N, not 1/√N."""
 
 from collections.abc import Iterator
-from fractions import Fraction
 from functools import cache
 
 import sympy
@@ -14,19 +13,16 @@ from force_diffusion.derivations.beyond.neighbours import (
     Split,
     decided,
     far_is_zero,
-    mean_of_neighbours,
     near,
     none_far,
     same_at,
     searched,
     spread,
     told,
+    witnessed,
 )
 from force_diffusion.derivations.framework.follows import identity
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness, usual
-from force_diffusion.derivations.witnesses import neighbours as witnesses
-from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, usual
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
@@ -80,6 +76,9 @@ def covariances() -> tuple[RationalFunction, ...]:
     return near(eq11.in_radii(FORCE), DEEP)
 
 
+decide = decided(covariances, MEAN_OF_N)
+
+
 def steps() -> Iterator[Step]:
     """Covariances of two; none beyond the second neighbour; their sum."""
     known = told(MEAN_OF_N, covariances())
@@ -112,16 +111,6 @@ def steps() -> Iterator[Step]:
         ("step 1",),
     )
     yield Step("All of it:", PRINTED, decide, ("step 1", "step 3"))
-
-
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Compare with the sum of the covariances."""
-    return decided(mean_of_neighbours(covariances()), MEAN_OF_N, candidate)
-
-
-def search(candidate: sympy.Eq) -> str | None:
-    """Exact packings in which the variance is another."""
-    return searched("force", MEAN_OF_N, candidate, PLACES)
 
 
 SPLITS: tuple[Split, ...] = (({j: k + p, M: k + p + q}, {k: 3, p: 2, q: 1}),)
@@ -165,14 +154,6 @@ def _momentum() -> Ruling:
     )
 
 
-def _witness(packing: SmallPacking) -> Ruling:
-    def stated(height: int, layer: int, count: int, cosine: Fraction) -> Fraction:
-        values: explicit.Values = {M: height, j: layer, N: count, phi: cosine, sigma: 1, r: 1}
-        return explicit.number(PRINTED.rhs, values)
-
-    return witnesses.agree("force", stated, PLACES, packing)
-
-
 DERIVATION = Derivation(
     number="B7",
     name="neighbouring_contacts",
@@ -193,7 +174,7 @@ DERIVATION = Derivation(
     domain=(sympy.Ge(N, 3), sympy.Ge(j, N + 1), sympy.Ge(M, j + 3)),
     steps=steps,
     decide=decide,
-    search=search,
+    search=searched("force", MEAN_OF_N, PLACES),
     claims=(
         Claim("these covariances hold in every layer j ≥ 4 of M ≥ j + 3", _everywhere),
         Claim(
@@ -206,7 +187,7 @@ DERIVATION = Derivation(
             _momentum,
         ),
     ),
-    witnesses=(Witness("exact packings: squares of summed weights, as fractions", _witness),),
+    witnesses=(witnessed("force", PRINTED, PLACES),),
     remarks=(
         "N independent contacts would have σ_f²/N. Force fluctuations are hyperuniform along a "
         "layer up to N of order M³, where the radii of the two layers that touch take over.",

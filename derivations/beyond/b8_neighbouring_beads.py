@@ -1,7 +1,6 @@
 """Eq. B8: the vertical force averaged over N neighbouring beads is hyperuniform."""
 
 from collections.abc import Iterator
-from fractions import Fraction
 from functools import cache
 
 import sympy
@@ -14,18 +13,15 @@ from force_diffusion.derivations.beyond.neighbours import (
     Split,
     decided,
     far_is_zero,
-    mean_of_neighbours,
     near,
     none_far,
     same_at,
     searched,
     told,
+    witnessed,
 )
 from force_diffusion.derivations.framework.follows import identity, states
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness, usual
-from force_diffusion.derivations.witnesses import neighbours as witnesses
-from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.derivations.framework.record import Claim, Derivation, Step, usual
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
@@ -97,6 +93,9 @@ def covariances() -> tuple[RationalFunction, ...]:
     return near(_form(), DEEP)
 
 
+decide = decided(covariances, MEAN_OF_N)
+
+
 BEAD = Symbol("p_bead", "p", "p")
 """The vertical force that a bead gets from both upper contacts."""
 
@@ -141,16 +140,6 @@ def steps() -> Iterator[Step]:
     yield Step("With these covariances:", PRINTED, decide, ("step 2", "step 5"))
 
 
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Compare with the sum of the covariances."""
-    return decided(mean_of_neighbours(covariances()), MEAN_OF_N, candidate)
-
-
-def search(candidate: sympy.Eq) -> str | None:
-    """Exact packings in which the variance is another."""
-    return searched("bead", MEAN_OF_N, candidate, PLACES)
-
-
 SPLITS: tuple[Split, ...] = (({j: k + p, M: 2 * k + p + l}, {k: 3, p: 3, l: 2}),)
 """All places with 3 ≤ k ≤ j − 3 and k ≤ M − j − 2."""
 
@@ -178,14 +167,6 @@ def _leading() -> Ruling:
     )
 
 
-def _witness(packing: SmallPacking) -> Ruling:
-    def stated(height: int, layer: int, count: int, cosine: Fraction) -> Fraction:
-        values: explicit.Values = {M: height, j: layer, N: count, phi: cosine, sigma: 1, r: 1}
-        return explicit.number(PRINTED.rhs, values)
-
-    return witnesses.agree("bead", stated, PLACES, packing)
-
-
 DERIVATION = Derivation(
     number="B8",
     name="neighbouring_beads",
@@ -206,12 +187,12 @@ DERIVATION = Derivation(
     domain=(sympy.Ge(N, 3), sympy.Ge(j, N + 2), sympy.Ge(M, j + N + 2)),
     steps=steps,
     decide=decide,
-    search=search,
+    search=searched("bead", MEAN_OF_N, PLACES),
     claims=(
         Claim("these covariances hold in every layer j ≥ 5 of M ≥ j + 5", _everywhere),
         Claim("for a single bead it is half of Eq. 13, to leading order", _leading),
     ),
-    witnesses=(Witness("exact packings: squares of summed weights, as fractions", _witness),),
+    witnesses=(witnessed("bead", PRINTED, PLACES),),
 )
 
 if __name__ == "__main__":

@@ -23,9 +23,9 @@ from force_diffusion.symbolic.mechanics import second_order
 from force_diffusion.symbolic.mechanics.second_order import mean_force
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import DeltaR, M, i, j, phi, r, sigma, z
-from force_diffusion.symbolic.variances.means import by_layer, covariance
+from force_diffusion.symbolic.variances.means import covariance
 from force_diffusion.symbolic.variances.orders import compare_leading_order
-from force_diffusion.symbolic.variances.variance import ClosedForm, leading, variance
+from force_diffusion.symbolic.variances.variance import ClosedForm, by_layer, leading, variance
 
 SUM_OF_RADII = DeltaR(i, j) + DeltaR(i + 1, j + 1)
 """ρ of the contact above (i, j) along n⁺."""

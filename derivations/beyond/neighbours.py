@@ -7,6 +7,7 @@ from functools import cache
 import sympy
 from force_diffusion.derivations.beyond.means import decide_in_field
 from force_diffusion.derivations.framework.follows import Decide
+from force_diffusion.derivations.framework.record import Search, Witness
 from force_diffusion.derivations.witnesses import neighbours as witnesses
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.algebra.affine import Region
@@ -20,7 +21,7 @@ from force_diffusion.symbolic.kernel.decisions import (
 )
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.symbols import M, N, i, j, k, sigma
+from force_diffusion.symbolic.symbols import M, N, i, j, k, phi, r, sigma
 from force_diffusion.symbolic.variances.means import covariance, covariances_by_case
 
 FARTHEST = 2
@@ -111,11 +112,21 @@ def same_at(form: sympy.Expr, general: RationalFunction, places: int, split: Spl
     )
 
 
-def decided(exact: sympy.Expr, subject: sympy.Symbol, candidate: sympy.Eq) -> Ruling:
+def decided(
+    covariances: Callable[[], tuple[RationalFunction, ...]], subject: sympy.Symbol
+) -> Decide:
     """The candidate equals the exact variance of the mean, as a rational function."""
-    if candidate.lhs != subject:
-        return undecided("the left-hand side is not the variance of the mean of N")
-    return decide_in_field(candidate.rhs, exact)
+
+    def decide(_: int, candidate: sympy.Eq) -> Ruling:
+        if candidate.lhs != subject:
+            return undecided("the left-hand side is not the variance of the mean of N")
+        return decide_in_field(candidate.rhs, mean_of_neighbours(covariances()))
+
+    return decide
+
+
+Places = tuple[tuple[int, int, int], ...]
+"""Packings (M, j, N)."""
 
 
 @cache
@@ -123,22 +134,34 @@ def _found(quantity: str, height: int, layer: int, count: int) -> Fraction:
     return witnesses.mean_variance(quantity, height, layer, count, witnesses.DIRECTION)
 
 
-def searched(
-    quantity: str,
-    subject: sympy.Symbol,
-    candidate: sympy.Eq,
-    places: tuple[tuple[int, int, int], ...],
-) -> str | None:
-    """Exact packings (M, j, N) in which the variance is another, r = σ = 1."""
-    if candidate.lhs != subject:
-        return None
+def searched(quantity: str, subject: sympy.Symbol, places: Places) -> Search:
+    """Exact packings in which the variance is another, r = σ = 1."""
     values = {**explicit.geometry(*witnesses.DIRECTION, Fraction(1)), sigma: 1}
-    for height, layer, count in places:
-        try:
-            stated = explicit.number(candidate.rhs, {**values, M: height, j: layer, N: count})
-        except explicit.AmbiguousError:
+
+    def search(candidate: sympy.Eq) -> str | None:
+        if candidate.lhs != subject:
             return None
-        true = _found(quantity, height, layer, count)
-        if stated != true:
-            return f"for M = {height}, j = {layer}, N = {count} it is {stated}, not {true}"
-    return None
+        for height, layer, count in places:
+            try:
+                stated = explicit.number(candidate.rhs, {**values, M: height, j: layer, N: count})
+            except explicit.AmbiguousError:
+                return None
+            true = _found(quantity, height, layer, count)
+            if stated != true:
+                return f"for M = {height}, j = {layer}, N = {count} it is {stated}, not {true}"
+        return None
+
+    return search
+
+
+def witnessed(quantity: str, printed: sympy.Eq, places: Places) -> Witness:
+    """Exact packings, in which weights of neighbours are summed before they are squared."""
+
+    def stated(height: int, layer: int, count: int, cosine: Fraction) -> Fraction:
+        values: explicit.Values = {M: height, j: layer, N: count, phi: cosine, sigma: 1, r: 1}
+        return explicit.number(printed.rhs, values)
+
+    return Witness(
+        "exact packings: squares of summed weights, as fractions",
+        lambda packing: witnesses.agree(quantity, stated, places, packing),
+    )

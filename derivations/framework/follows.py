@@ -7,7 +7,6 @@ import sympy
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.bases import LINE_SUM, Basis
 from force_diffusion.symbolic.algebra.exact import NotExactError
-from force_diffusion.symbolic.algebra.reading import Reader
 from force_diffusion.symbolic.as_printed import equation, terms
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
@@ -15,6 +14,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     decide_identity,
     decide_linear,
     decide_vector_identity,
+    equal_forms,
     proved,
     undecided,
 )
@@ -132,13 +132,9 @@ def _normal_forms_first(
 
     Every printed equation is tried with packings as well; steps are many, and would take long.
     """
-    reader = Reader(region, basis)
-    read = reader.vector if is_vector else lambda side: (reader.scalar(side),)
     try:
-        pairs = zip(read(left), read(right), strict=True)
-        if all((one - other).is_zero() for one, other in pairs):
-            where = f" for {region}" if len(region) else ""
-            return proved(f"the normal forms are equal{where}")
+        if equal := equal_forms(left, right, region, is_vector=is_vector, basis=basis):
+            return equal
     except NotExactError:
         pass
     return decide_linear(left, right, region, is_vector=is_vector, basis=basis)

@@ -3,10 +3,18 @@
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from functools import cache
+from typing import TYPE_CHECKING
 
 from force_diffusion.derivations.witnesses.draws import Site, SmallPacking
-from force_diffusion.derivations.witnesses.squared_weights import compare, weights_of_forces
+from force_diffusion.derivations.witnesses.squared_weights import (
+    compare,
+    weights_by_layer,
+    weights_of_forces,
+)
 from force_diffusion.symbolic.kernel.decisions import Ruling
+
+if TYPE_CHECKING:
+    from force_diffusion.numeric.mechanics.taylor import TaylorPacking
 
 Direction = tuple[Fraction, Fraction]
 DIRECTION: Direction = (Fraction(21, 29), Fraction(20, 29))
@@ -21,26 +29,16 @@ def weights(quantity: str, height: int, n: Direction) -> tuple[dict[Site, Fracti
     """
     if quantity == "force":
         return tuple(weights_of_forces(height, n, "surface"))
-    from force_diffusion.numeric.mechanics import taylor
 
-    width = height + 2
-    loads = {
-        (across, height): (Fraction(0), Fraction(-1)) for across in range(height % 2, 2 * width, 2)
-    }
-    found: list[dict[Site, Fraction]] = [{} for _ in range(height)]
-    for source in range(height + 1):
-        rho = {(source % 2, source): Fraction(1)}
-        solved = taylor.solve(width, height, n=n, rho=rho, loads=loads, order=1)
-        for layer in range(height):
-            for across in range(layer % 2, 2 * width, 2):
-                total = Fraction(0)
-                for branch in "+-":
-                    ordered, slope = solved.force(across, layer, branch)
-                    total += slope * n[1] + ordered * solved.direction(across, layer, branch)[1][1]
-                if total:
-                    offset = (source % 2 - across + width) % (2 * width) - width
-                    found[layer][offset, source] = total
-    return tuple(found)
+    def vertical(packing: "TaylorPacking", across: int, layer: int) -> Fraction:
+        total = Fraction(0)
+        for branch in "+-":
+            ordered, slope = packing.force(across, layer, branch)
+            total += slope * n[1] + ordered * packing.direction(across, layer, branch)[1][1]
+        return total
+
+    load = {height: (Fraction(0), Fraction(-1))}
+    return tuple(weights_by_layer(height, n, load, vertical))
 
 
 def mean_variance(quantity: str, height: int, layer: int, count: int, n: Direction) -> Fraction:

@@ -6,6 +6,7 @@ state in closed form.
 
 from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 import sympy
 from force_diffusion.derivations.witnesses.both_sides import Truth
@@ -14,6 +15,9 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, undecided
 from force_diffusion.symbolic.variances.variance import ClosedForm, packings, value_at
+
+if TYPE_CHECKING:
+    from force_diffusion.numeric.mechanics.taylor import TaylorPacking
 
 
 def compare(pairs: Iterator[tuple[str, Fraction, Fraction]]) -> Ruling:
@@ -57,26 +61,44 @@ def weights_of_forces(
     layer is the weight of a bead at the opposite offset. ``load`` is "surface" or "bulk",
     ``ratio`` is t = L⁻/L⁺. Keys are (offset i' − i, layer of the bead); the list is indexed by j.
     """
+    carrying = range(1, height + 1) if load == "bulk" else (height,)
+
+    def over_ordered(packing: "TaylorPacking", across: int, layer: int) -> Fraction:
+        ordered, slope = packing.force(across, layer, branch)
+        return slope / ordered
+
+    # each load adds 1 to the ordered f⁺ and t to f⁻ below it
+    carried = (ratio - 1) * n[0], -(1 + ratio) * n[1]
+    return weights_by_layer(height, n, dict.fromkeys(carrying, carried), over_ordered)
+
+
+def weights_by_layer(
+    height: int,
+    n: tuple[Fraction, Fraction],
+    loads: Mapping[int, tuple[Fraction, Fraction]],
+    slope: Callable[["TaylorPacking", int, int], Fraction],
+) -> list[dict[Site, Fraction]]:
+    """First-order weights of a quantity for every layer; each bead of a layer has the same load.
+
+    ``slope`` is its order ε¹ at (i, j) in a packing in which one bead has radius r + ε.
+    """
     from force_diffusion.numeric.mechanics import taylor
 
     width = height + 2
-    carrying = range(1, height + 1) if load == "bulk" else (height,)
-    loads = {
-        # each adds 1 to the ordered f⁺ and t to f⁻ below it
-        (across, layer): ((ratio - 1) * n[0], -(1 + ratio) * n[1])
-        for layer in carrying
+    on_beads = {
+        (across, layer): load
+        for layer, load in loads.items()
         for across in range(layer % 2, 2 * width, 2)
     }
     weights: list[dict[Site, Fraction]] = [{} for _ in range(height)]
     for source in range(height + 1):
         rho = {(source % 2, source): Fraction(1)}
-        solved = taylor.solve(width, height, n=n, rho=rho, loads=loads, order=1)
+        solved = taylor.solve(width, height, n=n, rho=rho, loads=on_beads, order=1)
         for layer in range(height):
             for across in range(layer % 2, 2 * width, 2):
-                ordered, slope = solved.force(across, layer, branch)
-                if slope:
+                if weight := slope(solved, across, layer):
                     offset = (source % 2 - across + width) % (2 * width) - width
-                    weights[layer][offset, source] = slope / ordered
+                    weights[layer][offset, source] = weight
     return weights
 
 

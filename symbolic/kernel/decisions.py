@@ -115,6 +115,22 @@ def counterexample(
     return None
 
 
+def equal_forms(
+    left: sympy.Expr, right: sympy.Expr, region: Region, *, is_vector: bool, basis: Basis
+) -> Ruling | None:
+    """A proof of left = right by their normal forms, or None.
+
+    Raises:
+        NotExactError: one of them could not be read.
+    """
+    reader = Reader(region, basis)
+    read = reader.vector if is_vector else lambda side: (reader.scalar(side),)
+    if any(not (a - b).is_zero() for a, b in zip(read(left), read(right), strict=True)):
+        return None
+    where = f" for {region}" if len(region) else ""
+    return proved(f"the normal forms are equal{where}")
+
+
 def decide_linear(
     left: sympy.Expr,
     right: sympy.Expr,
@@ -128,17 +144,10 @@ def decide_linear(
         found = counterexample(left, right, region, is_vector=is_vector)
         if found:
             return refuted(found)
-        reader = Reader(region, basis)
-        if is_vector:
-            forms = [a - b for a, b in zip(reader.vector(left), reader.vector(right), strict=True)]
-        else:
-            forms = [reader.scalar(left) - reader.scalar(right)]
+        equal = equal_forms(left, right, region, is_vector=is_vector, basis=basis)
     except (NotExactError, explicit.AmbiguousError) as reason:
         return undecided(str(reason))
-    if all(form.is_zero() for form in forms):
-        where = f" for {region}" if len(region) else ""
-        return proved(f"the normal forms are equal{where}")
-    return undecided("the normal forms differ, yet no counterexample was found")
+    return equal or undecided("the normal forms differ, yet no counterexample was found")
 
 
 def decide_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:

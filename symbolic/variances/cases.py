@@ -5,7 +5,7 @@ a region is split at its lowest index until no such coincidence is left open: th
 of it, each index value belongs to exactly one, and no case is chosen by hand.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import sympy
@@ -56,30 +56,45 @@ def at_value(form: LinearForm, symbol: sympy.Symbol, at: int) -> LinearForm:
 
 
 def squares_by_case(
-    form: LinearForm,
-    lower: dict[sympy.Symbol, int],
-    generic: int,
-    at: dict[sympy.Symbol, int] | None = None,
+    form: LinearForm, lower: dict[sympy.Symbol, int], generic: int
 ) -> Iterator[Case]:
     """Σ weight² of a form for all indices from their lower bounds on.
 
     Values below ``generic`` become cases of their own at once, others only where they have to.
     The form must have been read for these indices: its sums are in order for all of them.
     """
+
+    def squares(forms: Forms, region: Region) -> RationalFunction:
+        return take_apart(forms[0], region).sum_of_squares()
+
+    return by_case((form,), lower, generic, squares)
+
+
+Forms = tuple[LinearForm, ...]
+
+
+def by_case(
+    forms: Forms,
+    lower: dict[sympy.Symbol, int],
+    generic: int,
+    value: Callable[[Forms, Region], RationalFunction],
+    at: dict[sympy.Symbol, int] | None = None,
+) -> Iterator[Case]:
+    """A value of several forms, as :func:`squares_by_case` for one."""
     at = at or {}
     symbol = min(lower, key=lambda index: lower[index], default=None)
     try:
         if symbol is None or lower[symbol] >= generic:
-            yield Case(at, lower, take_apart(form, Region(lower)).sum_of_squares())
+            yield Case(at, lower, value(forms, Region(lower)))
             return
     except UndeterminedError:
         if symbol is None or lower[symbol] >= DEEPEST:
             raise
     bound = lower[symbol]
     others = {index: least for index, least in lower.items() if index != symbol}
-    one = at_value(form, symbol, bound)
-    yield from squares_by_case(one, others, generic, {**at, symbol: bound})
-    yield from squares_by_case(form, {**lower, symbol: bound + 1}, generic, at)
+    fixed = tuple(at_value(form, symbol, bound) for form in forms)
+    yield from by_case(fixed, others, generic, value, {**at, symbol: bound})
+    yield from by_case(forms, {**lower, symbol: bound + 1}, generic, value, at)
 
 
 @dataclass(frozen=True)

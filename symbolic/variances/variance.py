@@ -4,7 +4,7 @@ The radii are independent with variance σ², so the variance of a form is σ² 
 squared weights. Orders count M and j together, as at a fixed relative height z = j/M.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache, cached_property
 
@@ -126,21 +126,29 @@ CASES: dict[str, tuple[dict[sympy.Symbol, sympy.Expr], Region, str, tuple[int, .
 """Layers with a closed form of their own: substitution, region, its words, heights missed."""
 
 
-def exact_variances(expression: sympy.Expr) -> dict[str, ClosedForm]:
-    """Closed forms of the variance at every 0 ≤ j < M: interior, both edges, small packings."""
+Layered = Callable[[dict[sympy.Symbol, sympy.Expr], Region], RationalFunction]
+"""A value of a layer: what stands for indices there, and the region of those that are left."""
+
+
+def by_layer(value: Layered) -> dict[str, ClosedForm]:
+    """Closed forms at every 0 ≤ j < M: interior, both edges, and the packings that these miss."""
 
     def form(name: str) -> ClosedForm:
         at, region, validity, missed = CASES[name]
-        value = variance(expression.xreplace(at), region)
         exceptions = []
         for height in missed:
             size = {M: sympy.Integer(height)}
             layer = at[j].xreplace(size)
-            small = variance(expression.xreplace({**size, j: layer}), Region({}))
+            small = value({**size, j: layer}, Region({}))
             exceptions.append((height, int(layer), small.to_sympy()))
-        return ClosedForm(validity, tuple(exceptions), value)
+        return ClosedForm(validity, tuple(exceptions), value(at, region))
 
     return {name: form(name) for name in CASES}
+
+
+def exact_variances(expression: sympy.Expr) -> dict[str, ClosedForm]:
+    """Closed forms of the variance at every 0 ≤ j < M."""
+    return by_layer(lambda at, region: variance(expression.xreplace(at), region))
 
 
 def packings(up_to: int) -> Iterator[tuple[int, int, str]]:
