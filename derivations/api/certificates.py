@@ -25,12 +25,12 @@ from force_diffusion.derivations.coq.record import (
     theory_hash,
 )
 from force_diffusion.derivations.coq.statements import (
-    NotStatedError,
     Statement,
     header,
     statement,
     statements,
 )
+from force_diffusion.derivations.coq.words import NotStatedError
 from force_diffusion.derivations.coq.workshop import (
     ALLOWED,
     CoqAbsentError,

@@ -8,7 +8,8 @@ from enum import StrEnum
 from functools import cache
 from typing import Any
 
-from force_diffusion.derivations.coq.statements import NotStatedError, statements
+from force_diffusion.derivations.coq.statements import statements
+from force_diffusion.derivations.coq.words import NotStatedError
 from force_diffusion.derivations.coq.workshop import PROOFS, theory
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.record import Derivation

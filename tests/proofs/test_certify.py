@@ -11,11 +11,11 @@ from force_diffusion.derivations.api.certificates import answers, certificate, c
 from force_diffusion.derivations.coq.packings import packing_statement
 from force_diffusion.derivations.coq.record import Certificate, Verdict
 from force_diffusion.derivations.coq.statements import (
-    NotStatedError,
     Statement,
     header,
     statement,
 )
+from force_diffusion.derivations.coq.words import NotStatedError
 from force_diffusion.derivations.coq.workshop import ALLOWED, Workshop, theory
 from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load

@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 import sympy
 from force_diffusion.derivations.coq import statements as coq
+from force_diffusion.derivations.coq import words
 from force_diffusion.derivations.coq.packings import packing_statement
 from force_diffusion.derivations.coq.workshop import theory
 from force_diffusion.derivations.framework.loading import load
@@ -34,19 +35,19 @@ i, j, m = sy.i, sy.j, sy.m
     ],
 )  # fmt: skip
 def test_numbers_are_written_as_they_stand(expression: sympy.Expr, written: str) -> None:
-    assert coq.real(expression) == written
+    assert words.real(expression) == written
 
 
 def test_powers_are_written_with_roots() -> None:
-    assert coq.real(sy.M ** sympy.Rational(3, 2)) == "root 2 (IZR M) ^ 3"
-    assert coq.real(sy.sigma ** sympy.Rational(-2, 3)) == "/ root 3 sigma ^ 2"
+    assert words.real(sy.M ** sympy.Rational(3, 2)) == "root 2 (IZR M) ^ 3"
+    assert words.real(sy.sigma ** sympy.Rational(-2, 3)) == "/ root 3 sigma ^ 2"
 
 
 def test_vectors_are_written_as_they_stand() -> None:
     weighed = times(terms(sy.DeltaR(i, j), 1), sy.b_plus)
-    assert coq.vector(weighed) == "scale (delta_r rho i j e + 1) (b_plus G)"
-    assert coq.vector(terms(sy.b_plus, minus(sy.n_plus))) == "minus (b_plus G) (n_plus G)"
-    assert coq.vector(sympy.Integer(0)) == "zero"
+    assert words.vector(weighed) == "scale (delta_r rho i j e + 1) (b_plus G)"
+    assert words.vector(terms(sy.b_plus, minus(sy.n_plus))) == "minus (b_plus G) (n_plus G)"
+    assert words.vector(sympy.Integer(0)) == "zero"
 
 
 @pytest.mark.parametrize(
@@ -54,8 +55,8 @@ def test_vectors_are_written_as_they_stand() -> None:
     [sympy.sin(sy.phi), sympy.Symbol("phi"), sy.DeltaR(i * j, j), sy.DeltaR(i / 2, j), sy.z**i],
 )
 def test_what_there_are_no_words_for_is_not_stated(expression: sympy.Expr) -> None:
-    with pytest.raises(coq.NotStatedError):
-        coq.real(expression)
+    with pytest.raises(words.NotStatedError):
+        words.real(expression)
 
 
 def test_ranges_are_what_the_assumptions_say() -> None:
@@ -76,7 +77,7 @@ def test_a_change_changes_the_statement_and_not_its_hypotheses(number: int) -> N
         for mutant in mutants(printed):
             try:
                 other = coq.statement(derivation, part, mutant.equation)
-            except coq.NotStatedError:
+            except words.NotStatedError:
                 continue
             assert other.proposition != true.proposition
             assert other.hypotheses == true.hypotheses
@@ -85,7 +86,7 @@ def test_a_change_changes_the_statement_and_not_its_hypotheses(number: int) -> N
 def test_a_statistic_is_the_one_that_is_printed() -> None:
     printed = load(13).printed[0]
     other = equation(sympy.Symbol("another"), printed.rhs)
-    with pytest.raises(coq.NotStatedError, match="another"):
+    with pytest.raises(words.NotStatedError, match="another"):
         coq.statement(load(13), 0, other)
 
 
