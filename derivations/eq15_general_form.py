@@ -17,6 +17,8 @@ from force_diffusion.derivations.framework.record import (
     Witness,
     usual,
 )
+from force_diffusion.derivations.parts import mean_deviation, tensile
+from force_diffusion.derivations.parts.tensile import HEIGHT
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
@@ -54,12 +56,9 @@ from force_diffusion.symbolic.variances.orders import UNIT
 from force_diffusion.symbolic.variances.variance import grows_evenly, leading, order, variance
 
 DEVIATION = Symbol("relative_deviation", r"\frac{\sigma_f}{\langle f\rangle}", "σ_f/⟨f⟩")
-HEIGHT = Symbol("M_star", "M^{*}", "M*", positive=True)
 MEAN_SQUARE = Symbol(
     "mean_square", r"\overline{\sigma_f^2/\langle f\rangle^2}", "mean of σ_f²/⟨f⟩²"
 )
-TENSILE = Symbol("tensile", "P(f<0)", "P(f < 0)")
-
 PRINTED = equation(DEVIATION, times(power(M, sympy.Rational(3, 2)), sigma, 1 / r))
 PRINTED_HEIGHT = equation(HEIGHT, power(times(sigma, 1 / r), sympy.Rational(-2, 3)))
 
@@ -73,24 +72,6 @@ NEXT = {"surface": -sympy.Rational(1, 2), "bulk": sympy.Rational(11, 40)}
 
 HEIGHT_SHIFT = {"surface": sympy.Rational(1, 6), "bulk": sympy.Rational(-11, 24)}
 """M at which the exact mean is 1, less M*, as M* → ∞."""
-
-PROFILES = {
-    "surface": times(2, terms(1, -z) ** 2, terms(1, times(2, z))),
-    "bulk": times(sympy.Rational(3, 2), terms(1, -z) ** 2, terms(1, times(4, z))),
-}
-"""σ_f²/⟨f⟩² at leading order in units of (M/M*)³: their mean over z is 1."""
-
-ROOTS: dict[str, tuple[sympy.Expr, int, sympy.Expr]] = {
-    "surface": (sympy.Integer(2), 2, (2 - z) / 5),
-    "bulk": (sympy.Rational(3, 10), 4, (11 - 6 * z) / 60),
-}
-"""a, c, Q: σ_f/⟨f⟩ goes as (1−z)√(a(1+cz)), and √a Q (1+cz)^(3/2) is an antiderivative of that."""
-
-MEAN_DEVIATION = {
-    "surface": sympy.sqrt(2) * (3 * sympy.sqrt(3) - 2) / 5,
-    "bulk": sympy.sqrt(sympy.Rational(3, 10)) * (25 * sympy.sqrt(5) - 11) / 60,
-}
-"""Mean of σ_f/⟨f⟩ itself, in units of M^(3/2) (σ/r)/(1−φ²)."""
 
 
 @cache
@@ -121,27 +102,6 @@ def critical_height(load: str) -> sympy.Expr:
     number = LEADING[load] ** sympy.Rational(-1, 3)
     root = power(scale, sympy.Rational(2, 3))
     return root if number == 1 else times(number, root)
-
-
-SPREAD = {
-    "surface": times(2, terms(1, -z), power(terms(1, times(2, z)), sympy.S.Half)),
-    "bulk": times(sympy.sqrt(3), terms(1, -z), power(terms(1, times(4, z)), sympy.S.Half)),
-}
-"""√(2 profile): what a Gaussian's error function has below one."""
-
-
-def tensile_fraction(load: str) -> sympy.Expr:
-    """Expected fraction of tensile contacts at M ≫ 1 as a function of M/M*."""
-    ratio = power(times(HEIGHT, 1 / M), sympy.Rational(3, 2))
-    inner = times(ratio, power(SPREAD[load], -1))
-    half = times(sympy.S.Half, sympy.erfc(inner, evaluate=False))
-    return sympy.Integral(half, (z, 0, 1))
-
-
-FORCE = Symbol("f_rel", "f", "f", real=True)
-"""A force over its mean."""
-SQUARE = Symbol("v", positive=True)
-"""Its variance."""
 
 
 def _average(load: str) -> Decide:
@@ -175,39 +135,6 @@ def _two_orders(load: str) -> Decide:
     return decide
 
 
-def _root_of_sums(load: str) -> Decide:
-    """Both sides, SymPy differentiating, as functions of the root W of 1 + cz, W² = 1 + cz."""
-    c = ROOTS[load][1]
-    root = sympy.Symbol("W", positive=True)
-
-    def rational(side: sympy.Expr) -> sympy.Expr:
-        whole = {1 + c * z: root**2, z: (root**2 - 1) / c}
-        return rebuilt(side.doit()).xreplace({1 + c * z: root**2}).xreplace(whole)
-
-    return lambda _, candidate: decide_identity(*map(rational, candidate.args))
-
-
-def _mean_root(load: str) -> Decide:
-    """The integral from the antiderivative of the step before, at both ends; surds are exact."""
-    a, c, q = ROOTS[load]
-    ends = [q.subs(z, at) * sympy.sqrt(1 + c * at) ** 3 for at in (1, 0)]
-    value = sympy.sqrt(a) * (ends[0] - ends[1])
-
-    def decide(_: int, candidate: sympy.Eq) -> Ruling:
-        if candidate.lhs != _integral(load):
-            return undecided("the left-hand side is not the integral")
-        rest = sympy.expand(candidate.rhs - value)
-        return from_test(rest == 0, "the surds are equal", f"left minus right is {text(-rest)}")
-
-    return decide
-
-
-def _integral(load: str) -> sympy.Expr:
-    a, c, _ = ROOTS[load]
-    root = power(times(a, terms(1, times(c, z))), sympy.S.Half)
-    return sympy.Integral(times(terms(1, -z), root), (z, 0, 1))
-
-
 def _height(load: str) -> Decide:
     """At this height the leading order of the mean is one, and it is positive."""
 
@@ -218,51 +145,6 @@ def _height(load: str) -> Decide:
         return all_of(
             decide_identity(sympy.expand(height**3) * LEADING[load] * UNIT, _ONE),
             from_test(sign(height) == 1, "it is positive"),
-        )
-
-    return decide
-
-
-def _gaussian(_: int, candidate: sympy.Eq) -> Ruling:
-    """SymPy differentiates; exponents and factors are compared apart."""
-    parts = []
-    for side in candidate.args:
-        factors = sympy.Mul.make_args(sympy.powsimp(side.doit()))
-        exponents = [one.exp for one in factors if isinstance(one, sympy.exp)]
-        if not exponents:
-            return refuted("one side has no exponential")
-        parts.append(
-            (sympy.Mul(*(f for f in factors if not isinstance(f, sympy.exp))), sum(exponents))
-        )
-    (left, one), (right, other) = parts
-    ratio = left / right
-    pi = sympy.Symbol("pi", positive=True)
-    return all_of(
-        decide_identity(one, other),
-        decide_identity((ratio**2).xreplace({sympy.pi: pi}), _ONE),
-        from_test(bool(ratio.subs({SQUARE: 1, FORCE: 0}) > 0), "the factors have one sign"),
-    )
-
-
-def _tensile(load: str) -> Decide:
-    """½ erfc(1/√2v) averaged over 0 < z < 1, v being the printed variance, M* put in."""
-    variance_of_load = LOADS[load].PRINTED.rhs
-    height = {HEIGHT: rebuilt(critical_height(load))}
-
-    def decide(_: int, candidate: sympy.Eq) -> Ruling:
-        average = candidate.rhs
-        whole = isinstance(average, sympy.Integral) and average.limits == (sympy.Tuple(z, 0, 1),)
-        if candidate.lhs != TENSILE or not whole:
-            return undecided("it is not a fraction, averaged over 0 < z < 1")
-        factor, functions = average.function.as_independent(sympy.erfc, as_Add=False)
-        if not isinstance(functions, sympy.erfc):
-            return undecided("it is not a number times erfc")
-        inner = rebuilt(functions.args[0])
-        squared = sympy.expand_power_base(inner.xreplace(height) ** 2, force=True)
-        return all_of(
-            decide_identity(rebuilt(factor), sympy.S.Half),
-            decide_identity(2 * squared * variance_of_load, _ONE),
-            from_test(sign(inner) == 1, "the argument is positive"),
         )
 
     return decide
@@ -303,7 +185,7 @@ def steps() -> Iterator[Step]:
         )
     yield Step("So its root goes as printed, for both loads alike.", PRINTED, decide, FROM_ORDERS)
     for place, load in enumerate(LOADS):
-        _, c, q = ROOTS[load]
+        _, c, q = mean_deviation.ROOTS[load]
         root = terms(1, times(c, z))
         yield Step(
             "The mean of σ_f/⟨f⟩ itself goes the same way with another prefactor, in units of "
@@ -312,12 +194,12 @@ def steps() -> Iterator[Step]:
                 sympy.Derivative(times(q, power(root, sympy.Rational(3, 2))), z),
                 times(terms(1, -z), power(root, sympy.S.Half)),
             ),
-            _root_of_sums(load),
+            mean_deviation.antiderivative(load),
         )
         yield Step(
             "so that the mean is",
-            equation(_integral(load), MEAN_DEVIATION[load]),
-            _mean_root(load),
+            equation(mean_deviation.integral(load), mean_deviation.MEAN_DEVIATION[load]),
+            mean_deviation.mean_root(load),
             (f"Eq. {LOADS[load].DERIVATION.number}", f"step {12 + 2 * place}"),
         )
     yield Step(
@@ -337,13 +219,8 @@ def steps() -> Iterator[Step]:
     yield Step(
         "The probability of a Gaussian force below a given one, with mean 1 and variance v: its "
         "derivative is the density, and far below it vanishes.",
-        equation(
-            sympy.Derivative(
-                sympy.erfc(terms(1, -FORCE) / sympy.sqrt(2 * SQUARE), evaluate=False) / 2, FORCE
-            ),
-            sympy.exp(-(terms(1, -FORCE) ** 2) / (2 * SQUARE)) / sympy.sqrt(2 * sympy.pi * SQUARE),
-        ),
-        _gaussian,
+        tensile.GAUSSIAN,
+        tensile.gaussian,
         positive=(sympy.pi,),
     )
     for place, load in enumerate(LOADS):
@@ -353,8 +230,8 @@ def steps() -> Iterator[Step]:
             "variance: no radius dominates, by Eqs. 13 and 14, which is what Lindeberg's theorem "
             "needs. Averaged over the layers as M → ∞ at fixed M/M*, the expected fraction under a "
             f"{load} load is",
-            equation(TENSILE, tensile_fraction(load)),
-            _tensile(load),
+            equation(tensile.TENSILE, tensile.tensile_fraction(load)),
+            tensile.is_tensile(LOADS[load].PRINTED.rhs, critical_height(load)),
             (f"Eq. {LOADS[load].DERIVATION.number}", f"step {17 + place}", "step 19"),
         )
 
@@ -461,7 +338,7 @@ def _mean_of_deviation() -> Ruling:
     """A uniform bound on the variances lets their roots be averaged at leading order."""
     rulings = []
     for load, module in LOADS.items():
-        a, c, _ = ROOTS[load]
+        a, c, _ = mean_deviation.ROOTS[load]
         in_units = times(a, terms(1, -z) ** 2, terms(1, times(c, z)))
         rulings += [
             from_test(
@@ -480,10 +357,10 @@ def _function_of_the_ratio() -> Ruling:
     for load, module in LOADS.items():
         cubed = M**3 * LEADING[load] * UNIT  # (M/M*)³, for M*³ · LEADING · UNIT = 1
         rulings += [
-            decide_identity(module.PRINTED.rhs, cubed * PROFILES[load]),
+            decide_identity(module.PRINTED.rhs, cubed * tensile.PROFILES[load]),
             decide_identity(rebuilt(critical_height(load)) ** 3 * LEADING[load] * UNIT, _ONE),
-            decide_identity(_mean_over_z(PROFILES[load]), _ONE),
-            decide_identity(rebuilt(SPREAD[load]) ** 2, 2 * PROFILES[load]),
+            decide_identity(_mean_over_z(tensile.PROFILES[load]), _ONE),
+            decide_identity(rebuilt(tensile.SPREAD[load]) ** 2, 2 * tensile.PROFILES[load]),
         ]
     return all_of(*rulings)
 
@@ -508,42 +385,6 @@ def _displacements() -> Ruling:
     )
 
 
-def _peaks() -> Ruling:
-    """The profiles lie below their peaks; what is left is positive for all 0 < z < 1."""
-    tops = {"surface": sympy.Integer(2), "bulk": sympy.Rational(125, 72)}  # at z = 0 and 1/6
-    below = {
-        "surface": (2 * z**2, 3 - 2 * z),
-        "bulk": ((1 - 6 * z) ** 2 / 72, 17 - 12 * z),
-    }
-    rulings = []
-    for load in LOADS:
-        square, factor = below[load]
-        rulings += [
-            decide_identity(tops[load] - PROFILES[load], square * factor),
-            from_test(sign(factor) == 1, "a square times a positive factor is left"),
-        ]
-    log, c = sympy.symbols("L c", positive=True)
-    cubed = 1 / (8 * c * log)  # (M/M*)³
-    lowest = 1 / (2 * tops["surface"] * cubed)  # 1/2σ_f², lowest over layers and loads
-    return all_of(*rulings, decide_identity(lowest, 2 * c * log))
-
-
-def _fraction_of_the_ratio() -> Ruling:
-    """The argument of erfc holds M and M* as M*/M, and is positive."""
-    ratio = sympy.Symbol("t", positive=True)
-    rulings = []
-    for load in LOADS:
-        inner = rebuilt(tensile_fraction(load).function).args[-1].args[0]
-        alone = inner.xreplace({HEIGHT: ratio * M})
-        rulings.append(
-            from_test(
-                alone.free_symbols == {ratio, z} and sign(inner) == 1,
-                "erfc of a positive number, which depends on M*/M and z alone",
-            )
-        )
-    return all_of(*rulings)
-
-
 DERIVATION = Derivation(
     number=15,
     name="general_form",
@@ -552,7 +393,7 @@ DERIVATION = Derivation(
         (DEVIATION, "relative standard deviation of the forces: root of the mean of its square"),
         (HEIGHT, "height at which the leading order of the mean of σ_f²/⟨f⟩² is one"),
         (MEAN_SQUARE, "mean over all contacts"),
-        (TENSILE, "expected fraction of contacts with f < 0"),
+        (tensile.TENSILE, "expected fraction of contacts with f < 0"),
         *usual(sigma, r, M, z, phi),
     ),
     assumptions=(
@@ -588,13 +429,13 @@ DERIVATION = Derivation(
         Claim(
             "the expected fraction of tensile contacts depends on M/M* alone, and lies between 0 "
             "and ½ for every M/M*: it is finite at heights of the order of M*",
-            _fraction_of_the_ratio,
+            tensile.fraction_of_the_ratio,
         ),
         Claim(
             "at leading order σ_f²/⟨f⟩² is nowhere above 2 (M/M*)³ under a surface load, nor above "
             "(125/72) (M/M*)³ under a bulk load; at M = M*/(8c ln M)^(1/3) every 1/2σ_f² is at "
             "least 2c ln M",
-            _peaks,
+            tensile.peaks,
         ),
     ),
     witnesses=(

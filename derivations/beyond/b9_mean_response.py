@@ -12,6 +12,7 @@ from force_diffusion.derivations.beyond.mean_forces import SUM_OF_RADII
 from force_diffusion.derivations.beyond.means import decide_in_field
 from force_diffusion.derivations.framework.follows import identity, linear
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness, usual
+from force_diffusion.derivations.parts import cone
 from force_diffusion.derivations.witnesses import second_order as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import compare
@@ -99,14 +100,14 @@ PRINTED = (
 @cache
 def _inside() -> tuple[Case, ...]:
     """⟨να₁⟩/σ² of a contact f⁺ inside of the cone, by case: p, q ≥ 1."""
-    force, slant = eq11.in_radii(eq16.UPPER_RIGHT), eq11.in_radii(b4.TILT)
+    force, slant = eq11.in_radii(cone.UPPER_RIGHT), eq11.in_radii(b4.TILT)
     return tuple(covariances_by_case(slant, force, {j: 0, p: 1, q: 1}, 3))
 
 
 @cache
 def _leg() -> tuple[Case, ...]:
     """The same of a contact of the left leg, p ≥ 1 steps below the load."""
-    force = eq11.in_radii(eq16.LEG_CONTACT).xreplace(eq16.ON_LEFT_LEG)
+    force = eq11.in_radii(cone.LEG_CONTACT).xreplace(cone.ON_LEFT_LEG)
     return tuple(covariances_by_case(eq11.in_radii(b4.TILT), force, {j: 0, p: 1}, 3))
 
 

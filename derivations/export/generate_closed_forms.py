@@ -23,6 +23,7 @@ from force_diffusion.derivations.beyond import b7_neighbouring_contacts as b7
 from force_diffusion.derivations.beyond import b8_neighbouring_beads as b8
 from force_diffusion.derivations.beyond import b10_stress as b10
 from force_diffusion.derivations.beyond import b11_any_dimension as b11
+from force_diffusion.derivations.parts import cone
 from force_diffusion.symbolic.symbols import M, N, d, i, j, k, kappa, l, n_y, phi, r, sigma, z
 from force_diffusion.symbolic.variances.cases import Piece
 from force_diffusion.symbolic.variances.variance import ClosedForm
@@ -417,10 +418,10 @@ def source() -> str:
     parts.append(
         RESPONSE.format(
             printed=_code(printed, l, j),
-            bead=_piecewise(eq16.BEAD, 4),
-            contact=_piecewise(eq16.CONTACT, 4),
-            leg=_piecewise(eq16.LEG, 4),
-            leg_force=_piecewise(eq16.LEG_FORCE, 1),
+            bead=_piecewise(cone.BEAD, 4),
+            contact=_piecewise(cone.CONTACT, 4),
+            leg=_piecewise(cone.LEG, 4),
+            leg_force=_piecewise(cone.LEG_FORCE, 1),
         )
     )
     return "".join(parts)

@@ -8,15 +8,18 @@ import numpy as np
 import pytest
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations import eq16_response as eq16
-from force_diffusion.derivations.eq16_response import BEAD, covariance
+from force_diffusion.derivations.parts import cone
+from force_diffusion.derivations.parts.cone import BEAD, covariance
 from force_diffusion.derivations.witnesses.draws import DIRECTIONS, draw
 from force_diffusion.derivations.witnesses.squared_weights import responses
 from force_diffusion.numeric import closed_forms
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.mechanics.paths import IN_CONE
 from force_diffusion.symbolic.variances.cases import Piece, first_difference
+from force_diffusion.symbolic.variances.orders import UNIT
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -36,7 +39,7 @@ def test_bead_forms_are_sums_of_squared_weights(j: int, p: int, q: int, phi: int
     """On explicit sites, which know nothing of cases."""
     values = explicit.geometry(*DIRECTIONS[phi], ONE)
     at = {**values, sy.i: j, sy.j: j, sy.p: p, sy.q: q}
-    weights = explicit.weights(eq11.in_radii(eq16.BEAD_RESPONSE), at)
+    weights = explicit.weights(eq11.in_radii(cone.BEAD_RESPONSE), at)
     total = sum((w**2 for key, w in weights.items() if key[0]), Fraction(0))
     site = (0, j, p - q, j + p + q)
     if j % 2:
@@ -45,16 +48,16 @@ def test_bead_forms_are_sums_of_squared_weights(j: int, p: int, q: int, phi: int
 
 
 def test_a_wrong_closed_form_is_found() -> None:
-    cases = eq16.bead_cases()
-    unit = eq16.FIELD.from_sympy(eq16.UNIT / (4 * sy.sigma**2))
-    assert first_difference(BEAD, cases, unit, eq16.IN_CONE) is None
+    cases = cone.bead_cases()
+    unit = FIELD.from_sympy(UNIT / (4 * sy.sigma**2))
+    assert first_difference(BEAD, cases, unit, IN_CONE) is None
     for place, piece in enumerate(BEAD):
         wrong = [*BEAD]
         wrong[place] = Piece(piece.where, piece.at, piece.expression + 1)
-        assert "exceeds" in str(first_difference(wrong, cases, unit, eq16.IN_CONE)), piece.where
-    assert "no closed form" in str(first_difference(BEAD[:-1], cases, unit, eq16.IN_CONE))
+        assert "exceeds" in str(first_difference(wrong, cases, unit, IN_CONE)), piece.where
+    assert "no closed form" in str(first_difference(BEAD[:-1], cases, unit, IN_CONE))
     vague = [Piece("j = 5", {sy.j: 5}, BEAD[-1].expression)]
-    assert "in part" in str(first_difference(vague, cases[-1:], unit, eq16.IN_CONE))
+    assert "in part" in str(first_difference(vague, cases[-1:], unit, IN_CONE))
 
 
 @pytest.mark.parametrize("piece", BEAD, ids=lambda piece: piece.where)
@@ -62,7 +65,7 @@ def test_the_covariance_of_both_contacts_is_that_on_explicit_sites(piece: Piece)
     values = explicit.geometry(*DIRECTIONS[1], ONE)
     at = {**values, sy.i: 0, sy.j: 4, sy.p: 3, sy.q: 4} | piece.at
     right, left = (
-        explicit.weights(eq11.in_radii(force), at) for force in (eq16.UPPER_RIGHT, eq16.UPPER_LEFT)
+        explicit.weights(eq11.in_radii(force), at) for force in (cone.UPPER_RIGHT, cone.UPPER_LEFT)
     )
     common = sum((w * left[site] for site, w in right.items() if site in left), Fraction(0))
     phi = Fraction(values[sy.phi])
@@ -74,7 +77,7 @@ def test_cases_cover_every_site_once() -> None:
         at = {sy.j: j, sy.p: p + 1, sy.q: q + 1}
         having = [
             case
-            for case in eq16.bead_cases()
+            for case in cone.bead_cases()
             if all(at[symbol] == value for symbol, value in case.at.items())
             and all(at[symbol] >= value for symbol, value in case.lower.items())
         ]
@@ -86,7 +89,7 @@ def test_the_branch_is_that_of_equation_10() -> None:
     at = {sy.k: sy.i + sy.p - sy.q, sy.l: sy.j + sy.p + sy.q}
     count = eq10.BRANCH_COUNT.xreplace(at)
     assert count.expand() == sy.q
-    assert eq10.PRINTED.rhs.xreplace({sy.n: sy.q}) == eq16.UPPER_LEFT
+    assert eq10.PRINTED.rhs.xreplace({sy.n: sy.q}) == cone.UPPER_LEFT
 
 
 @given(

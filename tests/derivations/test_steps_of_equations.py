@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import pytest
 import sympy
-from force_diffusion.derivations.eq15_general_form import HEIGHT
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.record import Derivation, Step
 from force_diffusion.derivations.framework.runner import proofs, run
+from force_diffusion.derivations.parts.tensile import HEIGHT
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.kernel.mutants import mutants

@@ -1,0 +1,1 @@
+"""Parts of Eqs. 15 and 16 that stand for themselves."""
