@@ -197,6 +197,14 @@ class BigFloat:
         """Make the private mpmath context."""
         context = mpmath.MPContext()
         context.dps = self.dps
+        converted = context.npconvert
+
+        def npconvert(value: Any) -> Any:
+            if isinstance(value, np.ndarray):  # mpmath would first write out all of it
+                raise TypeError("an array is no number")
+            return converted(value)
+
+        context.npconvert = npconvert
         object.__setattr__(self, "context", context)
 
     dtype: Any = field(default=object, init=False, repr=False)

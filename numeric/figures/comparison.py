@@ -10,6 +10,7 @@ solved both ways, so that most of the sampling error cancels.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -68,9 +69,10 @@ class Height:
         """Largest deviation of the exact finite-M curve, in half-widths of the band."""
         return self.band.deviation(self.exact)
 
-    def corrected_deviation(self, seed: int = 0) -> float:
+    @cached_property  # it is drawn, written and told
+    def corrected_deviation(self) -> float:
         """The same for the corrected curve; its own error widens the band."""
-        both = simultaneous(self.band.estimate - self.correction, self.band.level, seed)
+        both = simultaneous(self.band.estimate - self.correction, self.band.level)
         return both.deviation(self.exact)
 
 
@@ -113,7 +115,7 @@ class Comparison:
         """Verdicts for each height."""
         found = []
         for one in self.heights:
-            alone, corrected = one.deviation(), one.corrected_deviation()
+            alone, corrected = one.deviation(), one.corrected_deviation
             found.append(
                 {
                     "height": one.height,

@@ -23,6 +23,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 COLUMN, PAGE = 3.4, 7.0  # inches
+KINDS = ("png", "svg", "pdf")
 DPI = 300
 BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = (
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",
@@ -123,7 +124,9 @@ def letter(panels: Sequence[Axes]) -> None:
         axes.set_title(f"({name})", loc="left", pad=4)
 
 
-def images(draw: Callable[[], Figure], name: str, title: str, command: str) -> dict[str, bytes]:
+def images(
+    draw: Callable[[], Figure], name: str, title: str, command: str, kinds: Sequence[str] = KINDS
+) -> dict[str, bytes]:
     """Draw PNG, SVG and PDF; each holds the command, none a date."""
     about = {"Title": title, "Description": command}
     metadata: dict[str, dict[str, Any]] = {
@@ -133,24 +136,30 @@ def images(draw: Callable[[], Figure], name: str, title: str, command: str) -> d
     files = {}
     with house_style():
         drawn = draw()
-        files[f"{name}.png"] = _png(drawn, about)
-        for kind, says in metadata.items():
+        drawn.set_dpi(DPI)
+        drawn.draw_without_rendering()  # finds the place of every panel,
+        drawn.set_layout_engine(None)  # the same in all files
+        for kind in kinds:
             file = io.BytesIO()
-            drawn.savefig(file, format=kind, metadata=says)
+            if kind == "png":
+                _png(drawn, about, file)
+            else:
+                drawn.savefig(file, format=kind, metadata=metadata[kind])
             files[f"{name}.{kind}"] = file.getvalue()
     return files
 
 
-def _png(drawn: Figure, about: dict[str, str]) -> bytes:
+def _png(drawn: Figure, about: dict[str, str], file: io.BytesIO) -> None:
     """Lines and letters have few colours: a palette makes the file a third as large."""
-    painted, file = io.BytesIO(), io.BytesIO()
-    drawn.savefig(painted, format="png")
+    painted = io.BytesIO()
+    drawn.savefig(painted, format="rgba")
+    size = drawn.canvas.get_width_height()  # with the dots per inch of ``images``
     words = PngInfo()
     for key, value in about.items():
         words.add_text(key, value)
-    image = Image.open(painted).convert("RGB").quantize(256, dither=Image.Dither.NONE)
+    image = Image.frombytes("RGBA", size, painted.getvalue()).convert("RGB")
+    image = image.quantize(256, dither=Image.Dither.NONE)
     image.save(file, format="png", optimize=True, pnginfo=words, dpi=(DPI, DPI))
-    return file.getvalue()
 
 
 def powers_of_ten(axes: Axes, axis: str, values: Sequence[float], room: float) -> None:

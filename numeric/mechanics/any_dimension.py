@@ -7,6 +7,7 @@ d whole numbers, whose sum is its layer. A surface load along the sum of the bas
 from collections import defaultdict
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import cache
 from itertools import product
 
 Bead = tuple[int, ...]
@@ -32,21 +33,21 @@ def force_weights(
     Two parts that add up: the line sums along the contact's own vector, and all others. To first
     order f of a bead's lower contact is what enters it and b^a·Σ_c(δn^c − δn^c below).
     """
-    own, other = reciprocal(dimension, phi)
-    parts: tuple[Weights, Weights] = defaultdict(Fraction), defaultdict(Fraction)
+    # A weight is its part's factor times n − φ m, with whole numbers n and m, which are counted.
+    parts = tuple(defaultdict[Bead, list[int]](lambda: [0, 0]) for _ in range(2))
 
-    def line_sum(to: Weights, bead: Bead, along: int, factor: Fraction) -> None:
+    def line_sum(to: dict[Bead, list[int]], bead: Bead, along: int, sign: int) -> None:
         top = sum(bead)
         for below in range(top + 1 if top else 0):
-            share = factor if below in (0, top) else 2 * factor
-            to[stepped(bead, along, -below)] += share
+            share = sign if below in (0, top) else 2 * sign
+            to[stepped(bead, along, -below)][0] += share
 
-    def tilt(to: Weights, bead: Bead, up: int, along: int, factor: Fraction) -> None:
+    def tilt(to: dict[Bead, list[int]], bead: Bead, up: int, along: int, sign: int) -> None:
         upper = stepped(bead, up)
-        line_sum(to, upper, along, factor)
-        line_sum(to, bead, along, -factor)
+        line_sum(to, upper, along, sign)
+        line_sum(to, bead, along, -sign)
         for end in (bead, upper):
-            to[end] -= phi * factor
+            to[end][1] += sign
 
     start = (layer, *(0 for _ in range(dimension - 1)))
     for count in range(1, height - layer + 1):
@@ -54,11 +55,17 @@ def force_weights(
         for up, along in product(range(dimension), repeat=2):
             if up == along:
                 continue
-            to, factor = (parts[0], own / 2) if along == 0 else (parts[1], other / 2)
+            to = parts[along != 0]
             if sum(bead) < height:
-                tilt(to, bead, up, along, factor)
-            tilt(to, stepped(bead, up, -1), up, along, -factor)
-    return parts
+                tilt(to, bead, up, along, 1)
+            tilt(to, stepped(bead, up, -1), up, along, -1)
+
+    def weights(counts: dict[Bead, list[int]], factor: Fraction) -> Weights:
+        weight = cache(lambda n, m: factor * (n - phi * m))
+        return {bead: weight(*count) for bead, count in counts.items()}
+
+    own, other = reciprocal(dimension, phi)
+    return weights(parts[0], own / 2), weights(parts[1], other / 2)
 
 
 def squared(weights: Mapping[Bead, Fraction]) -> Fraction:

@@ -1,5 +1,6 @@
 """The engine: the one way in which packings are solved, whatever is asked and of how many."""
 
+import sys
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
@@ -21,8 +22,10 @@ from .work import Work
 if TYPE_CHECKING:
     from .compiled import Sweeps
 
-# Beads from which on the compiled sweeps repay loading the compiler (half a second).
-COMPILED_FROM = 2_000_000
+# Beads from which on the compiled sweeps repay loading the compiler (half a second). A row of a
+# packing, which NumPy draws by a call of its own, counts for so many beads; once the compiler is
+# loaded, a small part of them is enough.
+COMPILED_FROM, OF_ROW, ONCE_LOADED = 2_000_000, 40, 1 / 50
 # Beads of diagonals that are drawn together.
 BLOCK = 10_000
 # Beads that are swept together: their arrays still fit into a cache.
@@ -180,7 +183,10 @@ def _loads(problem: Problem, system: NumberSystem) -> Loads | None:
 
 def _compiled(problem: Problem, system: NumberSystem) -> "Sweeps | None":
     """Give the compiled sweeps, same numbers: for much work in float64, where numba is."""
-    much = problem.region.beads * problem.realisations >= COMPILED_FROM
+    region = problem.region
+    beads = (region.beads + OF_ROW * len(region.rows)) * problem.realisations
+    loaded = f"{__package__}.compiled" in sys.modules
+    much = beads >= COMPILED_FROM * (ONCE_LOADED if loaded else 1)
     swept = problem.route in {Route.EXACT, Route.FIRST_ORDER}  # of the latter only the radii
     if not (much and swept and system is FLOAT64):
         return None
