@@ -48,7 +48,7 @@ class Shift:
 def shift(
     changes: Callable[[Literal["exact", "first-order"]], Array], seed: int, unit: float = 1.0
 ) -> Shift:
-    """Estimate from changes of the same packings in both geometries, (realisations, L)."""
+    """Estimate from changes in units of ``unit``, (realisations, L), of the same packings."""
     each = (changes("exact") - changes("first-order")) / unit / STD**2
     mean = each.mean(axis=0)
     return Shift(simultaneous(averaged(mean, each - mean), LEVEL, seed))
