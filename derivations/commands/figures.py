@@ -1,6 +1,7 @@
 """The command ``figures``: a thin layer over ``fd.figure``."""
 
 import json
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
 NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5", "B7", "B9", "B10", "B11")
 MODELS = {"q-model": "3", "double-y": "4"}
+OWN_SPACING, OWN_STD = ("2", "3", "4", "pf", "chains"), ("3", "4", "pf", "chains")
 LEAST_REALISATIONS, MOST_REALISATIONS = 16, 1_000_000
 HIGHEST, MOST_HEIGHTS = 10_000, 6
 STATUSES = (
@@ -44,6 +46,15 @@ def _heights(text: str) -> tuple[int, ...]:
             param_hint="--heights",
         )
     return heights
+
+
+def _number(option: str, text: str | None) -> Fraction | None:
+    from force_diffusion.numeric.arithmetic.decimals import parse
+
+    try:
+        return None if text is None else parse(text)
+    except ValueError as error:
+        raise typer.BadParameter(f"{error}.", param_hint=option) from None
 
 
 def figures(
@@ -80,6 +91,14 @@ def figures(
             "--with", metavar="MODEL", help="Draw q-model beside figure 3, double-y beside 4."
         ),
     ] = None,
+    spacing: Annotated[
+        str | None,
+        typer.Option(metavar="S", help="s/r of figures 2, 3, 4, pf, chains; 3 by default."),
+    ] = None,
+    relative_std: Annotated[
+        str | None,
+        typer.Option(metavar="X", help="σ/r of figures 3, 4, pf, chains, in place of their own."),
+    ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print what was found as JSON and nothing else.")
     ] = False,
@@ -103,6 +122,16 @@ def figures(
             "goes with figures 3, 4, pf, B2, B5, B7 and B9 only; the others draw no ensemble.",
             param_hint="--realisations",
         )
+    own = {
+        "spacing": (_number("--spacing", spacing), OWN_SPACING),
+        "relative_std": (_number("--relative-std", relative_std), OWN_STD),
+    }
+    for key, (value, those) in own.items():
+        if value is not None and not set(those) & set(wanted):
+            raise typer.BadParameter(
+                f"goes with figures {', '.join(those)} only; add one of them.",
+                param_hint=f"--{key.replace('_', '-')}",
+            )
     for model in beside or []:
         if model not in MODELS:
             raise typer.BadParameter(
@@ -123,6 +152,8 @@ def figures(
     words += [] if heights is None else ["--heights", heights]
     words += [] if realisations is None else ["--realisations", str(realisations)]
     words += ["--seed", str(seed)]
+    words += [] if spacing is None else ["--spacing", spacing]
+    words += [] if relative_std is None else ["--relative-std", relative_std]
     words += [word for model in beside or [] for word in ("--with", model)]
     command = shell_line([*words, "--out", str(out)])
     stems = [scenes.get(name) or FIGURES[name].file for name in wanted]
@@ -134,7 +165,7 @@ def figures(
     names = [file for stem in stems for file in (*images(stem), f"{stem}.csv", f"{stem}.json")]
     with noticing() as notice, output(out, "figures", names, overwrite) as folder:
         data, files = _made(
-            wanted, command, beside or [], **({} if chosen is None else {"heights": chosen}),
+            wanted, command, beside or [], own, **({} if chosen is None else {"heights": chosen}),
             realisations=realisations, seed=seed, notice=notice,
         )  # fmt: skip
         if folder:
@@ -148,19 +179,26 @@ def figures(
 
 
 def _made(
-    wanted: list[str], command: str, beside: list[str], **options: Any
+    wanted: list[str],
+    command: str,
+    beside: list[str],
+    own: dict[str, tuple[Fraction | None, tuple[str, ...]]],
+    **options: Any,
 ) -> tuple[dict[str, Any], dict[str, str | bytes]]:
     """Make figures one after the other: what was found, and the files."""
     data: dict[str, Any] = {"command": command, "figures": {}}
     files: dict[str, str | bytes] = {}
     for name in wanted:
-        own = [model for model in beside if MODELS[model] == name]
+        models = [model for model in beside if MODELS[model] == name]
+        chosen: dict[str, Any] = {
+            key: value for key, (value, those) in own.items() if name in those
+        }
         with about(Path(name).name if name.endswith(".toml") else f"figure {name}"):
             try:
                 if name.endswith(".toml"):
                     made = _own(Path(name), command, options["notice"])
                 else:
-                    made = fd.figure(name, beside=own, command=command, **options)
+                    made = fd.figure(name, beside=models, command=command, **chosen, **options)
             except ForceDiffusionError as error:
                 if name != "3":
                     raise

@@ -4,6 +4,7 @@ import csv
 import io
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from operator import index
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, SupportsIndex
 
@@ -24,7 +25,7 @@ from . import (
     stress,
 )
 from .library import drawing
-from .packings import Notice, Row
+from .packings import PAPER, Medium, Notice, Row, planned
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,6 +34,9 @@ HEIGHTS = (8, 32, 128)
 LEAST_REALISATIONS = 16
 MODELS = {"q-model": "3", "double-y": "4"}
 """What may be drawn beside which figure."""
+OWN_SPACING = ("2", "3", "4", "pf", "chains")
+"""Figures of packings whose spacing, and σ/r but in figure 2, can be chosen."""
+LEAST_STD, MOST_STD = 1e-9, 0.5
 
 
 @dataclass(frozen=True)
@@ -43,7 +47,13 @@ class Options:
     realisations: int | None = None
     seed: int = 1
     models: frozenset[str] = field(default_factory=frozenset)
+    spacing: Fraction | None = None
+    relative_std: float | None = None
     notice: Notice = lambda _: None
+
+    def medium(self, usual: Medium = PAPER) -> Medium:
+        """Give what was chosen, in place of what is usual for a figure."""
+        return Medium(self.spacing or usual.spacing, self.relative_std or usual.std)
 
 
 class Data(Protocol):
@@ -115,14 +125,19 @@ FIGURES = {
     "2": _Figure(
         "figure2",
         "Diffusion of geometry and of forces",
-        lambda o: diffusion.widths(diffusion.HEIGHT, o.notice),
+        lambda o: diffusion.widths(diffusion.HEIGHT, o.medium(), o.notice),
         diffusion.draw,
     ),
     "3": _Figure(
         "figure3",
         "Theory against exact simulation, surface load",
         lambda o: comparison.compare(
-            o.heights, o.realisations or 400, o.seed, o.notice, q_model="q-model" in o.models
+            o.heights,
+            o.realisations or 400,
+            o.seed,
+            o.notice,
+            q_model="q-model" in o.models,
+            medium=o.medium(),
         ),
         _draw_comparison,
     ),
@@ -130,18 +145,25 @@ FIGURES = {
         "figure4",
         "Mean and fluctuation of the response to an isolated load",
         lambda o: response.respond(
-            o.realisations or 4000, o.seed, o.notice, double_y="double-y" in o.models
+            o.realisations or 4000,
+            o.seed,
+            o.notice,
+            double_y="double-y" in o.models,
+            medium=o.medium(response.MEDIUM),
         ),
         _draw_response,
     ),
     "pf": _Figure(
         "pf",
         "P(f) against the Gaussian",
-        lambda o: distribution.samples(o.realisations or 4000, o.seed, o.notice),
+        lambda o: distribution.samples(o.realisations or 4000, o.seed, o.notice, o.medium()),
         distribution.draw,
     ),
     "chains": _Figure(
-        "chains", "Force chains", lambda o: chains.contacts(o.seed, o.notice), chains.draw
+        "chains",
+        "Force chains",
+        lambda o: chains.contacts(o.seed, o.notice, o.medium(chains.MEDIUM)),
+        chains.draw,
     ),
     "B2": _Figure(
         "figureB2",
@@ -189,6 +211,8 @@ def figure(
     realisations: int | None = None,
     seed: int = 1,
     beside: str | Collection[str] = (),
+    spacing: Any = None,
+    relative_std: Any = None,
     notice: Notice = lambda _: None,
     command: str | None = None,
 ) -> PaperFigure:
@@ -212,12 +236,14 @@ def figure(
             ≥ 16.
         seed: seed of all radii.
         beside: "q-model" (beside figure 3) or "double-y" (beside figure 4).
+        spacing: s in units of r of figures 2, 3, 4, pf and chains, 2 < s < 2√3.
+        relative_std: σ_δr/r of figures 3, 4, pf and chains.
         notice: told what is made next.
         command: what every file says that made it.
 
     Raises:
         NoSuchFigureError: there is no such figure or model.
-        SceneError: heights, realisations or a seed that can't be.
+        SceneError: heights, realisations, a seed, spacing or σ/r that can't be.
         UnbuildableError, NotStandingError: radii of such a height can't be built or stand.
         MissingLibraryError: there is no matplotlib.
     """
@@ -238,11 +264,12 @@ def figure(
         raise SceneError("realisations", realisations, allowed)
     if not isinstance(heights, Iterable) or isinstance(heights, str):
         raise SceneError("heights", heights, "must be a list of whole numbers, such as [16, 32]")
+    chosen = _chosen(str(name), spacing, relative_std)
     with drawing():
         from . import style
 
         file, title, data_of, draw = FIGURES[str(name)]
-        data = data_of(Options(heights, realisations, seed, frozenset(beside), notice))
+        data = data_of(Options(heights, realisations, seed, frozenset(beside), *chosen, notice))
         notice(f"{file}: drawing")
         made_by = command or f"force_diffusion.figure({name!r}, seed={seed})"
         tables = data.tables().items()
@@ -251,6 +278,27 @@ def figure(
             **{f"{table}.csv": csv_file(rows, title, made_by) for table, rows in tables},
         }
     return PaperFigure(title, files, data.facts(), data.lines())
+
+
+def _chosen(name: str, spacing: Any, relative_std: Any) -> tuple[Fraction | None, float | None]:
+    """Check spacing and σ/r, if they are given."""
+    for key, value, own in (
+        ("spacing", spacing, OWN_SPACING), ("relative_std", relative_std, OWN_SPACING[1:]),
+    ):  # fmt: skip
+        if value is not None and name not in own:
+            raise SceneError(key, value, f"goes with figures {', '.join(own)} only")
+    usual = PAPER.spacing if spacing is None else spacing
+    std = PAPER.std if relative_std is None else relative_std
+    scene = planned("profile", height=1, width=3, seed=0, spacing=usual, std=std).scene
+    assert scene.disorder is not None
+    std = float(scene.disorder.relative_std or 0)
+    if not LEAST_STD <= std <= MOST_STD:
+        allowed = f"must lie between {LEAST_STD:g} and {MOST_STD:g}"
+        raise SceneError("relative_std", relative_std, allowed)
+    return (
+        None if spacing is None else scene.packing.s,
+        None if relative_std is None else std,
+    )
 
 
 def csv_file(rows: list[Row], title: str, command: str) -> str:

@@ -13,6 +13,7 @@ import numpy as np
 from ..mechanics.physicality import Physicality
 from ..theory.critical_height import critical_height
 from .packings import (
+    Medium,
     Notice,
     Row,
     centres,
@@ -24,7 +25,8 @@ from .packings import (
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-HEIGHT, WIDTH, STD = 24, 64, 5e-3
+HEIGHT, WIDTH = 24, 64
+MEDIUM = Medium(std=5e-3)
 SHOWN = 34  # beads of a layer that are drawn
 
 
@@ -33,6 +35,7 @@ class Chains:
     """Contacts: lower bead (i, j), branch, both ends in units of r, f over the mean force."""
 
     contacts: tuple[Row, ...]
+    medium: Medium
     smallest_gap: float | None
 
     def tables(self) -> dict[str, list[Row]]:
@@ -45,8 +48,9 @@ class Chains:
         return {
             "height": HEIGHT,
             "width": WIDTH,
-            "relative_std": STD,
-            "critical_height": critical_height(Fraction(STD)),
+            "spacing_over_r": float(self.medium.spacing),
+            "relative_std": self.medium.std,
+            "critical_height": critical_height(Fraction(self.medium.std)),
             "contacts": len(forces),
             "tensile": sum(f < 0 for f in forces),
             "largest_force": max(forces),
@@ -63,16 +67,19 @@ class Chains:
         ]
 
 
-def contacts(seed: int, notice: Notice) -> Chains:
+def contacts(seed: int, notice: Notice, medium: Medium = MEDIUM) -> Chains:
     """Solve one packing."""
     notice("chains")
-    plan = planned("contact_forces", height=HEIGHT, width=WIDTH, seed=seed, std=STD)
+    plan = planned(
+        "contact_forces", height=HEIGHT, width=WIDTH, seed=seed, std=medium.std,
+        spacing=medium.spacing,
+    )  # fmt: skip
     answer = next(solved(plan, range(1)))[0]
     forces, packing = forces_of(answer), answer.packing
     assert packing is not None
     physical = Physicality()
     physical.look_at_gaps(packing)
-    period = float(3 * WIDTH)
+    period = float(medium.spacing * WIDTH)
     found: list[Row] = []
     for j in range(1, HEIGHT + 1):
         upper, lower = centres(packing, j)[2:], centres(packing, j - 1)[2:]
@@ -94,7 +101,7 @@ def contacts(seed: int, notice: Notice) -> Chains:
                         "force": float((F[q] + g[q]) / F[q]),
                     }
                 )
-    return Chains(tuple(found), physical.smallest_gap)
+    return Chains(tuple(found), medium, physical.smallest_gap)
 
 
 def draw(data: Chains) -> "Figure":
@@ -106,7 +113,7 @@ def draw(data: Chains) -> "Figure":
     forces = np.array([row["force"] for row in data.contacts])
     ends = np.array([[(r["x_low"], r["y_low"]), (r["x_high"], r["y_high"])] for r in data.contacts])
     parts.force_chains(axes, ends, forces)
-    right, top = 3.0 * SHOWN, ends[..., 1].max()
+    right, top = float(data.medium.spacing) * SHOWN, ends[..., 1].max()
     parts.surface_load(axes, 0, right, top)
     axes.set_xlim(0, right)
     axes.set_ylim(-1.5, top + 5)

@@ -28,8 +28,8 @@ from ..statistics.bands import (
 from ..theory.critical_height import critical_height
 from .models.q_model import weight_variance
 from .packings import (
-    PAPER_STD,
-    PHI,
+    PAPER,
+    Medium,
     Notice,
     Row,
     changes,
@@ -82,6 +82,7 @@ class Comparison:
 
     heights: tuple[Height, ...]
     q_model: bool
+    medium: Medium
 
     def tables(self) -> dict[str, list[Row]]:
         """CSV files: σ/⟨f⟩ plain; multiply by M^(-3/2) to get what is drawn."""
@@ -130,8 +131,9 @@ class Comparison:
             )
         return {
             "simultaneous_level": LEVEL,
-            "relative_std": PAPER_STD,
-            "critical_height": critical_height(Fraction(PAPER_STD)),
+            "spacing_over_r": float(self.medium.spacing),
+            "relative_std": self.medium.std,
+            "critical_height": critical_height(Fraction(self.medium.std)),
             "heights": found,
         }
 
@@ -167,45 +169,55 @@ def compare(
     notice: Notice,
     *,
     q_model: bool = False,
+    medium: Medium = PAPER,
 ) -> Comparison:
     """Simulate and compare. Raises ``SceneError`` and what the sweeps raise near M*."""
     for M in heights:  # one that is too large is refused before any is solved
-        _ensemble(M, realisations, seed, "exact")
-    return Comparison(tuple(_height(M, realisations, seed, notice) for M in heights), q_model)
+        _ensemble(M, realisations, seed, "exact", medium)
+    found = tuple(_height(M, realisations, seed, medium, notice) for M in heights)
+    return Comparison(found, q_model, medium)
 
 
-def _height(M: int, n: int, seed: int, notice: Notice) -> Height:
+def _height(M: int, n: int, seed: int, medium: Medium, notice: Notice) -> Height:
     start = M << 32  # heights share no radii
-    moments = averages(M, range(start, start + n), seed, "exact", notice)
+    moments = averages(M, range(start, start + n), seed, "exact", notice, medium)
     band = simultaneous(averaged(*log_relative_std(*moments)), LEVEL, seed)
     apart = range(start + n, start + n + max(n // 8, LEAST // 2))
-    log, influence = log_relative_std(*averages(M, apart, seed, "exact", notice))
-    first, first_influence = log_relative_std(*averages(M, apart, seed, "first-order", notice))
-    exact, printed = curves(M)
+    log, influence = log_relative_std(*averages(M, apart, seed, "exact", notice, medium))
+    first, first_influence = log_relative_std(
+        *averages(M, apart, seed, "first-order", notice, medium)
+    )
+    exact, printed = curves(M, medium)
     correction = averaged(log - first, influence - first_influence)
     return Height(M, n, band, exact, printed, correction)
 
 
-def curves(M: int) -> tuple[Array, Array]:
+def curves(M: int, medium: Medium = PAPER) -> tuple[Array, Array]:
     """Give σ_f/⟨f⟩ of layers 0 … M − 1 by Eq. 13: exact to first order at finite M, and printed."""
-    phi = float(PHI)
-    exact = [closed_forms.surface_variance(M, j, phi, PAPER_STD, 1.0) for j in range(M)]
-    printed = [closed_forms.surface_diffusion(M, j / M, phi, PAPER_STD, 1.0) for j in range(M)]
+    phi, std = float(medium.phi), medium.std
+    exact = [closed_forms.surface_variance(M, j, phi, std, 1.0) for j in range(M)]
+    printed = [closed_forms.surface_diffusion(M, j / M, phi, std, 1.0) for j in range(M)]
     return np.sqrt(exact), np.sqrt(printed)
 
 
-def _ensemble(M: int, realisations: int, seed: int, geometry: str) -> Plan:
+def _ensemble(M: int, realisations: int, seed: int, geometry: str, medium: Medium) -> Plan:
     """Plan packings of W = 2M: then no exact force sees an image."""
     return planned(
-        "profile", height=M, width=2 * M, seed=seed, geometry=geometry, realisations=realisations
-    )
+        "profile", height=M, width=2 * M, seed=seed, geometry=geometry,
+        realisations=realisations, std=medium.std, spacing=medium.spacing,
+    )  # fmt: skip
 
 
 def averages(
-    M: int, realisations: range, seed: int, geometry: str, notice: Notice
+    M: int,
+    realisations: range,
+    seed: int,
+    geometry: str,
+    notice: Notice,
+    medium: Medium = PAPER,
 ) -> tuple[Array, Array]:
     """Average g = f/F − 1 and g² over the contacts of each layer; shapes (realisations, M)."""
-    ensemble = _ensemble(M, len(realisations), seed, geometry)
+    ensemble = _ensemble(M, len(realisations), seed, geometry, medium)
     what = f"figure 3, M = {M}" + ("" if geometry == "exact" else ", first order")
     means: list[Array] = []
     squares: list[Array] = []

@@ -1,5 +1,7 @@
 """Figure 3 drawn: simulation, exact finite-M curves and the printed curve; below, their ratio."""
 
+import math
+
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
@@ -9,7 +11,6 @@ from .. import closed_forms
 from . import style
 from .comparison import LEVEL, NOTEWORTHY, Comparison, Height
 from .models.q_model import weight_variance
-from .packings import PAPER_STD, PHI
 
 
 def draw(data: Comparison) -> Figure:
@@ -29,8 +30,10 @@ def draw(data: Comparison) -> Figure:
 
 def _theory_and_simulation(axes: Axes, data: Comparison) -> None:
     z = np.linspace(0, 1, 201)
-    one_layer = [closed_forms.surface_diffusion(1, v, float(PHI), PAPER_STD, 1.0) for v in z]
-    scale = 1e4
+    phi, std = float(data.medium.phi), data.medium.std
+    one_layer = [closed_forms.surface_diffusion(1, v, phi, std, 1.0) for v in z]
+    power = -math.floor(math.log10(std))
+    scale = 10.0**power
     axes.plot(z, scale * np.sqrt(one_layer), "--", color="black", label="Eq. (13), printed")
     handles: list[Artist] = [style.line("black", "--", "Eq. (13), printed")]
     handles.append(style.line("0.35", "-", "exact at finite $M$"))
@@ -56,7 +59,7 @@ def _theory_and_simulation(axes: Axes, data: Comparison) -> None:
     axes.set_xlim(0, 1)
     axes.set_ylim(0, None)
     axes.tick_params(labelbottom=False)
-    axes.set_ylabel(r"$10^{4}\,M^{-3/2}\,\sigma_f/\langle f\rangle$")
+    axes.set_ylabel(rf"$10^{{{power}}}\,M^{{-3/2}}\,\sigma_f/\langle f\rangle$")
     axes.legend(handles=handles, loc="lower left")
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..arithmetic.systems import Array
 from .comparison import curves
-from .packings import N_X, PAPER_STD, Notice, Row
+from .packings import PAPER, Medium, Notice, Row
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 HEIGHT = 16
 
 
-def displacement_std(height: int) -> tuple[Array, Array]:
+def displacement_std(height: int, medium: Medium = PAPER) -> tuple[Array, Array]:
     """Give σ_x and σ_y of beads in layers 0 … M, in units of σ_δr; exact to first order (Eq. 3)."""
-    nx, j = float(N_X), np.arange(height + 1)
+    nx, j = float(medium.n_x), np.arange(height + 1)
     ny = np.sqrt(1 - nx**2)
     x, y = (4 * j - 3) / (2 * nx**2), (4 * j - 1) / (2 * ny**2)
     return np.sqrt(np.where(j > 0, x, 0)), np.sqrt(np.where(j > 0, y, 0))
@@ -36,6 +36,7 @@ class Diffusion:
     """Standard deviations by layer: displacements (M + 1,) in σ_δr, forces (M,) as σ_f/⟨f⟩."""
 
     height: int
+    medium: Medium
     x: Array
     y: Array
     force: Array
@@ -72,17 +73,21 @@ class Diffusion:
 
     def facts(self) -> dict[str, Any]:
         """What was put in."""
-        return {"height": self.height, "relative_std": PAPER_STD}
+        return {
+            "height": self.height,
+            "spacing_over_r": float(self.medium.spacing),
+            "relative_std": self.medium.std,
+        }
 
     def lines(self) -> list[str]:
         """Nothing is decided here."""
         return [f"exact first-order widths at M = {self.height}"]
 
 
-def widths(height: int, notice: Notice) -> Diffusion:
+def widths(height: int, medium: Medium, notice: Notice) -> Diffusion:
     """Evaluate the closed forms."""
     notice("figure 2")
-    return Diffusion(height, *displacement_std(height), *curves(height))
+    return Diffusion(height, medium, *displacement_std(height, medium), *curves(height, medium))
 
 
 def draw(data: Diffusion) -> "Figure":

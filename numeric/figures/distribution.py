@@ -16,8 +16,8 @@ import numpy as np
 from .. import closed_forms
 from ..arithmetic.systems import Array
 from .packings import (
-    PAPER_STD,
-    PHI,
+    PAPER,
+    Medium,
     Notice,
     Row,
     changes,
@@ -74,6 +74,7 @@ class Distribution:
     """P(f) of one contact at the base, for several radii and heights."""
 
     samples: tuple[Sample, ...]
+    medium: Medium
 
     def tables(self) -> dict[str, list[Row]]:
         """CSV files: the samples themselves, and the tests."""
@@ -87,7 +88,8 @@ class Distribution:
     def facts(self) -> dict[str, Any]:
         """What the tests say; both together at level 1 %."""
         return {
-            "relative_std": PAPER_STD,
+            "spacing_over_r": float(self.medium.spacing),
+            "relative_std": self.medium.std,
             "level_of_both_tests_together": LEVEL,
             "samples": [one.facts() for one in self.samples],
         }
@@ -102,10 +104,10 @@ class Distribution:
         ]
 
 
-def samples(realisations: int, seed: int, notice: Notice) -> Distribution:
+def samples(realisations: int, seed: int, notice: Notice, medium: Medium = PAPER) -> Distribution:
     """Draw one contact from each realisation, and test."""
     found = [
-        _sample(case, range(number << 32, (number << 32) + realisations), seed, notice)
+        _sample(case, range(number << 32, (number << 32) + realisations), seed, medium, notice)
         for number, case in enumerate(CASES)  # samples share no radii
     ]
     notice("P(f): tests")
@@ -114,12 +116,13 @@ def samples(realisations: int, seed: int, notice: Notice) -> Distribution:
         tuple(
             Sample(*case, deviates, *p_values, KURTOSIS[case[0]] * share)
             for case, (deviates, share), p_values in zip(CASES, found, values, strict=True)
-        )
+        ),
+        medium,
     )
 
 
 def _sample(
-    case: tuple[str, int], realisations: range, seed: int, notice: Notice
+    case: tuple[str, int], realisations: range, seed: int, medium: Medium, notice: Notice
 ) -> tuple[Array, float]:
     """Give the deviates, and Σw⁴/(Σw²)² of the weights of the radii."""
     kind, M = case
@@ -131,10 +134,12 @@ def _sample(
         seed=seed,
         kind=kind,
         realisations=len(realisations),
+        std=medium.std,
+        spacing=medium.spacing,
     )
     what = f"P(f), {kind} radii, M = {M}"
     found = [g[0, :, 0] / F[0, 0] for F, g in changes(plan, realisations, notice, what)]
-    std = np.sqrt(closed_forms.surface_variance(M, 0, float(PHI), PAPER_STD, 1.0))
+    std = np.sqrt(closed_forms.surface_variance(M, 0, float(medium.phi), medium.std, 1.0))
     weights = forces_of(impulses(plan)).change.plus[1][:, 0]
     share = float((weights**4).sum() / (weights**2).sum() ** 2)
     return np.concatenate(found) / std, share

@@ -1,6 +1,7 @@
 """Ensembles for figures: planned, and solved batch after batch by the engine."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 from math import sqrt
 from typing import Any
@@ -35,8 +36,33 @@ Row = dict[str, Any]
 # (σ_δr/r)² = 1e-6/12, uniform radii, and s = 3 r, as in the caption of figure 3.
 PAPER_STD = sqrt(1e-6 / 12)
 SPACING = Fraction(3)
-N_X = SPACING / 4
-PHI = 1 - 2 * N_X**2
+
+
+@dataclass(frozen=True)
+class Medium:
+    """What packings are made of: the spacing s in units of r, and σ_δr/r."""
+
+    spacing: Fraction = SPACING
+    std: float = PAPER_STD
+
+    @property
+    def n_x(self) -> Fraction:
+        """Horizontal component of n⁺."""
+        return self.spacing / 4
+
+    @property
+    def n_y(self) -> float:
+        """Vertical component of n⁺ and n⁻."""
+        return sqrt(1 - float(self.n_x) ** 2)
+
+    @property
+    def phi(self) -> Fraction:
+        """φ = n⁺·n⁻."""
+        return 1 - 2 * self.n_x**2
+
+
+PAPER = Medium()
+N_X, PHI = PAPER.n_x, PAPER.phi
 
 
 def planned(
@@ -109,8 +135,8 @@ def impulses(plan: Plan) -> Solved:
     edges = np.cumsum([row.count for row in region.rows])[:-1]
     rho = tuple(np.split(unit, edges, axis=1))
     with FLOAT64.active():
-        packing = displace(N_X, region, rho, FLOAT64)
-        strength = ensemble.load.strength(N_X, FLOAT64)
+        packing = displace(ensemble.n_x, region, rho, FLOAT64)
+        strength = ensemble.load.strength(ensemble.n_x, FLOAT64)
         loads = ensemble.load.on(ensemble.force_rows, strength, FLOAT64)
         forces = sweep_down(packing, ensemble.force_rows, loads, linear=True)
     return Solved(FLOAT64, packing, forces, None)
@@ -118,7 +144,8 @@ def impulses(plan: Plan) -> Solved:
 
 def centres(packing: SolvedPacking, j: int) -> tuple[Array, Array, Array, Array]:
     """Give x and y of the beads of a layer, ordered and displaced, in units of r."""
-    nx, ny = float(N_X), sqrt(1 - float(N_X) ** 2)
+    nx = float(packing.n_x)
+    ny = sqrt(1 - nx**2)
     x = np.array(packing.region.rows[j].sites()) * (2 * nx)
     y = np.full(len(x), 2 * j * ny)
     cp, cm = packing.c.plus[j], packing.c.minus[j]

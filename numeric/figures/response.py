@@ -23,8 +23,7 @@ from ..scene.sections import PointLoad
 from ..statistics.bands import Band, averaged, simultaneous
 from .models.double_y import Profile, profiles
 from .packings import (
-    N_X,
-    PHI,
+    Medium,
     Notice,
     Row,
     planned,
@@ -32,7 +31,7 @@ from .packings import (
 )
 
 APEX = 24  # the loaded bead is (0, APEX)
-STD = 1e-4  # far below M*
+MEDIUM = Medium(std=1e-4)  # far below M*
 LEVEL = 0.99
 CUTS = (18, 12, 6, 0)
 
@@ -48,6 +47,7 @@ class Response:
 
     apex: int
     realisations: int
+    medium: Medium
     variance: tuple[Array, ...]
     one_contact: tuple[Array, ...]
     mean: tuple[Array, ...]
@@ -58,7 +58,7 @@ class Response:
 
     def printed(self, j: int) -> float:
         """Eq. 16, in (σ/r)²."""
-        return 1.5 / float(1 - PHI**2) ** 2 * (self.apex + j)
+        return 1.5 / float(1 - self.medium.phi**2) ** 2 * (self.apex + j)
 
     def sites(self, j: int) -> Array:
         """All i of layer j within the cone."""
@@ -76,7 +76,9 @@ class Response:
 
     def standard_error(self, j: int, q: int) -> float:
         """Give the standard error of the simulated mean on the q-th bead of layer j."""
-        return STD * sqrt(float(self.simulated_variance[j][q]) / (self.realisations - 1))
+        return self.medium.std * sqrt(
+            float(self.simulated_variance[j][q]) / (self.realisations - 1)
+        )
 
     def deviation(self) -> float:
         """Give the largest deviation of the exact first-order σ on the cuts, in half-widths."""
@@ -118,7 +120,8 @@ class Response:
         found: dict[str, Any] = {
             "apex": self.apex,
             "realisations": self.realisations,
-            "relative_std": STD,
+            "spacing_over_r": float(self.medium.spacing),
+            "relative_std": self.medium.std,
             "simultaneous_level": LEVEL,
             "exact_first_order_inside": self.deviation() <= 1,
             "largest_deviation_in_half_widths": self.deviation(),
@@ -144,14 +147,22 @@ def _on_cuts(layers: tuple[Array, ...]) -> Array:
     return np.concatenate([layers[j] for j in CUTS], axis=-1)
 
 
-def respond(realisations: int, seed: int, notice: Notice, *, double_y: bool = False) -> Response:
+def respond(
+    realisations: int,
+    seed: int,
+    notice: Notice,
+    *,
+    double_y: bool = False,
+    medium: Medium = MEDIUM,
+) -> Response:
     """Evaluate the closed forms, and simulate."""
     ensemble = planned(
         "response",
         height=APEX,
         width=None,
         seed=seed,
-        std=STD,
+        std=medium.std,
+        spacing=medium.spacing,
         load=PointLoad(at=(0, APEX)),
         realisations=realisations,
     )
@@ -160,19 +171,20 @@ def respond(realisations: int, seed: int, notice: Notice, *, double_y: bool = Fa
     for answer, number in solved(ensemble, range(realisations), notice, "figure 4"):
         samples.append(vertical(ensemble, answer, number))
     changes = tuple(np.concatenate(parts) for parts in zip(*samples, strict=True))
-    cut = _on_cuts(changes) / STD
+    cut = _on_cuts(changes) / medium.std
     variance = cut.var(axis=0)
     influence = (cut - cut.mean(axis=0)) ** 2 / (2 * variance) - 0.5
     return Response(
         APEX,
         realisations,
-        tuple(_exact(j, bead_response) for j in range(APEX)),
-        tuple(_exact(j, contact_response, "+") for j in range(APEX)),
+        medium,
+        tuple(_exact(j, medium, bead_response) for j in range(APEX)),
+        tuple(_exact(j, medium, contact_response, "+") for j in range(APEX)),
         ordered,
         tuple(F + p.mean(axis=0) for F, p in zip(ordered, changes, strict=True)),
-        tuple(p.var(axis=0) / STD**2 for p in changes),
+        tuple(p.var(axis=0) / medium.std**2 for p in changes),
         simultaneous(averaged(np.log(variance) / 2, influence), LEVEL, seed),
-        profiles(asin(N_X), seed) if double_y else (),
+        profiles(asin(medium.n_x), seed) if double_y else (),
     )
 
 
@@ -182,10 +194,11 @@ def _ordered(j: int) -> Array:
     return mean
 
 
-def _exact(j: int, variance: Callable[..., Any], *branch: str) -> Array:
+def _exact(j: int, medium: Medium, variance: Callable[..., Any], *branch: str) -> Array:
     """Evaluate a closed form on all beads of layer j within the cone, in (f_load σ/r)²."""
     reach = APEX - j
-    found = [variance(i, j, 0, APEX, *branch, PHI, 1, 1) for i in range(-reach, reach + 1, 2)]
+    phi = medium.phi
+    found = [variance(i, j, 0, APEX, *branch, phi, 1, 1) for i in range(-reach, reach + 1, 2)]
     return np.array(found, dtype=float)
 
 

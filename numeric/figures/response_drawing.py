@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 from ..arithmetic.systems import Array
 from . import parts, style
 from .models.double_y import Profile
-from .packings import N_X
+from .packings import Medium
 from .response import CUTS, LEVEL, Response
 
 
@@ -18,7 +18,7 @@ def draw(data: Response) -> Figure:
     if data.double_y:
         figure = style.figure(style.PAGE, 4.7)
         panels = figure.subplots(2, 2, height_ratios=(1, 1.05)).ravel().tolist()
-        _double_y(panels[3], data.double_y)
+        _double_y(panels[3], data.double_y, data.medium)
     else:
         figure = style.figure(style.PAGE, 3.4)
         grid = figure.add_gridspec(2, 2, width_ratios=(0.85, 1.1))
@@ -38,7 +38,7 @@ VARIANCE = r"$\sigma^2_{\rm ensemble}(p)\,/\,(f^{\rm load}\sigma_{\delta r}/r)^2
 def _map(
     axes: Axes, data: Response, values: tuple[Array, ...], name: str, where: str, highest: float
 ) -> None:
-    nx, ny = float(N_X), np.sqrt(1 - float(N_X) ** 2)
+    nx, ny = float(data.medium.n_x), data.medium.n_y
     parts.cone(
         axes,
         [(2 * nx * i, 2 * ny * j) for j in range(data.apex) for i in data.sites(j)],
@@ -94,12 +94,12 @@ def _cuts(axes: Axes, data: Response) -> None:
     )  # fmt: skip
 
 
-def _double_y(axes: Axes, found: tuple[Profile, ...]) -> None:
+def _double_y(axes: Axes, found: tuple[Profile, ...], medium: Medium) -> None:
     for number, one in enumerate(found):
         colour, _ = style.series(number)
         dashes = ("-", (0, (5, 2)), (0, (1, 1.2)), (0, (4, 1.5, 1, 1.5)))[number % 4]
         axes.stairs(one.density, one.edges, color=colour, ls=dashes, lw=1.0, label=one.name)
-    cone = float(N_X / (1 - N_X**2) ** 0.5)
+    cone = float(medium.n_x) / medium.n_y
     for x in (-cone, cone):
         axes.axvline(x, color="0.6", lw=0.6, ls=(0, (1, 1.5)), zorder=0,
                      label="the packing's cone" if x > 0 else None)  # fmt: skip

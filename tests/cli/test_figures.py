@@ -127,6 +127,12 @@ def test_the_other_figures_and_the_simpler_models(
         (["3", "--with", "triple-z"], "q-model or double-y"),
         (["3", "--with", "double-y"], "add 4"),
         (["3", "--out", ""], "names no folder"),
+        (["1", "--spacing", "2.5"], "figures 2, 3, 4, pf, chains only"),
+        (["2", "--relative-std", "1e-3"], "figures 3, 4, pf, chains only"),
+        (["2", "--spacing", "3.5"], "3.4641"),
+        (["2", "--spacing", "wide"], "no finite decimal"),
+        (["chains", "--relative-std", "0"], "between 1e-09 and 0.5"),
+        (["pf", "--relative-std", "nan"], "no finite decimal"),
         (["3", "--heights", "10000"], "memory"),
     ],
 )

@@ -4,6 +4,7 @@ import csv
 import json
 import math
 from collections import defaultdict
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -30,6 +31,7 @@ from force_diffusion.numeric.figures.packings import (
     N_X,
     PAPER_STD,
     PHI,
+    Medium,
     forces_of,
     impulses,
     planned,
@@ -276,6 +278,28 @@ def test_the_disorder_is_that_of_the_paper() -> None:
     assert float(plan.problem.radii.relative_std()) == PAPER_STD
     assert pytest.approx(1e-6 / 12, rel=1e-15) == PAPER_STD**2
     assert Fraction(3, 4) == N_X
+
+
+def test_figures_of_another_spacing_and_disorder_are_those_of_its_theory() -> None:
+    medium = Medium(Fraction(12, 5), 1e-3)
+    found = comparison.compare([6], 300, 1, silent, medium=medium)
+    (one,) = found.heights
+    assert one.deviation() <= 1
+    assert one.band.deviation(comparison.curves(6)[0]) > 1
+    assert one.band.deviation(comparison.curves(6, Medium(std=1e-3))[0]) > 1
+    narrow, paper = (
+        response.respond(300, 1, silent, medium=Medium(spacing, 1e-4))
+        for spacing in (Fraction(21, 10), Fraction(3))
+    )
+    assert narrow.deviation() <= 1
+    other = replace(narrow, variance=paper.variance)
+    assert other.deviation() > 1
+    wide, usual = (
+        diffusion.displacement_std(4, Medium(s)) for s in (Fraction(33, 10), Fraction(3))
+    )
+    assert wide[0][-1] < usual[0][-1]
+    assert wide[1][-1] > usual[1][-1]
+    assert chains.contacts(1, silent, Medium(std=1e-4)).facts()["tensile"] == 0
 
 
 def test_figure_b2_finds_theory_within_the_band_and_a_wrong_one_outside() -> None:
