@@ -31,10 +31,10 @@ NEARLY = Fraction(999, 1000)
 class RadiusError(ForceDiffusionError, ValueError):
     """A radius is missing or not positive; ``site`` names the bead."""
 
-    def __init__(self, site: tuple[int, int], reason: str) -> None:
+    def __init__(self, site: tuple[int, ...], reason: str) -> None:
         """Name the bead and what is wrong."""
         super().__init__(f"bead {site}: {reason}")
-        self.site = site
+        self.site, self.reason = site, reason
 
 
 class Radii(Protocol):

@@ -12,7 +12,7 @@ from typing import Any
 
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
-from ..lattice.branch import Branch
+from ..lattice.branch import Direction
 from ..mechanics.problem import Problem, Route, Solved
 from ..planning.plan import Plan
 from ..planning.planner import plan
@@ -108,7 +108,7 @@ class Measurement:
         return self._of.changes(self.problem, solved, realisations)
 
     @cached_property
-    def pieces(self) -> list[tuple[int, Branch, int]] | None:
+    def pieces(self) -> list[tuple[int, Direction, int]] | None:
         """Give (group, branch, layer of the upper beads) of all that a group of layers holds.
 
         None where groups are single contacts.

@@ -19,6 +19,8 @@ def figure_of(plan: Plan, columns: Mapping[str, Array], errors: Mapping[str, Arr
     answer of no rows.
     """
     quantity = plan.quantity.name
+    if plan.problem.dimension == 3:
+        raise SceneError("packing.dimension", 3, "an answer has a figure in two dimensions only")
     with drawing():
         from .answers_drawing import DRAWN
 

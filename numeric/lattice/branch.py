@@ -1,4 +1,4 @@
-"""The two branches of contacts, and what there is of each."""
+"""Along which base vector contacts lead up: two branches, or three axes; what there is of each."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -9,7 +9,16 @@ T = TypeVar("T")
 Site = tuple[int, int]
 
 
-class Branch(StrEnum):
+class Direction(StrEnum):
+    """Along which base vector a contact leads up."""
+
+    @property
+    def side(self) -> int:
+        """The change of i; 0 in three dimensions, where nothing is called i."""
+        return 0
+
+
+class Branch(Direction):
     """Orientation of a contact: from its lower bead (i, j) up to (i + side, j + 1).
 
     >>> [(branch.value, branch.side) for branch in Branch]
@@ -28,6 +37,32 @@ class Branch(StrEnum):
     def other(self) -> "Branch":
         """The other branch."""
         return Branch.MINUS if self is Branch.PLUS else Branch.PLUS
+
+
+class Axis(Direction):
+    """One of the three base vectors in three dimensions.
+
+    >>> [(axis.value, axis.number) for axis in Axis]
+    [('1', 0), ('2', 1), ('3', 2)]
+    """
+
+    FIRST = "1"
+    SECOND = "2"
+    THIRD = "3"
+
+    @property
+    def number(self) -> int:
+        """0, 1 or 2."""
+        return int(self.value) - 1
+
+
+class AxisContact(NamedTuple):
+    """A contact in three dimensions, by its lower bead (p, q, j) and its axis."""
+
+    p: int
+    q: int
+    j: int
+    axis: Axis
 
 
 class Contact(NamedTuple):
@@ -54,9 +89,26 @@ class PerBranch(Generic[T]):
     plus: T
     minus: T
 
-    def __getitem__(self, branch: Branch) -> T:
+    def __getitem__(self, branch: Direction) -> T:
         return self.plus if branch == Branch.PLUS else self.minus
 
-    def __iter__(self) -> Iterator[tuple[Branch, T]]:
+    def __iter__(self) -> Iterator[tuple[Direction, T]]:
         yield Branch.PLUS, self.plus
         yield Branch.MINUS, self.minus
+
+
+@dataclass(frozen=True)
+class PerAxis(PerBranch[T]):
+    """Something for each of three axes.
+
+    >>> PerAxis(5, 6, 7)[Axis.THIRD], [value for _, value in PerAxis(5, 6, 7)]
+    (7, [5, 6, 7])
+    """
+
+    third: T
+
+    def __getitem__(self, axis: Direction) -> T:
+        return (self.plus, self.minus, self.third)[int(axis.value) - 1]
+
+    def __iter__(self) -> Iterator[tuple[Direction, T]]:
+        yield from ((axis, self[axis]) for axis in Axis)

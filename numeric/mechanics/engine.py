@@ -12,7 +12,7 @@ from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import rows_of
 from ..lattice.branch import Branch
 from ..lattice.layers import Layer
-from . import first_order, packing
+from . import first_order, packing, three_dimensions
 from .forces import Loads, sweep_down
 from .physicality import PHYSICAL, Physicality
 from .plain_form import solve_plainly
@@ -98,18 +98,25 @@ def packings(
                     solved = _solved(problem, chunk, system, work, sweeps, loads)
                 else:
                     solved = all_solved if len(parts) == 1 else all_solved.some(part)
-                if physical is not None and solved.packing is not None:
+                if physical is not None:
                     with work.timed(PHYSICAL):
                         physical.looks_at = chunk
-                        physical.look_at_gaps(solved.packing)
-                        if solved.forces is not None:
-                            physical.look_at_forces(solved.forces)
-                    region = solved.packing.region
+                        _look(physical, solved)
+                    region = problem.region
                     work.did_rows("checked", region.rows, region.beads * len(chunk))
                 yield solved, chunk
     finally:
         if sweeps is not None and any_number:
             _kept[:] = [(ref(problem, lambda _: _kept.clear()), sweeps, loads)]
+
+
+def _look(physical: Physicality, solved: Solved) -> None:
+    if isinstance(solved, three_dimensions.Spheres):
+        solved.look_at_gaps(physical)
+    if solved.packing is not None:
+        physical.look_at_gaps(solved.packing)
+    if solved.forces is not None:
+        physical.look_at_forces(solved.forces)
 
 
 def solve(
@@ -128,6 +135,8 @@ def _solved(
     sweeps: "Sweeps | None",
     loads: Loads | None,
 ) -> Solved:
+    if problem.dimension == 3:
+        return three_dimensions.solve(problem, realisations, system, work)
     if problem.route == Route.ORDERED:
         with work.timed("closed form"):
             return _ordered(problem, system)
@@ -166,6 +175,8 @@ def _solved(
 
 def _ready(problem: Problem, system: NumberSystem) -> "tuple[Sweeps | None, Loads | None]":
     """Give what all realisations have alike: the compiled sweeps, if they are taken, and loads."""
+    if problem.dimension == 3:
+        return None, None
     with suppress(IndexError):
         last, sweeps, loads = _kept.pop()
         if last() is problem:

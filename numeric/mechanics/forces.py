@@ -19,7 +19,7 @@ import numpy as np
 
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
 from ..arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem, zeros
-from ..lattice.branch import Branch, Contact, PerBranch
+from ..lattice.branch import AxisContact, Branch, Contact, Direction, PerBranch
 from ..lattice.layers import Layer, pick
 from .packing import SolvedPacking
 from .work import Work
@@ -28,9 +28,11 @@ from .work import Work
 class NotStandingError(ForceDiffusionError, ValueError):
     """The two contacts below a bead are parallel: no forces can hold it up; ``site`` names it."""
 
-    def __init__(self, site: tuple[int, int]) -> None:
+    def __init__(
+        self, site: tuple[int, ...], reason: str = "the two contacts below it are parallel"
+    ) -> None:
         """Name the bead."""
-        super().__init__(f"bead {site}: the two contacts below it are parallel")
+        super().__init__(f"bead {site}: {reason}")
         self.site = site
 
 
@@ -56,10 +58,14 @@ class Forces:
     change: PerBranch[Sequence[Array]]
     stopped: Contact | None = None
 
-    def below(self, j: int) -> Iterator[tuple[Branch, Array, Array]]:
+    def below(self, j: int) -> Iterator[tuple[Direction, Array, Array]]:
         """Give (branch, F, g) of the contacts below row j."""
         for branch, F in self.ordered:
             yield branch, F[j], self.change[branch][j]
+
+    def contact(self, layer: Layer, branch: Direction, column: int) -> Contact | AxisContact:
+        """Name the contact below a bead of a row."""
+        return Contact(layer.first + 2 * column - branch.side, layer.j - 1, Branch(branch))
 
 
 @dataclass(frozen=True)
@@ -141,8 +147,8 @@ def sweep_down(
             sp, sm = gp + turn_plus, gm + turn_minus
             turn_plus = turn_plus - (sp * (plus[0] + minor) + sm * minus[0]) / det
             turn_minus = turn_minus - (sm * (minus[1] + minor) + sp * plus[1]) / det
-        gp, lost_plus = _added(gp, turn_plus, system)
-        gm, lost_minus = _added(gm, turn_minus, system)
+        gp, lost_plus = added(gp, turn_plus, system)
+        gm, lost_minus = added(gm, turn_minus, system)
         lost = (lost_plus, lost_minus)
         if work is not None:
             work.did("balanced", layer, gp.size // layer.count)
@@ -232,7 +238,7 @@ def _from_above(
     return Fp, Fm, gp, gm, turn_plus, turn_minus
 
 
-def _added(force: Array, turn: Array, system: NumberSystem) -> tuple[Array, Any]:
+def added(force: Array, turn: Array, system: NumberSystem) -> tuple[Array, Any]:
     """Add, and give what the rounding lost (Knuth's two-sum), which the next layer takes along.
 
     One force passes straight down through every layer: without this its roundings pile up. Balls

@@ -11,7 +11,7 @@ from itertools import combinations, pairwise
 
 from ..lattice.branch import Branch, Contact, Site
 from ..lattice.layers import full_layer
-from . import first_order
+from . import first_order, three_dimensions
 from .loads import LoadSpec
 from .problem import Problem, Route
 
@@ -21,6 +21,8 @@ def sees_images(problem: Problem, lowest_layer: int) -> bool:
 
     ``lowest_layer``: of the beads that are asked about (1: by the contacts below them).
     """
+    if problem.dimension == 3:
+        return three_dimensions.sees_images(problem, lowest_layer)
     width, load, contact = problem.width, problem.load, problem.contact
     if width is None:
         return False

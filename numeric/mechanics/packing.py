@@ -138,7 +138,7 @@ class CompiledPacking(SolvedPacking):
 class UnbuildableError(ForceDiffusionError, ValueError):
     """A bead can't rest on its two supports; ``site`` names it."""
 
-    def __init__(self, site: tuple[int, int], reason: str) -> None:
+    def __init__(self, site: tuple[int, ...], reason: str) -> None:
         """Name the bead and what is wrong with it."""
         super().__init__(f"bead {site}: {reason}")
         self.site = site

@@ -3,13 +3,13 @@
 Signs of forces are those of the arithmetic that solved them: with balls they are certified.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..arithmetic.systems import Array, as_floats
-from ..lattice.branch import Contact
+from ..lattice.branch import AxisContact, Contact, Site
 from .forces import Forces, pulling
 from .gaps import NEIGHBOURS, RESOLUTION, gaps
 from .packing import CompiledPacking, SolvedPacking
@@ -22,14 +22,14 @@ class Physicality:
     """What was found, merged over layers and realisations."""
 
     smallest_gap: float | None = None
-    between: tuple[tuple[int, int], tuple[int, int]] | None = None
+    between: tuple[tuple[int, ...], tuple[int, ...]] | None = None
     overlaps: int = 0
     undecided_gaps: int = 0
     tensile: int = 0
     undecided_signs: int = 0
     contacts: int = 0
     forces_known: bool = False
-    first_tensile: Contact | None = None
+    first_tensile: Contact | AxisContact | None = None
     smallest_in: int = 0
     first_tensile_in: int = 0
     """Realisations, or packings of a batch, that the two were found in."""
@@ -58,7 +58,7 @@ class Physicality:
         assert self.smallest_gap is not None
         assert self.between is not None
         lower, upper = self.between
-        return self.smallest_gap, upper[1] - lower[1], lower[1]
+        return self.smallest_gap, upper[-1] - lower[-1], lower[-1]
 
     def look_at_gaps(self, packing: SolvedPacking, layers: range | None = None) -> None:
         """Measure the gaps of every pair of near neighbours within the region.
@@ -120,21 +120,25 @@ class Physicality:
         up = c_plus[j + dj][..., other] - c_plus[j][..., inside]
         um = c_minus[j + dj][..., other] - c_minus[j][..., inside]
         both = rho[j][..., inside] + rho[j + dj][..., other]
-        gap = gaps(packing.n_x, offset, up, um, both)
+        period = 2 * width if width is not None else None
+
+        def pair(bead: int) -> tuple[Site, Site]:
+            i = here.first + 2 * int(np.flatnonzero(inside)[bead])
+            return (_home(i, period), here.j), (_home(i + di, period), there.j)
+
+        self.count_gaps(gaps(packing.n_x, offset, up, um, both), pair)
+
+    def count_gaps(
+        self, gap: Array, pair: Callable[[int], tuple[tuple[int, ...], tuple[int, ...]]]
+    ) -> None:
+        """Take in gaps, shape (…, beads); ``pair`` names the two beads of one."""
         self.overlaps += int(np.count_nonzero(gap < -RESOLUTION))
         self.undecided_gaps += int(np.count_nonzero(np.abs(gap) <= RESOLUTION))
         smallest = float(gap.min())
         if self.smallest_gap is None or not smallest >= self.smallest_gap:
             *batch, at = np.argwhere(gap == gap.min())[0]
             self.smallest_in = self.looks_at[int(batch[0]) if batch else 0]
-            q = int(np.flatnonzero(inside)[at])
-            i = here.first + 2 * q
-            period = 2 * width if width is not None else None
-            self.smallest_gap = smallest
-            self.between = (
-                (_home(i, period), here.j),
-                (_home(i + di, period), there.j),
-            )
+            self.smallest_gap, self.between = smallest, pair(int(at))
 
     def look_at_forces(self, forces: Forces, layers: range | None = None) -> None:
         """Count the contacts that surely pull and those whose sign stays open.
@@ -157,9 +161,7 @@ class Physicality:
                 if pulls.any() and self.first_tensile is None:
                     *batch, q = map(int, np.argwhere(pulls)[0])
                     self.first_tensile_in = self.looks_at[batch[0] if batch else 0]
-                    self.first_tensile = Contact(
-                        layer.first + 2 * q - branch.side, layer.j - 1, branch
-                    )
+                    self.first_tensile = forces.contact(layer, branch, q)
 
 
 def _home(i: int, period: int | None) -> int:

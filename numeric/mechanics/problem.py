@@ -34,7 +34,8 @@ class Problem:
     where only positions are asked for. ``contact`` or ``site``: the one that is asked for, if it is
     one. ``realisations``: how many there are in all; it decides who sweeps, never a number.
     ``protocol``: how beads come to rest where contacts are unilateral.
-    ``segment``: how many layers are in memory at a time, 0 for all of them.
+    ``segment``: how many layers are in memory at a time, 0 for all of them. ``dimension``: 3 for
+    ``three_dimensions``, whose layers of W² beads count as one row.
     """
 
     n_x: Fraction
@@ -50,6 +51,7 @@ class Problem:
     realisations: int = 1
     protocol: str = ""
     segment: int = 0
+    dimension: int = 2
 
     @property
     def width(self) -> int | None:

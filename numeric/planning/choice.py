@@ -85,7 +85,7 @@ def candidates(
                 None if made is None else made.estimated_seconds, out, None if out else made,
             )  # fmt: skip
             found.append((order, candidate))
-        if problem.route == Route.EXACT:
+        if problem.route == Route.EXACT and problem.dimension == 2:
             found.append((len(found), _in_plain_form(tolerance, problem)))
 
     def rank(one: tuple[int, Candidate]) -> tuple[bool, int, float]:

@@ -88,9 +88,9 @@ class Outline:
         problem = self.problem
         n, region = problem.realisations, problem.region
         at_once = region.beads * min(n, together)
-        if self.closed:  # one realisation after the other
+        if self.closed and problem.dimension == 2:  # one realisation after the other
             at_once = visited // n
-        elif problem.route == Route.ORDERED:
+        elif problem.route == Route.ORDERED and problem.dimension == 2:
             at_once = 0
         systems = [s for s in (method.system, method.longer) if s is not None]
         return max(_memory(self.scene, self.quantity, region, at_once, n, s) for s in systems)
@@ -155,6 +155,7 @@ def outline(
         scene.effects.stop_at_tension,
         realisations,
         scene.effects.protocol if route == Route.UNILATERAL else "",
+        dimension=scene.packing.dimension,
     )
     return Outline(scene, quantity, problem, tuple(skipped), limit, closed, tolerance)
 
@@ -175,7 +176,7 @@ def _refuse_beads(
     beads = quantity.most_beads()
     if closed and quantity.single:
         beads = 5 * scene.packing.height
-    if ordered:
+    if ordered and scene.packing.dimension == 2:
         beads = 0
     layers = 0 if quantity.single and not beads else scene.packing.height + 1
     nothing = Region(scene.packing.width, ())
@@ -201,7 +202,9 @@ def _theory(
         return radii_of(scene, region.rows) if given else Monodisperse(), Route.UNILATERAL
     if not scene.effects.stop_at_tension:
         skip("stop at tension", "not asked for: tensile contacts are counted, not acted on")
-    skip("contacts that open", 'contacts = "unilateral" would let beads move where a contact pulls')
+    if scene.packing.dimension == 2:
+        why = 'contacts = "unilateral" would let beads move where a contact pulls'
+        skip("contacts that open", why)
     if scene.disorder is None:
         skip("disorder", "the scene names none: all radii are equal")
         return Monodisperse(), Route.ORDERED

@@ -156,6 +156,7 @@ class Plan:
         drawn = isinstance(problem.radii, DrawnRadii)
         stays = self.scene.effects.contacts == "bilateral"
         known = drawn and stays and load.kind in LOADS and not load.angle_deg
+        known &= problem.dimension == 2
         if not known or width is None or width <= problem.height or not self.quantity.needs_forces:
             return None
         std = float(problem.radii.relative_std())

@@ -28,6 +28,7 @@ def suits(scene: Scene) -> bool:
     ask, disorder = scene.ask, scene.disorder
     return (
         ask.quantity in KNOWN
+        and scene.packing.dimension == 2
         and ask.realisations == 1
         and ask.tolerance is None
         and disorder is not None

@@ -5,8 +5,10 @@ from fractions import Fraction
 from ..arithmetic.decimals import short
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii, Radii
 from ..lattice.branch import Site
+from ..lattice.layers import full_layer
 from ..lattice.regions import Rows
 from ..mechanics.loads import LoadSpec
+from ..mechanics.three_dimensions import site_of
 from ..scene.scene import Scene
 from ..scene.sections import GivenRadii
 from ..scene.tables import TableError, read_array, read_loads, read_radii
@@ -15,6 +17,8 @@ from ..scene.tables import TableError, read_array, read_loads, read_radii
 def load_of(scene: Scene) -> LoadSpec:
     """Give the load. Raises ``TableError``."""
     load, packing = scene.load, scene.packing
+    if packing.dimension == 3:
+        return _load_of_spheres(scene)
     single = {}
     if load.file is not None:
         single = read_loads(
@@ -35,6 +39,22 @@ def load_of(scene: Scene) -> LoadSpec:
     return LoadSpec(load.kind, packing.height, packing.width, load.angle_deg, at, single)
 
 
+def _load_of_spheres(scene: Scene) -> LoadSpec:
+    """Give the load in three dimensions, beads as sites in rows of W²."""
+    load, width, top = scene.load, scene.packing.width, scene.packing.height
+    assert width is not None
+    if load.at is None:
+        return LoadSpec(load.kind, top, width**2)
+    p, q, j = map(int, load.at)
+    at = site_of((p, q, j), width)
+    if not load.pressure:
+        return LoadSpec(load.kind, top, width**2, at=at)
+    down = -Fraction(load.pressure) / load.magnitude
+    single = {(i, top): (Fraction(0), down) for i in full_layer(top, width**2).sites()}
+    single[at] = Fraction(0), single.get(at, (0, Fraction(0)))[1] - 1
+    return LoadSpec("file", top, width**2, single=single)
+
+
 def radii_of(scene: Scene, rows: Rows) -> Radii:
     """Give the radii of the beads of ``rows``; without rows, of all. Raises ``TableError``."""
     disorder, packing = scene.disorder, scene.packing
@@ -46,7 +66,10 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
         return ArrayRadii(values, origin, packing.radius)
     if disorder.file is None:
         assert disorder.relative_std is not None
-        return DrawnRadii(disorder.kind, disorder.relative_std, disorder.seed, packing.width)
+        width = packing.width
+        if width is not None and packing.dimension == 3:
+            width *= width
+        return DrawnRadii(disorder.kind, disorder.relative_std, disorder.seed, width)
 
     path = scene.folder / disorder.file
     if path.suffix == ".npy":

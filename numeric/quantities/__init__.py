@@ -12,6 +12,7 @@ from .network import NETWORK_QUANTITIES
 from .positions import Positions
 from .profile import Profile
 from .response import Response
+from .spheres import SPHERE_QUANTITIES
 
 QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
     "contact": ContactForce,
@@ -26,5 +27,9 @@ QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
 
 def quantity_of(scene: Scene) -> Quantity:
     """Give the question that a scene asks."""
-    unilateral = scene.effects.contacts == "unilateral"
-    return (NETWORK_QUANTITIES if unilateral else QUANTITIES)[scene.ask.quantity](scene)
+    known = QUANTITIES
+    if scene.packing.dimension == 3:
+        known = SPHERE_QUANTITIES
+    elif scene.effects.contacts == "unilateral":
+        known = NETWORK_QUANTITIES
+    return known[scene.ask.quantity](scene)

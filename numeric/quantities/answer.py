@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arithmetic.systems import NumberSystem
 from ..disorder.radii import ArrayRadii, RadiusError
-from ..lattice.branch import Contact
+from ..lattice.branch import AxisContact, Contact
 from ..mechanics.engine import chunk_size, packings
 from ..mechanics.forces import NotStandingError
 from ..mechanics.packing import UnbuildableError
@@ -34,7 +34,7 @@ class Answer:
     table: Table
     bins: list[tuple[Fraction, Fraction, int]] | None
     physical: Physicality | None
-    stopped: Contact | None
+    stopped: Contact | AxisContact | None
     networks: tuple[Network, ...] = ()
 
 
@@ -55,7 +55,7 @@ def answer(
     work.uses(system.name)
     exact = problem.route == Route.EXACT
     physical = Physicality() if exact and not work.repeating else None
-    stopped = None
+    stopped: Contact | AxisContact | None = None
     networks: list[Network] = []
     with system.active():
         gatherer = quantity.gatherer(problem, system)
@@ -101,8 +101,10 @@ def in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:
     )
 
 
-def at_home(quantity: Quantity, contact: Contact) -> Contact:
+def at_home(quantity: Quantity, contact: Contact | AxisContact) -> Contact | AxisContact:
     """Name a contact by the column within the period, as rows do."""
+    if isinstance(contact, AxisContact):
+        return contact
     return contact._replace(i=quantity.home(contact.i))
 
 

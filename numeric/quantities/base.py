@@ -16,7 +16,7 @@ from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
-from ..lattice.branch import Branch
+from ..lattice.branch import Branch, Direction
 from ..lattice.layers import Layer, Region, pick, standing_on_base, whole
 from ..lattice.regions import Rows
 from ..mechanics import plain
@@ -56,8 +56,9 @@ class Table:
         return len(next(iter(self.numbers.values()), []))
 
     def sorted(self) -> "Table":
-        """Give the rows by realisation, j, i and branch, as numbers, "+" before "-"."""
-        keys = [self.index[k] for k in ("branch", "i", "j", "realisation") if k in self.index]
+        """Give the rows by realisation, j, i (or p, q) and branch, as numbers, "+" before "-"."""
+        names = ("branch", "q", "p", "i", "j", "realisation")
+        keys = [self.index[name] for name in names if name in self.index]
         if not keys:
             return self
         order = np.lexsort(keys)
@@ -93,6 +94,8 @@ class Quantity(ABC):
     """Whether realisations are merged into one set of rows."""
     statistics: ClassVar[bool] = False
     """Whether an ensemble has statistics of it."""
+    branches: ClassVar[tuple[Direction, ...]] = tuple(Branch)
+    """Along which contacts lead up."""
 
     def __init__(self, scene: Scene) -> None:
         """Ask a scene's question."""
@@ -225,7 +228,7 @@ class Listed(Quantity):
 class Block(NamedTuple):
     """Contacts of one branch below a row of upper beads."""
 
-    branch: Branch
+    branch: Direction
     row: Layer
 
 
@@ -242,7 +245,7 @@ class ContactQuantity(Quantity):
     def blocks(self, problem: Problem) -> list[Block]:
         """Give the contacts, block by block, in the order of the groups."""
         rows = (row for row in problem.force_rows[1:] if row.count)
-        return [Block(branch, row) for row in rows for branch in Branch]
+        return [Block(branch, row) for row in rows for branch in self.branches]
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Give columns that name the groups, one entry a group."""
@@ -322,7 +325,9 @@ def column(values: Sequence[Any], system: NumberSystem) -> Array:
 
 
 def slope(problem: Problem, system: NumberSystem) -> Any:
-    """Give n_y."""
+    """Give the vertical component of the base vectors: n_y, or in three dimensions n_z."""
+    if problem.dimension == 3:
+        return system.root(1 - Fraction(4, 3) * problem.n_x**2)
     return plain.axes(problem.n_x, system)[1]
 
 
@@ -334,6 +339,7 @@ def first_order_std(problem: Problem) -> list[Fraction] | None:
     load, radii = problem.load, problem.radii
     if (
         problem.route == Route.ORDERED
+        or problem.dimension == 3
         or not isinstance(radii, DrawnRadii)
         or load.loaded is not None
         or load.angle_deg

@@ -1,7 +1,7 @@
 """What the base bears."""
 
 from ..arithmetic.systems import Array, zeros
-from ..lattice.branch import Branch
+from ..lattice.branch import Branch, Direction
 from ..lattice.layers import Layer, Region, full_layer, pick
 from ..mechanics import plain
 from ..mechanics.problem import Problem, Route, Solved
@@ -52,11 +52,12 @@ class BaseReactions(Listed):
             ("change_x", "change_y"),
         )
 
-    def _above(self, solved: Solved, layer: Layer) -> tuple[dict[Branch, Array], ...]:
+    def _above(self, solved: Solved, layer: Layer) -> tuple[dict[Direction, Array], ...]:
         """F, g and the components of δn of the two contacts above each base bead."""
         assert solved.forces is not None
         zero = zeros(solved.system, 1)[0]
-        F, g, a, b = {}, {}, {}, {}
+        found: tuple[dict[Direction, Array], ...] = {}, {}, {}, {}
+        F, g, a, b = found
         for branch, ordered, change in solved.forces.below(1):
             at = Layer(1, layer.first + branch.side, layer.count)
             F[branch] = pick(ordered, solved.forces.rows[1], at, self.width, zero)
@@ -67,4 +68,4 @@ class BaseReactions(Listed):
                 a[branch], b[branch] = (
                     pick(v, source, at, self.width, zero) for v in solved.packing.dn[branch][1]
                 )
-        return F, g, a, b
+        return found

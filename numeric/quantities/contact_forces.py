@@ -1,6 +1,5 @@
 """All contact forces."""
 
-from ..lattice.branch import Branch
 from ..lattice.layers import Region, full_layer
 from ..mechanics.problem import Problem, Solved
 from .base import (
@@ -21,9 +20,9 @@ class ContactForces(ContactQuantity, Listed):
     plain = True
 
     def answer_rows(self, region: Region, realisations: int) -> int:
-        """Two contacts below each bead above the base."""
+        """The contacts below each bead above the base."""
         beads = region.beads if self.width is None else self.width * self.height
-        return 2 * beads * realisations
+        return len(self.branches) * beads * realisations
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give a row a contact, layer by layer from the base, "+" before "-"."""
@@ -31,7 +30,7 @@ class ContactForces(ContactQuantity, Listed):
         rows = problem.force_rows[1:]
         if self.width is not None:
             rows = tuple(full_layer(j, self.width) for j in range(1, self.height + 1))
-        blocks = above_stop([Block(b, row) for row in rows for b in Branch], solved.forces)
+        blocks = above_stop([Block(b, row) for row in rows for b in self.branches], solved.forces)
         found = list(contact_changes(solved, blocks, 1))
         return Table(
             self.contacts_of(blocks),

@@ -19,7 +19,7 @@ from ..mechanics.problem import Problem, Solved
 from ..scene.scene import Scene
 from ..statistics.histogram import histogram
 from ..unilateral.network import Network, Relaxed
-from .base import Gatherer, Listed, Table, column
+from .base import Gatherer, Listed, Quantity, Table, column
 from .histogram import DEFAULT_BINS
 
 
@@ -233,7 +233,7 @@ def _contacts(network: Network, order: Array, numbers: dict[str, Array]) -> Tabl
     )
 
 
-NETWORK_QUANTITIES: dict[str, Callable[[Scene], NetworkQuantity]] = {
+NETWORK_QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
     one.name: one
     for one in (
         NetworkContact,

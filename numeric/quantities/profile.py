@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arithmetic.decimals import decimal_string
 from ..arithmetic.systems import Array, NumberSystem, as_floats
-from ..lattice.branch import Branch
+from ..lattice.branch import Direction
 from ..lattice.layers import Region, full_layer
 from ..mechanics.problem import Problem, Solved
 from ..statistics.moments import Moments, Scatter, unit_near
@@ -38,7 +38,7 @@ class Profile(ContactQuantity):
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a layer and branch."""
-        return 2 * self.height
+        return len(self.branches) * self.height
 
     def gatherer(self, problem: Problem, system: NumberSystem) -> "ProfileMoments":
         """Start to merge moments."""
@@ -48,7 +48,7 @@ class Profile(ContactQuantity):
         """Give whole layers, those that no load reaches included."""
         assert self.width is not None
         rows = (full_layer(j, self.width) for j in range(1, self.height + 1))
-        return [Block(branch, row) for row in rows for branch in Branch]
+        return [Block(branch, row) for row in rows for branch in self.branches]
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Name the layers, by the lower beads of their contacts."""
@@ -77,7 +77,7 @@ class ProfileMoments(Gatherer):
     def __init__(self, quantity: Profile, problem: Problem, system: NumberSystem) -> None:
         self.quantity, self.problem, self.system = quantity, problem, system
         self.unit = unit_near(problem.radii.relative_std())
-        self.found: dict[tuple[int, Branch], tuple[Any, Moments]] = {}
+        self.found: dict[tuple[int, Direction], tuple[Any, Moments]] = {}
         self.scatter = Scatter()
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:

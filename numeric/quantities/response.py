@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats, zeros
-from ..lattice.layers import Region, pick
+from ..lattice.branch import Direction
+from ..lattice.layers import Layer, Region, pick
 from ..mechanics.problem import Problem, Route, Solved
 from ..statistics.moments import Moments, Scatter, unit_near
 from .base import (
@@ -32,8 +33,8 @@ class Response(ContactQuantity):
     merged = True
 
     def answer_rows(self, region: Region, realisations: int) -> int:
-        """Two contacts a bead of the cone."""
-        return 2 * region.beads
+        """The contacts below each bead of the cone."""
+        return len(self.branches) * region.beads
 
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
         """Start with no realisation."""
@@ -61,18 +62,14 @@ class Response(ContactQuantity):
         Shapes: (contacts,), (realisations, contacts) and the same.
         """
         assert solved.forces is not None
-        system, packing = solved.system, solved.packing
+        system = solved.system
         ny = slope(problem, system)
         parts = contact_changes(
             solved, above_stop(self.blocks(problem), solved.forces), realisations
         )
         verticals = []
         for (branch, row), F, g in parts:
-            tilt = zeros(system, row.count)
-            if packing is not None:
-                source, width = packing.region.rows[row.j], packing.region.width
-                a, b = (pick(v, source, row, width) for v in packing.dn[branch][row.j])
-                tilt = a + b
+            tilt = self.tilt(solved, branch, row)
             f = F + (g if problem.route == Route.EXACT else 0)
             verticals.append((g + f * tilt.reshape(-1, row.count)) * ny)
         contacts = self.contacts_of([block for block, _, _ in parts])
@@ -83,6 +80,14 @@ class Response(ContactQuantity):
             np.concatenate([nothing, *(g for _, _, g in parts)], axis=1),
             np.concatenate([nothing, *verticals], axis=1),
         )
+
+    def tilt(self, solved: Solved, branch: Direction, row: Layer) -> Array:
+        """Give N_y/n_y − 1 of the contacts below a row."""
+        if solved.packing is None:
+            return zeros(solved.system, row.count)
+        source, width = solved.packing.region.rows[row.j], solved.packing.region.width
+        a, b = (pick(v, source, row, width) for v in solved.packing.dn[branch][row.j])
+        return np.asarray(a + b)
 
     def ordered(self, problem: Problem) -> list[Fraction]:
         """Give the ordered forces, then their vertical components."""

@@ -60,7 +60,7 @@ class _Part:
             lower, upper = found.between
             found.between = (lower[0], lower[1]), (upper[0], upper[1])
         if found.first_tensile is not None:
-            i, j, branch = found.first_tensile
+            i, j, branch = physical["first_tensile"]
             found.first_tensile = Contact(i, j, Branch(branch))
         return cls(found, index, dict(zip(names, numbers, strict=True)))
 

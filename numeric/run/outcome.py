@@ -12,7 +12,7 @@ from ..accuracy.accuracy import Accuracy
 from ..accuracy.digits import printed
 from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import Array, as_floats
-from ..lattice.branch import Contact
+from ..lattice.branch import AxisContact, Contact
 from ..mechanics.physicality import PHYSICAL, Physicality
 from ..mechanics.work import Work
 from ..planning.plan import ESTIMATE, Plan, plan_lines
@@ -65,7 +65,7 @@ class Outcome:
         return self.answer.physical
 
     @property
-    def stopped(self) -> Contact | None:
+    def stopped(self) -> Contact | AxisContact | None:
         """The contact at which a sweep stopped, if it was asked to."""
         return self.answer.stopped
 
@@ -231,7 +231,7 @@ def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     whole = (
         width is not None
         and problem.region.beads == width * (height + 1)
-        and found.contacts == 2 * width * height * problem.realisations
+        and found.contacts == problem.dimension * width * height * problem.realisations
     )
     data: dict[str, Any] = {
         "physical": found.sound,
@@ -282,7 +282,7 @@ def _physical_line(p: dict[str, Any]) -> str:
     pulling = "forces not asked for"
     if p["contacts"] is not None:
         pulling = f"{p['tensile_contacts']} of {p['contacts']} contacts are tensile"
-    if p["tensile_contacts"]:
+    if p["tensile_contacts"] and "axis" not in p.get("first_tensile", {}):
         pulling += ' (effects.contacts = "unilateral" lets such contacts open)'
     open_signs = f", {p['undecided']} signs open" if p["undecided"] else ""
     highest = "none" if p["critical_height"] is None else f"{p['critical_height']:.4g}"

@@ -1,5 +1,6 @@
 """What the keys of a scene say about each other."""
 
+from fractions import Fraction
 from typing import Any
 
 from ..arithmetic.decimals import decimal_string, short
@@ -11,6 +12,8 @@ def check(
 ) -> None:
     """Check what keys say about each other. Raises ``SceneError``."""
     _check_packing(packing)
+    if packing.dimension == 3:
+        _check_three(packing, disorder, load, effects, ask)
     if isinstance(disorder, GivenRadii):
         _check_given(disorder, packing, ask)
     elif disorder is not None:
@@ -61,14 +64,16 @@ def _check_effects(effects: Effects, packing: Packing, ask: Ask) -> None:
 def _check_packing(p: Packing) -> None:
     if p.radius <= 0:
         raise SceneError("packing.radius", p.radius, "must be greater than 0")
-    if not 4 * p.radius**2 < p.s**2 < 12 * p.radius**2 or p.s < 0:
+    flat = p.dimension == 2
+    widest = 12 if flat else Fraction(32, 3)
+    if not 4 * p.radius**2 < p.s**2 < widest * p.radius**2 or p.s < 0:
         ratio = decimal_string(p.s / p.radius, None)
         ratio = ratio if len(ratio) <= 15 else f"about {short(p.s / p.radius)}"
         raise SceneError(
             "packing.spacing",
             p.s,
-            f"must lie strictly between 2 r and 2√3 r = 3.4641… r (it is {ratio} r), "
-            "or beads of the ordered packing overlap",
+            f"must lie strictly between 2 r and {'2√3 r = 3.4641…' if flat else '3.2659…'} r "
+            f"(it is {ratio} r), or beads of the ordered packing overlap",
         )
     if p.width is not None and p.width <= p.height and not p.allow_images:
         raise SceneError(
@@ -78,6 +83,36 @@ def _check_packing(p: Packing) -> None:
             "say allow_images = true if a narrow periodic strip is meant, or leave width out "
             "for the infinite slab",
         )
+
+
+def _check_three(
+    packing: Packing, disorder: Disorder | None, load: Load, effects: Effects, ask: Ask
+) -> None:
+    """Refuse what is offered in two dimensions only."""
+    drawn = disorder is None or disorder.kind not in {"file", "given"}
+    alone = ask.quantity not in {"contact", "positions"}
+    for wrong, key, value, allowed in (
+        (packing.width is None, "packing.width", None, "is required: W × W beads in a layer"),
+        (not drawn, "disorder.kind", getattr(disorder, "kind", None), "must be drawn"),
+        (load.kind == "file", "load.kind", load.kind, 'must be "surface", "bulk" or "point"'),
+        (load.angle_deg, "load.angle_deg", load.angle_deg, "must be 0: straight down"),
+        (effects.contacts != "bilateral", "effects.contacts", effects.contacts, "must stay closed"),
+        (effects.stop_at_tension, "effects.stop_at_tension", True, "must be false"),
+        (ask.at is not None and alone, "ask.at", ask.at, 'is for "contact" and "positions"'),
+    ):
+        if wrong:
+            raise SceneError(key, value, f"{allowed} in three dimensions (packing.dimension = 3)")
+
+
+def _check_bead(packing: Packing, key: str, at: Any, highest: int) -> None:
+    """Check a bead (p, q, j) in three dimensions."""
+    if len(at) < 3 or not all(isinstance(number, int) for number in at[:3]):
+        raise SceneError(key, at, "must begin with a bead, [p, q, j], in three dimensions")
+    if not 0 <= at[2] <= highest:
+        raise SceneError(key, at, f"j must be from 0 to {highest}")
+    assert packing.width is not None
+    if not all(0 <= number < packing.width for number in at[:2]):
+        raise SceneError(key, at, f"p and q must be from 0 to {packing.width - 1}")
 
 
 def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
@@ -151,8 +186,10 @@ def _check_load(load: Load, packing: Packing) -> None:
     if load.kind == "point":
         if load.at is None:
             raise SceneError("load.at", None, 'is required with kind = "point", as at = [k, l]')
-        if len(load.at) != 2:
-            raise SceneError("load.at", load.at, "must be a bead, [k, l]")
+        count = packing.dimension
+        if len(load.at) != count:
+            allowed = "must be a bead, [k, l]" if count == 2 else "must be a bead, [p, q, l]"
+            raise SceneError("load.at", load.at, allowed)
         _check_load_site(packing, load.at)
     elif load.at is not None:
         raise SceneError("load.at", load.at, 'needs kind = "point"')
@@ -161,9 +198,9 @@ def _check_load(load: Load, packing: Packing) -> None:
 
 
 def _check_load_site(packing: Packing, at: Any) -> None:
-    if not 0 <= at[1] <= packing.height:  # above all, as a bead there would be
+    if not 0 <= at[-1] <= packing.height:  # above all, as a bead there would be
         raise SceneError("load.at", at, f"j must be from 0 to {packing.height}, the surface")
-    _check_site(packing, "load.at", at, packing.height)
+    (_check_site if packing.dimension == 2 else _check_bead)(packing, "load.at", at, packing.height)
 
 
 def _check_pressure(load: Load, packing: Packing) -> None:
@@ -226,6 +263,9 @@ def _check_at(ask: Ask, packing: Packing) -> None:
         return
     if ask.quantity not in forms:
         raise SceneError("ask.at", ask.at, f'has no meaning with quantity = "{ask.quantity}"')
+    if packing.dimension == 3:
+        _check_at_three(ask, packing)
+        return
     if forms[ask.quantity] == 3:
         if (
             len(ask.at) != 3
@@ -242,3 +282,14 @@ def _check_at(ask: Ask, packing: Packing) -> None:
     if len(ask.at) != 2 or not all(isinstance(c, int) for c in ask.at):
         raise SceneError("ask.at", ask.at, "must be a bead, [i, j]")
     _check_site(packing, "ask.at", ask.at, packing.height)
+
+
+def _check_at_three(ask: Ask, packing: Packing) -> None:
+    contact = ask.quantity == "contact"
+    assert ask.at is not None
+    right = len(ask.at) == 4 and ask.at[3] in {"1", "2", "3"} if contact else len(ask.at) == 3
+    if not right:
+        form = 'a contact, [p, q, j, "1"], "2" or "3", (p, q, j) its lower' if contact else "a"
+        end = " bead" if contact else " bead, [p, q, j]"
+        raise SceneError("ask.at", ask.at, f"must be {form}{end}, in three dimensions")
+    _check_bead(packing, "ask.at", ask.at, packing.height - contact)

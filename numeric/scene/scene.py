@@ -36,16 +36,16 @@ class Scene(Section):
 
     @property
     def contact(self) -> Contact | None:
-        """The one contact that is asked for, or None."""
-        if self.ask.at is None or self.ask.quantity == "positions":
+        """The one contact of two dimensions that is asked for, or None."""
+        if self.ask.at is None or self.ask.quantity == "positions" or self.packing.dimension == 3:
             return None
         i, j, branch = self.ask.at
         return Contact(int(i), int(j), Branch(branch))
 
     @property
     def site(self) -> Site | None:
-        """The one bead that is asked for, or None."""
-        if self.ask.at is None or self.ask.quantity != "positions":
+        """The one bead of two dimensions that is asked for, or None."""
+        if self.ask.at is None or self.ask.quantity != "positions" or self.packing.dimension == 3:
             return None
         i, j = self.ask.at
         return int(i), int(j)

@@ -128,6 +128,9 @@ class Packing(Section):
     ``width`` None is the infinite slab. ``radius`` is r, ``spacing`` is s, the distance of
     neighbours in a layer, 2 r < s < 2√3 r, by default 3 r; both in any one unit of length.
     ``allow_images`` says that a periodic strip as narrow as W ≤ M is meant.
+
+    ``dimension`` = 3: beads rest on three others, layers of W × W beads are periodic both ways, and
+    2 r < s < √(32/3) r.
     """
 
     section = "packing"
@@ -135,6 +138,7 @@ class Packing(Section):
     width: Whole | None = Field(default=None, ge=1, le=10**12)
     radius: Number = Fraction(1)
     spacing: Number | None = None
+    dimension: Whole = Field(default=2, ge=2, le=3)
     allow_images: bool = False
 
     @property
@@ -285,9 +289,9 @@ def unknown(key: str, model: type[Section]) -> str:
 
 # Forms of lists, whose elements say nothing when they are named alone.
 _LISTS = {
-    "load.at": "must be a bead, at = [k, l], of whole numbers",
+    "load.at": "must be a bead, at = [k, l], of whole numbers; in three dimensions [p, q, l]",
     "ask.at": 'must be a contact, at = [i, j, "+"] or [i, j, "-"], or for positions a bead, '
-    "at = [i, j]",
+    'at = [i, j]; in three dimensions [p, q, j, "1"], "2" or "3", or [p, q, j]',
 }
 
 

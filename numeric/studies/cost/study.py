@@ -70,6 +70,8 @@ def cost(scene: Scene, notice: Notice = lambda _: None) -> CostStudy:
             "unilateral",
             "costs are compared of packings on the lattice, in which no contact opens",
         )
+    if scene.packing.dimension == 3:
+        raise SceneError("packing.dimension", 3, "must be 2: ways are compared for discs")
     plan = planner.plan(scene, Fraction(1, 10))
     if plan.problem.route == Route.ORDERED:
         why = "every change is exactly zero here: there is nothing that errors could be relative to"

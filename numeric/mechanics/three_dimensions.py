@@ -1,0 +1,241 @@
+"""Problems in three dimensions: solved by ``spheres``, and told in the words of all problems.
+
+Bead (p, q, j) is p e_1 + q e_2 + (j − p − q) e_3, and 0 ≤ p, q < W. Problems count the W² beads of
+a layer as one row, column p W + q, so that radii, plans, memory and statistics need no dimension.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import isqrt
+from typing import Any
+
+import numpy as np
+
+from ..arithmetic.systems import Array, NumberSystem, zeros
+from ..disorder.radii import Monodisperse, RadiusError
+from ..lattice.branch import Axis, AxisContact, Direction, PerAxis, Site
+from ..lattice.layers import Layer, LazyRows
+from .forces import Forces
+from .physicality import Physicality
+from .problem import Problem, Route, Solved
+from .spheres import Borne, Placed, along, bear, deposit, gaps, metric, near_pairs
+from .work import Work
+
+Bead = tuple[int, int, int]
+
+
+def cosine(problem: Problem) -> Fraction:
+    """Give φ = n^a·n^b = 1 − s²/8r², as in two dimensions."""
+    return 1 - 2 * problem.n_x**2
+
+
+def side(problem: Problem) -> int:
+    """Give W."""
+    return isqrt(problem.width or 0)
+
+
+def bead_of(site: Site, width: int) -> Bead:
+    """Name a bead (p, q, j), of a site of the row of W² beads."""
+    i, j = site
+    return (*divmod((i - j % 2) // 2 % width**2, width), j)
+
+
+def site_of(bead: Bead, width: int) -> Site:
+    """Give the site in the row of W² beads.
+
+    >>> site_of((2, 1, 3), 5), bead_of((23, 3), 5)
+    ((23, 3), (2, 1, 3))
+    """
+    p, q, j = bead
+    return 2 * (p % width * width + q % width) + j % 2, j
+
+
+def lower_bead(upper: Bead, axis: Direction, width: int) -> Bead:
+    """Give the bead below a contact."""
+    p, q, j = upper
+    return (p - (axis == Axis.FIRST)) % width, (q - (axis == Axis.SECOND)) % width, j - 1
+
+
+def lower_beads(upper: dict[str, Array], axes: Array, width: int) -> dict[str, Array]:
+    """Do so for columns p, q and j of beads, and the names of axes."""
+    first, second = axes == Axis.FIRST.value, axes == Axis.SECOND.value
+    return {
+        "p": (upper["p"] - first) % width,
+        "q": (upper["q"] - second) % width,
+        "j": upper["j"] - 1,
+    }
+
+
+@dataclass(frozen=True)
+class AxisForces(Forces):
+    """Contact forces along three axes: rows of W² beads, indexed by the upper bead."""
+
+    def contact(self, layer: Layer, branch: Direction, column: int) -> AxisContact:
+        """Name the contact below a bead of a row."""
+        width = isqrt(layer.count)
+        lower = lower_bead((*divmod(column, width), layer.j), branch, width)
+        return AxisContact(*lower, Axis(branch))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spheres(Solved):
+    """A solved problem in three dimensions; ``placed`` holds its beads."""
+
+    placed: Placed
+    phi: Fraction
+
+    def look_at_gaps(self, physical: Physicality) -> None:
+        """Measure the gaps of near pairs, from the base up."""
+        for j, row in enumerate(self.placed.rho):
+            width = row.shape[-1]
+            for steps in near_pairs(3):
+                found = gaps(self.placed, self.phi, j, steps)
+                if found is None:
+                    continue
+
+                def pair(
+                    column: int, steps: tuple[int, ...] = steps, j: int = j, width: int = width
+                ) -> tuple[Bead, Bead]:
+                    p, q = divmod(column, width)
+                    other = (p + steps[0]) % width, (q + steps[1]) % width, j + sum(steps)
+                    return (p, q, j), other
+
+                physical.count_gaps(found.reshape(*found.shape[:-2], -1), pair)
+
+    def _at(self, at: int | slice) -> "Spheres":
+        def of(rows: Sequence[Array], axes: int) -> LazyRows[Array]:
+            where = (slice(None),) * axes + (at,)
+            return LazyRows(len(rows), lambda j: rows[j][where] if rows[j].size else rows[j])
+
+        forces, placed = self.forces, self.placed
+        if forces is not None:
+            change = [of(rows, 0) for _, rows in forces.change]
+            forces = replace(forces, change=PerAxis[Sequence[Array]](*change))
+        placed = Placed(placed.metric, of(placed.rho, 0), of(placed.c, 1), of(placed.dn, 2))
+        return replace(self, forces=forces, placed=placed)
+
+
+def solve(
+    problem: Problem, realisations: Sequence[int], system: NumberSystem, work: Work
+) -> Spheres:
+    """Solve some realisations together; the caller activates ``system``.
+
+    Raises ``UnbuildableError``, ``NotStandingError`` or ``RadiusError``, naming (p, q, j).
+    """
+    rows, linear = problem.region.rows, problem.route != Route.EXACT
+    beads = problem.region.beads * len(realisations)
+    ordered = problem.route == Route.ORDERED
+    with work.timed("closed form" if ordered else "radii"):
+        rho = _radii(problem, realisations, system)
+    if not ordered:
+        work.did_rows("radii", rows, beads)
+    m = metric(3, cosine(problem), system)
+    with work.timed("closed form" if ordered else "line sums" if linear else "deposit"):
+        placed = deposit(rho, m, system, linear=linear)
+    if not ordered:
+        work.did_rows("deposited", rows[:1] if linear else rows, rows[0].count if linear else beads)
+        if linear:
+            work.did_rows("summed", rows[1:], beads - rows[0].count)
+    forces = None
+    if problem.needs_forces:
+        with work.timed("closed form" if ordered else "balance forces"):
+            forces = _told(problem, bear(placed, loads(problem, system), system, linear=linear),
+                           system)  # fmt: skip
+        if not ordered:
+            work.did_rows("balanced", rows[1:], beads - rows[0].count * len(realisations))
+    return Spheres(system, None, forces, None, placed=placed, phi=cosine(problem))
+
+
+def ordered_forces(problem: Problem, system: NumberSystem) -> Forces:
+    """Give the forces of the ordered packing."""
+    plain = replace(problem, route=Route.ORDERED, radii=Monodisperse(), needs_forces=True)
+    forces = solve(plain, [0], system, Work()).forces
+    assert forces is not None
+    return forces
+
+
+def _told(problem: Problem, borne: Borne, system: NumberSystem) -> AxisForces:
+    """Give forces along axes, a row a layer."""
+
+    def flat(rows: Sequence[Array], a: int) -> tuple[Array, ...]:
+        return tuple(v[a].reshape(*v.shape[1:-2], -1) if v.size else v for v in rows)
+
+    def one(rows: Sequence[Array], a: int) -> tuple[Array, ...]:
+        return tuple(v[a].reshape(-1) if v.size else v for v in rows)
+
+    return AxisForces(
+        system,
+        problem.region.rows,
+        PerAxis(*(one(borne.ordered, a) for a in range(3))),
+        PerAxis(*(flat(borne.change, a) for a in range(3))),
+    )
+
+
+def _radii(problem: Problem, realisations: Sequence[int], system: NumberSystem) -> list[Array]:
+    width, found = side(problem), []
+    for layer in problem.region.rows:
+        try:
+            row = problem.radii.row(layer, realisations, system)
+        except RadiusError as error:
+            i, j = error.site
+            raise RadiusError(bead_of((i, j), width), error.reason) from None
+        found.append(row.reshape(*row.shape[:-1], width, width))
+    return found
+
+
+def loads(problem: Problem, system: NumberSystem) -> list[Array | None]:
+    """Give what beads add to F of each contact below: of a unit load, 1/|Σ n^a| = 1/√(3 + 6φ)."""
+    load, width = problem.load, side(problem)
+    unit = system.root(1 / (3 + 6 * cosine(problem)))
+    found: list[Any] = [None] * len(problem.region.rows)
+    if load.loaded is None:
+        first = 0 if load.kind == "bulk" else problem.height
+        for j in range(first, len(found)):
+            found[j] = zeros(system, width, width) + unit
+    for site in load.loaded or []:
+        p, q, j = bead_of(site, width)
+        down = -load.single[site][1] if load.single else Fraction(1)
+        if found[j] is None:
+            found[j] = zeros(system, width, width)
+        found[j][p, q] = found[j][p, q] + unit * system.scalar(down)
+    return found
+
+
+def sees_images(problem: Problem, lowest_layer: int) -> bool:
+    """Say whether any row of the answer differs, with radii in general, from that of W → ∞.
+
+    Above a bead of layer J its loads span M − J columns, and below these there are M more. To first
+    order one contact depends on lines down from its own, M − J columns, and beside these.
+    """
+    width, loaded = side(problem), problem.load.loaded
+    height = problem.region.top
+    if problem.route == Route.ORDERED:
+        return lowest_layer == 0 and loaded is not None and 0 < width <= height
+    if not problem.needs_forces:
+        return height >= width
+    if loaded is not None and len(loaded) == 1:
+        return width <= height
+    if problem.route == Route.FIRST_ORDER and lowest_layer == 1:
+        return width <= min(height + 1, 2 * height - 1)
+    return width <= 2 * height - lowest_layer
+
+
+def tilt(solved: Spheres, axis: Direction, j: int) -> Array:
+    """Give Σ_b of δn's components of the contacts below row j: their rise, over n_z."""
+    values = solved.placed.dn[j][int(axis.value) - 1].sum(axis=0)
+    return np.asarray(values.reshape(*values.shape[:-2], -1))
+
+
+def on_base(solved: Spheres, *, exact: bool) -> tuple[Array, Array]:
+    """Give what contacts press onto the base, as Σ v^a n^a: ordered and change, (3, W, W) each."""
+    forces, dn = solved.forces, solved.placed.dn[1]
+    assert forces is not None
+    ordered, change = [], zeros(solved.system, *dn.shape[1:])
+    for a, (_, *rows) in enumerate(forces.below(1)):
+        F, g = (row.reshape(dn.shape[2:]) for row in rows)
+        pushed = (F + g if exact else F) * dn[a]
+        pushed[a] = pushed[a] + g
+        change = change + along(pushed, a, 1, 3)
+        ordered.append(along(F, a, 1, 3))
+    return np.stack(ordered), change

@@ -1,0 +1,254 @@
+"""The questions in three dimensions: beads (p, q, j), and contacts along three axes.
+
+Rows of W² beads take the place of layers of W (see ``mechanics.three_dimensions``).
+"""
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem, from_floats, zeros
+from ..lattice.branch import Axis, Direction
+from ..lattice.layers import Layer, Region, full_layer, whole
+from ..lattice.regions import Rows
+from ..mechanics import three_dimensions
+from ..mechanics.loads import LoadSpec
+from ..mechanics.problem import Problem, Route, Solved
+from ..mechanics.three_dimensions import Spheres
+from ..scene.scene import Scene
+from .base import Block, ContactQuantity, Listed, Quantity, Table, contact_changes, slope
+from .contact_forces import ContactForces
+from .histogram import Histogram
+from .profile import Profile
+from .response import Response
+
+
+class SphereQuantity(Quantity):
+    """A question about all W² beads of each layer, up to the highest load."""
+
+    branches = tuple(Axis)
+
+    def __init__(self, scene: Scene) -> None:
+        """Ask a scene's question."""
+        super().__init__(scene)
+        assert self.width is not None
+        self.side, self.width = self.width, self.width**2
+        load = scene.load
+        self.top = self.height
+        if self.needs_forces and load.at is not None and not load.pressure:
+            self.top = int(load.at[2])
+        elif self.needs_forces is False and scene.ask.at is not None:
+            self.top = int(scene.ask.at[2])
+
+    @property
+    def single(self) -> bool:
+        """Every bead is needed, whatever is asked."""
+        return False
+
+    def beads(self, load: LoadSpec) -> tuple[Rows, Region]:
+        """Give all beads that bear load or are asked for, and those below them."""
+        assert self.width is not None
+        region = whole(self.width, self.top)
+        return region.rows, region
+
+    def most_beads(self) -> int:
+        """Count them."""
+        return (self.top + 1) * (self.width or 0)
+
+    def sites_of(self, rows: Sequence[Layer]) -> dict[str, Array]:
+        """Give the columns p, q and j of beads, row by row."""
+        j = np.repeat([row.j for row in rows], [row.count for row in rows]).astype(np.int64)
+        columns = [np.arange(row.count) + (row.first - row.j % 2) // 2 for row in rows]
+        p, q = np.divmod(np.concatenate([np.empty(0, np.int64), *columns]), self.side)
+        return {"p": p, "q": q, "j": j}
+
+    def contacts_of(self, blocks: Sequence[Block]) -> dict[str, Array]:
+        """Give the columns p, q, j and branch of contacts, by their lower beads."""
+        found = self.sites_of([row for _, row in blocks])
+        names = np.array([branch.value for branch, _ in blocks], dtype="U1")
+        branch = np.repeat(names, [row.count for _, row in blocks])
+        below = three_dimensions.lower_beads(found, branch, self.side)
+        return {**below, "branch": branch}
+
+
+class SphereContacts(SphereQuantity, ContactQuantity):
+    """A question about contact forces."""
+
+    def ordered_blocks(self, problem: Problem) -> list[list[Fraction]]:
+        """Give the ordered forces, block by block; nothing above the highest load."""
+        forces = three_dimensions.ordered_forces(problem, FLOAT64)
+        found = []
+        for branch, row in self.blocks(problem):
+            values = forces.ordered[branch][row.j] if row.j < len(forces.rows) else ()
+            found.append([Fraction(float(F)) for F in values])
+        return found
+
+
+class SphereForces(SphereContacts, ContactForces):
+    """All contact forces."""
+
+
+class SphereProfile(SphereContacts, Profile):
+    """Mean force, mean and standard deviation of its change, by layer and axis."""
+
+
+class SphereHistogram(SphereContacts, Histogram):
+    """All changes of contact forces, to be counted into bins."""
+
+
+class SphereResponse(SphereContacts, Response):
+    """All contacts below a point load; those that it does not reach bear nothing."""
+
+    def tilt(self, solved: Solved, branch: Direction, row: Layer) -> Array:
+        """Give N_z/n_z − 1 of the contacts below a row."""
+        assert isinstance(solved, Spheres)
+        return three_dimensions.tilt(solved, branch, row.j)
+
+
+class SphereContact(SphereContacts, Listed):
+    """One contact force and its change."""
+
+    name = "contact"
+
+    def answer_rows(self, region: Region, realisations: int) -> int:
+        """One a realisation."""
+        return realisations
+
+    @property
+    def place(self) -> tuple[Block, int]:
+        """The contact's axis and row of upper beads, and its place in that row."""
+        assert self.scene.ask.at is not None
+        p, q, j, name = self.scene.ask.at
+        axis = Axis(name)
+        column = (int(p) + (axis == Axis.FIRST)) % self.side * self.side
+        column += (int(q) + (axis == Axis.SECOND)) % self.side
+        return Block(axis, full_layer(int(j) + 1, self.width or 0)), column
+
+    def labels(self, problem: Problem) -> dict[str, list[Any]]:
+        """Name the one group."""
+        assert self.scene.ask.at is not None
+        return {k: [v] for k, v in zip(("p", "q", "j", "branch"), self.scene.ask.at, strict=True)}
+
+    def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
+        """Give F, shape (1, 1), and g, (1, realisations, 1)."""
+        block, column = self.place
+        ((_, F, g),) = contact_changes(solved, [block], realisations)
+        return F[None, column : column + 1], g[None, :, column : column + 1]
+
+    def ordered(self, problem: Problem) -> list[Fraction]:
+        """Give the ordered force."""
+        block, column = self.place
+        forces = three_dimensions.ordered_forces(problem, FLOAT64)
+        reached = block.row.j < len(forces.rows)
+        return [
+            Fraction(float(forces.ordered[block.branch][block.row.j][column]) if reached else 0)
+        ]
+
+    def rows_of(self, problem: Problem, solved: Solved) -> Table:
+        """Give the one row."""
+        F, g = self.changes(problem, solved, 1)
+        index = {k: np.array(v) for k, v in self.labels(problem).items()}
+        return Table(index, {"force": F[0] + g[0, 0], "change": g[0, 0]}, ("change",))
+
+
+class SpherePositions(SphereQuantity, Listed):
+    """Positions of one bead or of all, in the scene's unit of length.
+
+    x is along n^1 − n^3, z is up, and bead (0, 0, 0) is at the origin.
+    """
+
+    name = "positions"
+    needs_forces = False
+
+    def answer_rows(self, region: Region, realisations: int) -> int:
+        """One a bead."""
+        return (1 if self.scene.ask.at is not None else region.beads) * realisations
+
+    def rows_of(self, problem: Problem, solved: Solved) -> Table:
+        """Give a row a bead, from the base up."""
+        assert isinstance(solved, Spheres)
+        system, r = solved.system, solved.system.number(self.scene.packing.radius)
+        rows = list(problem.region.rows)
+        c = [v.reshape(3, -1) for v in solved.placed.c]
+        if self.scene.ask.at is not None:
+            p, q, j = map(int, self.scene.ask.at)
+            column = p * self.side + q
+            rows, c = [Layer(j, 2 * column + j % 2, 1)], [c[j][:, column : column + 1]]
+        index = self.sites_of(rows)
+        moved = _cartesian(np.concatenate(c, axis=1), problem, system, raised=False)
+        home = np.array(
+            [[2 * p, 2 * q, 2 * (j - p - q)] for p, q, j in zip(*index.values(), strict=True)]
+        )
+        numbers = from_floats(system, home.T.astype(np.float64))
+        placed = _cartesian(numbers, problem, system, raised=True)
+        names = ("x", "y", "z")
+        return Table(
+            index,
+            {name: (a + b) * r for name, a, b in zip(names, placed, moved, strict=True)}
+            | {f"d{name}": a * r for name, a in zip(names, moved, strict=True)},
+            tuple(f"d{name}" for name in names),
+        )
+
+
+class SphereBase(SphereQuantity, Listed):
+    """The force with which the base holds each of its beads, own load included."""
+
+    name = "base_reactions"
+    lowest_layer = 0
+
+    def answer_rows(self, region: Region, realisations: int) -> int:
+        """One a bead of the base."""
+        return (self.width or 0) * realisations
+
+    def rows_of(self, problem: Problem, solved: Solved) -> Table:
+        """Give a row a bead of the base."""
+        assert isinstance(solved, Spheres)
+        system = solved.system
+        shape = (3, self.side, self.side)
+        F, change = zeros(system, *shape), zeros(system, *shape)
+        forces = solved.forces
+        if forces is not None and len(forces.rows) > 1:
+            exact = problem.route == Route.EXACT
+            F, change = three_dimensions.on_base(solved, exact=exact)
+        own = three_dimensions.loads(problem, system)[0]
+        F = F if own is None else F + own
+        numbers = {}
+        for name, value, moved in zip(
+            ("x", "y", "z"),
+            _cartesian(F.reshape(3, -1), problem, system, raised=True),
+            _cartesian(change.reshape(3, -1), problem, system, raised=True),
+            strict=True,
+        ):
+            numbers[f"f{name}"], numbers[f"change_{name}"] = value + moved, moved
+        small = ("change_x", "change_y", "change_z")
+        ordered = {k: numbers[k] for k in ("fx", "fy", "fz", *small)}
+        return Table(self.sites_of([full_layer(0, self.width or 0)]), ordered, small)
+
+
+def _cartesian(
+    components: Array, problem: Problem, system: NumberSystem, *, raised: bool
+) -> tuple[Array, Array, Array]:
+    """Give (x, y, z) of v = Σ v^a n^a, or of a vector with v_a = n^a·v, along the first axis."""
+    a, b, c = components
+    nx, nz = system.scalar(problem.n_x), slope(problem, system)
+    third = system.root(Fraction(1, 3))
+    x, y, z = a - c, (2 * b - a - c) * third, a + b + c
+    if raised:
+        return x * nx, y * nx, z * nz
+    return x / (2 * nx), y / (2 * nx), z / (3 * nz)
+
+
+SPHERE_QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
+    one.name: one
+    for one in (
+        SphereContact,
+        SphereForces,
+        SpherePositions,
+        SphereProfile,
+        SphereHistogram,
+        SphereResponse,
+        SphereBase,
+    )
+}
