@@ -12,7 +12,7 @@ import distributed as untyped
 from ..arithmetic.machine import share_cores
 from ..scene.source import program_version
 from .measure import Measurement
-from .sums import Sums, from_bytes
+from .sums import AnySums, from_bytes
 from .workers import WorkersError, solve_block, without_interrupts
 
 distributed: Any = untyped  # it has no types
@@ -38,7 +38,7 @@ class Cluster:
 
     def results(
         self, m: Measurement, tasks: Iterator[tuple[int, int]]
-    ) -> Iterator[tuple[int, int, Sums]]:
+    ) -> Iterator[tuple[int, int, AnySums]]:
         """Give (first, stop, sums) of every task, as they come. Raises ``WorkersError``."""
         with ExitStack() as open_things:
             client = self._client(open_things)

@@ -17,6 +17,7 @@ from ..mechanics.problem import Problem, Route, Solved
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.base import ContactQuantity, first_order_std
+from ..quantities.network import NETWORK_QUANTITIES, NetworkQuantity
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
 from ..statistics.moments import unit_near
@@ -24,6 +25,12 @@ from ..statistics.moments import unit_near
 DEFAULT_BINS = 60
 # Outer edges of a histogram, in units of the largest theoretical σ_f.
 REACH = 6
+# Of one of forces under unilateral contacts, in units of the mean ordered force.
+FORCES = 8
+_NO_REACH = (
+    "no theory says how wide it will be here: give reach (--reach X), the outer edge of the bins "
+    "in units of force"
+)
 # Variables of a covariance matrix, whose numbers grow with their square.
 MOST_VARIABLES = 2048
 KNOWN = ("profile", "contact", "contact_forces", "response", "histogram")
@@ -61,6 +68,17 @@ class Measurement:
         return replace(self.problem, realisations=self.expected)
 
     @property
+    def of_networks(self) -> bool:
+        """Whether contacts are unilateral, and differ from packing to packing."""
+        return self.problem.route == Route.UNILATERAL
+
+    @property
+    def network(self) -> NetworkQuantity:
+        """What is asked of packings whose contacts are unilateral."""
+        assert isinstance(self.plan.quantity, NetworkQuantity)
+        return self.plan.quantity
+
+    @property
     def _of(self) -> ContactQuantity:
         assert isinstance(self.plan.quantity, ContactQuantity)
         return self.plan.quantity
@@ -83,7 +101,7 @@ class Measurement:
     @cached_property
     def labels(self) -> dict[str, list[Any]]:
         """Columns that name the groups, each of length ``groups``."""
-        return self._of.labels(self.problem)
+        return self.network.labels() if self.of_networks else self._of.labels(self.problem)
 
     @cached_property
     def groups(self) -> int:
@@ -92,8 +110,8 @@ class Measurement:
 
     @cached_property
     def members(self) -> int:
-        """Contacts in a group."""
-        return self._of.members(self.problem)
+        """Contacts in a group; 0 where they differ from packing to packing."""
+        return 0 if self.of_networks else self._of.members(self.problem)
 
     @property
     def variables(self) -> int:
@@ -123,6 +141,8 @@ class Measurement:
 
     def ordered(self) -> list[Fraction]:
         """Give the ordered force of each group (of a group whose forces differ, their mean)."""
+        if self.of_networks:
+            return [Fraction(force) for force in self.network.ordered(self.problem).tolist()]
         return self._of.ordered(self.problem)
 
     def theory(self) -> list[Fraction] | None:
@@ -143,12 +163,6 @@ def measurement(
         raise SceneError("ask.quantity", ask.quantity, f"an ensemble is of {_either(KNOWN)}")
     if scene.effects.stop_at_tension:
         raise SceneError("effects.stop_at_tension", True, "an ensemble needs whole packings")
-    if scene.effects.contacts == "unilateral":
-        raise SceneError(
-            "effects.contacts",
-            "unilateral",
-            "an ensemble is of packings on the lattice; ask run for several (ask.realisations)",
-        )
     if ask.tolerance is not None:
         raise SceneError(
             "ask.tolerance", ask.tolerance, "an ensemble is solved in float64: leave it out"
@@ -161,6 +175,8 @@ def measurement(
         why = planned.skipped[-1].reason
         raise SceneError("disorder", None, f"every realisation would be the same: {why}")
     made = Measurement(planned, (), covariance)
+    if made.of_networks:
+        _refuse_of_networks(made)
     if ask.quantity == "histogram":
         made = replace(made, edges=_edges(made, reach))
     elif reach is not None:
@@ -175,16 +191,35 @@ def measurement(
     return made
 
 
+def _refuse_of_networks(made: Measurement) -> None:
+    """Refuse what packings whose contacts differ do not have."""
+    if not made.network.statistics:
+        allowed = _either(tuple(q.name for q in NETWORK_QUANTITIES.values() if q.statistics))
+        why = f'contacts = "unilateral" differ from packing to packing: an ensemble is of {allowed}'
+        raise SceneError("ask.quantity", made.quantity, why)
+    if made.covariance:
+        raise ArgumentError(
+            "covariance", True, "is known on the lattice only, in which no contact opens"
+        )
+
+
 def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
-    """Edges that are fixed before anything is drawn, symmetric about no change at all."""
-    if reach is None:
+    """Edges that are fixed before anything is drawn.
+
+    They are symmetric about no change at all; of unilateral contacts they are those of the forces
+    themselves, and begin at 0.
+    """
+    if reach is None and made.of_networks:
+        reach = FORCES * made.network.mean_force(made.problem)
+        if not reach:
+            raise SceneError("ask.quantity", "histogram", _NO_REACH)
+    elif reach is None:
         theory = made.theory()
         if theory is None:
             raise SceneError(
                 "ask.quantity",
                 "histogram",
-                "no theory says how wide it will be here: give reach (--reach X), the outer edge "
-                "of the bins in units of force",
+                _NO_REACH,
             )
         if made.problem.contact is not None:
             theory = [theory[made.problem.contact.j]]
@@ -194,7 +229,9 @@ def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
     if not 0 < reach < 1e300:
         raise ArgumentError("reach", reach, "must be a positive number below 1e300")
     bins = made.plan.scene.ask.bins or DEFAULT_BINS
-    edges = tuple(float(Fraction(reach) * Fraction(2 * k - bins, bins)) for k in range(bins + 1))
+    low = 0 if made.of_networks else -Fraction(reach)
+    width = (Fraction(reach) - low) / bins
+    edges = tuple(float(low + k * width) for k in range(bins + 1))
     if len(set(edges)) <= bins:
         raise SceneError("ask.bins", bins, "are more than float64 can tell apart here")
     return edges

@@ -41,6 +41,8 @@ class Ensemble:
     reached: bool | None
     solved: int
 
+    left_out = "can't be built and are left out"
+
     @property
     def quantity(self) -> str:
         """What was asked, as the scene calls it."""
@@ -222,7 +224,8 @@ class Ensemble:
             elif name == "first_order_std":
                 found[name] = significant(column, np.full(len(column), 12))
             else:
-                known = columns.get(f"{SCATTER_OF.get(name, name)}_error", np.zeros(len(column)))
+                names = (f"{name}_error", f"{SCATTER_OF.get(name, name)}_error")
+                known = next((columns[n] for n in names if n in columns), np.zeros(len(column)))
                 sampling = np.nan_to_num(known) / (self.mean if name == RATIO else 1)
                 found[name] = known_digits(column, 0.0, sampling)
         return found
@@ -304,7 +307,7 @@ class Ensemble:
         if self.unbuildable:
             lines.append(
                 f"{self.unbuildable} more, {data['ensemble']['unbuildable_share']:.2g} of all, "
-                "can't be built and are left out, the first of them realisation "
+                f"{self.left_out}, the first of them realisation "
                 f"{data['ensemble']['first_unbuildable']}: what is said holds for the others"
             )
         if math.isfinite(self.half_width):

@@ -5,11 +5,11 @@ from collections.abc import Callable, Iterator
 from typing import Protocol
 
 from ..statistics.confidence import Rule, looks
-from .estimates import Estimates
 from .measure import Measurement
+from .network_result import NetworkEnsemble, NetworkEstimates, estimates_of
 from .result import Ensemble
 from .store import Block, Store, StoreError
-from .sums import Sums, none
+from .sums import AnySums, of_none
 from .workers import refuse_unbuildable
 
 # Beads of a block, about: a second of work at most, of which a kill loses no more; of a large
@@ -22,7 +22,7 @@ class Executor(Protocol):
 
     def results(
         self, m: Measurement, tasks: Iterator[tuple[int, int]]
-    ) -> Iterator[tuple[int, int, Sums]]:
+    ) -> Iterator[tuple[int, int, AnySums]]:
         """Give (first, stop, sums) of every task, in any order; tasks are taken as needed."""
 
 
@@ -65,7 +65,7 @@ class _Run:
         self._refuse_straddling()
         if store is not None:
             store.add_end(size)
-        self.prefix, self.look = none(m), 0
+        self.prefix, self.look = of_none(m), 0
         self.width: float | None = None
         self.solved = 0
 
@@ -91,7 +91,7 @@ class _Run:
                 if ended:
                     break
         refuse_unbuildable(self.m, self.prefix)
-        estimates = Estimates(self.m, self.prefix)
+        estimates = estimates_of(self.m, self.prefix)
         reached = None
         look = self.look
         if self.rule is not None:
@@ -99,7 +99,10 @@ class _Run:
                 look += 1  # the size itself is looked at last
             reached = estimates.half_width(self.confidence, look) <= self.rule.relative
         width = estimates.half_width(self.confidence, look if self.rule is not None else 0)
-        return Ensemble(
+        kind: type[Ensemble] = Ensemble
+        if isinstance(estimates, NetworkEstimates):
+            kind = NetworkEnsemble
+        return kind(
             estimates, self.confidence, look if self.rule else 0, width, reached, self.solved
         )
 
@@ -112,6 +115,8 @@ class _Run:
         beads = max(self.m.problem.region.beads, 1)
         large = min(LARGE // beads, self.size // SHARES)
         step = max(1, min(max(BLOCK // beads, large), 4096))
+        if self.m.of_networks:  # each takes a second, or many
+            step = 1
         known = [(block.first, block.stop) for block in self.blocks]
         at = 0
         while at < self.size:
@@ -153,7 +158,7 @@ class _Run:
                 self.prefix = self.prefix + block.sums
             if cut in self.looks and self.rule is not None:
                 self.look += 1
-                estimates = Estimates(self.m, self.prefix)
+                estimates = estimates_of(self.m, self.prefix)
                 self.width = estimates.half_width(self.confidence, self.look)
                 if self.width <= self.rule.relative:
                     return True

@@ -20,7 +20,7 @@ from pydantic import Field, JsonValue, TypeAdapter
 from ..arithmetic.errors import ForceDiffusionError, NotReachedError, printable
 from .measure import Measurement
 from .scene_key import differences
-from .sums import Sums, from_bytes
+from .sums import AnySums, from_bytes
 
 APPLICATION, SCHEMA = 0x46444546, 2  # "FDEF"
 # Looks at a store that is being written to, and seconds between them.
@@ -61,11 +61,11 @@ def _identity(path: Path) -> tuple[int, int] | None:
 
 @dataclass(frozen=True)
 class Block:
-    """Sums over realisations first … stop − 1."""
+    """AnySums over realisations first … stop − 1."""
 
     first: int
     stop: int
-    sums: Sums
+    sums: AnySums
 
 
 @dataclass(frozen=True)

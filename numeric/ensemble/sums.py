@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from operator import add
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from ..statistics.exact_sum import (
     total_matrix,
     total_products,
 )
+from . import networks
 from .measure import Measurement
 
 if TYPE_CHECKING:
@@ -98,15 +99,55 @@ def _bins(m: Measurement) -> int:
     return len(m.edges) + 1 if m.edges else 0
 
 
-def none(m: Measurement) -> Sums:
+class AnySums(Protocol):
+    """What sums of all kinds can do."""
+
+    @property
+    def realisations(self) -> int:
+        """Packings that were summed up."""
+
+    @property
+    def unbuildable(self) -> int:
+        """Packings that were left out."""
+
+    @property
+    def first_unbuildable(self) -> int:
+        """The lowest number of one, −1 where there is none."""
+
+    @property
+    def tried(self) -> int:
+        """Packings that were summed up or left out."""
+
+    def __add__(self, other: Any) -> "AnySums":
+        """Merge the sums of other realisations."""
+
+    def to_bytes(self) -> bytes:
+        """Write as bytes; equal sums give equal bytes."""
+
+
+def of_none(m: Measurement) -> AnySums:
     """Give the sums of no realisation."""
+    return networks.none(m) if m.of_networks else none(m)
+
+
+def left_out(m: Measurement, number: int) -> AnySums:
+    """Give the sums of a realisation that can't be solved."""
+    if m.of_networks:
+        return networks.left_out(m, number)
+    return replace(none(m), unbuildable=1, first_unbuildable=number)
+
+
+def none(m: Measurement) -> Sums:
+    """Give the sums of no realisation of packings on the lattice."""
     change, square, means, products, pairs = (ExactSum.zero(*shape) for shape in _shapes(m))
     tensile, bins = np.zeros(m.groups, np.int64), np.zeros((2, _bins(m)), np.int64)
     return Sums(0, change, square, means, products, pairs, tensile, bins)
 
 
-def from_bytes(content: bytes, m: Measurement) -> Sums:
+def from_bytes(content: bytes, m: Measurement) -> AnySums:
     """Read what ``to_bytes`` wrote. Raises ``ValueError`` where it is nothing of the kind."""
+    if m.of_networks:
+        return networks.from_bytes(content, m)
     counts = m.groups + 2 * _bins(m)
     at = _COUNTS.size + 8 * counts
     if len(content) < at:
@@ -130,11 +171,14 @@ def from_bytes(content: bytes, m: Measurement) -> Sums:
     )
 
 
-def measured(m: Measurement, realisations: Sequence[int], work: Work | None = None) -> Sums:
+def measured(m: Measurement, realisations: Sequence[int], work: Work | None = None) -> AnySums:
     """Solve realisations and sum them up; what the sweeps raise is passed on.
 
     Who sums up decides no bit: exact sums have but one value.
     """
+    if m.of_networks:
+        parts = [networks.measured(m, number) for number in realisations]
+        return reduce(add, parts, networks.none(m))
     work = Work() if work is None else work
     problem = m.many
     if m.expected < len(realisations):

@@ -7,22 +7,23 @@ from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from multiprocessing import active_children, connection, get_context, parent_process
 
-from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
+from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
 from ..arithmetic.machine import memory_limit, share_cores
 from ..disorder.radii import RadiusError
 from ..mechanics.forces import NotStandingError
 from ..mechanics.packing import UnbuildableError
+from ..unilateral.network import UnfinishedError
 from .measure import Measurement
-from .sums import Sums, from_bytes, measured, none
+from .sums import AnySums, from_bytes, left_out, measured
 
 # Pools in a row that may die without finishing anything.
 PATIENCE = 3
 # Seconds between looks at whether any process is left.
 LOOK = 10
-_TROUBLE = (UnbuildableError, NotStandingError, RadiusError)
+_TROUBLE = (UnbuildableError, NotStandingError, RadiusError, UnfinishedError, UndecidedError)
 
 
 class NotStartedError(Exception):
@@ -44,18 +45,18 @@ def solve_block(m: Measurement, first: int, stop: int) -> bytes:
     return _without_unbuildable(m, first, stop).to_bytes()
 
 
-def _without_unbuildable(m: Measurement, first: int, stop: int) -> Sums:
+def _without_unbuildable(m: Measurement, first: int, stop: int) -> AnySums:
     """Find them by halving: sums merge exactly, however they were cut."""
     try:
         return measured(m, range(first, stop))
     except _TROUBLE:
         if stop - first == 1:
-            return replace(none(m), unbuildable=1, first_unbuildable=first)
+            return left_out(m, first)
     middle = (first + stop) // 2
     return _without_unbuildable(m, first, middle) + _without_unbuildable(m, middle, stop)
 
 
-def refuse_unbuildable(m: Measurement, sums: Sums) -> None:
+def refuse_unbuildable(m: Measurement, sums: AnySums) -> None:
     """Raise ``RealisationError`` where no two packings are left, and say why one can't be built."""
     if sums.realisations >= 2:
         return
@@ -75,7 +76,7 @@ class InProcess:
 
     def results(
         self, m: Measurement, tasks: Iterator[tuple[int, int]]
-    ) -> Iterator[tuple[int, int, Sums]]:
+    ) -> Iterator[tuple[int, int, AnySums]]:
         """Give (first, stop, sums) of every task."""
         for first, stop in tasks:
             yield first, stop, from_bytes(solve_block(m, first, stop), m)
@@ -141,7 +142,7 @@ class Pool:
 
     def results(
         self, m: Measurement, tasks: Iterator[tuple[int, int]]
-    ) -> Iterator[tuple[int, int, Sums]]:
+    ) -> Iterator[tuple[int, int, AnySums]]:
         """Give (first, stop, sums) of every task, as they come. Raises ``WorkersError``."""
         again: list[tuple[int, int]] = []
         deaths = 0

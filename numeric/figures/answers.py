@@ -1,19 +1,28 @@
 """Figures of one answer: of a run, or of an ensemble."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from ..arithmetic.systems import Array
+from ..mechanics.problem import Route
 from ..planning.plan import Plan
 from ..scene.sections import SceneError
+from ..unilateral.network import Network
 from .library import drawing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def figure_of(plan: Plan, columns: Mapping[str, Array], errors: Mapping[str, Array]) -> "Figure":
+def figure_of(
+    plan: Plan,
+    columns: Mapping[str, Array],
+    errors: Mapping[str, Array],
+    networks: Sequence[Network] = (),
+) -> "Figure":
     """Draw an answer; ``columns`` are those of its table, ``errors`` standard errors of some.
+
+    ``networks``: where beads came to rest under unilateral contacts.
 
     Raises ``MissingLibraryError``, and ``SceneError`` for a quantity that has no figure, or for an
     answer of no rows.
@@ -22,11 +31,15 @@ def figure_of(plan: Plan, columns: Mapping[str, Array], errors: Mapping[str, Arr
     if plan.problem.dimension == 3:
         raise SceneError("packing.dimension", 3, "an answer has a figure in two dimensions only")
     with drawing():
+        from . import networks_drawing
         from .answers_drawing import DRAWN
 
-        if quantity not in DRAWN:
+        drawn = DRAWN.get(quantity)
+        if plan.problem.route == Route.UNILATERAL:
+            drawn = networks_drawing.drawn(quantity, networks)
+        if drawn is None:
             other = 'ask for "contact_forces" or, of many packings, "histogram"'
             raise SceneError("ask.quantity", quantity, f"has no figure of its own: {other}")
         if not len(next(iter(columns.values()), [])):
             raise SceneError("ask.quantity", quantity, "the answer has no rows to be drawn")
-        return DRAWN[quantity](plan, columns, errors)
+        return drawn(plan, columns, errors)

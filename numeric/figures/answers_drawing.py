@@ -17,15 +17,16 @@ from . import parts, style
 Columns = Mapping[str, Array]
 
 
-def _first(columns: Columns) -> dict[str, Array]:
+def of_first(columns: Columns) -> dict[str, Array]:
     """Give the rows of the first packing that is listed, numbers as float64."""
     rows = np.ones(len(next(iter(columns.values()))), dtype=bool)
     if "realisation" in columns:
         rows = columns["realisation"] == columns["realisation"][0]
-    return {name: _floats(column[rows]) for name, column in columns.items()}
+    return {name: floats(column[rows]) for name, column in columns.items()}
 
 
-def _floats(column: Array) -> Array:
+def floats(column: Array) -> Array:
+    """Round numbers of any arithmetic; leave words and whole numbers."""
     return as_floats(column) if column.dtype.kind in "Of" else column
 
 
@@ -46,12 +47,12 @@ def contact_forces(plan: Plan, columns: Columns, errors: Columns) -> Figure:
 
     Of an ensemble, which has no one packing, lines are as thick as σ_f.
     """
-    rows = _first(columns)
+    rows = of_first(columns)
     forces = rows["force"] if "force" in rows else rows["std"]
     ends = _contacts(plan, rows)
-    figure = style.figure(style.PAGE, _height(ends))
+    figure = style.figure(style.PAGE, height_of(ends))
     axes = figure.subplots()
-    _chains(axes, plan, ends, forces)
+    chains(axes, plan, ends, forces)
     size, what = np.abs(forces), "f" if "force" in rows else r"\sigma_f"
     shown = [(size.mean(), f"mean, ${what}={size.mean():.3g}$")]
     shown.append((forces.max(), f"largest, ${what}={forces.max():.3g}$"))
@@ -80,22 +81,26 @@ def _unwrapped(plan: Plan, i: Array) -> Array:
     return np.asarray(i + 2 * width * np.rint((int(at[0]) - i) / (2 * width)))
 
 
-def _chains(axes: Axes, plan: Plan, ends: Array, forces: Array) -> None:
+def chains(axes: Axes, plan: Plan, ends: Array, forces: Array, top: float | None = None) -> None:
+    """Draw lines between the ends of contacts, and the load; ``top`` is where the surface lies."""
     _, ny = _axes(plan)
     parts.force_chains(axes, ends, forces)
     left, right = ends[..., 0].min(), ends[..., 0].max()
-    top, load = 2 * ny * plan.problem.height, plan.scene.load
+    load = plan.scene.load
+    surface = 2 * ny * plan.problem.height if top is None else top
     room = 1.0
     if load.kind == "surface":
-        parts.surface_load(axes, left, right, top)
+        parts.surface_load(axes, left, right, surface)
         room = 5.0
     elif load.at is not None:
-        x, top = _apex(plan)
-        parts.point_load(axes, x, top)
+        x, own = _apex(plan)
+        if top is None:
+            surface = own
+        parts.point_load(axes, x, surface)
         room = 10.0
         axes.plot([left, right], [-0.9, -0.9], color="black", lw=1)
     axes.set_xlim(left - 1, right + 1)
-    axes.set_ylim(-1.5, max(top, ends[..., 1].max()) + room)
+    axes.set_ylim(-1.5, max(surface, ends[..., 1].max()) + room)
     axes.set_aspect("equal")
     axes.axis("off")
 
@@ -108,7 +113,7 @@ def _apex(plan: Plan) -> tuple[float, float]:
     return 2 * nx * i, 2 * ny * j
 
 
-def _height(points: Array) -> float:
+def height_of(points: Array) -> float:
     """Give the height of a figure that is a page wide, in inches."""
     wide, high = np.ptp(points.reshape(-1, 2), axis=0)
     return float(np.clip(style.PAGE * (high + 8) / (wide + 2) + 0.3, 1.6, 8))
@@ -116,13 +121,13 @@ def _height(points: Array) -> float:
 
 def positions(plan: Plan, columns: Columns, errors: Columns) -> Figure:
     """Draw the beads where they lie, each with its radius, as dark as it is displaced."""
-    rows = _first(columns)
+    rows = of_first(columns)
     sites = list(zip(rows["i"].tolist(), rows["j"].tolist(), strict=True))
     unit = float(plan.scene.packing.radius)
     with FLOAT64.active():
         radii = unit * (1 + plan.problem.radii.at(sites, 0, FLOAT64))
     points = np.stack([rows["x"], rows["y"]], axis=-1)
-    figure = style.figure(style.PAGE, _height(points / unit) + 0.4)
+    figure = style.figure(style.PAGE, height_of(points / unit) + 0.4)
     axes = figure.subplots()
     circles = list(zip(rows["x"].tolist(), rows["y"].tolist(), radii.tolist(), strict=True))
     away = np.hypot(rows["dx"], rows["dy"])
@@ -142,7 +147,7 @@ def profile(plan: Plan, columns: Columns, errors: Columns) -> Figure:
     figure = style.figure(style.COLUMN, 2.8)
     axes = figure.subplots()
     M, theory = plan.problem.height, _theory(plan)
-    branch, z, std = columns["branch"], columns["j"] / M, _floats(columns["std"])
+    branch, z, std = columns["branch"], columns["j"] / M, floats(columns["std"])
     if theory is not None:
         layers = np.arange(M)
         axes.plot(layers / M, theory, color="0.35", label="exact at finite $M$")
@@ -226,7 +231,7 @@ def response(plan: Plan, columns: Columns, errors: Columns) -> Figure:
     Of one packing these are as thick as their force, of several as σ of it; p is the mean then.
     """
     one = "vertical" in columns
-    rows = {name: _floats(column) for name, column in columns.items()}
+    rows = {name: floats(column) for name, column in columns.items()}
     rows["i"] = _unwrapped(plan, rows["i"])
     vertical = rows["vertical" if one else "vertical_mean"]
     found: dict[tuple[int, int], float] = {}
@@ -245,7 +250,7 @@ def response(plan: Plan, columns: Columns, errors: Columns) -> Figure:
         max(found.values()),
     )
     forces = rows["force" if one else "force_std"]
-    _chains(right, plan, _contacts(plan, rows), forces)
+    chains(right, plan, _contacts(plan, rows), forces)
     what = "f" if one else r"\sigma_f"
     shown = [(forces.max(), f"largest, ${what}={forces.max():.3g}$")]
     if forces.min() < 0:
@@ -258,7 +263,7 @@ def response(plan: Plan, columns: Columns, errors: Columns) -> Figure:
 
 def base_reactions(plan: Plan, columns: Columns, errors: Columns) -> Figure:
     """Draw what the base bears along it: forces above, their changes below."""
-    rows = _first(columns)
+    rows = of_first(columns)
     figure = style.figure(style.COLUMN, 3.6)
     above, below = figure.subplots(2, 1, sharex=True)
     for axes, names in ((above, ("fx", "fy")), (below, ("change_x", "change_y"))):

@@ -15,7 +15,7 @@ from ..mechanics.packing import UnbuildableError
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route
 from ..mechanics.work import Work
-from ..unilateral.network import Network, Relaxed
+from ..unilateral.network import Network, Relaxed, UnfinishedError
 from .base import RATIO, Quantity, Table
 
 # What the sweeps raise for a packing that can't be built.
@@ -74,8 +74,10 @@ def answer(
                     networks.append(solved.network)
                 gatherer.add(solved, chunk)
                 done += len(chunk)
-        except UNBUILDABLE as error:
-            if len(realisations) > 1:
+        except (*UNBUILDABLE, UnfinishedError) as error:
+            if problem.route == Route.UNILATERAL and len(realisations) > 1:
+                error.add_note(f"realisation {realisations[done]}; an ensemble leaves such out")
+            elif len(realisations) > 1:
                 error.add_note(_which(problem, realisations[done:], system, plainly))
             raise
         table = in_units(quantity, gatherer.table().sorted(), system)

@@ -4,22 +4,24 @@ Rows name both beads as they were deposited, and the branch where they are neigh
 lattice. Only contacts that bear force are listed.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from ..arithmetic.systems import Array, NumberSystem
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats
+from ..lattice.branch import Branch
 from ..lattice.layers import Region, whole
 from ..lattice.regions import Rows
 from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved
-from ..scene.scene import Scene
 from ..statistics.histogram import histogram
+from ..statistics.moments import root
+from ..statistics.ratios import moments
 from ..unilateral.network import Network, Relaxed
-from .base import Gatherer, Listed, Quantity, Table, column
+from .base import Gatherer, Listed, Table, column
 from .histogram import DEFAULT_BINS
 
 
@@ -54,6 +56,28 @@ class NetworkQuantity(Listed):
         """Give the rows of one network."""
         raise NotImplementedError
 
+    def labels(self) -> dict[str, list[Any]]:
+        """Give columns that name the groups of samples of which an ensemble has statistics."""
+        raise NotImplementedError
+
+    def samples(self, problem: Problem, network: Network) -> tuple[Array, Array]:
+        """Give the group of each sample, and its value less that of ``ordered``, in float64."""
+        raise NotImplementedError
+
+    def ordered(self, problem: Problem) -> Array:
+        """Give the ordered force of each group, exact floats; 0 where forces differ anyway."""
+        return np.zeros(len(next(iter(self.labels().values()), [None])))
+
+    def mean_force(self, problem: Problem) -> float:
+        """Give the mean force of the ordered packing, as in ``NetworkProfile``; 0 if unknown."""
+        return float(NetworkProfile(self.scene).ordered(problem)[:-1].mean())
+
+    def sums(self, problem: Problem, network: Network) -> Array:
+        """Give how many samples each group has, their sums and those of squares, (3, groups)."""
+        group, value = self.samples(problem, network)
+        count = len(self.ordered(problem))
+        return np.stack([np.bincount(group, value**k, minlength=count) for k in range(3)])
+
 
 class NetworkForces(NetworkQuantity):
     """All contacts that bear force."""
@@ -70,19 +94,39 @@ class NetworkContact(NetworkQuantity):
     """The force of one contact of the lattice: zero where it opened."""
 
     name = "contact"
+    statistics = True
+
+    def labels(self) -> dict[str, list[Any]]:
+        """There is one group."""
+        assert self.scene.contact is not None
+        i, j, branch = self.scene.contact
+        return {"i": [self.home(i)], "j": [j], "branch": [branch.value]}
+
+    def samples(self, problem: Problem, network: Network) -> tuple[Array, Array]:
+        """Give the one force."""
+        change = self._force(network, FLOAT64) - self.ordered(problem)
+        return np.zeros(1, dtype=int), as_floats(change)
+
+    def ordered(self, problem: Problem) -> Array:
+        """Give its force in the ordered packing."""
+        assert self.scene.contact is not None
+        strength = problem.load.strength(problem.n_x, FLOAT64)
+        found = problem.load.ordered_force(self.scene.contact, strength, FLOAT64)
+        return np.array([float(found)])
+
+    def _force(self, network: Network, system: NumberSystem) -> Any:
+        assert self.scene.contact is not None
+        i, j, branch = self.scene.contact
+        for pair, value in zip(network.pairs, network.forces, strict=True):
+            if network.bead(pair[1]) == (self.home(i), j) and network.branch(pair) == branch.value:
+                return value
+        return system.number(Fraction(0))
 
     def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
         """Give its row."""
-        assert self.scene.contact is not None
-        i, j, branch = self.scene.contact
-        i = self.home(i)
-        force = system.number(Fraction(0))
-        for pair, value in zip(network.pairs, network.forces, strict=True):
-            if network.bead(pair[1]) == (i, j) and network.branch(pair) == branch.value:
-                force = value
         return Table(
-            {"i": np.array([i]), "j": np.array([j]), "branch": np.array([branch.value])},
-            {"force": column([force], system)},
+            {name: np.array(values) for name, values in self.labels().items()},
+            {"force": column([self._force(network, system)], system)},
             ("force",),
         )
 
@@ -91,6 +135,21 @@ class NetworkResponse(NetworkQuantity):
     """The contacts that bear an isolated load, with the vertical components of their forces."""
 
     name = "response"
+    statistics = True
+
+    def labels(self) -> dict[str, list[Any]]:
+        """Name the beads but those of the surface, which bear nothing."""
+        assert self.width is not None
+        sites = [(2 * q + j % 2, j) for j in range(self.height) for q in range(self.width)]
+        return {"i": [i for i, _ in sites], "j": [j for _, j in sites]}
+
+    def samples(self, problem: Problem, network: Network) -> tuple[Array, Array]:
+        """Give the vertical force that each bead bears from those above it."""
+        beads = self.height * network.width
+        borne = as_floats(network.pushes()[:, 1])
+        lower = network.pairs[:, 1]
+        found = np.bincount(lower, borne, minlength=beads)[:beads]
+        return np.arange(beads), found
 
     def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
         """Give a row a contact."""
@@ -165,6 +224,15 @@ class NetworkHistogram(NetworkQuantity):
     """All contact forces, counted into bins: P(f)."""
 
     name = "histogram"
+    statistics = True
+
+    def labels(self) -> dict[str, list[Any]]:
+        """There is one group, which needs no name."""
+        return {}
+
+    def samples(self, problem: Problem, network: Network) -> tuple[Array, Array]:
+        """Give all forces."""
+        return np.zeros(len(network.forces), dtype=int), as_floats(network.forces)
 
     def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
         """Give all forces of one realisation."""
@@ -180,39 +248,64 @@ class NetworkProfile(NetworkQuantity):
 
     name = "profile"
     merged = True
+    statistics = True
+
+    def labels(self) -> dict[str, list[Any]]:
+        """Name the layers; two beads of the surface may touch."""
+        return {"j": list(range(self.height + 1))}
+
+    def samples(self, problem: Problem, network: Network) -> tuple[Array, Array]:
+        """Give all forces, by layer."""
+        layer = network.pairs[:, 1] // network.width
+        return layer, as_floats(network.forces - self.ordered(problem)[layer])
+
+    def ordered(self, problem: Problem) -> Array:
+        """Give the force of each layer under a load straight down on all beads."""
+        found = np.zeros(self.height + 1)
+        load = problem.load
+        if load.loaded is None and not load.angle_deg:
+            strength = load.strength(problem.n_x, FLOAT64)
+            for j in range(self.height):
+                found[j] = load.ordered_force((j % 2, j, Branch.PLUS), strength, FLOAT64)
+        return found
 
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
         """Start to merge."""
-        return _Layers(self, system)
+        return _Layers(self, problem, system)
 
 
 class _Layers(Gatherer):
-    def __init__(self, quantity: NetworkProfile, system: NumberSystem) -> None:
-        self.system = system
+    def __init__(self, quantity: NetworkProfile, problem: Problem, system: NumberSystem) -> None:
+        self.quantity, self.problem, self.system = quantity, problem, system
         self.forces: list[list[Any]] = [[] for _ in range(quantity.height + 1)]
+        self.sums: list[Array] = []  # of each packing: counts, sums and squares of every layer
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Sort forces by the layer of the lower bead."""
         assert isinstance(solved, Relaxed)
         for pair, force in zip(solved.network.pairs, solved.network.forces, strict=True):
             self.forces[solved.network.bead(pair[1])[1]].append(force)
+        self.sums.append(self.quantity.sums(self.problem, solved.network))
 
     def table(self) -> Table:
         """One row a layer that bears force, base first."""
         rows = [(j, forces) for j, forces in enumerate(self.forces) if forces]
         means = [sum(forces[1:], forces[0]) / len(forces) for _, forces in rows]
         spread = [
-            sum(((f - mean) ** 2 for f in forces), self.system.number(Fraction(0))) / len(forces)
+            sum(((f - mean) * (f - mean) for f in forces), self.system.number(Fraction(0)))
+            / len(forces)
             for (_, forces), mean in zip(rows, means, strict=True)
         ]
-        std = [self.system.sqrt(np.array([one], dtype=object))[0] for one in spread]
+        std = root(column(spread, self.system), self.system)
+        *_, of_mean, of_std = moments(*np.stack(self.sums, axis=1)[:, :, [j for j, _ in rows]])
         return Table(
             {
                 "j": np.array([j for j, _ in rows]),
                 "samples": np.array([len(forces) for _, forces in rows]),
             },
-            {"mean": column(means, self.system), "std": column(std, self.system)},
+            {"mean": column(means, self.system), "std": std},
             ("mean", "std"),
+            {"mean": of_mean, "std": of_std},
         )
 
 
@@ -233,7 +326,7 @@ def _contacts(network: Network, order: Array, numbers: dict[str, Array]) -> Tabl
     )
 
 
-NETWORK_QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
+NETWORK_QUANTITIES: dict[str, type[NetworkQuantity]] = {
     one.name: one
     for one in (
         NetworkContact,

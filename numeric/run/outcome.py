@@ -155,7 +155,7 @@ class Outcome:
         """
         from ..figures.answers import figure_of
 
-        return figure_of(self.plan, self.arrays, self.standard_errors)
+        return figure_of(self.plan, self.arrays, self.standard_errors, self.answer.networks)
 
     def data(self, *, rows: bool = True) -> dict[str, Any]:
         """Give what JSON can hold of it; the guide to scenes has the schema of each quantity.

@@ -20,9 +20,8 @@ from scipy.sparse.linalg import splu
 
 from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import Array, Balls
-from .event_driven import UnfinishedError
 from .grains import Grains, Pairs
-from .network import Frame
+from .network import Frame, UnfinishedError
 
 # Columns of the inverse that are found together.
 TOGETHER = 256

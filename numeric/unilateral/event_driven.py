@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 from scipy.sparse.linalg import splu
 
-from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
 from ..arithmetic.systems import Array
 from .grains import Grains, Pairs
+from .network import UnfinishedError
 
 # Gaps as small as this, in units of r, are those of contacts: float64 leaves about 1e-14.
 CLOSED = 2e-12
@@ -35,12 +35,6 @@ REACH = 0.6
 ITERATIONS, HALVINGS = 12, 40
 # Events for each coordinate before the motion is given up as endless.
 MOST_EVENTS = 50
-
-
-class UnfinishedError(ForceDiffusionError, ArithmeticError):
-    """Beads did not come to rest: no answer is given."""
-
-    exit_status = NOT_REACHED
 
 
 @dataclass

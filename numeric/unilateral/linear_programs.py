@@ -11,8 +11,8 @@ import numpy as np
 
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
-from .event_driven import UnfinishedError
 from .grains import Grains, Pairs
+from .network import UnfinishedError
 
 # Δ, in units of r.
 TRUST = 0.8

@@ -5,9 +5,16 @@ from typing import Any
 
 import numpy as np
 
+from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
 from ..arithmetic.systems import Array
 from ..lattice.branch import Branch
 from ..mechanics.problem import Solved
+
+
+class UnfinishedError(ForceDiffusionError, ArithmeticError):
+    """Beads did not come to rest: no answer is given."""
+
+    exit_status = NOT_REACHED
 
 
 @dataclass(frozen=True)

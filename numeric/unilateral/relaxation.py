@@ -20,9 +20,8 @@ from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.work import Work
 from . import event_driven, linear_programs
 from .certificate import Certificate, certify
-from .event_driven import UnfinishedError
 from .grains import Grains, Pairs
-from .network import Frame, Network, Relaxed
+from .network import Frame, Network, Relaxed, UnfinishedError
 
 # Forces below this share of the largest one are none: what float64 and the programs leave.
 NO_FORCE = 1e-7

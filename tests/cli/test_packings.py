@@ -41,6 +41,16 @@ def test_run_writes_packings_that_are_proved_again(
     assert not verdict["proved"]
 
 
+@pytest.mark.parametrize(
+    "quantity", ["contact_forces", "positions", "profile", "histogram", "base_reactions"]
+)
+def test_figures_of_a_scene(quantity: str, tmp_path: Path) -> None:
+    scene, out = tmp_path / "scene.toml", tmp_path / "out"
+    scene.write_text(SCENE.replace("contact_forces", quantity))
+    assert main(["figures", str(scene), "--out", str(out)]) == 0
+    assert {path.suffix for path in out.iterdir()} == {".csv", ".json", ".pdf", ".png", ".svg"}
+
+
 def test_check_packings_of_something_else(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

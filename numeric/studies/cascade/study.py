@@ -24,6 +24,7 @@ from ...mechanics.work import Work
 from ...planning.planner import plan
 from ...scene.scene import Scene
 from ...scene.sections import Ask, BulkLoad, Disorder, Effects, Packing, SurfaceLoad
+from ...unilateral.network import UnfinishedError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -163,8 +164,6 @@ def _all_opened(
 
     Those in which beads do not come to rest are told, and left out.
     """
-    from ...unilateral.event_driven import UnfinishedError
-
     for number in count():
         try:
             found = _opened(load, height, number, protocol)

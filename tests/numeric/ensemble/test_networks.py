@@ -1,0 +1,156 @@
+"""Ensembles of packings whose contacts are unilateral."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.ensemble.measure import measurement
+from force_diffusion.numeric.ensemble.network_result import NetworkEnsemble
+from force_diffusion.numeric.ensemble.sums import from_bytes, measured
+from force_diffusion.numeric.ensemble.workers import RealisationError
+from force_diffusion.numeric.statistics.ratios import moments
+
+import force_diffusion as fd
+
+
+def strip(quantity: str = "profile", **more: Any) -> fd.Scene:
+    """Give a strip of 6 layers in which about half of the packings have tension."""
+    effects: dict[str, Any] = {"contacts": "unilateral"}
+    if protocol := more.pop("protocol", None):
+        effects["protocol"] = protocol
+    return fd.Scene(
+        packing=fd.Packing(height=6, width=12),
+        disorder=fd.Disorder(kind="uniform", relative_std=more.pop("std", 0.02), seed=1),
+        load=more.pop("load", fd.SurfaceLoad()),
+        effects=fd.Effects(**more.pop("effects", effects)),
+        ask=fd.Ask(quantity=quantity, **more),
+    )
+
+
+@pytest.mark.parametrize("load", [fd.SurfaceLoad(), fd.BulkLoad()], ids=["surface", "bulk"])
+def test_without_tension_it_is_the_ensemble_of_the_lattice(load: fd.Load) -> None:
+    """Layer by layer, over both branches; σ/r is small, so that no digit may be cancelled."""
+    opened = fd.ensemble(strip(std=1e-7, load=load), 8)
+    closed = fd.ensemble(strip(std=1e-7, load=load, effects={}), 8)
+    assert isinstance(opened, NetworkEnsemble)
+    assert (opened.samples, opened.index["j"].tolist()) == (8 * 2 * 6 * 12, list(range(6)))
+    np.testing.assert_allclose(opened.mean, closed.mean.reshape(6, 2).mean(axis=1), rtol=1e-13)
+    # rounded forces of size 1 to 6 leave 1e-15 of changes of 1e-6; their squares twice that share
+    mean, square = (
+        values.reshape(6, 2).mean(axis=1) for values in (closed.mean_change, closed.mean_square)
+    )
+    np.testing.assert_allclose(opened.std, np.sqrt(square - mean**2), rtol=1e-8)
+
+
+@pytest.fixture(scope="module")
+def six() -> fd.Ensemble:
+    return fd.ensemble(strip(), 6)
+
+
+def test_it_holds_what_runs_of_each_packing_give(six: fd.Ensemble) -> None:
+    scene = strip("contact_forces", realisations=6)
+    rows = scene.run().arrays
+    force, layer = rows["force"].astype(float), rows["j"]
+    for j, samples, mean, std in zip(
+        six.index["j"], six.arrays["samples"], six.mean, six.std, strict=True
+    ):
+        own = force[layer == j]
+        assert len(own) == samples
+        assert mean == pytest.approx(own.mean(), rel=1e-13)
+        assert std == pytest.approx(own.std(), rel=1e-12)
+    assert any(network.events for network in scene.run().answer.networks)
+
+
+def test_neither_workers_nor_an_interruption_change_a_digit(
+    six: fd.Ensemble, tmp_path: Path
+) -> None:
+    store = tmp_path / "store"
+
+    def interrupt(done: int, width: float | None) -> None:
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        fd.ensemble(strip(), 6, store=store, progress=interrupt)
+    assert fd.read_store(store).realisations == 2
+    again = fd.ensemble(strip(), 6, store=store, workers=2)
+    assert again.solved == 4
+    assert again.data() == six.data()
+
+
+def test_what_does_not_come_to_rest_is_counted() -> None:
+    """The event-driven protocol starts from the deposited packing, which may have overlaps."""
+    found = fd.ensemble(strip(protocol="event-driven", std=0.04), 12)
+    assert 0 < found.unbuildable < 12
+    assert found.realisations + found.unbuildable == 12
+    first = found.data()["ensemble"]["first_unbuildable"]
+    scene = strip("contact_forces", protocol="event-driven", std=0.04, realisations=first + 1)
+    with pytest.raises(fd.ForceDiffusionError) as raised:
+        scene.run()
+    assert raised.value.__notes__ == [f"realisation {first}; an ensemble leaves such out"]
+    assert "come to rest" in str(found)
+
+
+def test_where_none_comes_to_rest_it_says_why() -> None:
+    with pytest.raises(RealisationError, match=r"2 of 2 .* realisation 0: .*linear-programs"):
+        fd.ensemble(strip(protocol="event-driven", std=0.15), 2)
+
+
+def test_a_histogram_counts_every_force() -> None:
+    found = fd.ensemble(strip("histogram", bins=10), 4)
+    assert found.bins is not None
+    assert found.bins["count"].sum() == found.samples
+    assert found.bins["share"].sum() == pytest.approx(1)
+    assert found.bins["low"][1] == 0
+    assert not found.bins["count"][0]
+    (axes,) = found.plot().axes
+    assert axes.get_xlabel() == "$f$"
+
+
+def test_a_response_is_what_beads_bear() -> None:
+    """A single load on weightless beads pushes them aside: wherever it goes, the base bears it."""
+    scene = strip("response", load=fd.PointLoad(at=[0, 6]), realisations=3)
+    found = fd.ensemble(scene)
+    assert found.mean[found.index["j"] == 0].sum() == pytest.approx(1)
+    rows = scene.run().arrays
+    for i, j, mean in zip(found.index["i"], found.index["j"], found.mean, strict=True):
+        own = (rows["i"] == i) & (rows["j"] == j)
+        assert mean == pytest.approx(rows["vertical"][own].astype(float).sum() / 3)
+
+
+def test_standard_errors_are_those_of_the_jackknife() -> None:
+    """Leaving out one packing after the other knows nothing of ratios."""
+    rng = np.random.default_rng(1)
+    packings = [rng.gamma(2 + size / 9, size=size) for size in rng.integers(3, 30, 400)]
+    sums = np.array([[[len(p)], [p.sum()], [(p**2).sum()]] for p in packings])
+    *_, of_mean, of_std = moments(*np.swapaxes(sums, 0, 1))
+    whole = sums.sum(axis=0)[:, 0]
+    left = whole - sums[:, :, 0]
+    means = left[:, 1] / left[:, 0]
+    stds = np.sqrt(left[:, 2] / left[:, 0] - means**2)
+    for error, values in ((of_mean, means), (of_std, stds)):
+        jackknife = np.sqrt(((values - values.mean()) ** 2).sum() * 399 / 400)
+        assert error[0] == pytest.approx(jackknife, rel=0.02)  # both are good to 1/packings
+
+
+def test_damaged_sums_are_refused() -> None:
+    m = measurement(strip("histogram"))
+    content = measured(m, [0, 1]).to_bytes()
+    assert from_bytes(content, m).to_bytes() == content
+    nan = np.array([np.nan]).tobytes()
+    swapped = content[:16] + content[24:32] + content[16:24] + content[32:]
+    for damaged in (b"", content[:-8], content + nan, content[:-8] + nan, swapped):
+        with pytest.raises(ValueError, match="sums"):
+            from_bytes(damaged, m)
+
+
+@pytest.mark.parametrize("quantity", ["contact_forces", "positions", "base_reactions"])
+def test_what_has_no_statistics_is_refused(quantity: str) -> None:
+    with pytest.raises(fd.SceneError, match=r"ask\.quantity"):
+        fd.ensemble(strip(quantity), 2)
+
+
+def test_covariances_are_refused() -> None:
+    with pytest.raises(fd.ForceDiffusionError, match="covariance"):
+        fd.ensemble(strip(), 2, covariance=True)
