@@ -1,6 +1,6 @@
 """Quantities: one class a question, what it needs and how its answer is gathered."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from ..scene.scene import Scene
 from .base import Quantity
@@ -27,7 +27,7 @@ QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
 
 def quantity_of(scene: Scene) -> Quantity:
     """Give the question that a scene asks."""
-    known = QUANTITIES
+    known: Mapping[str, Callable[[Scene], Quantity]] = QUANTITIES
     if scene.packing.dimension == 3:
         known = SPHERE_QUANTITIES
     elif scene.effects.contacts == "unilateral":
