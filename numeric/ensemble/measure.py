@@ -12,7 +12,7 @@ from typing import Any
 
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
-from ..lattice.branch import Direction
+from ..lattice.branch import Direction, PerBranch
 from ..mechanics.problem import Problem, Route, Solved
 from ..planning.plan import Plan
 from ..planning.planner import plan
@@ -145,7 +145,7 @@ class Measurement:
             return [Fraction(force) for force in self.network.ordered(self.problem).tolist()]
         return self._of.ordered(self.problem)
 
-    def theory(self) -> list[Fraction] | None:
+    def theory(self) -> PerBranch[list[Fraction]] | None:
         """Give σ_f of layers j = 0 … M − 1, exact to first order; None where it does not apply."""
         return first_order_std(self.problem)
 
@@ -221,9 +221,13 @@ def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
                 "histogram",
                 _NO_REACH,
             )
-        if made.problem.contact is not None:
-            theory = [theory[made.problem.contact.j]]
-        reach = float(REACH * max(theory))
+        contact = made.problem.contact
+        widest = (
+            max(*theory.plus, *theory.minus)
+            if contact is None
+            else theory[contact.branch][contact.j]
+        )
+        reach = float(REACH * widest)
     else:
         reach /= float(made.plan.scene.load.magnitude)
     if not 0 < reach < 1e300:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..accuracy.digits import known_digits, of_errors
 from ..arithmetic.systems import Array
+from ..lattice.branch import Branch
 from ..quantities.base import RATIO, SCATTER_OF
 from ..scene.source import source_of
 from ..tables import Row, html_table, rows_of
@@ -130,12 +131,13 @@ class Ensemble:
 
     @cached_property
     def first_order_std(self) -> Array | None:
-        """σ_f to first order, exact at finite M (Eqs. 13 and 14); None where they don't apply."""
+        """σ_f to first order, exact at finite M (Eqs. 13, 14, B2, B3), where they apply."""
         m = self.estimates.measurement
-        layers, theory = m.labels.get("j"), m.theory()
-        if theory is None or layers is None or "component" in m.labels:
+        theory, labels = m.theory(), m.labels
+        if theory is None or "j" not in labels or "component" in labels:
             return None
-        return self._sorted([float(theory[j]) for j in layers]) * self._unit
+        contacts = zip(labels["branch"], labels["j"], strict=True)
+        return self._sorted([float(theory[Branch(b)][j]) for b, j in contacts]) * self._unit
 
     @property
     def tensile(self) -> Array:

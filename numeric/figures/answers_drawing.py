@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, as_floats
-from ..lattice.branch import Branch
+from ..lattice.branch import Branch, PerBranch
 from ..planning.plan import Plan
 from ..quantities.base import first_order_std
 from . import parts, style
@@ -35,11 +35,13 @@ def _axes(plan: Plan) -> tuple[float, float]:
     return nx, sqrt(1 - nx * nx)
 
 
-def _theory(plan: Plan) -> Array | None:
-    """Give σ_f of layers 0 … M − 1 to first order; None where Eqs. 13 and 14 do not apply."""
+def _theory(plan: Plan) -> PerBranch[Array] | None:
+    """Give σ_f of layers 0 … M − 1 to first order; None where no closed form applies."""
     found = first_order_std(plan.problem)
+    if found is None:
+        return None
     unit = plan.scene.load.magnitude
-    return None if found is None else np.array([float(v * unit) for v in found])
+    return PerBranch(*(np.array([float(v * unit) for v in layers]) for _, layers in found))
 
 
 def contact_forces(plan: Plan, columns: Columns, errors: Columns) -> Figure:
@@ -148,12 +150,15 @@ def profile(plan: Plan, columns: Columns, errors: Columns) -> Figure:
     axes = figure.subplots()
     M, theory = plan.problem.height, _theory(plan)
     branch, z, std = columns["branch"], columns["j"] / M, floats(columns["std"])
-    if theory is not None:
-        layers = np.arange(M)
-        axes.plot(layers / M, theory, color="0.35", label="exact at finite $M$")
+    layers = np.arange(M) / M
+    if theory is not None and plan.problem.load.angle_deg:
+        for dashes, (own, exact) in zip("-:", theory, strict=True):
+            axes.plot(layers, exact, dashes, color="0.35", label=f"exact at finite $M$, $f^{own}$")
+    elif theory is not None:
+        axes.plot(layers, theory.plus, color="0.35", label="exact at finite $M$")
         number = 14 if plan.problem.load.kind == "bulk" else 13
         name = f"Eq. ({number}), printed"
-        axes.plot(layers / M, theory * _printed_over_exact(plan), "--", color="black", label=name)
+        axes.plot(layers, theory.plus * _printed_over_exact(plan), "--", color="black", label=name)
     for number, own in enumerate(Branch):
         rows = branch == own
         error = errors["std"][rows] if "std" in errors else None
@@ -190,9 +195,10 @@ def histogram(plan: Plan, columns: Columns, errors: Columns) -> Figure:
     """
     figure = style.figure(style.COLUMN, 2.8)
     axes = figure.subplots()
-    theory, contact = _theory(plan), plan.problem.contact
-    if theory is not None and contact is not None:
-        theory = theory[[contact.j]]
+    known, contact = _theory(plan), plan.problem.contact
+    theory = None if known is None else np.concatenate([known.plus, known.minus])
+    if known is not None and contact is not None:
+        theory = known[contact.branch][[contact.j]]
     unit = 1.0 if theory is None else sqrt(float((theory**2).mean()))
     inside = np.isfinite(columns["low"]) & np.isfinite(columns["high"])
     low, high = columns["low"][inside] / unit, columns["high"][inside] / unit

@@ -16,7 +16,7 @@ from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
-from ..lattice.branch import Branch, Direction
+from ..lattice.branch import Branch, Direction, PerBranch
 from ..lattice.layers import Layer, Region, pick, standing_on_base, whole
 from ..lattice.regions import Rows
 from ..mechanics import plain
@@ -331,8 +331,8 @@ def slope(problem: Problem, system: NumberSystem) -> Any:
     return plain.axes(problem.n_x, system)[1]
 
 
-def first_order_std(problem: Problem) -> list[Fraction] | None:
-    """Give σ_f of layers j = 0 … M − 1, exact to first order (Eqs. 13 and 14 at finite M).
+def first_order_std(problem: Problem) -> PerBranch[list[Fraction]] | None:
+    """Give σ_f of layers j = 0 … M − 1, exact to first order (Eqs. 13, 14, B2, B3 at finite M).
 
     None where they don't apply. Each is a float64 times the exact σ/r, in units of the load.
     """
@@ -342,16 +342,30 @@ def first_order_std(problem: Problem) -> list[Fraction] | None:
         or problem.dimension == 3
         or not isinstance(radii, DrawnRadii)
         or load.loaded is not None
-        or load.angle_deg
         or not (problem.width is None or problem.width > problem.height)
     ):
         return None
-    bulk = load.kind == "bulk"
-    variance = closed_forms.bulk_variance if bulk else closed_forms.surface_variance
-    phi, strength = float(1 - 2 * problem.n_x**2), load.strength(problem.n_x, FLOAT64)
-    found = []
+    phi, (plus, minus) = (
+        float(1 - 2 * problem.n_x**2),
+        map(float, load.strength(problem.n_x, FLOAT64).unit),
+    )
+    found: PerBranch[list[Fraction]] = PerBranch([], [])
     for j in range(problem.height):
-        force = float(load.ordered_force((j % 2, j, Branch.PLUS), strength, FLOAT64))
-        root = math.sqrt(float(variance(problem.height, j, phi, 1, 1)))
-        found.append(Fraction(root * force) * radii.std)
+        layers = problem.height - j if load.kind == "bulk" else 1
+        for branch, own, other in ((Branch.PLUS, plus, minus), (Branch.MINUS, minus, plus)):
+            root = _std(load, problem.height, j, phi, own, other)
+            found[branch].append(Fraction(root * layers) * radii.std)
     return found
+
+
+def _std(load: LoadSpec, M: int, j: int, phi: float, own: float, other: float) -> float:
+    """Give σ_f for σ = r = 1 and one loaded layer's components along the branch and the other."""
+    bulk = load.kind == "bulk"
+    if not load.angle_deg:
+        vertical = closed_forms.bulk_variance if bulk else closed_forms.surface_variance
+        return math.sqrt(float(vertical(M, j, phi, 1, 1))) * own
+    tilted = closed_forms.bulk_variance_at_angle if bulk else closed_forms.surface_variance_at_angle
+    # own² times a polynomial of degree 2 in t = other/own, where own may vanish
+    none, plus, minus = (float(tilted(M, j, t, phi, 1, 1)) for t in (0, 1, -1))
+    mixed, last = (plus - minus) / 2, (plus + minus) / 2 - none
+    return math.sqrt(max(0.0, none * own**2 + mixed * own * other + last * other**2))

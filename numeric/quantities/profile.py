@@ -119,7 +119,10 @@ class ProfileMoments(Gatherer):
         theory = first_order_std(self.problem)
         if theory is not None:
             index["first_order_std"] = np.array(
-                [_printed(theory[j] * self.quantity.scene.load.magnitude) for j, _ in keys],
+                [
+                    _printed(theory[branch][j] * self.quantity.scene.load.magnitude)
+                    for j, branch in keys
+                ],
                 dtype="U",
             )
         numbers = {

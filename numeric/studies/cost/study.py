@@ -76,7 +76,8 @@ def cost(scene: Scene, notice: Notice = lambda _: None) -> CostStudy:
     if plan.problem.route == Route.ORDERED:
         why = "every change is exactly zero here: there is nothing that errors could be relative to"
         raise SceneError("ask.quantity", scene.ask.quantity, why)
-    if scene.ask.quantity == "profile" and first_order_std(plan.problem) is not None:
+    upright = scene.ask.quantity == "profile" and not plan.problem.load.angle_deg
+    if upright and first_order_std(plan.problem) is not None:
         return study_ensemble(scene, notice)
     return _study_one(scene, notice)
 

@@ -71,6 +71,22 @@ def test_layers_of_both_branches_from_exact_sums(tmp_path: Path) -> None:
     assert (again.solved, again.data()) == (0, found.data())
 
 
+@pytest.mark.parametrize("kind", ["surface", "bulk"])
+def test_a_load_at_an_angle_has_its_own_theory_for_either_branch(kind: str) -> None:
+    load = {"kind": kind, "angle_deg": 25}
+    found = fd.ensemble(scene({**PROFILE, "load": load}), 400, covariance=True)
+    assert found.first_order_std is not None
+    assert found.std_over_mean is None
+    ratio = found.std / found.first_order_std
+    assert found.covariance is not None
+    error = np.sqrt(np.diag(found.covariance) / 400) / found.mean_square / 2
+    assert (abs(ratio - 1) < 5 * error).all()
+    plus = found.index["branch"] == "+"
+    # the theory of the other branch is refuted everywhere
+    other = found.std[plus] / found.first_order_std[~plus]
+    assert (abs(other - 1) > 5 * error[plus]).all()
+
+
 def test_bins_count_every_sample() -> None:
     found = fd.ensemble(scene(CASES["histogram of all"]), 30, reach=1e-4)
     assert found.bins is not None

@@ -98,6 +98,16 @@ def test_a_profile_stands_beside_theory() -> None:
     assert drawn == pytest.approx(F * np.sqrt(own))
 
 
+def test_theory_of_a_load_at_an_angle_is_drawn_for_either_branch() -> None:
+    outcome = scene("profile", load=fd.BulkLoad(angle_deg=15)).run()
+    figure = outcome.plot()
+    for exact, branch in zip(figure.axes[0].get_lines()[:2], "+-", strict=True):
+        own = outcome.arrays["branch"] == branch
+        theory = [float(v) for v in outcome.arrays["first_order_std"][own]]
+        assert np.asarray(exact.get_ydata()) == pytest.approx(theory)
+        assert exact.get_label() == f"exact at finite $M$, $f^{branch}$"
+
+
 def test_no_theory_is_drawn_where_none_applies() -> None:
     outcome = scene("profile", load=fd.PointLoad(at=(0, M))).run()
     assert "first_order_std" not in outcome.arrays
