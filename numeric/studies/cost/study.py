@@ -135,7 +135,7 @@ def _never(scene: Scene) -> Iterator[Skipped]:
     """List what answers for ensembles only."""
     if scene.ask.quantity == "profile":
         why = (
-            "an exact first-order σ_f is known for drawn radii, W > M and an upright surface or "
+            "formulas are compared for drawn radii, W > M and an upright surface or "
             "bulk load only; the profile of one packing is studied"
         )
     else:
