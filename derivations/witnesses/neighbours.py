@@ -51,6 +51,16 @@ def mean_variance(quantity: str, height: int, layer: int, count: int, n: Directi
     return sum((w**2 for w in summed.values()), Fraction(0)) / count**2
 
 
+def between_layers(height: int, lower: int, upper: int, places: int, n: Direction) -> Fraction:
+    """Covariance of f⁺/⟨f⟩ in two layers, so many places beside one diagonal, r = σ = 1."""
+    layers = weights("force", height, n)
+    around = 2 * (height + 2)  # columns of the periodic packings that these are from
+    across = upper - lower + 2 * places
+    above = {((offset + across) % around, at): w for (offset, at), w in layers[upper].items()}
+    below = layers[lower].items()
+    return sum((w * above.get((o % around, at), 0) for (o, at), w in below), Fraction(0))
+
+
 def agree(
     quantity: str,
     stated: Callable[[int, int, int, Fraction], Fraction],
