@@ -50,9 +50,10 @@ PRINTED = equation(
         1 / (4 * (1 - phi**2) ** 2),
         terms(
             times(
-                4,
                 terms(M, -l),
-                terms(times(2, M**2), times(2, M, l), minus(times(3, j**2)), -(l**2)),
+                terms(
+                    times(8, M**2), times(8, M, l), minus(times(12, j**2)), minus(times(4, l**2))
+                ),
             ),
             minus(times(6, M, terms(M, j, l))),
             times(6, terms(j**2, times(j, l), l**2)),

@@ -79,6 +79,8 @@ SAME = {
     ("B2", 3): (NOTHING_THERE, "upper bound m = M − 1 shifted to M"),
     ("B3", 3): (NOTHING_THERE, "upper bound m = M − 1 shifted to M"),
     ("B3", 4): (NOTHING_THERE, "upper bound m = M − 1 shifted to M"),
+    ("B12", 1): (NOTHING_THERE, "upper bound m = M shifted to M − 1"),
+    ("B12", 2): (NOTHING_THERE, "left: upper bound m = M shifted to M − 1"),
 }
 """Mutants of a step that say the same: why, and which."""
 
