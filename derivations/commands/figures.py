@@ -1,7 +1,10 @@
 """The command ``figures``: a thin layer over ``fd.figure``."""
 
 import json
+from collections.abc import Callable
+from contextlib import nullcontext
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,6 +13,7 @@ from force_diffusion.derivations.commands.cli import shell_line
 from force_diffusion.derivations.commands.guard import about, say
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import images, noticing
+from force_diffusion.numeric.arithmetic import processes
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
 
 import force_diffusion as fd
@@ -23,6 +27,8 @@ MODELS = {"q-model": "3", "double-y": "4"}
 OWN_SPACING, OWN_STD = ("2", "3", "4", "pf", "chains"), ("3", "4", "pf", "chains")
 LEAST_REALISATIONS, MOST_REALISATIONS = 16, 1_000_000
 HIGHEST, MOST_HEIGHTS = 10_000, 6
+# So few figures are drawn sooner than another process has loaded what draws.
+FEW = 2
 STATUSES = (
     "Exit status: 0 made, 2 wrong usage, 3 matplotlib is missing, or the disk or the memory "
     "failed, 130 interrupted."
@@ -185,24 +191,20 @@ def _made(
     own: dict[str, tuple[Fraction | None, tuple[str, ...]]],
     **options: Any,
 ) -> tuple[dict[str, Any], dict[str, str | bytes]]:
-    """Make figures one after the other: what was found, and the files."""
+    """Make figures, drawn in a process beside: what was found, and the files."""
     data: dict[str, Any] = {"command": command, "figures": {}}
     files: dict[str, str | bytes] = {}
+    with processes.beside() if len(wanted) > FEW else nullcontext(partial) as start:
+        begun: dict[str, Callable[[], PaperFigure]] = {}
+        for name in wanted:
+            models = [model for model in beside if MODELS[model] == name]
+            chosen = {key: value for key, (value, those) in own.items() if name in those}
+            more = {**options, **chosen, "beside": models, "start": start}
+            begun[name] = _begun(name, command, more)
+        # Those that were not begun beside are drawn here.
+        drawn = {name: begun[name]() for name in reversed(wanted)}
     for name in wanted:
-        models = [model for model in beside if MODELS[model] == name]
-        chosen: dict[str, Any] = {
-            key: value for key, (value, those) in own.items() if name in those
-        }
-        with about(Path(name).name if name.endswith(".toml") else f"figure {name}"):
-            try:
-                if name.endswith(".toml"):
-                    made = _own(Path(name), command, options["notice"])
-                else:
-                    made = fd.figure(name, beside=models, command=command, **chosen, **options)
-            except ForceDiffusionError as error:
-                if name != "3":
-                    raise
-                raise ForceDiffusionError(f"{error}; ask for lower heights") from error
+        made = drawn[name]
         found = {
             "title": made.title,
             "files": list(made.files),
@@ -214,6 +216,22 @@ def _made(
         stem = next(iter(made.files)).partition(".")[0]
         files |= {**made.files, f"{stem}.json": text + "\n"}
     return data, files
+
+
+def _begun(name: str, command: str, options: dict[str, Any]) -> "Callable[[], PaperFigure]":
+    """Make what a figure shows, and start to draw it; a scene of one's own is drawn at once."""
+    from force_diffusion.numeric.figures import catalogue
+
+    with about(Path(name).name if name.endswith(".toml") else f"figure {name}"):
+        try:
+            if name.endswith(".toml"):
+                own = _own(Path(name), command, options["notice"])
+                return lambda: own
+            return catalogue.begun(name, command=command, **options)
+        except ForceDiffusionError as error:
+            if name != "3":
+                raise
+            raise ForceDiffusionError(f"{error}; ask for lower heights") from error
 
 
 def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":

@@ -1,7 +1,7 @@
 """The command ``report``: everything that the package finds, as one page."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from force_diffusion.derivations.commands.cli import shell_line
@@ -11,7 +11,8 @@ from force_diffusion.derivations.commands.progress import display
 from force_diffusion.derivations.commands.shared import noticing
 from force_diffusion.derivations.framework.catalogue import modules
 
-import force_diffusion as fd
+if TYPE_CHECKING:
+    from force_diffusion.derivations.api.derived import Derived
 
 PAGE = "report.html"
 STATUSES = (
@@ -26,20 +27,24 @@ def report(
     overwrite: Overwrite = False,
 ) -> None:
     """Write all results as one HTML page: derivations, checks, figures, costs, stability."""
-    from force_diffusion.derivations.api.report import find_libraries
+    from force_diffusion.derivations.api.report import find_libraries, made
     from force_diffusion.derivations.commands.deriving import watched
+    from force_diffusion.numeric.arithmetic.processes import beside
 
     find_libraries()
     command = shell_line(["force-diffusion", "report", "--out", str(out)])
+
+    def deriving() -> "Derived":
+        return watched(modules(), display(len(modules()), as_json=False))
+
     with output(out, "report", [PAGE], overwrite) as folder:
-        derived = watched(modules(), display(len(modules()), as_json=False))
-        with noticing() as notice:
-            made = fd.report(derived, notice=notice, command=command)
+        with beside() as start, noticing() as notice:
+            found = made(deriving, notice, command, start)
         if folder:
-            folder.write({PAGE: made.html})
-    size = len(made.html.encode()) / 1e6
-    say(f"{derived.counts()}. Written to {out / PAGE}, {size:.2f} MB.")
-    raise typer.Exit(0 if derived.proved else 1)
+            folder.write({PAGE: found.html})
+    size = len(found.html.encode()) / 1e6
+    say(f"{found.derived.counts()}. Written to {out / PAGE}, {size:.2f} MB.")
+    raise typer.Exit(0 if found.derived.proved else 1)
 
 
 def register(app: typer.Typer) -> None:

@@ -12,6 +12,7 @@ from force_diffusion.derivations.commands.output import Folder
 from force_diffusion.derivations.export import answers
 from force_diffusion.derivations.export.answers import Format
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.numeric.figures.library import KINDS
 from force_diffusion.numeric.text import csv_bytes
 
 if TYPE_CHECKING:
@@ -118,4 +119,4 @@ def drawn(plot: "Callable[[], Figure]", name: str, title: str, command: str) -> 
 
 def images(name: str) -> list[str]:
     """Files of a plot."""
-    return [f"{name}.{kind}" for kind in ("png", "svg", "pdf")]
+    return [f"{name}.{kind}" for kind in KINDS]

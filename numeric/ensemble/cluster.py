@@ -10,10 +10,11 @@ from typing import Any
 import distributed as untyped
 
 from ..arithmetic.machine import share_cores
+from ..arithmetic.processes import without_interrupts
 from ..scene.source import program_version
 from .measure import Measurement
 from .sums import AnySums, from_bytes
-from .workers import WorkersError, solve_block, without_interrupts
+from .workers import WorkersError, solve_block
 
 distributed: Any = untyped  # it has no types
 # Seconds until a scheduler has to answer, and until a worker has to be there.

@@ -1,17 +1,15 @@
 """Who solves the blocks: this process, or a pool of processes on this machine."""
 
 import os
-import signal
-import threading
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from dataclasses import dataclass
-from multiprocessing import active_children, connection, get_context, parent_process
+from multiprocessing import active_children, get_context
 
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
 from ..arithmetic.machine import memory_limit, share_cores
+from ..arithmetic.processes import end_with_parent, without_interrupts
 from ..disorder.radii import RadiusError
 from ..mechanics.forces import NotStandingError
 from ..mechanics.packing import UnbuildableError
@@ -82,23 +80,6 @@ class InProcess:
             yield first, stop, from_bytes(solve_block(m, first, stop), m)
 
 
-@contextmanager
-def without_interrupts() -> Iterator[None]:
-    """Start processes that no signal of a terminal reaches; it comes to us afterwards.
-
-    Those that load their modules could only end with a traceback, and the one that keeps account of
-    all others must see their end.
-    """
-    if not hasattr(signal, "pthread_sigmask"):  # not on this system
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGHUP})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
 _here: list[Measurement] = []  # what this process measures, if it is a worker
 
 
@@ -107,16 +88,7 @@ def _start(m: Measurement, workers: int) -> None:
         os._exit(1)  # as if killed for it: a library that gets none may wait for ever
     _here.append(m)
     share_cores(workers)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # held back until now: the parent ends us
-    threading.Thread(target=_follow_parent, daemon=True).start()
-
-
-def _follow_parent() -> None:
-    """End with the parent, however it ends: a pool does not see that it was killed."""
-    parent = parent_process()
-    if parent is not None:
-        connection.wait([parent.sentinel])
-        os._exit(1)
+    end_with_parent()
 
 
 def _block(first: int, stop: int) -> bytes:

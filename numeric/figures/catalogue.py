@@ -5,10 +5,12 @@ import io
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import partial
 from operator import index
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, SupportsIndex
 
 from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.processes import Start
 from ..scene.sections import SceneError
 from . import (
     chains,
@@ -24,7 +26,7 @@ from . import (
     response,
     stress,
 )
-from .library import drawing
+from .library import KINDS, drawing
 from .packings import PAPER, Medium, Notice, Row, planned
 
 if TYPE_CHECKING:
@@ -218,7 +220,7 @@ def figure(
 ) -> PaperFigure:
     """One of the paper's figures from exact packings, as files in memory.
 
-    Needs matplotlib (the extra ``plots``). Figure 3 takes half a minute, the others seconds.
+    Needs matplotlib (the extra ``plots``). Takes a few seconds at the most.
 
     >>> import force_diffusion as fd
     >>> sorted(fd.figure("chains").files)
@@ -247,6 +249,27 @@ def figure(
         UnbuildableError, NotStandingError: radii of such a height can't be built or stand.
         MissingLibraryError: there is no matplotlib.
     """
+    return begun(
+        name, heights=heights, realisations=realisations, seed=seed, beside=beside,
+        spacing=spacing, relative_std=relative_std, notice=notice, command=command,
+    )()  # fmt: skip
+
+
+def begun(
+    name: int | str,
+    *,
+    heights: Sequence[int] = HEIGHTS,
+    realisations: int | None = None,
+    seed: int = 1,
+    beside: str | Collection[str] = (),
+    spacing: Any = None,
+    relative_std: Any = None,
+    notice: Notice = lambda _: None,
+    command: str | None = None,
+    kinds: Sequence[str] = KINDS,
+    start: Start = partial,
+) -> Callable[[], PaperFigure]:
+    """Make what ``figure`` shows, and ``start`` to draw it; give what waits for it."""
     if str(name) not in FIGURES:
         *names, last = (key if key.isdigit() else repr(key) for key in FIGURES)
         raise NoSuchFigureError(f"there is no figure {name}: give {', '.join(names)} or {last}")
@@ -265,16 +288,22 @@ def figure(
     if not isinstance(heights, Iterable) or isinstance(heights, str):
         raise SceneError("heights", heights, "must be a list of whole numbers, such as [16, 32]")
     chosen = _chosen(str(name), spacing, relative_std)
+    with drawing():  # or leave before anything is solved
+        file, _, data_of, _ = FIGURES[str(name)]
+        data = data_of(Options(heights, realisations, seed, frozenset(beside), *chosen, notice))
+    notice(f"{file}: drawing")
+    made_by = command or f"force_diffusion.figure({name!r}, seed={seed})"
+    return start(_finished, str(name), data, made_by, kinds)
+
+
+def _finished(name: str, data: Data, made_by: str, kinds: Sequence[str]) -> PaperFigure:
+    file, title, _, draw = FIGURES[name]
+    tables = data.tables().items()
     with drawing():
         from . import style
 
-        file, title, data_of, draw = FIGURES[str(name)]
-        data = data_of(Options(heights, realisations, seed, frozenset(beside), *chosen, notice))
-        notice(f"{file}: drawing")
-        made_by = command or f"force_diffusion.figure({name!r}, seed={seed})"
-        tables = data.tables().items()
         files: dict[str, str | bytes] = {
-            **style.images(lambda: draw(data), file, title, made_by),
+            **style.images(lambda: draw(data), file, title, made_by, kinds),
             **{f"{table}.csv": csv_file(rows, title, made_by) for table, rows in tables},
         }
     return PaperFigure(title, files, data.facts(), data.lines())

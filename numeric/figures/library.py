@@ -5,6 +5,9 @@ from contextlib import contextmanager
 
 from ..arithmetic.errors import NotReachedError
 
+KINDS = ("png", "svg", "pdf")
+"""What figures are written as."""
+
 
 class MissingLibraryError(NotReachedError):
     """A library that figures need is not installed; the message says how to install it."""

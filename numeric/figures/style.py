@@ -22,8 +22,9 @@ from matplotlib.ticker import FixedLocator, FuncFormatter
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
+from .library import KINDS
+
 COLUMN, PAGE = 3.4, 7.0  # inches
-KINDS = ("png", "svg", "pdf")
 DPI = 300
 BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = (
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",

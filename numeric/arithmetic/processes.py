@@ -1,0 +1,86 @@
+"""Processes of this machine: how they start, how they end, and one that works beside this one."""
+
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from functools import partial
+from multiprocessing import active_children, connection, get_context, parent_process
+from typing import Any
+
+from .machine import cores
+
+Start = Callable[..., Callable[[], Any]]
+"""Takes a function and its arguments; gives what waits for its value. ``partial`` is one, too."""
+
+
+@contextmanager
+def without_interrupts() -> Iterator[None]:
+    """Start processes that no signal of a terminal reaches; it comes to us afterwards.
+
+    Those that load their modules could only end with a traceback, and the one that keeps account of
+    all others must see their end.
+    """
+    if not hasattr(signal, "pthread_sigmask"):  # not on this system
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGHUP})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def end_with_parent() -> None:
+    """Leave interrupts to the parent, and end with it, however it ends; a pool does not see it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # held back until now
+    threading.Thread(target=_follow_parent, daemon=True).start()
+
+
+def _follow_parent() -> None:
+    parent = parent_process()
+    if parent is not None:
+        connection.wait([parent.sentinel])
+        os._exit(1)
+
+
+@contextmanager
+def beside() -> Iterator[Start]:
+    """Give what calls functions in a process beside this one, one after the other.
+
+    What is not begun when its value is asked for is called here; so is all where there is one core,
+    or where no process starts, or it dies. Functions, arguments and values have to be picklable.
+    """
+    if cores() < 2:
+        yield partial
+        return
+    others = set(active_children())
+    pool = ProcessPoolExecutor(1, get_context("spawn"), initializer=end_with_parent)
+
+    def start(function: Callable[..., Any], *arguments: Any) -> Callable[[], Any]:
+        here = partial(function, *arguments)
+        try:
+            with without_interrupts():
+                future = pool.submit(here)
+        except (OSError, RuntimeError):
+            return here
+
+        def value() -> Any:
+            if future.cancel():
+                return here()
+            try:
+                return future.result()
+            except BrokenProcessPool:
+                return here()
+
+        return value
+
+    try:
+        yield start
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
+        for child in set(active_children()) - others:
+            child.terminate()  # nobody waits for what it is still at
