@@ -238,6 +238,7 @@ def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":
     """Answer a scene, and draw the answer; a question that has no figure raises ``SceneError``."""
     from force_diffusion.numeric.figures import style
     from force_diffusion.numeric.figures.catalogue import PaperFigure
+    from force_diffusion.numeric.figures.library import KINDS
     from force_diffusion.numeric.run.outcome import outcome_lines
     from force_diffusion.numeric.text import csv_bytes
 
@@ -247,7 +248,7 @@ def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":
     title = f"{printable(name)}: {scene.ask.quantity}"
     notice(f"{name}: drawing")
     files: dict[str, str | bytes] = {
-        **style.images(found.plot, name, title, command),
+        **style.images(found.plot, name, title, command, KINDS),
         f"{name}.csv": csv_bytes(found.text),
     }
     about = found.data(rows=False)

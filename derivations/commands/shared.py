@@ -111,7 +111,7 @@ def drawn(plot: "Callable[[], Figure]", name: str, title: str, command: str) -> 
         with drawing():
             from force_diffusion.numeric.figures import style
 
-            return style.images(plot, name, title, command)
+            return style.images(plot, name, title, command, KINDS)
     except MissingLibraryError as error:
         tell(f"no plot: {error}")
         return {}

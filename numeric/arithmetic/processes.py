@@ -4,11 +4,11 @@ import os
 import signal
 import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager, suppress
 from functools import partial
-from multiprocessing import active_children, connection, get_context, parent_process
+from multiprocessing import connection, get_context, parent_process
+from multiprocessing.connection import Connection
 from typing import Any
 
 from .machine import cores
@@ -54,33 +54,59 @@ def beside() -> Iterator[Start]:
     What is not begun when its value is asked for is called here; so is all where there is one core,
     or where no process starts, or it dies. Functions, arguments and values have to be picklable.
     """
-    if cores() < 2:
+    ours, theirs = get_context("spawn").Pipe()
+    process = get_context("spawn").Process(target=_serve, args=(theirs,), daemon=True)
+    try:
+        if cores() < 2:
+            raise OSError
+        with without_interrupts():
+            process.start()
+    except OSError:
         yield partial
         return
-    others = set(active_children())
-    pool = ProcessPoolExecutor(1, get_context("spawn"), initializer=end_with_parent)
+    finally:
+        theirs.close()
+
+    def ask(task: Callable[[], Any]) -> tuple[Any, Exception | None]:
+        ours.send(task)
+        answer: tuple[Any, Exception | None] = ours.recv()
+        return answer
 
     def start(function: Callable[..., Any], *arguments: Any) -> Callable[[], Any]:
         here = partial(function, *arguments)
-        try:
-            with without_interrupts():
-                future = pool.submit(here)
-        except (OSError, RuntimeError):
-            return here
+        future = asking.submit(ask, here)
 
         def value() -> Any:
             if future.cancel():
                 return here()
             try:
-                return future.result()
-            except BrokenProcessPool:
+                found, error = future.result()
+            except (EOFError, OSError):  # it died
                 return here()
+            if error is not None:
+                raise error
+            return found
 
         return value
 
+    asking = ThreadPoolExecutor(1)
     try:
         yield start
     finally:
-        pool.shutdown(wait=False, cancel_futures=True)
-        for child in set(active_children()) - others:
-            child.terminate()  # nobody waits for what it is still at
+        process.terminate()  # nobody waits for what it is still at
+        asking.shutdown(cancel_futures=True)
+        process.join()
+        ours.close()
+
+
+def _serve(connected: Connection) -> None:
+    end_with_parent()
+    with suppress(EOFError, OSError):  # the parent has gone
+        while True:
+            task = connected.recv()
+            answer: tuple[Any, Exception | None]
+            try:
+                answer = task(), None
+            except Exception as error:
+                answer = None, error
+            connected.send(answer)

@@ -22,8 +22,6 @@ from matplotlib.ticker import FixedLocator, FuncFormatter
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
-from .library import KINDS
-
 COLUMN, PAGE = 3.4, 7.0  # inches
 DPI = 300
 BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = (
@@ -126,9 +124,9 @@ def letter(panels: Sequence[Axes]) -> None:
 
 
 def images(
-    draw: Callable[[], Figure], name: str, title: str, command: str, kinds: Sequence[str] = KINDS
+    draw: Callable[[], Figure], name: str, title: str, command: str, kinds: Sequence[str]
 ) -> dict[str, bytes]:
-    """Draw PNG, SVG and PDF; each holds the command, none a date."""
+    """Draw it as "png", "svg" and "pdf"; each holds the command, none a date."""
     about = {"Title": title, "Description": command}
     metadata: dict[str, dict[str, Any]] = {
         "svg": {**about, "Date": None},

@@ -55,6 +55,7 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
     if given:
         return Path(given).resolve()
     from force_diffusion.derivations.export.page import sections
+    from force_diffusion.numeric.arithmetic import processes
     from force_diffusion.numeric.figures import catalogue
     from force_diffusion.numeric.studies.cost import rows
     from force_diffusion.numeric.studies.stability import forms
@@ -68,6 +69,7 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
     every_mutant, every_case, every_strip = mutants.mutants, tables.cases, tables.strips
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(mutants, "mutants", lambda equation: islice(every_mutant(equation), 3))
+        patch.setattr(processes, "cores", lambda: 1)  # another process has no patches
         patch.setattr(sections, "SCENE", scene)
         patch.setattr(catalogue, "FIGURES", {name: catalogue.FIGURES[name] for name in "12"})
         patch.setattr(tables, "cases", lambda: islice(every_case(), 3))

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from force_diffusion.derivations.export.page import sections
+from force_diffusion.numeric.arithmetic import processes
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
 from force_diffusion.__main__ import main
@@ -21,7 +22,9 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, Any]:
     table: dict[int, Any] = {1: fakes.PREMISE, 2: fakes.CONCLUSION}
     monkeypatch.setattr("force_diffusion.derivations.api.derived.load", table.__getitem__)
     monkeypatch.setattr("force_diffusion.derivations.commands.report.modules", lambda: table)
-    monkeypatch.setattr(sections, "parts", lambda notice: [PART])
+    monkeypatch.setattr(sections, "figures_part", lambda notice: PART)
+    monkeypatch.setattr(sections, "measured_parts", list)
+    monkeypatch.setattr(processes, "cores", lambda: 1)  # what stands for them is not beside
     return table
 
 
@@ -96,7 +99,7 @@ def test_what_ends_it_early_leaves_nothing(
     def fail(_: object) -> None:
         raise failure
 
-    monkeypatch.setattr(sections, "parts", fail)
+    monkeypatch.setattr(sections, "figures_part", fail)
     out = tmp_path / "out"
     assert main(["report", "--out", str(out)]) == status
     assert "Traceback" not in capsys.readouterr().err
