@@ -275,9 +275,7 @@ def _lines_witness(packing: SmallPacking) -> Ruling:
 
 
 def _spheres_witness(packing: SmallPacking) -> Ruling:
-    cosine = packing.n[1] ** 2 - packing.n[0] ** 2
-    if not Fraction(-1, 3) < cosine < Fraction(1, 2):
-        cosine = Fraction(1, 5)
+    cosine = witnesses.cosine_of(packing)
     worst = max(off for _, off in witnesses.remainders(cosine, 2, 1))
     # a central difference at 1e-20 with 50 digits: rounding 1e-30, curvature 1e-40
     good = worst < mpmath.mpf(10) ** -27
@@ -330,8 +328,7 @@ DERIVATION = Derivation(
         "What is special to discs is that nothing is left but lines: for d ≥ 3 the force also "
         "holds line sums along every third direction, summed over the contact's path. They cover "
         "an area with weights of order 1, and drop out of the leading order alone.",
-        "Exact forms at finite M for d = 3, Eqs. 14 to 16 and scenes in three dimensions are not "
-        "done.",
+        "Eqs. B13 and B14 are the exact forms at finite M for d = 3.",
     ),
 )
 

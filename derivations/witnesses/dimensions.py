@@ -7,12 +7,15 @@ from itertools import product
 from typing import Any
 
 import mpmath
+from force_diffusion.derivations.witnesses.draws import SmallPacking
+from force_diffusion.numeric.arithmetic.systems import Series, zeros
 from force_diffusion.numeric.mechanics.any_dimension import (
     Bead,
     force_weights,
     stepped,
     together,
 )
+from force_diffusion.numeric.mechanics.spheres import bear, deposit, metric
 
 DIGITS, STRENGTH = 50, mpmath.mpf(10) ** -20
 
@@ -98,3 +101,34 @@ def remainders(phi: Fraction, height: int, layer: int) -> Iterator[tuple[Bead, A
         for bead, weight in spheres(phi, height, layer):
             stated = mpmath.mpf(exact[bead].numerator) / exact[bead].denominator
             yield bead, abs(weight - stated)
+
+
+def cosine_of(packing: SmallPacking) -> Fraction:
+    """φ of the drawn directions, or 1/5 where spheres would overlap."""
+    cosine = packing.n[1] ** 2 - packing.n[0] ** 2
+    return cosine if Fraction(-1, 3) < cosine < Fraction(1, 2) else Fraction(1, 5)
+
+
+@cache
+def squares_of_spheres(phi: Fraction, height: int, load: str) -> tuple[Fraction, ...]:
+    """Sum of the squared Taylor coefficients of f/⟨f⟩ for each layer, exact.
+
+    One sphere of each layer in turn has the radius r + ε; its effect on all contacts of a layer is,
+    by translation, that of all spheres on one.
+    """
+    system, width = Series(1), height + 2  # wide enough to see no image, to first order
+    found = [Fraction(0)] * height
+    with system.active():
+        m = metric(3, phi, system)
+        unit = zeros(system, width, width) + system.number(Fraction(1))
+        loaded = [unit if load == "bulk" or j == height else None for j in range(height + 1)]
+        for source in range(height + 1):
+            rho = [zeros(system, width, width) for _ in range(height + 1)]
+            rho[source][0, 0] = system.series([Fraction(0), Fraction(1)])
+            borne = bear(deposit(rho, m, system, linear=False), loaded, system, linear=False)
+            for j in range(height):
+                ordered = (height - j) if load == "bulk" else 1
+                for change in borne.change[j + 1][0].flat:
+                    slope = Fraction(int(change[1].p), int(change[1].q)) / ordered
+                    found[j] += slope**2
+    return tuple(found)

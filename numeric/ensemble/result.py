@@ -10,7 +10,7 @@ import numpy as np
 
 from ..accuracy.digits import known_digits, of_errors
 from ..arithmetic.systems import Array
-from ..lattice.branch import Branch
+from ..lattice.branch import direction
 from ..quantities.base import RATIO, SCATTER_OF
 from ..scene.source import source_of
 from ..tables import Row, html_table, rows_of
@@ -137,7 +137,7 @@ class Ensemble:
         if theory is None or "j" not in labels or "component" in labels:
             return None
         contacts = zip(labels["branch"], labels["j"], strict=True)
-        return self._sorted([float(theory[Branch(b)][j]) for b, j in contacts]) * self._unit
+        return self._sorted([float(theory[direction(b)][j]) for b, j in contacts]) * self._unit
 
     @property
     def tensile(self) -> Array:

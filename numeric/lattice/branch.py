@@ -56,6 +56,15 @@ class Axis(Direction):
         return int(self.value) - 1
 
 
+def direction(name: str) -> Direction:
+    """Give a branch or an axis by its name.
+
+    >>> direction("-"), direction("2")
+    (<Branch.MINUS: '-'>, <Axis.SECOND: '2'>)
+    """
+    return Axis(name) if name.isdigit() else Branch(name)
+
+
 class AxisContact(NamedTuple):
     """A contact in three dimensions, by its lower bead (p, q, j) and its axis."""
 

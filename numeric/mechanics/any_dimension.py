@@ -1,7 +1,7 @@
 """First-order weights of a contact force on the lattice of any dimension, as fractions.
 
 Every bead rests on d others, along d base vectors of equal mutual dot product φ; a bead is named by
-d whole numbers, whose sum is its layer. A surface load along the sum of the base vectors, r = 1.
+d whole numbers, whose sum is its layer. A load along the sum of the base vectors, r = 1.
 """
 
 from collections import defaultdict
@@ -26,12 +26,13 @@ def reciprocal(dimension: int, phi: Fraction) -> tuple[Fraction, Fraction]:
 
 
 def force_weights(
-    dimension: int, height: int, layer: int, phi: Fraction
+    dimension: int, height: int, layer: int, phi: Fraction, *, bulk: bool = False
 ) -> tuple[Weights, Weights]:
     """Weights in δr of f/⟨f⟩ above bead (layer, 0, …) along the first vector, r = 1.
 
     Two parts that add up: the line sums along the contact's own vector, and all others. To first
-    order f of a bead's lower contact is what enters it and b^a·Σ_c(δn^c − δn^c below).
+    order f of a bead's lower contact is what enters it and b^a·Σ_c(δn^c − δn^c below), each times
+    what its contacts carry: 1, or under a ``bulk`` load the beads straight above.
     """
     # A weight is its part's factor times n − φ m, with whole numbers n and m, which are counted.
     parts = tuple(defaultdict[Bead, list[int]](lambda: [0, 0]) for _ in range(2))
@@ -56,16 +57,18 @@ def force_weights(
             if up == along:
                 continue
             to = parts[along != 0]
-            if sum(bead) < height:
-                tilt(to, bead, up, along, 1)
-            tilt(to, stepped(bead, up, -1), up, along, -1)
+            above = height - sum(bead)
+            if above:
+                tilt(to, bead, up, along, above if bulk else 1)
+            tilt(to, stepped(bead, up, -1), up, along, -(above + 1) if bulk else -1)
 
     def weights(counts: dict[Bead, list[int]], factor: Fraction) -> Weights:
         weight = cache(lambda n, m: factor * (n - phi * m))
         return {bead: weight(*count) for bead, count in counts.items()}
 
-    own, other = reciprocal(dimension, phi)
-    return weights(parts[0], own / 2), weights(parts[1], other / 2)
+    twice = 2 * (height - layer if bulk else 1)
+    own, other = (one / twice for one in reciprocal(dimension, phi))
+    return weights(parts[0], own), weights(parts[1], other)
 
 
 def squared(weights: Mapping[Bead, Fraction]) -> Fraction:

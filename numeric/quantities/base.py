@@ -16,13 +16,14 @@ from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
-from ..lattice.branch import Branch, Direction, PerBranch
+from ..lattice.branch import Branch, Direction, PerAxis, PerBranch
 from ..lattice.layers import Layer, Region, pick, standing_on_base, whole
 from ..lattice.regions import Rows
 from ..mechanics import plain
 from ..mechanics.forces import Forces
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Route, Solved
+from ..mechanics.three_dimensions import side
 from ..scene.scene import Scene
 
 # σ_f/⟨f⟩, and the columns that scatter from sample to sample as others do, whose errors are known.
@@ -324,6 +325,13 @@ def column(values: Sequence[Any], system: NumberSystem) -> Array:
     return filled
 
 
+def _wide(problem: Problem) -> bool:
+    """Say whether first-order forces see no images."""
+    if problem.dimension == 3:
+        return side(problem) > problem.height + 1
+    return problem.width is None or problem.width > problem.height
+
+
 def slope(problem: Problem, system: NumberSystem) -> Any:
     """Give the vertical component of the base vectors: n_y, or in three dimensions n_z."""
     if problem.dimension == 3:
@@ -339,16 +347,15 @@ def first_order_std(problem: Problem) -> PerBranch[list[Fraction]] | None:
     load, radii = problem.load, problem.radii
     if (
         problem.route == Route.ORDERED
-        or problem.dimension == 3
         or not isinstance(radii, DrawnRadii)
         or load.loaded is not None
-        or not (problem.width is None or problem.width > problem.height)
+        or not _wide(problem)
     ):
         return None
-    phi, (plus, minus) = (
-        float(1 - 2 * problem.n_x**2),
-        map(float, load.strength(problem.n_x, FLOAT64).unit),
-    )
+    phi = float(1 - 2 * problem.n_x**2)
+    if problem.dimension == 3:
+        return _of_spheres(load, phi, radii.std)
+    plus, minus = map(float, load.strength(problem.n_x, FLOAT64).unit)
     found: PerBranch[list[Fraction]] = PerBranch([], [])
     for j in range(problem.height):
         layers = problem.height - j if load.kind == "bulk" else 1
@@ -356,6 +363,19 @@ def first_order_std(problem: Problem) -> PerBranch[list[Fraction]] | None:
             root = _std(load, problem.height, j, phi, own, other)
             found[branch].append(Fraction(root * layers) * radii.std)
     return found
+
+
+def _of_spheres(load: LoadSpec, phi: float, std: Fraction) -> PerAxis[list[Fraction]]:
+    """Give the same in three dimensions, alike along all axes (Eqs. B13 and B14)."""
+    bulk, height = load.kind == "bulk", load.height
+    form = (
+        closed_forms.bulk_variance_of_spheres if bulk else closed_forms.surface_variance_of_spheres
+    )
+    found = []
+    for j in range(height):
+        force = (height - j if bulk else 1) / math.sqrt(3 * (1 + 2 * phi))
+        found.append(Fraction(math.sqrt(float(form(height, j, phi, 1, 1))) * force) * std)
+    return PerAxis(found, found, found)
 
 
 def _std(load: LoadSpec, M: int, j: int, phi: float, own: float, other: float) -> float:

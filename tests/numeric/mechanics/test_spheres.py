@@ -427,3 +427,33 @@ def test_studies_and_plots_refuse_three_dimensions() -> None:
         fd.cost(asked)
     with pytest.raises(fd.SceneError, match=r"packing.dimension = 3"):
         asked.run().plot()
+
+
+@pytest.mark.parametrize("kind", ["surface", "bulk"])
+@pytest.mark.parametrize(("height", "width"), [(3, 5), (3, 4)])
+def test_a_profile_has_the_exact_first_order_width_where_no_image_is_seen(
+    kind: Any, height: int, width: int
+) -> None:
+    """Squared weights by the recursion, not the closed forms; F is the load over 3 n_z."""
+    load = fd.Load(kind=kind)
+    found = scene("profile", height=height, width=width, load=load).run().arrays
+    if width <= height + 1:
+        assert "first_order_std" not in found
+        return
+    phi = 1 - Fraction("2.9") ** 2 / 8
+    for j, stated in zip(found["j"].tolist(), found["first_order_std"].tolist(), strict=True):
+        weights = together(force_weights(3, height, j, phi, bulk=kind == "bulk"))
+        force = (height - j if kind == "bulk" else 1) / np.sqrt(3 * float(1 + 2 * phi))
+        variance = float(sum(w * w for w in weights.values()))
+        assert stated == pytest.approx(1e-2 * force * np.sqrt(variance), rel=1e-11)
+
+
+def test_an_ensemble_has_the_width_of_theory() -> None:
+    """With 400 packings σ_f is known to 1 %; what is sampled is independent of theory."""
+    asked = scene("profile", height=4, width=6, std=1e-4)
+    found = fd.ensemble(asked, 400)
+    assert found.first_order_std is not None
+    off = (found.std - found.first_order_std) / found.std_error
+    # 12 rows: one beyond 4.5 standard errors has a chance below 1e-4; the seed is fixed
+    assert np.abs(off).max() < 4.5
+    assert (found.std_error / found.std).max() < 0.02
