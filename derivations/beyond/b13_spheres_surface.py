@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 import sympy
-from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations.beyond import b11_any_dimension as b11
 from force_diffusion.derivations.beyond import spheres
 from force_diffusion.derivations.framework import exact_cases
@@ -13,7 +12,7 @@ from force_diffusion.symbolic.kernel.decisions import Ruling, decide_identity
 from force_diffusion.symbolic.symbols import M, d, kappa, phi, r, sigma, z
 from force_diffusion.symbolic.variances.variance import ClosedForm
 
-VARIANCE = eq13.RELATIVE_VARIANCE
+VARIANCE = b11.PRINTED.lhs
 PRINTED = equation(
     VARIANCE,
     times(

@@ -68,7 +68,7 @@ DERIVATION = Derivation(
         "a bulk load along the sum of the base vectors",
         "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M",
     ),
-    premises=(b11.DERIVATION, b13.DERIVATION),
+    premises=(eq13.DERIVATION, eq14.DERIVATION, b11.DERIVATION, b13.DERIVATION),
     printed=(PRINTED,),
     relation="∼",
     exact=lambda: exact_cases.exact_cases(VARIANCE, exact_forms()),
