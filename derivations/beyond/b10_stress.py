@@ -8,7 +8,7 @@ import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond import b5_mean_surface as b5
-from force_diffusion.derivations.beyond.mean_forces import SUM_OF_RADII
+from force_diffusion.derivations.beyond.mean_forces import SUM_OF_RADII, combined
 from force_diffusion.derivations.beyond.means import decide_in_field
 from force_diffusion.derivations.framework.exact_cases import exact_cases, exact_steps
 from force_diffusion.derivations.framework.follows import identity
@@ -113,10 +113,7 @@ def _forms(expression: sympy.Expr) -> dict[str, ClosedForm]:
             with_force: covariance(nu, alpha, region),
             with_both: covariance(alpha, rho, region),
         }
-        total = FIELD.zero
-        for symbol, found in known.items():
-            total = total + FIELD.from_sympy(sympy.diff(expression, symbol)) * found
-        return total.reduced()
+        return combined(expression, known)
 
     return by_layer(value)
 

@@ -29,7 +29,8 @@ VARIANCE_MINUS = Symbol(
 SUBJECTS = (VARIANCE_PLUS, VARIANCE_MINUS)
 
 
-def _other_branch(expression: sympy.Expr) -> sympy.Expr:
+def in_other_branch(expression: sympy.Expr) -> sympy.Expr:
+    """The same of f⁻, in which L⁺ and L⁻ change places."""
     return expression.xreplace({t: 1 / t})
 
 
@@ -59,7 +60,7 @@ def decided(forms: Forms) -> Decide:
     def decide(part: int, candidate: sympy.Eq) -> Ruling:
         if candidate.lhs != SUBJECTS[part]:
             return undecided("the left-hand side is not the variance that is meant")
-        right = _other_branch(candidate.rhs) if part else candidate.rhs
+        right = in_other_branch(candidate.rhs) if part else candidate.rhs
         return compare_leading_order(forms()["interior"].value, right)
 
     return decide
@@ -71,7 +72,7 @@ def searched(forms: Forms) -> Search:
     def search(candidate: sympy.Eq) -> str | None:
         exact = forms()["interior"].expression
         if candidate.lhs == VARIANCE_MINUS:
-            exact = _other_branch(exact)
+            exact = in_other_branch(exact)
         elif candidate.lhs != VARIANCE_PLUS:
             return None
         return parts_in_the_limit(exact, candidate.rhs, LAYERS)

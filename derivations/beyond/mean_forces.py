@@ -1,6 +1,6 @@
 """What Eqs. B5 and B6 have in common: the mean force of a layer, from three covariances."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 
 import sympy
@@ -29,6 +29,16 @@ from force_diffusion.symbolic.variances.variance import ClosedForm, by_layer, le
 
 SUM_OF_RADII = DeltaR(i, j) + DeltaR(i + 1, j + 1)
 """ρ of the contact above (i, j) along n⁺."""
+
+
+def combined(
+    expression: sympy.Expr, known: Mapping[sympy.Symbol, RationalFunction]
+) -> RationalFunction:
+    """A linear combination of means, each in closed form."""
+    total = FIELD.zero
+    for symbol, found in known.items():
+        total = total + FIELD.from_sympy(sympy.diff(expression, symbol)) * found
+    return total.reduced()
 
 
 def mean_forms(force: sympy.Expr) -> dict[str, ClosedForm]:

@@ -22,18 +22,23 @@ HIGHEST = 5
 
 @cache
 def means(
-    height: int, n: tuple[Fraction, Fraction], load: str
+    height: int,
+    n: tuple[Fraction, Fraction],
+    load: str,
+    ratio: Fraction = Fraction(1),
+    branch: str = "+",
 ) -> tuple[tuple[Fraction, ...], tuple[tuple[Fraction, Fraction], ...]]:
-    """Means at order σ², for r = σ = 1: of f⁺/⟨f⟩ of layers j < M, and of (δx, δy) of j ≤ M.
+    """Means at order σ², for r = σ = 1: of a branch's f/⟨f⟩ of layers j < M, and of (δx, δy).
 
-    The packing is so wide that no exact force or position sees an image of itself.
+    ``ratio`` is t = L⁻/L⁺ of the loads. The packing is so wide that no exact force or position sees
+    an image of itself.
     """
     from force_diffusion.numeric.mechanics import taylor
 
     width = 2 * height + 3
     carrying = range(1, height + 1) if load == "bulk" else (height,)
     loads = {
-        (across, layer): (Fraction(0), -2 * n[1])
+        (across, layer): ((ratio - 1) * n[0], -(1 + ratio) * n[1])
         for layer in carrying
         for across in range(layer % 2, 2 * width, 2)
     }
@@ -47,19 +52,29 @@ def means(
                 x, y = solved.displacement(across, layer)
                 places[layer] = places[layer][0] + x[2], places[layer][1] + y[2]
                 if layer < height:
-                    force = solved.force(across, layer, "+")
+                    force = solved.force(across, layer, branch)
                     forces[layer] += force[2] / force[0]
     return tuple(forces), tuple(places)
 
 
-def forces(forms: dict[str, ClosedForm], load: str, packing: SmallPacking) -> Ruling:
-    """Closed forms of ⟨f⟩ over its ordered value, less 1, against exact packings, all j < M ≤ 5."""
-    values = {**explicit.geometry(*packing.n, Fraction(1)), sy.sigma: 1}
+def forces(
+    forms: dict[str, ClosedForm],
+    load: str,
+    packing: SmallPacking,
+    ratio: Fraction = Fraction(1),
+    branch: str = "+",
+) -> Ruling:
+    """Closed forms of ⟨f⟩ over its ordered value, less 1, against exact packings, all j < M ≤ 5.
+
+    ``ratio`` is t = L⁻/L⁺ of the loads; for f⁻ the forms hold with 1/t in its place.
+    """
+    share = ratio if branch == "+" else 1 / ratio
+    values = {**explicit.geometry(*packing.n, Fraction(1)), sy.sigma: 1, sy.t: share}
 
     def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
         for height, layer, case in packings(HIGHEST):
             stated = explicit.number(value_at(forms, height, layer, case), values)
-            true = means(height, packing.n, load)[0][layer]
+            true = means(height, packing.n, load, ratio, branch)[0][layer]
             yield f"M = {height}, j = {layer}", stated, true
 
     return compare(pairs())

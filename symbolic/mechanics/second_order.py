@@ -10,7 +10,7 @@ import sympy
 from force_diffusion.symbolic.mechanics.contacts import radii
 from force_diffusion.symbolic.mechanics.lattice import N_PLUS
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import epsilon, n_x, n_y, phi, r
+from force_diffusion.symbolic.symbols import epsilon, n_x, n_y, phi, r, t
 
 B_PLUS = sympy.ImmutableMatrix([1 / (2 * n_x), 1 / (2 * n_y)])
 B_MINUS = sympy.ImmutableMatrix([-1 / (2 * n_x), 1 / (2 * n_y)])
@@ -30,6 +30,8 @@ alpha_2 = Symbol("alpha_2", r"\alpha_{2}", "α₂", real=True)
 mean_square = Symbol("V", r"\langle\nu^2\rangle", "⟨ν²⟩", real=True)
 with_radii = Symbol("C_rho", r"\langle\nu\rho\rangle", "⟨νρ⟩", real=True)
 with_force = Symbol("C_alpha", r"\langle\nu\alpha_{1}\rangle", "⟨να₁⟩", real=True)
+with_other = Symbol("C_other", r"\langle\nu^{-}\alpha_{1}^{-}\rangle", "⟨ν⁻α₁⁻⟩", real=True)
+mean_other = Symbol("A_other", r"\langle\alpha_{2}^{-}\rangle", "⟨α₂⁻⟩", real=True)
 mean_force = Symbol("A", r"\langle\alpha_{2}\rangle", "⟨α₂⟩", real=True)
 
 
@@ -75,12 +77,8 @@ SETTLED = STEP.xreplace({tilt**2: mean_square})
 
 
 @cache
-def vertical_balance() -> sympy.Expr:
-    """Mean vertical momentum of a contact at order ε², which vanishes in every layer.
-
-    The loads fix the mean vertical force that passes through a layer; both branches carry the same.
-    """
-    in_contact = sympy.expand(momentum()[1].xreplace({u_plus: TURN[0], u_minus: TURN[1]}))
+def _mean_momentum() -> sympy.ImmutableMatrix:
+    """Mean momentum of a contact at order ε², in Cartesian components."""
     means = {
         tilt * alpha_1: with_force,
         tilt * radii: with_radii,
@@ -88,11 +86,40 @@ def vertical_balance() -> sympy.Expr:
         d_plus: SETTLED,
         d_minus: SETTLED,
     }
-    return in_contact.subs(means)
+    turned = {u_plus: TURN[0], u_minus: TURN[1]}
+    return momentum().applyfunc(lambda part: sympy.expand(part.xreplace(turned)).subs(means))
+
+
+def vertical_balance() -> sympy.Expr:
+    """Mean vertical momentum of a contact at order ε², which vanishes in every layer.
+
+    The loads fix the mean vertical force that passes through a layer; both branches carry the same.
+    """
+    return _mean_momentum()[1]
 
 
 FORCE = (mean_square / (1 - phi**2) + with_radii / (2 * r) - with_force) / (1 + phi)
 """⟨α₂⟩ from the vertical balance, in means of products of first-order quantities."""
+
+
+def balance_along_b() -> sympy.Expr:
+    """Mean momentum of both contacts of a bead along b⁺ at order ε², over L⁺; it vanishes, too.
+
+    The ordered forces are L⁺ and L⁻ = t L⁺. A contact along n⁻ is the mirror image of one along n⁺,
+    with forces of its own.
+    """
+    x, y = _mean_momentum().xreplace({with_force: with_other, mean_force: mean_other})
+    return B_PLUS.dot(_mean_momentum() + t * sympy.ImmutableMatrix([-x, y]))
+
+
+_OWN = SETTLED / (2 * r)
+"""⟨n⁺·u₂⟩"""
+_OTHER = (SETTLED - with_radii) / (2 * r)
+"""⟨n⁻·u₂⟩"""
+FORCE_AT_ANGLE = (phi * with_force - t * with_other - (1 - phi * t) * _OWN + (phi - t) * _OTHER) / (
+    1 - phi**2
+)
+"""⟨α₂⟩ of f⁺ from the balance along b⁺."""
 
 
 with_both = Symbol("C_force_radii", r"\langle\alpha_{1}\rho\rangle", "⟨α₁ρ⟩", real=True)
@@ -109,7 +136,7 @@ def contact_moment() -> sympy.ImmutableMatrix:
     )
 
 
-def mean_of(expression: sympy.Expr) -> sympy.Expr:
+def mean_of(expression: sympy.Expr, force: sympy.Expr = FORCE) -> sympy.Expr:
     """A mean at order ε², with ⟨α₂⟩ and ⟨u₂⟩ put in, in means of products of first order."""
     turned = expression.xreplace({u_plus: TURN[0], u_minus: TURN[1]})
     means = {
@@ -117,7 +144,7 @@ def mean_of(expression: sympy.Expr) -> sympy.Expr:
         tilt * radii: with_radii,
         alpha_1 * radii: with_both,
         tilt**2: mean_square,
-        alpha_2: FORCE,
+        alpha_2: force,
         d_plus: SETTLED,
         d_minus: SETTLED,
     }
