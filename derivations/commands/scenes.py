@@ -169,6 +169,8 @@ def _answer(
                 folder.write({"packings.json": json.dumps(found.packings())})
     lines = outcome_lines(about, found.count)
     show(found, about, lines, as_json=as_json, quiet=quiet, folder=folder)
+    if checkpoint is not None and planned.problem.segment:
+        checkpoint.unlink(missing_ok=True)  # nothing is left to be gone on with
 
 
 def cost(

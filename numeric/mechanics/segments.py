@@ -83,10 +83,18 @@ class Segments:
     """Solves one realisation of a problem, ``layers`` at a time (an even number)."""
 
     def __init__(
-        self, problem: Problem, realisation: int, layers: int, work: Work, kept: Kept
+        self,
+        problem: Problem,
+        realisation: int,
+        layers: int,
+        work: Work,
+        kept: Kept,
+        *,
+        again: bool = False,
     ) -> None:
-        """``kept`` may hold what an earlier run has kept."""
+        """``kept`` may hold what an earlier run has kept; ``again``: all will go down once more."""
         self.problem, self.realisation, self.work, self.kept = problem, realisation, work, kept
+        self.again = again
         self.layers, self.top = layers, problem.region.top
         self.count = max(1, -(-self.top // layers))
         self._parts: dict[type, Any] = {}
@@ -115,7 +123,7 @@ class Segments:
         found = None
         if self.problem.needs_forces:
             found = self._balanced(number, solved)
-        for name in (f"c{number}", f"g{number + 1}", f"F{number + 1}"):
+        for name in (f"c{number}", f"g{number + 1}", f"F{number + 1}")[self.again :]:
             self.kept.drop(name)
         whole, first = self._whole(solved, found, low), low + 1 if number else 0
         return Segment(number, self.count, first, last, whole, solved)

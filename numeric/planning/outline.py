@@ -62,9 +62,9 @@ class Outline:
         seconds = predicted(self.quantity, problem, method, together)
         cut = segments.cut(problem, method, scene) if memory > self.limit else None
         if cut is not None:
-            steps = segments.steps(steps, cut, memory, self.limit)
-            memory = segments.memory(cut, self.quantity.answer_rows(problem.region, 1))
-            problem, seconds = cut, segments.seconds(cut)
+            steps = segments.steps(steps, cut, self.quantity, memory, self.limit)
+            memory = segments.memory(cut, self.quantity)
+            problem, seconds = cut, segments.seconds(cut, self.quantity)
         budget.refuse_memory(scene, memory, self.limit)
         budget.refuse_seconds(scene, problem.realisations, seconds)
         return Plan(

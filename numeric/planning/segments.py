@@ -5,14 +5,16 @@ from dataclasses import replace
 from importlib.util import find_spec
 
 from ..arithmetic.systems import FLOAT64
+from ..lattice.layers import Region
 from ..mechanics.problem import Problem, Route
+from ..quantities.base import Quantity
 from ..scene.scene import Scene
 from ..scene.sections import Ask
 from . import budget
 from .plan import Method, Step
 
 # Quantities whose answer comes from one segment after the other.
-KNOWN = ("profile", "contact", "base_reactions")
+KNOWN = ("profile", "contact", "base_reactions", "histogram")
 # Columns of the packing, as high, whose error stands for that of the whole.
 COLUMNS = 16
 # Bytes of a bead of a segment (δr, positions, δn, forces), and of one that is kept on the way up.
@@ -60,9 +62,12 @@ def cut(problem: Problem, method: Method, scene: Scene) -> Problem | None:
     return replace(problem, segment=layers(widest, problem.region.top))
 
 
-def memory(problem: Problem, rows: int) -> int:
+def memory(problem: Problem, quantity: Quantity) -> int:
     """Estimate the bytes at the peak."""
     widest = max(row.count for row in problem.region.rows)
+    counted = quantity.name == "histogram"  # one segment after the other
+    region = Region(problem.width, ()) if counted else problem.region
+    rows = quantity.answer_rows(region, 1)
     return (
         beads_bytes(widest, problem.region.top)
         + 2 * budget.FLOAT_BEAD * COLUMNS * len(problem.region.rows)
@@ -73,24 +78,31 @@ def memory(problem: Problem, rows: int) -> int:
     )
 
 
-def seconds(problem: Problem) -> float:
+def seconds(problem: Problem, quantity: Quantity) -> float:
     """Predict how long it takes."""
-    return problem.region.beads * _SECONDS
+    return problem.region.beads * _SECONDS * (5 / 3 if quantity.name == "histogram" else 1)
 
 
-def steps(found: tuple[Step, ...], problem: Problem, needed: int, limit: int) -> tuple[Step, ...]:
+def steps(
+    found: tuple[Step, ...], problem: Problem, quantity: Quantity, needed: int, limit: int
+) -> tuple[Step, ...]:
     """Say in the steps of a plan what is done twice, and why."""
     k, all_layers = problem.segment, problem.region.top + 1
     sizes = f"{budget.size(needed)} of memory would be needed and {budget.size(limit)} may be used"
+    counts = quantity.name == "histogram"
+    often, last = ("three times", ", and a third time to count") if counts else ("twice", "")
     why = (
-        f"twice, {k} of {all_layers} layers at a time, because {sizes}: on the way up every "
-        f"{k}-th layer is kept, and those between are deposited again on the way down"
+        f"{often}, {k} of {all_layers} layers at a time, because {sizes}: on the way up every "
+        f"{k}-th layer is kept, and those between are deposited again on the way down{last}"
     )
     again = f"{COLUMNS} columns of as many layers, and again with a longer significand"
     changed = []
     for step in found:
         if step.step in {"draw radii", "deposit"}:
-            reason = why if step.step == "deposit" else "twice, on the way up and down"
+            reason = why if step.step == "deposit" else f"{often}, on the way up and down"
+            changed.append(replace(step, reason=reason, beads=(2 + counts) * step.beads))
+        elif step.step == "balance forces" and counts:
+            reason = "twice: the bins lie between the smallest and the largest change"
             changed.append(replace(step, reason=reason, beads=2 * step.beads))
         elif step is found[-1]:
             beads = 2 * step.beads * COLUMNS * all_layers // max(problem.region.beads, 1)

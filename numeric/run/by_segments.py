@@ -2,8 +2,10 @@
 
 import json
 import math
+from collections.abc import Iterator
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,13 +23,15 @@ from ..planning import planner, segments
 from ..planning.plan import ESTIMATE, Plan
 from ..quantities.answer import Answer, at_home, in_units
 from ..quantities.base import Block, Listed, Table, contact_changes
+from ..quantities.histogram import Histogram
 from ..quantities.profile import Profile
 from ..scene.source import program_version
+from ..statistics.histogram import counted, edges_between
 from ..statistics.moments import Moments
 from .checkpoint import Checkpoint
 
 if TYPE_CHECKING:
-    from ..mechanics.segments import Kept, Segment
+    from ..mechanics.segments import Kept, Segment, Segments
 
 
 @dataclass
@@ -77,7 +81,8 @@ def by_segments(plan: Plan, work: Work, checkpoint: Path | None = None) -> tuple
     opened = None if checkpoint is None else Checkpoint(checkpoint, _key(plan))
     with FLOAT64.active(), opened or nullcontext():
         kept: Kept = opened or InMemory()
-        way = Segments(problem, 0, problem.segment, work, kept)
+        counts = isinstance(plan.quantity, Histogram)
+        way = Segments(problem, 0, problem.segment, work, kept, again=counts)
         parts: list[_Part] = []
         missing = [n for n in range(way.count) if _Part.of(kept, n) is None]
         if missing:
@@ -88,9 +93,48 @@ def by_segments(plan: Plan, work: Work, checkpoint: Path | None = None) -> tuple
                 part = _part(plan, way.down(number), work)
                 part.keep(kept, number)
             parts.insert(0, part)
-        table = in_units(plan.quantity, _table(plan, parts).sorted(), FLOAT64)
-        answer = Answer(table, None, _physical(plan, parts), None)
+        bins = None
+        if counts:
+            table, bins = _counted(plan, way, parts)
+        else:
+            table = in_units(plan.quantity, _table(plan, parts).sorted(), FLOAT64)
+        answer = Answer(table, bins, _physical(plan, parts), None)
         return answer, _accuracy(plan, work)
+
+
+def _counted(
+    plan: Plan, way: "Segments", parts: list[_Part]
+) -> tuple[Table, list[tuple[Fraction, Fraction, int]]]:
+    """Count all changes into bins, on a second way down; the table has their extremes alone."""
+    quantity = plan.quantity
+    assert isinstance(quantity, Histogram)
+    found = [part.numbers["change"] for part in parts if part.numbers]
+    if not found:
+        return Table({}, {"change": np.empty(0)}, ("change",)), []
+    change = np.array([min(low for low, _ in found), max(high for _, high in found)])
+    edges = edges_between(float(change[0]), float(change[1]), quantity.bins)
+    counts = np.zeros(len(edges) - 1)
+    for number in reversed(range(way.count)):
+        own = way.kept.get(f"counts{number}")
+        if own is None:
+            own = np.zeros(len(counts))
+            for row in _changes(plan, way.down(number)):
+                own += counted(row, edges)
+            way.kept.put(f"counts{number}", own)
+        counts += own
+    bins = zip(edges[:-1], edges[1:], map(int, counts), strict=True)
+    return Table({}, {"change": change}, ("change",)), list(bins)
+
+
+def _changes(plan: Plan, segment: "Segment") -> Iterator[Array]:
+    """Give the changes of a segment's contacts, row by row, in the unit of the answer."""
+    forces = segment.solved.forces
+    assert forces is not None
+    for j in range(max(segment.first, 1), min(segment.last + 1, len(forces.rows))):
+        for _, _, g in forces.below(j):
+            if g.size:
+                row = Table({}, {"change": np.asarray(g)}, ("change",))
+                yield in_units(plan.quantity, row, FLOAT64).numbers["change"]
 
 
 def _key(plan: Plan) -> dict[str, Any]:
@@ -124,6 +168,12 @@ def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
         names = ("ordered", "unit", "count", "mean", "square")
         index: dict[str, list[Any]] = {"j": [j for j, _ in keys], "branch": [b for _, b in keys]}
         return _Part(physical, index, dict(zip(names, columns, strict=True)))
+    if isinstance(quantity, Histogram):
+        extremes = [(row.min(), row.max()) for row in _changes(plan, segment)]
+        if not extremes:
+            return _Part(physical, {}, {})
+        lows, highs = zip(*extremes, strict=True)
+        return _Part(physical, {}, {"change": np.array([min(lows), max(highs)])})
     contact = problem.contact
     wanted = 1 if contact is None else contact.j + 1  # the layer whose forces are the answer
     if wanted not in layers:

@@ -83,7 +83,12 @@ class Checkpoint:
         return np.frombuffer(self._file.read(8 * int(np.prod(shape))), "<f8").reshape(shape)
 
     def put(self, name: str, values: Array) -> None:
-        """Keep an array of float64. Raises ``NotReachedError`` where the disk is full."""
+        """Keep an array of float64. Raises ``NotReachedError`` where the disk is full.
+
+        What is there under that name stays: it is the same.
+        """
+        if name in self._places:
+            return
         content = np.ascontiguousarray(values, dtype="<f8").tobytes()
         record = {"name": name, "shape": list(values.shape), "crc": zlib.crc32(content)}
         self._file.seek(0, 2)

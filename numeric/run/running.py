@@ -34,7 +34,7 @@ def run(
     """Run a plan, to the tolerance that it was made for.
 
     ``checkpoint`` is a file that a packing which the memory does not hold goes on from, once it was
-    interrupted or killed; other plans need none.
+    interrupted or killed; other plans need none. It stays, for whoever asks the same again.
 
     Where the estimated error of a method misses the tolerance, the next one of the plan's choice is
     taken. Raises ``ToleranceError``, ``TypeError`` for what is no plan, and what the sweeps raise

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..arithmetic.decimals import decimal_string
 from ..arithmetic.errors import UndecidedError
-from ..arithmetic.systems import Array, Balls, NumberSystem, midpoint
+from ..arithmetic.systems import Array, Balls, NumberSystem, as_floats, midpoint
 
 
 def histogram(
@@ -26,24 +26,29 @@ def histogram(
     if isinstance(system, Balls):
         unit, rough = _scaled(values)
     else:
-        rough = np.array([float(v) for v in values])
-    least, most = Fraction(float(rough.min())), Fraction(float(rough.max()))
-    span = most - least
-    if not span:
-        one = float(rough[0])
-        ends = [Fraction(np.nextafter(one, to)) * unit for to in (-np.inf, np.inf)]
-        if isinstance(system, Balls):
-            _count(values, ends, system)
-        return [(ends[0], ends[1], len(values))]
-    low, high = float(least - span / 1009), float(most + span / 2003)
-    step = (Fraction(high) - Fraction(low)) / bins
-    edges = [Fraction(low) + step * k for k in range(bins + 1)]
+        rough = as_floats(values)
+    edges = edges_between(float(rough.min()), float(rough.max()), bins)
     if isinstance(system, Balls):
         edges = [edge * unit for edge in edges]
         counts = _count(values, edges, system)
     else:
-        counts = np.histogram(rough, [float(edge) for edge in edges])[0].tolist()
+        counts = counted(rough, edges).tolist()
     return list(zip(edges[:-1], edges[1:], counts, strict=True))
+
+
+def edges_between(least: float, most: float, bins: int) -> list[Fraction]:
+    """Give the edges of the bins of values from ``least`` to ``most``."""
+    span = Fraction(most) - Fraction(least)
+    if not span:
+        return [Fraction(float(np.nextafter(least, to))) for to in (-np.inf, np.inf)]
+    low, high = float(Fraction(least) - span / 1009), float(Fraction(most) + span / 2003)
+    step = (Fraction(high) - Fraction(low)) / bins
+    return [Fraction(low) + step * k for k in range(bins + 1)]
+
+
+def counted(values: Array, edges: list[Fraction]) -> Array:
+    """Count float64 into bins, shape (bins,)."""
+    return np.histogram(values, [float(edge) for edge in edges])[0]
 
 
 def printed(bins: list[tuple[Fraction, Fraction, int]]) -> list[dict[str, Any]]:

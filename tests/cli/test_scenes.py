@@ -200,3 +200,25 @@ def test_memory_stays_within_what_was_announced(tolerance: str, tmp_path: Path) 
     )
     kilobytes = int(done.stderr.split()[-1])
     assert kilobytes * 1024 <= json.loads(done.stdout)["memory_bytes"]
+
+
+def test_a_checkpoint_that_was_needed_is_removed_with_the_answer(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("numba")
+    checkpoint, path = tmp_path / "run.checkpoint", tmp_path / "scene.toml"
+    path.write_text(
+        "[packing]\nheight = 600\nwidth = 602\n[disorder]\nkind = 'uniform'\n"
+        "relative_std = 1e-6\n[ask]\nquantity = 'histogram'\n"
+    )
+    usual = call(capsys, "run", path, "--quiet")
+    checkpoint.write_text("somebody's")
+    assert call(capsys, "run", path, "--quiet", "--checkpoint", checkpoint) == usual
+    assert checkpoint.read_text() == "somebody's"  # the memory held it: no checkpoint was needed
+    checkpoint.unlink()
+    monkeypatch.setattr("force_diffusion.numeric.planning.planner.free_memory", lambda: 280 * 10**6)
+    status, out, err = call(capsys, "run", path, "--checkpoint", checkpoint)
+    assert (status, err) == (usual[0], usual[2])
+    assert out.startswith(usual[1])
+    assert "three times, 10 of 601 layers at a time" in out
+    assert not checkpoint.exists()

@@ -38,6 +38,10 @@ CASES: dict[str, dict[str, dict[str, Any]]] = {
     "base of a slab": {
         "packing": {"height": 19}, "load": POINT, "ask": {"quantity": "base_reactions"},
     },
+    "histogram": {"packing": STRIP, "ask": {"quantity": "histogram", "bins": 7}},
+    "histogram of a point load": {
+        "packing": STRIP, "load": POINT | {"magnitude": "=3.7"}, "ask": {"quantity": "histogram"},
+    },
     "contact": {"packing": STRIP, "ask": {"quantity": "contact", "at": [1, 7, "-"]}},
     "contact of a slab": {
         "packing": {"height": 18}, "ask": {"quantity": "contact", "at": [0, 4, "+"]},
@@ -97,10 +101,26 @@ class KilledError(Exception):
     pass
 
 
-@pytest.mark.parametrize("calls", [1, 5, 9, 14, 20, 31])
 @pytest.mark.parametrize("torn", [0, 1, 700])
-def test_a_killed_run_goes_on_from_its_checkpoint(tmp_path: Path, calls: int, torn: int) -> None:
-    made = planned(sections("profile"))
+@pytest.mark.parametrize(
+    ("name", "calls"),
+    [
+        ("profile", 1),
+        ("profile", 5),
+        ("profile", 9),
+        ("profile", 14),
+        ("profile", 20),
+        ("profile", 31),
+        ("histogram", 9),
+        ("histogram", 30),
+        ("histogram", 37),
+        ("histogram", 46),
+    ],
+)
+def test_a_killed_run_goes_on_from_its_checkpoint(
+    tmp_path: Path, name: str, calls: int, torn: int
+) -> None:
+    made = planned(sections(name))
     usual = run(made)
     path, left = tmp_path / "run.checkpoint", count(calls, -1)
 
@@ -114,7 +134,8 @@ def test_a_killed_run_goes_on_from_its_checkpoint(tmp_path: Path, calls: int, to
     path.write_bytes(content[: len(content) - torn])
     again = run(cut(made, 4), checkpoint=path)
     same(usual, again)
-    assert again.work.balanced <= usual.work.balanced + 46 * 6
+    ways = 2 if name == "histogram" else 1
+    assert again.work.balanced <= ways * (usual.work.balanced + 46 * 6)
     finished = run(cut(made, 4), checkpoint=path)
     same(usual, finished)
     assert not finished.work.balanced
