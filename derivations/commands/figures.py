@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from force_diffusion.numeric.figures.catalogue import PaperFigure
     from force_diffusion.numeric.figures.packings import Notice
 
-NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5", "B7", "B9", "B10", "B11")
+NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5", "B7", "B9", "B10", "B11", "B13")
 MODELS = {"q-model": "3", "double-y": "4"}
 OWN_SPACING, OWN_STD = ("2", "3", "4", "pf", "chains"), ("3", "4", "pf", "chains")
 LEAST_REALISATIONS, MOST_REALISATIONS = 16, 1_000_000
@@ -68,8 +68,8 @@ def figures(
         list[str] | None,
         typer.Argument(
             metavar="WHICH",
-            help="Figures: 1, 2, 3, 4, pf, chains, B2, B5, B7, B9, B10, B11; by default all. A "
-            "scene of your own, FILE.toml, is answered and drawn.",
+            help="Figures: 1, 2, 3, 4, pf, chains, B2, B5, B7, B9, B10, B11, B13; by default all. "
+            "A scene of your own, FILE.toml, is answered and drawn.",
         ),
     ] = None,
     out: Annotated[Path, out_option("PNG, SVG, PDF and CSV")] = Path("figures"),
@@ -125,7 +125,7 @@ def figures(
         raise typer.BadParameter("goes with figure 3 only; add 3.", param_hint="--heights")
     if realisations is not None and not {"3", "4", "pf", "B2", "B5", "B7", "B9"} & set(wanted):
         raise typer.BadParameter(
-            "goes with figures 3, 4, pf, B2, B5, B7 and B9 only; the others draw no ensemble.",
+            "goes with figures 3, 4, pf, B2, B5, B7, B9 and B13 only; the others draw no ensemble.",
             param_hint="--realisations",
         )
     own = {

@@ -24,6 +24,7 @@ from . import (
     neighbours,
     notation,
     response,
+    spheres,
     stress,
 )
 from .library import KINDS, drawing
@@ -202,6 +203,12 @@ FIGURES = {
         "Diffusion of forces in two, three and four dimensions",
         lambda o: dimensions.widths(o.notice),
         dimensions.draw,
+    ),
+    "B13": _Figure(
+        "figureB13",
+        "Diffusion of forces in packings of spheres",
+        lambda o: spheres.simulate(o.realisations or 100, o.seed, o.notice),
+        spheres.draw,
     ),
 }
 

@@ -78,11 +78,14 @@ def planned(
     load: Load | None = None,
     geometry: Any = "exact",
     spacing: Fraction = SPACING,
+    dimension: int = 2,
 ) -> Plan:
     """Plan an ensemble. Raises ``SceneError`` where a number is out of range or too large."""
     narrow = width is not None
     scene = Scene(
-        packing=Packing(height=height, width=width, spacing=spacing, allow_images=narrow),
+        packing=Packing(
+            height=height, width=width, spacing=spacing, dimension=dimension, allow_images=narrow
+        ),
         disorder=Disorder(kind=kind, relative_std=std, seed=seed),
         load=SurfaceLoad() if load is None else load,
         effects=Effects(geometry=geometry),

@@ -13,7 +13,16 @@ SCENE = Path(__file__).with_name("small.toml")
 Notice = Callable[[str], None]
 """Told what is measured next."""
 
-REALISATIONS = {"3": 200, "4": 2000, "pf": 2000, "B2": 200, "B5": 2000, "B7": 200, "B9": 2000}
+REALISATIONS = {
+    "3": 200,
+    "4": 2000,
+    "pf": 2000,
+    "B2": 200,
+    "B5": 2000,
+    "B7": 200,
+    "B9": 2000,
+    "B13": 100,
+}
 """Packings in each ensemble of a figure that draws ensembles."""
 
 _PACKINGS = {

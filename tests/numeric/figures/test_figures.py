@@ -24,6 +24,7 @@ from force_diffusion.numeric.figures import (
     notation,
     packings,
     response,
+    spheres,
     stress,
 )
 from force_diffusion.numeric.figures.catalogue import csv_file
@@ -374,3 +375,29 @@ def test_figure_b11_is_exact_in_two_dimensions_and_near_the_leading_order_in_oth
     # the next order is a share of 1/M or so
     assert found.ratios() == pytest.approx([1, 1, 1], abs=2 / dimensions.HEIGHT)
     assert found.exact[1][0] > 1.3 * found.exact[0][0]
+
+
+def test_figure_b13_holds_spheres_to_theory_and_would_not_to_that_of_discs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(spheres, "CASES", spheres.CASES[:1])
+    found = spheres.simulate(40, 1, silent)
+    assert max(found.deviations()) <= 1
+    (rows,) = found.tables().values()
+    assert [row["j"] for row in rows] == list(range(8))
+    monkeypatch.setattr(closed_forms, "surface_variance_of_spheres", closed_forms.surface_variance)
+    assert min(found.deviations()) > 10
+    assert "outside" in found.lines()[0]
+
+
+def test_figure_b13_has_the_leading_orders_of_the_exact_forms() -> None:
+    z, M = np.array([0.25, 0.5]), 10**6
+    for load, form in (
+        ("surface", closed_forms.surface_variance_of_spheres),
+        ("bulk", closed_forms.bulk_variance_of_spheres),
+    ):
+        at_large = [
+            math.sqrt(form(M, int(at * M), float(spheres.PHI), spheres.PAPER_STD, 1.0) / M**3)
+            for at in z
+        ]
+        assert spheres.leading(load, z) == pytest.approx(at_large, rel=1e-5)
