@@ -44,6 +44,8 @@ GOOD = {
     "geometry": ['"ordered"', '"exact"', '"first-order"'],
     "contacts": ['"unilateral"', '"bilateral"'],
     "protocol": ['"linear-programs"', '"event-driven"'],
+    "most_events": ["1", "3", "1000"],
+    "most_seconds": ["1e-3", "0.5", "60"],
     "stop_at_tension": ["true", "false"],
     "quantity": [
         '"contact_forces"', '"contact"', '"profile"', '"histogram"', '"response"', '"positions"',
@@ -58,7 +60,14 @@ SECTIONS = {
     "packing": ["height", "width", "spacing", "allow_images"],
     "disorder": ["kind", "relative_std"],
     "load": ["kind", "angle_deg", "pressure", "at"],
-    "effects": ["geometry", "contacts", "protocol", "stop_at_tension"],
+    "effects": [
+        "geometry",
+        "contacts",
+        "protocol",
+        "most_events",
+        "most_seconds",
+        "stop_at_tension",
+    ],
     "ask": ["quantity", "tolerance", "certified", "realisations", "bins", "at"],
 }
 VALUES = [

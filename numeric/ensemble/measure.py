@@ -193,6 +193,9 @@ def measurement(
 
 def _refuse_of_networks(made: Measurement) -> None:
     """Refuse what packings whose contacts differ do not have."""
+    if made.problem.most_seconds is not None:
+        why = "which packings come to rest in time depends on the machine: give most_events"
+        raise SceneError("effects.most_seconds", made.problem.most_seconds, why)
     if not made.network.statistics:
         allowed = _either(tuple(q.name for q in NETWORK_QUANTITIES.values() if q.statistics))
         why = f'contacts = "unilateral" differ from packing to packing: an ensemble is of {allowed}'

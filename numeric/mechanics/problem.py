@@ -33,9 +33,10 @@ class Problem:
     ``region``: the beads that are deposited. ``force_rows``: those whose forces are balanced, empty
     where only positions are asked for. ``contact`` or ``site``: the one that is asked for, if it is
     one. ``realisations``: how many there are in all; it decides who sweeps, never a number.
-    ``protocol``: how beads come to rest where contacts are unilateral.
-    ``segment``: how many layers are in memory at a time, 0 for all of them. ``dimension``: 3 for
-    ``three_dimensions``, whose layers of W² beads count as one row.
+    ``protocol``: how beads come to rest where contacts are unilateral, and when that is given up:
+    after ``most_events``, or ``most_seconds`` of the processor. ``segment``: how many layers are in
+    memory at a time, 0 for all of them. ``dimension``: 3 for ``three_dimensions``, whose layers of
+    W² beads count as one row.
     """
 
     n_x: Fraction
@@ -50,6 +51,8 @@ class Problem:
     stop_at_tension: bool = False
     realisations: int = 1
     protocol: str = ""
+    most_events: int | None = None
+    most_seconds: Fraction | None = None
     segment: int = 0
     dimension: int = 2
 

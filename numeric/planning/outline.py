@@ -155,6 +155,8 @@ def outline(
         scene.effects.stop_at_tension,
         realisations,
         scene.effects.protocol if route == Route.UNILATERAL else "",
+        scene.effects.most_events,
+        scene.effects.most_seconds,
         dimension=scene.packing.dimension,
     )
     return Outline(scene, quantity, problem, tuple(skipped), limit, closed, tolerance)

@@ -35,13 +35,13 @@ def check(
 
 def _check_effects(effects: Effects, packing: Packing, ask: Ask) -> None:
     if effects.contacts == "bilateral":
-        if "protocol" in effects.model_fields_set:
-            raise SceneError(
-                "effects.protocol",
-                effects.protocol,
-                'only has a meaning with contacts = "unilateral"',
-            )
+        for key in ("protocol", "most_events", "most_seconds"):
+            if key in effects.model_fields_set:
+                allowed = 'only has a meaning with contacts = "unilateral"'
+                raise SceneError(f"effects.{key}", getattr(effects, key), allowed)
         return
+    if effects.most_seconds is not None and effects.most_seconds <= 0:
+        raise SceneError("effects.most_seconds", effects.most_seconds, "must be greater than 0")
     if effects.geometry != "exact" or effects.stop_at_tension:
         key = "geometry" if effects.geometry != "exact" else "stop_at_tension"
         raise SceneError(

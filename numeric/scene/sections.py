@@ -249,7 +249,8 @@ class Effects(Section):
     ``contacts``: "bilateral" ones stay closed and may pull; "unilateral" ones open instead, and
     beads move until none pulls. Where they come to rest is not unique, so that ``protocol``, the
     way there, is part of the answer: "linear-programs" in a row, or "event-driven", one contact
-    after the other along the exact motion.
+    after the other along the exact motion. It is given up after ``most_events`` of them, or after
+    ``most_seconds`` of the processor, for each packing.
     """
 
     section = "effects"
@@ -257,6 +258,8 @@ class Effects(Section):
     stop_at_tension: bool = False
     contacts: Literal["bilateral", "unilateral"] = "bilateral"
     protocol: Literal["linear-programs", "event-driven"] = "linear-programs"
+    most_events: Whole | None = Field(default=None, ge=1)
+    most_seconds: Number | None = None
 
 
 class Ask(Section):

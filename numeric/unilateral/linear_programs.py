@@ -6,6 +6,8 @@ beads, and the energy falls. Where it ends depends on Δ, which therefore belong
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -19,6 +21,11 @@ TRUST = 0.8
 # The energy of the load, relative to its own scale, that a program must gain for another to follow.
 GAIN = 1e-12
 MOST_PROGRAMS = 400
+# Gaps up to this are constraints at once; others become so when a move would close them.
+CLOSE = 0.8
+# Where fewer beads than this share of all move by more than 0.1 r, vertices hardly change: the
+# simplex method goes on from the last one. Before, interior points are faster.
+FEW, FAR = 0.1, 0.1
 
 
 class MissingSolverError(ForceDiffusionError, ImportError):
@@ -32,9 +39,9 @@ def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array
     ``MissingSolverError`` without highspy.
     """
     scale = float(np.abs(grains.weights).sum())
+    programs, by_simplex = _Programs(grains), False
     for program in range(1, MOST_PROGRAMS + 1):
-        pairs = grains.near(2 * np.sqrt(2) * TRUST)
-        move, forces = _solved(grains, pairs)
+        pairs, move, forces = programs.solve(by_simplex)
         before = grains.energy()
         grains.x = grains.x.copy()
         grains.x[grains.fixed :] += move.reshape(-1, 2)
@@ -45,48 +52,99 @@ def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array
                 f"the energy of the load rose by {-gain:.3g} in a program: please report this"
             )
         progress(program)
-        if gain < GAIN * scale:
-            _, forces = _solved(grains, pairs, vertex=True)
+        at_rest = gain < GAIN * scale
+        if at_rest and by_simplex:
             return pairs, forces, program
+        far = np.abs(move.reshape(-1, 2)).max(axis=1) > FAR
+        by_simplex = at_rest or bool(far.mean() < FEW)
     raise UnfinishedError(f"beads still move after {MOST_PROGRAMS} linear programs")
 
 
-def _solved(grains: Grains, pairs: Pairs, *, vertex: bool = False) -> tuple[Array, Array]:
-    """Solve one program by interior points: moves, and forces as multipliers of the gaps.
+@dataclass
+class _Programs:
+    """One program after the other; the last vertex is kept, its rows by the pairs' names."""
 
-    At a ``vertex``, which takes longer, forces are exactly zero but for those of a basis.
-    """
-    try:
-        import highspy
-    except ImportError:
-        raise MissingSolverError(
-            'protocol = "linear-programs" needs highspy, "force-diffusion[unilateral]"; '
-            'protocol = "event-driven" does without'
-        ) from None
-    A = grains.jacobian(pairs)
-    program = highspy.HighsLp()
-    program.num_col_, program.num_row_ = A.shape[1], A.shape[0]
-    program.col_cost_ = -grains.weights
-    program.col_lower_ = np.full(A.shape[1], -TRUST)
-    program.col_upper_ = np.full(A.shape[1], TRUST)
-    program.row_lower_ = -np.maximum(grains.gaps(pairs), 0)
-    program.row_upper_ = np.full(A.shape[0], highspy.kHighsInf)
-    program.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
-    program.a_matrix_.start_ = A.indptr
-    program.a_matrix_.index_ = A.indices
-    program.a_matrix_.value_ = A.data
-    solver = highspy.Highs()  # type: ignore[no-untyped-call]
-    crossover = "on" if vertex else "off"
-    for option, value in (
-        ("output_flag", False), ("solver", "ipm"), ("run_crossover", crossover), ("threads", 1),
-    ):  # fmt: skip
-        solver.setOptionValue(option, value)
-    solver.passModel(program)
-    solver.run()
-    status = solver.getModelStatus()
-    if status != highspy.HighsModelStatus.kOptimal:
-        raise UnfinishedError(
-            f"a linear program was not solved: {solver.modelStatusToString(status)}"
-        )
-    solution = solver.getSolution()
-    return np.array(solution.col_value), np.array(solution.row_dual)
+    grains: Grains
+    columns: list[Any] = field(default_factory=list)
+    rows: dict[int, Any] = field(default_factory=dict)
+
+    def solve(self, by_simplex: bool) -> tuple[Pairs, Array, Array]:
+        """Give pairs, moves, and forces as multipliers of the gaps, zero off the vertex."""
+        near = self.grains.near(2 * np.sqrt(2) * TRUST)
+        gaps = np.maximum(self.grains.gaps(near), 0)
+        A = self.grains.jacobian(near)
+        taken = gaps < CLOSE
+        while True:
+            pairs = near[taken]
+            move, forces = self._solved(pairs, gaps[taken], A[taken], by_simplex)
+            closed = (gaps + A @ move < -1e-9) & ~taken
+            if not closed.any():
+                return pairs, move, forces
+            taken |= closed
+
+    def _solved(self, pairs: Pairs, gaps: Array, A: Any, by_simplex: bool) -> tuple[Array, Array]:
+        """Solve by the simplex method from the last vertex, or by interior points.
+
+        These cross over to a vertex where there is no last one, or it is too far away.
+        """
+        try:
+            import highspy
+        except ImportError:
+            raise MissingSolverError(
+                'protocol = "linear-programs" needs highspy, "force-diffusion[unilateral]"; '
+                'protocol = "event-driven" does without'
+            ) from None
+        program = highspy.HighsLp()
+        program.num_col_, program.num_row_ = A.shape[1], A.shape[0]
+        program.col_cost_ = -self.grains.weights
+        program.col_lower_ = np.full(A.shape[1], -TRUST)
+        program.col_upper_ = np.full(A.shape[1], TRUST)
+        program.row_lower_ = -gaps
+        program.row_upper_ = np.full(A.shape[0], highspy.kHighsInf)
+        program.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
+        program.a_matrix_.start_ = A.indptr
+        program.a_matrix_.index_ = A.indices
+        program.a_matrix_.value_ = A.data
+        solver = highspy.Highs()  # type: ignore[no-untyped-call]
+        solver.passOptions(_options(highspy, "ipm", by_simplex, A.shape[1]))
+        solver.passModel(program)
+        names = self.grains.named(pairs).tolist()
+        optimal = highspy.HighsModelStatus.kOptimal
+        if by_simplex and self.columns:
+            solver.passOptions(_options(highspy, "simplex", by_simplex, A.shape[1]))
+            basis, inactive = highspy.HighsBasis(), highspy.HighsBasisStatus.kBasic
+            basis.valid = basis.alien = True
+            basis.col_status = self.columns
+            basis.row_status = [self.rows.get(name, inactive) for name in names]
+            solver.setBasis(basis)
+            solver.run()
+            if solver.getModelStatus() != optimal:
+                solver.passOptions(_options(highspy, "ipm", by_simplex, A.shape[1]))
+                solver.clearSolver()
+        if solver.getModelStatus() != optimal:
+            solver.run()
+        status = solver.getModelStatus()
+        if status != optimal:
+            raise UnfinishedError(
+                f"a linear program was not solved: {solver.modelStatusToString(status)}"
+            )
+        self.columns = []
+        if by_simplex:
+            vertex = solver.getBasis()
+            self.columns = list(vertex.col_status)
+            self.rows = dict(zip(names, vertex.row_status, strict=True))
+        solution = solver.getSolution()
+        return np.array(solution.col_value), np.array(solution.row_dual)
+
+
+def _options(highspy: Any, method: str, vertex: bool, most: int) -> Any:
+    """Give options of HiGHS; the simplex method is given up after ``most`` steps."""
+    options = highspy.HighsOptions()
+    options.output_flag, options.threads, options.solver = False, 1, method
+    if method == "simplex":
+        options.presolve, options.simplex_strategy = "off", 4  # primal
+        options.simplex_iteration_limit = most
+        options.primal_feasibility_tolerance = options.dual_feasibility_tolerance = 1e-10
+    else:
+        options.run_crossover = "on" if vertex else "off"
+    return options

@@ -2,11 +2,13 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from time import process_time
 
 import numpy as np
 from scipy.optimize import linprog
 from scipy.sparse.linalg import splu, spsolve
 
+from ..arithmetic.decimals import short
 from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats
 from ..disorder.radii import rows_of
@@ -72,11 +74,18 @@ def settle(problem: Problem, realisation: int, work: Work) -> Settled | None:
     for row in problem.region.rows:
         work.did("radii", row)
         work.did("balanced", row)
-    shown = work.progress
+    shown, begin = work.progress, process_time()
 
     def progress(events: int) -> None:
         if shown is not None:
             shown(f"{problem.protocol}: {events}", 0)
+        most, seconds = problem.most_events, problem.most_seconds
+        if most is not None and events > most:
+            raise UnfinishedError(f"not at rest after effects.most_events = {most}")
+        if seconds is not None and process_time() - begin > seconds:
+            raise UnfinishedError(
+                f"not at rest after effects.most_seconds = {short(seconds)}, in {events} events"
+            )
 
     if supports is not None and not overlaps:
         forces = balanced(grains, supports)

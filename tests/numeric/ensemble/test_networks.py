@@ -151,6 +151,14 @@ def test_what_has_no_statistics_is_refused(quantity: str) -> None:
         fd.ensemble(strip(quantity), 2)
 
 
+def test_limits_of_ensembles() -> None:
+    effects = {"contacts": "unilateral", "most_events": 3}
+    found = fd.ensemble(strip(effects=effects), 8)
+    assert 0 < found.unbuildable < 8
+    with pytest.raises(fd.SceneError, match="most_events"):
+        fd.ensemble(strip(effects={"contacts": "unilateral", "most_seconds": 1}), 2)
+
+
 def test_covariances_are_refused() -> None:
     with pytest.raises(fd.ForceDiffusionError, match="covariance"):
         fd.ensemble(strip(), 2, covariance=True)

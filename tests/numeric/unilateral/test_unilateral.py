@@ -255,13 +255,33 @@ def test_what_has_no_meaning_is_refused(
         )
 
 
-def test_protocol_alone_is_refused() -> None:
+@pytest.mark.parametrize(
+    "effects", [{"protocol": "event-driven"}, {"most_events": 3}, {"most_seconds": 1}]
+)
+def test_keys_of_protocols_alone_are_refused(effects: dict[str, Any]) -> None:
     with pytest.raises(fd.SceneError, match="unilateral"):
         fd.Scene(
             packing=fd.Packing(height=2, width=4),
-            effects=fd.Effects(protocol="event-driven"),
+            effects=fd.Effects(**effects),
             ask=fd.Ask(quantity="profile"),
         )
+
+
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+@pytest.mark.parametrize("limit", [{"most_events": 3}, {"most_seconds": 1e-6}])
+def test_limits_give_up_in_words(protocol: str, limit: dict[str, Any]) -> None:
+    scene = strip(protocol=protocol, seed=3)
+    effects = fd.Effects(contacts="unilateral", protocol=protocol, **limit)
+    with pytest.raises(UnfinishedError, match=next(iter(limit))):
+        scene.model_copy(update={"effects": effects}).run()
+
+
+def test_enough_events_change_nothing(relaxed: fd.Outcome) -> None:
+    protocol = relaxed.plan.problem.protocol
+    (network,) = relaxed.answer.networks
+    effects = fd.Effects(contacts="unilateral", protocol=protocol, most_events=network.events)
+    again = strip(protocol=protocol).model_copy(update={"effects": effects}).run()
+    assert again.rows() == relaxed.rows()
 
 
 def test_quantities_are_the_same_under_the_effect() -> None:
