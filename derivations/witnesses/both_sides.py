@@ -80,6 +80,8 @@ class Truth:
             packing.width, packing.height, n=packing.n, rho=packing.rho, loads=self.loads, order=1
         )
         self.values = explicit.geometry(*packing.n, Fraction(1))
+        self.known: dict[frozenset[Any], dict[sympy.Expr, Dual | Vector]] = {}
+        """What was evaluated, by the indices it was evaluated at."""
 
     def force(self, across: int, layer: int, branch: str) -> Dual:
         """Contact force with the lower bead (across, layer)."""
@@ -129,6 +131,14 @@ def evaluate(expression: sympy.Expr, truth: Truth, at: Values) -> Dual | Vector:
         AbsentError: for a site off the lattice or outside of the packing.
         explicit.AmbiguousError: for what has no single value.
     """
+    known = truth.known.setdefault(frozenset(at.items()), {})
+    found = known.get(expression)
+    if found is None:
+        found = known[expression] = _evaluate(expression, truth, at)
+    return found
+
+
+def _evaluate(expression: sympy.Expr, truth: Truth, at: Values) -> Dual | Vector:
     values = {**truth.values, **at}
     if isinstance(expression, sympy.Symbol) and expression in sy.VECTORS:
         components = explicit.vector_weights(expression, values)

@@ -7,6 +7,7 @@ counterexamples, and the tests hold the normal form against it.
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from functools import lru_cache
 from math import prod
 
 import sympy
@@ -30,6 +31,23 @@ class DivisionError(AmbiguousError):
     """It has none because it divides by zero here."""
 
 
+class _Explicit(dict[sympy.Symbol, Fraction | int]):
+    """Values, and what was read with them: expressions that differ in a place share the others."""
+
+    def __init__(self, values: Mapping[sympy.Symbol, Fraction | int]) -> None:
+        super().__init__(values)
+        self.read: dict[sympy.Expr, Weights | Vector] = {}
+
+
+@lru_cache(maxsize=2048)
+def _of(values: frozenset[tuple[sympy.Symbol, Fraction | int]]) -> _Explicit:
+    return _Explicit(dict(values))
+
+
+def _explicit(values: Values) -> _Explicit:
+    return values if isinstance(values, _Explicit) else _of(frozenset(values.items()))
+
+
 def geometry(n_x: Fraction, n_y: Fraction, radius: Fraction) -> dict[sympy.Symbol, Fraction | int]:
     """Values of the geometric symbols for rational base vectors n^± = (±n_x, n_y)."""
     if n_x**2 + n_y**2 != 1:
@@ -45,7 +63,7 @@ def geometry(n_x: Fraction, n_y: Fraction, radius: Fraction) -> dict[sympy.Symbo
 
 def weights(expression: sympy.Expr, values: Values) -> Weights:
     """Weights of a scalar, linear expression; zero weights are left out."""
-    result = _read(expression, values)
+    result = _read(expression, _explicit(values))
     if isinstance(result, tuple):
         if not result[0] and not result[1]:
             return {}
@@ -55,7 +73,7 @@ def weights(expression: sympy.Expr, values: Values) -> Weights:
 
 def vector_weights(expression: sympy.Expr, values: Values) -> Vector:
     """Weights of the Cartesian components of a vector expression."""
-    result = _read(expression, values)
+    result = _read(expression, _explicit(values))
     if isinstance(result, tuple):
         return result
     if not result:
@@ -100,7 +118,14 @@ def _base_vectors(values: Values) -> dict[sympy.Symbol, tuple[Fraction, Fraction
     }
 
 
-def _read(expression: sympy.Expr, values: Values) -> Weights | Vector:
+def _read(expression: sympy.Expr, values: _Explicit) -> Weights | Vector:
+    found = values.read.get(expression)
+    if found is None:
+        found = values.read[expression] = _read_anew(expression, values)
+    return found
+
+
+def _read_anew(expression: sympy.Expr, values: _Explicit) -> Weights | Vector:
     if isinstance(expression, sympy.Rational):
         value = Fraction(int(expression.p), int(expression.q))
         return {_CONSTANT: value} if value else {}
@@ -219,10 +244,10 @@ def _product(parts: list[Weights | Vector]) -> Weights | Vector:
     return _scaled(x, scale), _scaled(y, scale)
 
 
-def _terms(series: sympy.Sum, values: Values) -> Iterator[Weights | Vector]:
+def _terms(series: sympy.Sum, values: _Explicit) -> Iterator[Weights | Vector]:
     index, low, high = series.limits[-1]
     inner_limits = series.limits[:-1]
     body = sympy.Sum(series.function, *inner_limits) if inner_limits else series.function
     first, last = number(low, values), number(high, values)
     for value in range(int(first), int(last) + 1):
-        yield _read(body, {**values, index: value})
+        yield _read(body, _explicit({**values, index: value}))
