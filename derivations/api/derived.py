@@ -25,6 +25,7 @@ from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.derivations.framework.record import Outcome
 from force_diffusion.derivations.framework.runner import run_all
+from force_diffusion.numeric.arithmetic.processes import Start
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
 
@@ -64,10 +65,13 @@ class Derived:
         """
         about = [(one.derivation, finding(one)) for one in self.outcomes]
         about.sort(key=lambda pair: list(modules()).index(pair[0].number))
-        return {
-            **{fragment_name(one): statement_latex(one, columns) for one, _ in about},
-            DOCUMENT: document(about),
-        }
+        return {**self.fragments(columns), DOCUMENT: document(about)}
+
+    def fragments(self, columns: int = 1) -> dict[str, str]:
+        """The same without the document."""
+        found = [one.derivation for one in self.outcomes]
+        found.sort(key=lambda one: list(modules()).index(one.number))
+        return {fragment_name(one): statement_latex(one, columns) for one in found}
 
     def __str__(self) -> str:
         lines = [line for one in self.outcomes for line in (summary_line(one), *trouble_lines(one))]
@@ -117,12 +121,23 @@ def derive(
     """
     if isinstance(numbers, int | str):
         raise TypeError(f"derive takes several numbers: derive([{numbers}])")
+    return derive_with(None, numbers, notice, finished)
+
+
+def derive_with(
+    start: Start | None,
+    numbers: Iterable[Number] | None,
+    notice: Callable[[str], None] | None,
+    finished: Callable[[Outcome], None] | None,
+) -> Derived:
+    """Derive as ``derive`` does; ``start`` calls functions in another process (``run_all``)."""
     wanted = modules() if numbers is None else [equation(number).number for number in numbers]
     outcomes = []
     tell = notice or (lambda _: None)
     for outcome in run_all(
         with_premises(load(number) for number in wanted),
         lambda derivation, check: tell(f"Eq. {derivation.number}: {check}"),
+        start,
     ):
         outcomes.append(outcome)
         if finished:

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterable, Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,12 +12,14 @@ from force_diffusion.derivations.export.terminal import tried_counts, tried_text
 from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.numeric.arithmetic.errors import printable
-
-import force_diffusion as fd
+from force_diffusion.numeric.arithmetic.processes import Start, beside
 
 if TYPE_CHECKING:
     from force_diffusion.derivations.api.derived import Derived
     from force_diffusion.derivations.framework.record import Derivation
+
+WORTH_ANOTHER_PROCESS = 16
+"""Equations from which on another process, which has to load SymPy, repays itself."""
 
 
 def premises_first(numbers: Iterable[Number]) -> "list[Derivation]":
@@ -24,10 +27,12 @@ def premises_first(numbers: Iterable[Number]) -> "list[Derivation]":
     return with_premises(load(number) for number in numbers)
 
 
-def watched(numbers: Iterable[Number], watch: Silence) -> "Derived":
-    """Derive these equations under a display."""
+def watched(numbers: Iterable[Number], watch: Silence, start: Start | None = None) -> "Derived":
+    """Derive these equations under a display; ``start`` calls functions in another process."""
+    from force_diffusion.derivations.api.derived import derive_with
+
     with watch.showing():
-        return fd.derive(numbers, notice=watch.checking, finished=watch.finished)
+        return derive_with(start, numbers, watch.checking, watch.finished)
 
 
 def derive(
@@ -53,7 +58,9 @@ def derive(
     names = [*map(fragment_name, derivations), DOCUMENT]
     with output(out, "derive", names, overwrite) as folder:
         watch = display(len(derivations), as_json=as_json)
-        found = watched(numbers, watch)
+        many = len(derivations) >= WORTH_ANOTHER_PROCESS
+        with beside() if many else nullcontext() as start:
+            found = watched(numbers, watch, start)
         if folder:
             parts = {
                 earlier.number: (load(earlier.number), earlier)
@@ -65,7 +72,7 @@ def derive(
             }
             about = [parts[number] for number in modules() if number in parts]
             folder.write(
-                {**found.latex(columns), DOCUMENT: document(about)}, [one for _, one in about]
+                {**found.fragments(columns), DOCUMENT: document(about)}, [one for _, one in about]
             )
     if on := tried_text(tried_counts(found.outcomes)):
         watch.summary(on)

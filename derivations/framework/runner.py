@@ -1,13 +1,17 @@
 """Runs a derivation: its proofs, its witnesses, and the mutants that must be refuted."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
+from itertools import chain
 from time import perf_counter
 
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.record import (
     Check,
     Derivation,
+    KernelError,
     Mutant,
     Outcome,
     Step,
@@ -15,6 +19,7 @@ from force_diffusion.derivations.framework.record import (
     Witness,
 )
 from force_diffusion.derivations.witnesses.draws import draw
+from force_diffusion.numeric.arithmetic.processes import Start
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of
 
 SEEDS = (20021, 20022, 20023)
@@ -22,6 +27,10 @@ SEEDS = (20021, 20022, 20023)
 
 Watch = Callable[[Derivation, str], None]
 """Told which check of which derivation comes next."""
+
+
+Rule = Callable[[Derivation, int, str, sympy.Eq], Ruling]
+"""Rules on a candidate for a part of an equation, described in words."""
 
 
 def _silent(_derivation: Derivation, _check: str) -> None:
@@ -79,7 +88,13 @@ def _on_all(witness: Witness) -> Ruling:
     return Ruling(Verdict.AGREES, f"{len(SEEDS)} packings; the last: {ruling.note}")
 
 
-def judged_mutants(derivation: Derivation, watch: Watch = _silent) -> Iterator[Mutant]:
+def _rule(derivation: Derivation, place: int, _words: str, candidate: sympy.Eq) -> Ruling:
+    return derivation.rule_on(place, candidate)
+
+
+def judged_mutants(
+    derivation: Derivation, watch: Watch = _silent, rule: Rule = _rule
+) -> Iterator[Mutant]:
     """Change each printed equation mechanically and let the same procedure rule on it.
 
     Raises:
@@ -90,7 +105,7 @@ def judged_mutants(derivation: Derivation, watch: Watch = _silent) -> Iterator[M
     watch(derivation, "mutants")
     for place, equation in enumerate(derivation.printed):
         for kind, change, mutated in mutants(equation):
-            ruling = derivation.rule_on(place, mutated)
+            ruling = rule(derivation, place, change, mutated)
             reason = derivation.equivalent.get(change, "")
             if ruling.verdict is Verdict.PROVED and not reason:
                 raise derivation.fault(
@@ -99,7 +114,7 @@ def judged_mutants(derivation: Derivation, watch: Watch = _silent) -> Iterator[M
             yield Mutant(kind, change, mutated, ruling, reason)
 
 
-def tried(derivation: Derivation, watch: Watch = _silent) -> Iterator[Tried]:
+def tried(derivation: Derivation, watch: Watch = _silent, rule: Rule = _rule) -> Iterator[Tried]:
     """Try the same procedure on statements that are known to be false, or true.
 
     One of each kind for each printed equation; other ones for other equations.
@@ -111,7 +126,7 @@ def tried(derivation: Derivation, watch: Watch = _silent) -> Iterator[Tried]:
     turn = sum(map(ord, str(derivation.number)))
     for place, equation in enumerate(derivation.printed):
         for statement in derivation.tries(equation, derivation.relation, turn):
-            ruling = derivation.rule_on(place, statement.equation)
+            ruling = rule(derivation, place, statement.reason, statement.equation)
             wrong = Verdict.REFUTED if statement.holds else Verdict.PROVED
             if ruling.verdict is wrong:
                 truth = "true" if statement.holds else "false"
@@ -119,6 +134,35 @@ def tried(derivation: Derivation, watch: Watch = _silent) -> Iterator[Tried]:
                     statement.equation, f"{wrong}, yet {truth}: {statement.reason}"
                 )
             yield Tried(statement, ruling)
+
+
+def rulings(number: Number) -> list[tuple[int, str, Ruling]]:
+    """Rule on all mutants and statements of an equation, in their order; plain values."""
+    found = []
+
+    def keep(derivation: Derivation, place: int, words: str, candidate: sympy.Eq) -> Ruling:
+        ruling = derivation.rule_on(place, candidate)
+        found.append((place, words, ruling))
+        return ruling
+
+    derivation = load(number)
+    with suppress(KernelError):  # who reads the rulings comes to it as well
+        for _ in chain(judged_mutants(derivation, rule=keep), tried(derivation, rule=keep)):
+            pass
+    return found
+
+
+def _read(known: Iterable[tuple[int, str, Ruling]]) -> Rule:
+    """Read rulings off a list; what is not next in it is ruled on here."""
+    left = iter(known)
+
+    def rule(derivation: Derivation, place: int, words: str, candidate: sympy.Eq) -> Ruling:
+        *about, ruling = next(left, (None, "", None))
+        if ruling is None or about != [place, words]:
+            return derivation.rule_on(place, candidate)
+        return ruling
+
+    return rule
 
 
 def overall(
@@ -152,12 +196,15 @@ def _open_premises(derivation: Derivation, known: Mapping[Number, Verdict]) -> I
 
 
 def run(
-    derivation: Derivation, watch: Watch = _silent, known: Mapping[Number, Verdict] | None = None
+    derivation: Derivation,
+    watch: Watch = _silent,
+    known: Mapping[Number, Verdict] | None = None,
+    ruled: Callable[[], Iterable[tuple[int, str, Ruling]]] = tuple,
 ) -> Outcome:
     """Everything about one equation.
 
     Its premises are run apart: ``known`` holds the verdicts found, by number; a premise that is
-    not in it is taken as proved.
+    not in it is taken as proved. ``ruled`` gives what ``rulings`` found in another process.
     """
     start = perf_counter()
     checks = (
@@ -165,16 +212,26 @@ def run(
         *_open_premises(derivation, known or {}),
         *witnesses(derivation, watch),
     )
-    mutants = tuple(judged_mutants(derivation, watch))
-    on = tuple(tried(derivation, watch))
+    watch(derivation, "mutants")
+    rule = _read(ruled())
+    mutants = tuple(judged_mutants(derivation, watch, rule))
+    on = tuple(tried(derivation, watch, rule))
     verdict = overall(checks, mutants, on)
     return Outcome(derivation, verdict, checks, mutants, on, perf_counter() - start)
 
 
-def run_all(derivations: Iterable[Derivation], watch: Watch = _silent) -> Iterator[Outcome]:
-    """Run derivations in their order, premises first, each with the verdicts found before."""
+def run_all(
+    derivations: Iterable[Derivation], watch: Watch = _silent, start: Start | None = None
+) -> Iterator[Outcome]:
+    """Run derivations in their order, premises first, each with the verdicts found before.
+
+    ``start`` calls functions in another process: of many derivations mutants and statements are
+    ruled on there, while proofs and witnesses are run here.
+    """
+    wanted = list(derivations)
     known: dict[Number, Verdict] = {}
-    for derivation in derivations:
-        outcome = run(derivation, watch, known)
+    ruled = [start(rulings, one.number) if start else tuple for one in wanted]
+    for derivation, found in zip(wanted, ruled, strict=True):
+        outcome = run(derivation, watch, known, found)
         known[derivation.number] = outcome.verdict
         yield outcome

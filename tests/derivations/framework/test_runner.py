@@ -12,9 +12,9 @@ from force_diffusion.derivations.export.terminal import (
     trouble_lines,
 )
 from force_diffusion.derivations.framework.catalogue import modules
-from force_diffusion.derivations.framework.loading import with_premises
+from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.derivations.framework.record import KernelError
-from force_diffusion.derivations.framework.runner import run
+from force_diffusion.derivations.framework.runner import rulings, run
 from force_diffusion.symbolic.kernel.corpus import Statement
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 
@@ -136,3 +136,26 @@ def test_modules_are_found_by_name_in_order() -> None:
     assert beyond == [f"B{place}" for place in range(1, len(beyond) + 1)]
     assert list(modules()) == [*paper, *beyond]
     assert modules()[2] == "eq02_displacement"
+
+
+def test_rulings_of_another_process_change_nothing_and_are_not_believed_of_other_statements() -> (
+    None
+):
+    derivation = load(6)
+    alone = run(derivation)
+    found = rulings(6)
+    assert len(found) == len(alone.mutants) + len(alone.tried)
+    calls = []
+
+    def ruled() -> list[tuple[int, str, Ruling]]:
+        calls.append(1)
+        return found
+
+    beside = run(derivation, ruled=ruled)
+    assert calls
+    for name in ("verdict", "mutants", "tried"):
+        assert getattr(beside, name) == getattr(alone, name)
+    wrong = [(place, words + "?", Ruling(Verdict.PROVED)) for place, words, _ in found]
+    assert run(derivation, ruled=lambda: wrong).mutants == alone.mutants
+    with pytest.raises(KernelError):  # what is read off the list counts as if it were ruled here
+        run(derivation, ruled=lambda: [(p, words, Ruling(Verdict.PROVED)) for p, words, _ in found])
