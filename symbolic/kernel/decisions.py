@@ -125,10 +125,9 @@ def equal_forms(
     """
     reader = Reader(region, basis)
     read = reader.vector if is_vector else lambda side: (reader.scalar(side),)
-    if any(not (a - b).is_zero() for a, b in zip(read(left), read(right), strict=True)):
-        return None
-    where = f" for {region}" if len(region) else ""
-    return proved(f"the normal forms are equal{where}")
+    if all((a - b).is_zero() for a, b in zip(read(left), read(right), strict=True)):
+        return proved("the normal forms are equal" + (f" for {region}" if len(region) else ""))
+    return None
 
 
 def decide_linear(

@@ -138,9 +138,7 @@ def test_modules_are_found_by_name_in_order() -> None:
     assert modules()[2] == "eq02_displacement"
 
 
-def test_rulings_of_another_process_change_nothing_and_are_not_believed_of_other_statements() -> (
-    None
-):
+def test_rulings_of_another_process_change_nothing() -> None:
     derivation = load(6)
     alone = run(derivation)
     found = rulings(6)
