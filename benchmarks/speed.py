@@ -6,16 +6,14 @@ slows all alike; targets are ratios. ``--skip PART`` leaves parts out. Exit stat
 is missed.
 """
 
-import argparse
 import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from statistics import median
-from time import perf_counter, process_time
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -23,6 +21,7 @@ from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat
 from force_diffusion.numeric.mechanics import plain
 from force_diffusion.numeric.planning.expected_error import initial_bits
+from measuring import Line, in_turn, program
 from peers import (
     CSweep,
     Problem,
@@ -34,44 +33,6 @@ from peers import (
 )
 
 HEIGHT, WIDTH, BATCHES = 256, 512, (8,)
-
-
-@dataclass(frozen=True)
-class Line:
-    """A line of the table; ``target`` is a bound from below (">") or above ("<"), or none."""
-
-    what: str
-    value: float
-    unit: str = ""
-    sense: str = ""
-    target: float = 0
-
-    @property
-    def met(self) -> bool:
-        """Whether the target holds; always, where there is none."""
-        if not self.sense:
-            return True
-        return self.value >= self.target if self.sense == ">" else self.value <= self.target
-
-    def __str__(self) -> str:
-        """Give the line in Markdown."""
-        sign = {">": "at least", "<": "at most", "": ""}[self.sense]
-        target = f"{sign} {self.target:g}" if self.sense else ""
-        verdict = ("met" if self.met else "MISSED") if self.sense else ""
-        return f"| {self.what} | {self.value:.3g}{self.unit} | {target} | {verdict} |"
-
-
-def in_turn(tasks: dict[str, Callable[[], Any]], rounds: int) -> dict[str, float]:
-    """Median seconds of each task; each is warmed up once, then they take turns."""
-    spent: dict[str, list[float]] = {name: [] for name in tasks}
-    for task in tasks.values():
-        task()
-    for _ in range(rounds):
-        for name, task in tasks.items():
-            start = perf_counter()
-            task()
-            spent[name].append(perf_counter() - start)
-    return {name: median(times) for name, times in spent.items()}
 
 
 def forces() -> Iterator[Line]:
@@ -138,26 +99,45 @@ SIZES = {
     "layers of 512": ((19, 512), (194, 512), (1952, 512), (19530, 512)),
 }
 
+# Bytes of a bead between memory and cores. Read: radii, F, δn; written: c, δn, F, g, whose cache
+# lines are fetched first.
+_MOVED = 8 * (1 + 2 + 4 + 2 * 10)
+
+
+def bandwidth_of_one_core() -> float:
+    """Gigabytes a second that NumPy moves in a = b + c, lines of a fetched before being written."""
+    a, b, c = np.ones((3, 20_000_000))  # zeros would all be one page
+    seconds = in_turn({"": lambda: np.add(b, c, out=a)}, 9, process_time)[""]
+    return 32 * len(a) / seconds / 1e9
+
 
 def size() -> Iterator[Line]:
     """Time per bead from 1e4 to 1e7 beads, and memory."""
     from force_diffusion.numeric.mechanics import compiled as fast
 
+    bandwidth = bandwidth_of_one_core()
+    yield Line("memory bandwidth of one core (a = b + c)", bandwidth, " GB/s")
     for shape, sizes in SIZES.items():
-        fresh, again = {}, {}
+        fresh: dict[int, float] = {}
+        again: dict[int, float] = {}
         for height, width in sizes:
             problem = Problem(height, width)
-            tasks = {"fresh": problem.solver(sweeps=fast), "again": problem.again()}
-            beads = (height + 1) * width
-            found = in_turn(tasks, 5 if beads > 1e6 else 31)
-            fresh[beads], again[beads] = (1e9 * found[name] / beads for name in tasks)
+            beads, rounds = (height + 1) * width, 5 if height * width > 1e6 else 31
+            for found, task in (
+                (again, problem.again()),  # one after the other, as an ensemble has them
+                (fresh, problem.solver(sweeps=fast)),
+            ):
+                seconds = in_turn({"": task}, rounds, process_time)[""]
+                found[beads] = 1e9 * seconds / beads
             yield Line(f"fast, {height} × {width}, memory that stays", again[beads], " ns a bead")
             yield Line("  in fresh memory", fresh[beads], " ns a bead")
         for name, each in (("memory that stays", again), ("fresh memory", fresh)):
             flat = max(each.values()) / min(each.values())
             target = ("<", 1.5) if each is again else ("", 0)
             yield Line(f"slowest / fastest of these, {shape}, {name}", flat, "", *target)
-    probe = [sys.executable, __file__, "--probe-memory"]
+        share = _MOVED / again[max(again)] / bandwidth
+        yield Line("the largest of these: share of that bandwidth", 100 * share, " %")
+    probe = [sys.executable, __file__, "--probe", "memory"]
     done = subprocess.run(probe, check=True, capture_output=True, text=True)
     yield Line("memory / arrays of the answer, 4e6 beads", float(done.stdout), "", "<", 1.5)
 
@@ -210,8 +190,7 @@ def against_c() -> Iterator[Line]:
         large = Problem(2235, 4474)
         many = in_turn({"fast": large.solver(sweeps=fast), "memory": alike.bandwidth()}, 5)
     bandwidth = 32 * 20e6 / many["memory"]
-    # Read: radii, F, δn; written: c, δn, F, g, whose cache lines are fetched first.
-    moved = 8 * (1 + 2 + 4 + 2 * 10) * (large.height + 1) * large.width
+    moved = _MOVED * (large.height + 1) * large.width
     yield Line("memory bandwidth of one core (a = b + c)", bandwidth / 1e9, " GB/s")
     yield Line("fast sweep of 1e7 beads, share of it", 100 * moved / many["fast"] / bandwidth, " %")
 
@@ -338,29 +317,13 @@ PARTS: dict[str, Callable[[], Iterator[Line]]] = {
 }
 
 
-def main() -> int:
-    """Measure, print the table, and compare with the targets."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--skip", nargs="*", choices=list(PARTS), default=[])
-    parser.add_argument("--probe-memory", action="store_true", help=argparse.SUPPRESS)
-    options = parser.parse_args()
-    if options.probe_memory:
-        print(probe_memory())
-        return 0
-    print(f"Forces of a packing of {HEIGHT} layers of {WIDTH} beads, σ/r = 1e-6, surface load;")
-    print("errors are relative to the largest |change|.\n")
-    print("| measured | value | target | |")
-    print("|---|---:|---|---|")
-    missed = 0
-    for name, part in PARTS.items():
-        if name in options.skip:
-            continue
-        print(f"| **{name}** | | | |")
-        for line in part():
-            print(line, flush=True)
-            missed += not line.met
-    return 1 if missed else 0
-
-
 if __name__ == "__main__":
-    raise SystemExit(main())
+    raise SystemExit(
+        program(
+            __doc__,
+            f"Forces of a packing of {HEIGHT} layers of {WIDTH} beads, σ/r = 1e-6, surface load;\n"
+            "errors are relative to the largest |change|.",
+            PARTS,
+            {"memory": probe_memory},
+        )
+    )

@@ -5,13 +5,12 @@ but where it says wall, and come from the same run: targets are ratios. Each par
 several rounds, in which competitors take turns. Exit status 1 when a target is missed.
 """
 
-import argparse
 import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from functools import partial
-from time import perf_counter, process_time
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -19,7 +18,7 @@ from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.planner import plan
-from speed import Line
+from measuring import Line, in_turn, program
 
 import force_diffusion as fd
 
@@ -34,21 +33,6 @@ def scene(quantity: str = "profile", **asked: Any) -> fd.Scene:
         disorder=fd.Disorder(kind="uniform", relative_std=1e-6, seed=1),
         ask=fd.Ask(quantity=quantity, **asked),
     )
-
-
-def least(
-    tasks: dict[str, Callable[[], Any]], rounds: int, clock: Callable[[], float] = process_time
-) -> dict[str, float]:
-    """Least seconds of each task; each is warmed up once, then they take turns."""
-    spent: dict[str, list[float]] = {name: [] for name in tasks}
-    for task in tasks.values():
-        task()
-    for _ in range(rounds):
-        for name, task in tasks.items():
-            start = clock()
-            task()
-            spent[name].append(clock() - start)
-    return {name: min(times) for name, times in spent.items()}
 
 
 def both_sweeps(packings: int) -> Callable[[], None]:
@@ -93,7 +77,7 @@ def ensemble() -> Iterator[Line]:
     generator = np.random.Generator(np.random.Philox(1))
     for quantity in ("profile", "histogram"):
         asked = scene(quantity)
-        found = least(
+        found = in_turn(
             {
                 "fewer": partial(fd.ensemble, asked, FEWER),
                 "more": partial(fd.ensemble, asked, MORE),
@@ -103,6 +87,8 @@ def ensemble() -> Iterator[Line]:
                 "one by one": numpy_alone(8, BEADS),
             },
             3,
+            process_time,
+            min,
         )
         marginal = (found["more"] - found["fewer"]) / more
         sweeps, draws = (found[name] / (more // 10) for name in ("sweeps", "draws"))
@@ -119,7 +105,7 @@ def probe() -> float:
     """Wall seconds that so many packings more take, here."""
     size = 5 * MORE
     tasks = {str(n): partial(fd.ensemble, scene(), n) for n in (FEWER, size)}
-    found = least(tasks, 3, perf_counter)
+    found = in_turn(tasks, 3, of=min)
     return found[str(size)] - found[str(FEWER)]
 
 
@@ -129,7 +115,7 @@ def cores() -> Iterator[Line]:
     seconds = []
     for allowed in (both[:1], both):
         done = subprocess.run(
-            [sys.executable, __file__, "--probe"],
+            [sys.executable, __file__, "--probe", "cores"],
             check=True,
             capture_output=True,
             text=True,
@@ -148,7 +134,7 @@ def batch() -> Iterator[Line]:
             for _ in engine.packings(problem, range(packings), FLOAT64, Work()):
                 pass
 
-    found = least({"one": partial(solve, 1), "many": partial(solve, 64)}, 9, perf_counter)
+    found = in_turn({"one": partial(solve, 1), "many": partial(solve, 64)}, 9, of=min)
     yield Line("single packing, wall", 1e3 * found["one"], " ms")
     yield Line("of a batch of 64 / single, wall", found["many"] / 64 / found["one"], "", "<", 0.6)
 
@@ -156,28 +142,6 @@ def batch() -> Iterator[Line]:
 PARTS = {"ensemble": ensemble, "cores": cores, "batch": batch}
 
 
-def main() -> int:
-    """Measure, print the table, and compare with the targets."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--skip", nargs="*", choices=list(PARTS), default=[])
-    parser.add_argument("--probe", action="store_true", help=argparse.SUPPRESS)
-    options = parser.parse_args()
-    if options.probe:
-        print(probe())
-        return 0
-    print(f"Packings of {HEIGHT} layers of {WIDTH} beads, σ/r = 1e-6, surface load\n")
-    print("| measured | value | target | |")
-    print("|---|---:|---|---|")
-    missed = 0
-    for name, part in PARTS.items():
-        if name in options.skip:
-            continue
-        print(f"| **{name}** | | | |")
-        for line in part():
-            print(line, flush=True)
-            missed += not line.met
-    return 1 if missed else 0
-
-
 if __name__ == "__main__":
-    raise SystemExit(main())
+    head = f"Packings of {HEIGHT} layers of {WIDTH} beads, σ/r = 1e-6, surface load"
+    raise SystemExit(program(__doc__, head, PARTS, {"cores": probe}))

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..arithmetic.compiling import compiled, on_all_cores
+from ..arithmetic.compiling import borrowed, compiled, on_all_cores
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice import runs as tables
 from ..lattice.branch import PerBranch
@@ -106,7 +106,8 @@ def _sweep_down(F: tuple[Array, Array], runs: Array, block: Array, g: Array, los
     ``_deposit``; filled is ``g``, (packings, 2, …). ``lost``, alike, is for what the sums of a
     layer and the one above have lost, which take turns. Beyond the last bead all have zeros.
     """
-    F_plus, F_minus = F
+    F_plus, F_minus = borrowed(F[0]), borrowed(F[1])
+    block, g, lost = borrowed(block), borrowed(g), borrowed(lost)
     good = True
     for k in range(len(block)):
         g_plus, g_minus = g[k, 0], g[k, 1]

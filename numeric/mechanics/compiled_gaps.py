@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..arithmetic.compiling import compiled
+from ..arithmetic.compiling import borrowed, compiled
 from ..arithmetic.systems import Array
 from ..lattice import runs as tables
 from .gaps import NEIGHBOURS, RESOLUTION, of_lattice
@@ -59,6 +59,8 @@ def _gaps(
     """
     smallest, run, place, packing_of = np.inf, -1, 0, 0
     overlaps = undecided = first = 0
+    rho, block, found = borrowed(rho), borrowed(block), borrowed(found)
+    runs, lattice = borrowed(runs), borrowed(lattice)
     while first < len(runs):
         last = first
         while (

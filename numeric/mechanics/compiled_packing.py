@@ -16,7 +16,7 @@ from math import sqrt
 
 import numpy as np
 
-from ..arithmetic.compiling import compiled, on_all_cores
+from ..arithmetic.compiling import borrowed, compiled, on_all_cores
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice import runs as tables
 from ..lattice.branch import PerBranch
@@ -102,6 +102,7 @@ def _deposit(
     minus; the δn of the lowest row are not touched.
     """
     good = True
+    rho, block = borrowed(rho), borrowed(block)
     for k in range(len(rho)):
         own_rho = rho[k]
         c_plus, c_minus = block[k, 0], block[k, 1]

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.compiling import compiled, on_all_cores
+from ..arithmetic.compiling import borrowed, compiled, on_all_cores
 from ..arithmetic.systems import Array
 from .exact_sum import BITS, ExactSum
 
@@ -157,6 +157,7 @@ def _tally(
     (packings, bins and 2).
     """
     sums, squares = np.zeros(_PLANES, np.int64), np.zeros(_PLANES_OF_SQUARES, np.int64)
+    g, words = borrowed(g), borrowed(words)
     for k in range(len(g)):
         for p in range(len(pieces)):
             group, branch, start, ordered = pieces[p, 0], pieces[p, 1], pieces[p, 2], pieces[p, 3]
