@@ -242,7 +242,12 @@ def decide(_: int, candidate: sympy.Eq) -> Ruling:
     """Compare with the sum of the products of all weights."""
     if candidate.lhs != COVARIANCE:
         return undecided(f"the left-hand side is not {text(COVARIANCE)}")
-    return decide_in_field(candidate.rhs, between(0).to_sympy())
+    return decide_in_field(candidate.rhs, _exact())
+
+
+@cache
+def _exact() -> sympy.Expr:
+    return between(0).to_sympy()
 
 
 def search(candidate: sympy.Eq) -> str | None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
@@ -94,11 +95,13 @@ def balances(_: int, candidate: sympy.Eq) -> Ruling:
 def decided(forms: Forms, subjects: Subjects) -> Decide:
     """The candidate equals the mean for 2 ≤ j ≤ M − 2; f⁻ is f⁺ with t ↔ 1/t."""
 
+    @cache
+    def mean(part: int) -> sympy.Expr:
+        own = 1 + forms()["interior"].expression
+        return in_other_branch(own) if part else own
+
     def decide(part: int, candidate: sympy.Eq) -> Ruling:
-        mean = 1 + forms()["interior"].expression
-        if part:
-            mean = in_other_branch(mean)
-        return decide_in_field(candidate.rhs, candidate.lhs.xreplace({subjects[part]: mean}))
+        return decide_in_field(candidate.rhs, candidate.lhs.xreplace({subjects[part]: mean(part)}))
 
     return decide
 

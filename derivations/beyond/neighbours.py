@@ -116,11 +116,12 @@ def decided(
     covariances: Callable[[], tuple[RationalFunction, ...]], subject: sympy.Symbol
 ) -> Decide:
     """The candidate equals the exact variance of the mean, as a rational function."""
+    exact = cache(lambda: mean_of_neighbours(covariances()))
 
     def decide(_: int, candidate: sympy.Eq) -> Ruling:
         if candidate.lhs != subject:
             return undecided("the left-hand side is not the variance of the mean of N")
-        return decide_in_field(candidate.rhs, mean_of_neighbours(covariances()))
+        return decide_in_field(candidate.rhs, exact())
 
     return decide
 

@@ -21,14 +21,14 @@ DIRECTION: Direction = (Fraction(21, 29), Fraction(20, 29))
 
 
 @cache
-def weights(quantity: str, height: int, n: Direction) -> tuple[dict[Site, Fraction], ...]:
-    """First-order weights of what ``quantity`` names, by layer: "force" f⁺/⟨f⟩, or "bead".
+def weights(quantity: str, height: int, layer: int, n: Direction) -> dict[Site, Fraction]:
+    """First-order weights of what ``quantity`` names in a layer: "force" f⁺/⟨f⟩, or "bead".
 
     "bead" is the vertical force that a bead gets from both upper contacts, over the load. Keys are
     (offset, layer) of the radius, as in ``weights_of_forces``; a surface load.
     """
     if quantity == "force":
-        return tuple(weights_of_forces(height, n, "surface"))
+        return weights_of_forces(height, n, "surface")[layer]
 
     def vertical(packing: "TaylorPacking", across: int, layer: int) -> Fraction:
         total = Fraction(0)
@@ -38,13 +38,14 @@ def weights(quantity: str, height: int, n: Direction) -> tuple[dict[Site, Fracti
         return total
 
     load = {height: (Fraction(0), Fraction(-1))}
-    return tuple(weights_by_layer(height, n, load, vertical))
+    (found,) = weights_by_layer(height, n, load, vertical, (layer,))
+    return found
 
 
 def mean_variance(quantity: str, height: int, layer: int, count: int, n: Direction) -> Fraction:
     """Variance of the mean over ``count`` neighbours, for r = σ = 1."""
     summed: dict[Site, Fraction] = {}
-    for (offset, source), weight in weights(quantity, height, n)[layer].items():
+    for (offset, source), weight in weights(quantity, height, layer, n).items():
         for place in range(count):
             key = (offset + 2 * place, source)
             summed[key] = summed.get(key, Fraction(0)) + weight
@@ -53,11 +54,13 @@ def mean_variance(quantity: str, height: int, layer: int, count: int, n: Directi
 
 def between_layers(height: int, lower: int, upper: int, places: int, n: Direction) -> Fraction:
     """Covariance of f⁺/⟨f⟩ in two layers, so many places beside one diagonal, r = σ = 1."""
-    layers = weights("force", height, n)
     around = 2 * (height + 2)  # columns of the periodic packings that these are from
     across = upper - lower + 2 * places
-    above = {((offset + across) % around, at): w for (offset, at), w in layers[upper].items()}
-    below = layers[lower].items()
+    above = {
+        ((offset + across) % around, at): w
+        for (offset, at), w in weights("force", height, upper, n).items()
+    }
+    below = weights("force", height, lower, n).items()
     return sum((w * above.get((o % around, at), 0) for (o, at), w in below), Fraction(0))
 
 

@@ -4,8 +4,9 @@ What the nonlinear packing says at order ε¹ is compared, as fractions, with wh
 state in closed form.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import sympy
@@ -47,6 +48,7 @@ def zero_outside(packing: SmallPacking) -> Ruling:
     return compare(pairs())
 
 
+@lru_cache(maxsize=64)
 def weights_of_forces(
     height: int,
     n: tuple[Fraction, Fraction],
@@ -54,12 +56,12 @@ def weights_of_forces(
     *,
     ratio: Fraction = Fraction(1),
     branch: str = "+",
-) -> list[dict[Site, Fraction]]:
+) -> tuple[dict[Site, Fraction], ...]:
     """Exact first-order weights of f^±_ij/⟨f^±⟩ for every layer j, from the exact packing.
 
     One bead of each layer in turn is enlarged; by translation the response of every contact of a
     layer is the weight of a bead at the opposite offset. ``load`` is "surface" or "bulk",
-    ``ratio`` is t = L⁻/L⁺. Keys are (offset i' − i, layer of the bead); the list is indexed by j.
+    ``ratio`` is t = L⁻/L⁺. Keys are (offset i' − i, layer of the bead); one mapping a layer j.
     """
     carrying = range(1, height + 1) if load == "bulk" else (height,)
 
@@ -77,10 +79,12 @@ def weights_by_layer(
     n: tuple[Fraction, Fraction],
     loads: Mapping[int, tuple[Fraction, Fraction]],
     slope: Callable[["TaylorPacking", int, int], Fraction],
-) -> list[dict[Site, Fraction]]:
-    """First-order weights of a quantity for every layer; each bead of a layer has the same load.
+    layers: Sequence[int] | None = None,
+) -> tuple[dict[Site, Fraction], ...]:
+    """First-order weights of a quantity in some layers; each bead of a layer has the same load.
 
-    ``slope`` is its order ε¹ at (i, j) in a packing in which one bead has radius r + ε.
+    All layers below the surface are asked for if none is named. ``slope`` is its order ε¹ at
+    (i, j) in a packing in which one bead has radius r + ε.
     """
     from force_diffusion.numeric.mechanics import taylor
 
@@ -90,15 +94,16 @@ def weights_by_layer(
         for layer, load in loads.items()
         for across in range(layer % 2, 2 * width, 2)
     }
-    weights: list[dict[Site, Fraction]] = [{} for _ in range(height)]
+    asked = range(height) if layers is None else layers
+    weights: tuple[dict[Site, Fraction], ...] = tuple({} for _ in asked)
     for source in range(height + 1):
         rho = {(source % 2, source): Fraction(1)}
         solved = taylor.solve(width, height, n=n, rho=rho, loads=on_beads, order=1)
-        for layer in range(height):
+        for layer, found in zip(asked, weights, strict=True):
             for across in range(layer % 2, 2 * width, 2):
                 if weight := slope(solved, across, layer):
                     offset = (source % 2 - across + width) % (2 * width) - width
-                    weights[layer][offset, source] = weight
+                    found[offset, source] = weight
     return weights
 
 
