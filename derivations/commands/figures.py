@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from force_diffusion.numeric.figures.catalogue import PaperFigure
     from force_diffusion.numeric.figures.packings import Notice
 
-NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5", "B7", "B9", "B10", "B11", "B13")
+NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5", "B7", "B9", "B10", "B11", "B12", "B13")
+OF_ENSEMBLES = ("3", "4", "pf", "B2", "B5", "B7", "B9", "B12", "B13")
 MODELS = {"q-model": "3", "double-y": "4"}
 OWN_SPACING, OWN_STD = ("2", "3", "4", "pf", "chains"), ("3", "4", "pf", "chains")
 LEAST_REALISATIONS, MOST_REALISATIONS = 16, 1_000_000
@@ -68,7 +69,7 @@ def figures(
         list[str] | None,
         typer.Argument(
             metavar="WHICH",
-            help="Figures: 1, 2, 3, 4, pf, chains, B2, B5, B7, B9, B10, B11, B13; by default all. "
+            help="Figures: 1, 2, 3, 4, pf, chains, B2, B5, B7, B9, B10, B11, B12, B13; by default all. "
             "A scene of your own, FILE.toml, is answered and drawn.",
         ),
     ] = None,
@@ -85,7 +86,7 @@ def figures(
             max=MOST_REALISATIONS,
             help="Packings of each ensemble; by default 400 of each height in figure 3 "
             "and each angle in B2, 4000 in figure 4 and pf, 6000 in B5, "
-            "1000 in B7, 20000 in B9.",
+            "1000 in B7 and B12, 20000 in B9.",
         ),
     ] = None,
     seed: Annotated[
@@ -123,9 +124,10 @@ def figures(
     chosen = None if heights is None else _heights(heights)
     if chosen is not None and "3" not in wanted:
         raise typer.BadParameter("goes with figure 3 only; add 3.", param_hint="--heights")
-    if realisations is not None and not {"3", "4", "pf", "B2", "B5", "B7", "B9"} & set(wanted):
+    if realisations is not None and not set(OF_ENSEMBLES) & set(wanted):
+        *first, last = OF_ENSEMBLES
         raise typer.BadParameter(
-            "goes with figures 3, 4, pf, B2, B5, B7, B9 and B13 only; the others draw no ensemble.",
+            f"goes with figures {', '.join(first)} and {last} only; the others draw no ensemble.",
             param_hint="--realisations",
         )
     own = {

@@ -19,6 +19,7 @@ from . import (
     dimensions,
     directions,
     distribution,
+    layers,
     mean_forces,
     mean_response,
     neighbours,
@@ -203,6 +204,12 @@ FIGURES = {
         "Diffusion of forces in two, three and four dimensions",
         lambda o: dimensions.widths(o.notice),
         dimensions.draw,
+    ),
+    "B12": _Figure(
+        "figureB12",
+        "Covariance of forces along a diagonal",
+        lambda o: layers.simulate(o.realisations or 1000, o.seed, o.notice),
+        layers.draw,
     ),
     "B13": _Figure(
         "figureB13",

@@ -21,6 +21,7 @@ REALISATIONS = {
     "B5": 2000,
     "B7": 200,
     "B9": 2000,
+    "B12": 200,
     "B13": 100,
 }
 """Packings in each ensemble of a figure that draws ensembles."""

@@ -224,6 +224,35 @@ def test_means_of_neighbours_are_those_of_exact_packings(
             form(height, count, count, phi, ONE, ONE)
 
 
+@pytest.mark.parametrize(("height", "lower", "upper"), [(7, 2, 4), (9, 3, 7), (10, 4, 8)])
+def test_covariances_between_layers_are_those_of_exact_packings(
+    height: int, lower: int, upper: int
+) -> None:
+    n = DIRECTIONS[3]
+    phi = n[1] ** 2 - n[0] ** 2
+    true = neighbours.between_layers(height, lower, upper, 0, n)
+    form = closed_forms.layers_covariance
+    assert form(height, lower, upper, phi, ONE, ONE) == true
+    for wrong in ((height, 1, upper), (height, lower, lower + 1), (upper + 1, lower, upper)):
+        with pytest.raises(ValueError, match="allowed"):
+            form(*wrong, phi, ONE, ONE)
+
+
+@given(
+    j=st.integers(2, 10**6),
+    apart=st.integers(2, 10**6),
+    above=st.integers(2, 10**6),
+    phi=st.fractions(Fraction(-49, 100), Fraction(49, 100), max_denominator=1000),
+)
+def test_covariances_between_layers_are_accurate_in_float64(
+    j: int, apart: int, above: int, phi: Fraction
+) -> None:
+    at = (j + apart + above, j, j + apart)
+    exact = closed_forms.layers_covariance(*at, Fraction(float(phi)), ONE, ONE)
+    found = Fraction(closed_forms.layers_covariance(*at, float(phi), 1.0, 1.0))
+    assert abs(found - exact) <= 200 * Fraction(2) ** -53 * exact  # some 20 roundings, enlarged
+
+
 def test_in_two_dimensions_the_leading_order_is_eq_13() -> None:
     at = (7, Fraction(2, 5)), (Fraction(1, 3), ONE, ONE)
     flat = closed_forms.surface_diffusion(*at[0], *at[1])

@@ -18,6 +18,7 @@ from force_diffusion.numeric.figures import (
     dimensions,
     directions,
     distribution,
+    layers,
     mean_forces,
     mean_response,
     neighbours,
@@ -341,6 +342,16 @@ def test_figure_b7_finds_theory_within_the_band_and_a_wrong_one_outside() -> Non
     assert len(rows) == 2 * len(neighbours.WINDOWS)
     own, pair = (float(row["sigma_simulated"]) for row in rows[:2])
     assert pair < own / 2  # independent ones would have own/√2
+
+
+def test_figure_b12_finds_theory_within_the_band_and_a_wrong_one_outside() -> None:
+    found = layers.simulate(400, 1, silent)
+    assert found.deviation() <= 1
+    assert found.deviation(1.2) > 1
+    (rows,) = found.tables().values()
+    assert len(rows) == len(layers.PAIRS)
+    farthest = rows[len(layers.UPPER[layers.LOWER[0]]) - 1]
+    assert float(farthest["covariance_simulated"]) > 0.1  # 20 layers higher, by far not zero
 
 
 def test_figure_b9_finds_theory_within_the_bands_and_a_wrong_one_outside() -> None:
