@@ -69,8 +69,8 @@ def figures(
         list[str] | None,
         typer.Argument(
             metavar="WHICH",
-            help="Figures: 1, 2, 3, 4, pf, chains, B2, B5, B7, B9, B10, B11, B12, B13; by default all. "
-            "A scene of your own, FILE.toml, is answered and drawn.",
+            help="Figures: 1, 2, 3, 4, pf, chains, B2, B5, B7, B9, B10, B11, B12, B13; by default "
+            "all. A scene of your own, FILE.toml, is answered and drawn.",
         ),
     ] = None,
     out: Annotated[Path, out_option("PNG, SVG, PDF and CSV")] = Path("figures"),
