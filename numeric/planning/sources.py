@@ -61,7 +61,8 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
     assert disorder is not None
     if isinstance(disorder, GivenRadii):
         assert packing.width is not None
-        values = disorder.values.reshape(-1, packing.height + 1, packing.width)
+        beads = packing.width ** (packing.dimension - 1)
+        values = disorder.values.reshape(-1, packing.height + 1, beads)
         origin = packing.radius if disorder.delta_r is None else Fraction(0)
         return ArrayRadii(values, origin, packing.radius)
     if disorder.file is None:
@@ -73,13 +74,14 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
 
     path = scene.folder / disorder.file
     if path.suffix == ".npy":
-        values = read_array(path, width=packing.width, height=packing.height)
+        values = read_array(path, packing.shape)
         if abs(Fraction(float(values.mean())) - packing.radius) > packing.radius / 2:
             raise TableError(
                 f"disorder.file: {path.name}: the mean radius is {values.mean():.3g}, and "
                 f"packing.radius is {short(packing.radius)}: is it in another unit?"
             )
-        return ArrayRadii(values[None], packing.radius, packing.radius)
+        values = values.reshape(1, packing.height + 1, -1)
+        return ArrayRadii(values, packing.radius, packing.radius)
 
     def needed(site: Site) -> bool:
         i, j = site

@@ -41,6 +41,8 @@ _ROWS = {"float64": 1e-6, "longdouble": 2e-5, "mpmath": 6e-5, "balls": 1e-5}
 _COMPARED = {"float64": 1e-7, "longdouble": 1e-7, "mpmath": 6e-5, "balls": 1e-5}
 # Loading the compiled sweeps, and how much quicker the whole is with them.
 _COMPILER, _COMPILED = 0.7, 0.6
+# How much longer a bead takes in three dimensions.
+_SPHERE = 3
 
 
 def predicted(quantity: Quantity, problem: Problem, method: Method, together: int) -> float:
@@ -79,6 +81,8 @@ def _pass(
         return spent + n * (layer + beads * (bead + kilobit * bits))
     chunks = -(-n // together)
     work = region.beads * n * (bead + kilobit * bits * (1 + bits / 10))
+    if problem.dimension == 3:
+        return spent + len(region.rows) * chunks * layer + _SPHERE * work
     if system is FLOAT64 and problem.route == Route.EXACT and region.beads * n >= COMPILED_FROM:
         work = _COMPILER + work * _COMPILED
     return spent + len(region.rows) * chunks * layer + work

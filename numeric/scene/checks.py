@@ -89,11 +89,12 @@ def _check_three(
     packing: Packing, disorder: Disorder | None, load: Load, effects: Effects, ask: Ask
 ) -> None:
     """Refuse what is offered in two dimensions only."""
-    drawn = disorder is None or disorder.kind not in {"file", "given"}
+    listed = disorder is not None and disorder.file is not None
+    listed &= not str(getattr(disorder, "file", "")).endswith(".npy")
     alone = ask.quantity not in {"contact", "positions"}
     for wrong, key, value, allowed in (
         (packing.width is None, "packing.width", None, "is required: W × W beads in a layer"),
-        (not drawn, "disorder.kind", getattr(disorder, "kind", None), "must be drawn"),
+        (listed, "disorder.file", getattr(disorder, "file", None), "must be an array, .npy,"),
         (load.kind == "file", "load.kind", load.kind, 'must be "surface", "bulk" or "point"'),
         (load.angle_deg, "load.angle_deg", load.angle_deg, "must be 0: straight down"),
         (effects.contacts != "bilateral", "effects.contacts", effects.contacts, "must stay closed"),
@@ -116,14 +117,15 @@ def _check_bead(packing: Packing, key: str, at: Any, highest: int) -> None:
 
 
 def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
-    shape = given.values.shape
-    layers = (packing.height + 1, packing.width)
-    if shape[-2:] != layers or len(shape) not in (2, 3):
+    shape, rank = given.values.shape, packing.dimension
+    wanted = packing.shape
+    if shape[-rank:] != wanted or len(shape) not in (rank, rank + 1):
+        beads = " × ".join(map(str, wanted[1:]))
         raise SceneError(
             f"disorder.{given.name}",
             None,
-            f"an array of shape {shape}; the packing has {layers[0]} layers, base included, of "
-            f"{layers[1]} beads: give ({layers[0]}, {layers[1]}), or (packings, …) for several",
+            f"an array of shape {shape}; the packing has {wanted[0]} layers, base included, of "
+            f"{beads} beads: give {wanted}, or (packings, …) for several",
         )
     mean = float(given.values.mean()) - (packing.radius if given.delta_r is None else 0)
     if abs(mean) > packing.radius / 2:
@@ -132,7 +134,7 @@ def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
             packing.radius,
             f"must be near the mean radius of the beads, which differs from it by {mean:.3g}",
         )
-    packings = shape[0] if len(shape) == 3 else 1
+    packings = shape[0] if len(shape) > rank else 1
     if ask.realisations > packings:
         raise SceneError(
             "ask.realisations", ask.realisations, f"must be at most {packings}: so many are given"

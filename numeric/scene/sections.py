@@ -146,6 +146,11 @@ class Packing(Section):
         """s; 3 r unless ``spacing`` names it."""
         return 3 * Fraction(self.radius) if self.spacing is None else Fraction(self.spacing)
 
+    @property
+    def shape(self) -> tuple[int | None, ...]:
+        """Of an array of its beads: (M + 1, W), or in three dimensions (M + 1, W, W)."""
+        return (self.height + 1, *[self.width] * (self.dimension - 1))
+
 
 class Disorder(Section):
     """The radii: drawn, with a relative standard deviation σ/r and a seed, or read from a file."""
@@ -170,7 +175,7 @@ def radii_array(value: object) -> Array:
         raise ValueError("must be an array of real numbers, all rows equally long") from None
     if not values.size:
         raise ValueError(f"is empty: its shape is {values.shape}")
-    if values.ndim not in (2, 3):
+    if values.ndim not in (2, 3, 4):
         raise ValueError("must be an array of shape (layers, W), or (packings, layers, W)")
     if not np.isfinite(values).all():
         at = tuple(int(k) for k in np.argwhere(~np.isfinite(values))[0])
@@ -183,7 +188,8 @@ class GivenRadii(Disorder):
     """Radii of one's own, as an array: of ``radii`` themselves or of their deviations ``delta_r``.
 
     Shape (layers, W), layer 0 (the base) first, or (packings, layers, W) for several packings;
-    lengths in the unit of ``packing.radius``. Column q of layer j is the bead i = 2q + j mod 2.
+    lengths in the unit of ``packing.radius``. Column q of layer j is the bead i = 2q + j mod 2. In
+    three dimensions (layers, W, W), [j, p, q] being bead (p, q, j), or (packings, layers, W, W).
     Each double is taken as the exact number that it is. Python only: a file is named with ``kind``.
     """
 

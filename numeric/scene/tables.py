@@ -185,12 +185,12 @@ def read_radii(
 
 
 @_named("disorder.file")
-def read_array(path: Path, *, width: int | None, height: int) -> Array:
-    """Read radii from a NumPy file (.npy) of shape (M + 1, W), layer 0 first, as float64.
+def read_array(path: Path, shape: tuple[int | None, ...]) -> Array:
+    """Read radii from a NumPy file (.npy) of the packing's ``shape``, layer 0 first, as float64.
 
     Raises ``TableError``.
     """
-    if width is None:
+    if None in shape:
         raise TableError(f"{path.name}: an array needs packing.width: a slab has no last column")
     if not path.is_file():
         raise TableError(f"{path}: {'must be an ordinary file' if path.exists() else _NO_FILE}")
@@ -198,10 +198,10 @@ def read_array(path: Path, *, width: int | None, height: int) -> Array:
         values = np.load(path, mmap_mode="r", allow_pickle=False)
     except (OSError, ValueError, EOFError) as error:
         raise TableError(f"{path.name}: is no NumPy file of numbers ({error})") from None
-    if values.shape != (height + 1, width):
+    if values.shape != shape:
         raise TableError(
-            f"{path.name}: an array of shape {values.shape}; the packing has {height + 1} layers, "
-            f"base included, of {width} beads"
+            f"{path.name}: an array of shape {values.shape}; the packing has {shape[0]} layers, "
+            f"base included, of {' × '.join(map(str, shape[1:]))} beads"
         )
     try:
         return radii_array(values)

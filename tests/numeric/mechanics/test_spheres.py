@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 import mpmath
@@ -404,7 +405,7 @@ def test_images_are_seen_where_a_wider_packing_differs(
         ({"ask": {"quantity": "contact", "at": (1, 1, 4, "1")}}, "j must be from 0 to 3"),
         ({"ask": {"quantity": "positions", "at": (1, 1)}}, "must be a bead"),
         ({"ask": {"quantity": "histogram", "at": (1, 1, 1, "1")}}, "ask.at"),
-        ({"disorder": {"kind": "file", "file": "radii.csv"}}, "disorder.kind"),
+        ({"disorder": {"kind": "file", "file": "radii.csv"}}, "disorder.file"),
     ],
 )
 def test_what_is_not_offered_is_refused(changes: dict[str, dict[str, Any]], says: str) -> None:
@@ -485,3 +486,35 @@ def test_a_point_load_fluctuates_on_the_faces_of_its_cone_alone() -> None:
     (wide, wide_faces), (narrow, narrow_faces) = (largest("exact", std) for std in (1e-4, 1e-5))
     assert wide_faces / narrow_faces == pytest.approx(10, rel=0.02)
     assert wide / narrow == pytest.approx(100, rel=0.02)  # the next order is a share of 1e-3
+
+
+def test_radii_of_ones_own_are_an_array_of_beads(tmp_path: Path) -> None:
+    """The drawn radii, given as an array and in a file, make the same packing."""
+    asked = scene(height=3, width=4)
+    values = np.zeros((4, 4, 4))
+    for (p, q, j), rho in drawn(asked).items():
+        values[j, p, q] = float(1 + rho)
+    np.save(tmp_path / "radii.npy", values)
+    first = asked.run().arrays["change"]
+    for disorder in (
+        fd.GivenRadii(radii=values),
+        fd.GivenRadii(radii=np.stack([values, values])),
+        fd.Disorder(kind="file", file="radii.npy"),
+    ):
+        again = asked.model_copy(update={"disorder": disorder, "folder": tmp_path}).run()
+        # radii near 1 are rounded to 1e-16, of which changes are a few times as much
+        assert np.abs(again.arrays["change"] - first).max() < 1e-14
+
+
+def test_an_array_of_another_shape_is_refused(tmp_path: Path) -> None:
+    asked = {
+        "packing": fd.Packing(height=3, width=5, dimension=3),
+        "ask": fd.Ask(quantity="profile"),
+    }
+    for shape in ((4, 5), (4, 5, 4), (2, 2, 4, 5, 5)):
+        with pytest.raises(fd.SceneError, match=r"give \(4, 5, 5\)|must be an array"):
+            fd.Scene(disorder=fd.GivenRadii(radii=np.ones(shape)), **asked)
+    np.save(tmp_path / "radii.npy", np.ones((4, 5)))
+    given = fd.Disorder(kind="file", file="radii.npy")
+    with pytest.raises(fd.ForceDiffusionError, match="of 5 × 5 beads"):
+        fd.Scene(disorder=given, folder=tmp_path, **asked).run()
