@@ -33,13 +33,14 @@ QUICK = {"explain", "ensemble-status"}
 # Values that are good at least somewhere, so that changes reach beyond what reads a scene.
 GOOD = {
     "height": ["1", "2", "3", "5", "9", "16"],
+    "dimension": ["2", "3", "3"],
     "width": ["1", "2", "3", "4", "8", "32"],
     "spacing": ["2.05", "3.0", "3.4641", "3.99", "4.0"],
     "kind": ['"uniform"', '"normal"', '"surface"', '"bulk"', '"point"'],
     "relative_std": ["0", "1e-30", "1e-9", "1e-3", "0.01", "0.1"],
     "angle_deg": ["0", "10", "-29", "60"],
     "pressure": ["0", "0.5", "1"],
-    "at": ["[0, 4]", "[1, 1]", '[1, 1, "+"]', '[0, 0, "-"]'],
+    "at": ["[0, 0, 3]", '[1, 1, 1, "2"]', "[0, 4]", "[1, 1]", '[1, 1, "+"]', '[0, 0, "-"]'],
     "allow_images": ["true", "false"],
     "geometry": ['"ordered"', '"exact"', '"first-order"'],
     "contacts": ['"unilateral"', '"bilateral"'],
@@ -57,7 +58,7 @@ GOOD = {
     "bins": ["2", "10"],
 }  # fmt: skip
 SECTIONS = {
-    "packing": ["height", "width", "spacing", "allow_images"],
+    "packing": ["height", "width", "dimension", "spacing", "allow_images"],
     "disorder": ["kind", "relative_std"],
     "load": ["kind", "angle_deg", "pressure", "at"],
     "effects": [

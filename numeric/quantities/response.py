@@ -43,7 +43,7 @@ class Response(ContactQuantity):
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Name the contacts twice: by their force, then by its vertical component."""
         contacts = super().labels(problem)
-        count = len(contacts["i"])
+        count = len(contacts["j"])
         labels: dict[str, list[Any]] = {name: 2 * column for name, column in contacts.items()}
         return {**labels, "component": ["force"] * count + ["vertical"] * count}
 

@@ -20,10 +20,15 @@ EFFECTS = {
 LOADS = {
     "surface": 'kind = "surface"',
     "bulk": 'kind = "bulk"',
-    "point": 'kind = "point"\nat = [0, 4]',
+    "point": 'kind = "point"\nat = {bead}',
+}
+# dimension: the packing, a bead, and a contact
+DIMENSIONS = {
+    2: ("{height = 4, width = 8}", "[0, 4]", '[1, 1, "+"]'),
+    3: ("{height = 3, width = 5, dimension = 3}", "[0, 0, 3]", '[1, 1, 1, "2"]'),
 }
 SCENE = """
-packing = {{height = 4, width = 8}}
+packing = {packing}
 disorder = {{kind = "uniform", relative_std = 0.01, seed = 1}}
 [load]
 {load}
@@ -49,9 +54,11 @@ def test_the_questions_are_all() -> None:
 
 @pytest.mark.parametrize("command", COMMANDS)
 @pytest.mark.parametrize("quantity", QUESTIONS)
+@pytest.mark.parametrize("dimension", DIMENSIONS)
 def test_an_answer_or_words(
     command: str,
     quantity: str,
+    dimension: int,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -61,11 +68,11 @@ def test_an_answer_or_words(
     for (load, said), (effect, effects) in product(LOADS.items(), EFFECTS.items()):
         if command == "cost" and (load != "surface" or effect in {"exact", "first-order"}):
             continue  # answered in seconds each: test_cost.py has them
-        contact = 'at = [1, 1, "+"]' if quantity == "contact" else ""
+        packing, bead, contact = DIMENSIONS[dimension]
+        at = f"at = {contact}" if quantity == "contact" else ""
         path = tmp_path / f"{load}_{effect}.toml"
-        path.write_text(
-            SCENE.format(load=said, effects=effects, quantity=quantity, contact=contact)
-        )
+        words = {"packing": packing, "effects": effects, "quantity": quantity, "contact": at}
+        path.write_text(SCENE.format(load=said.format(bead=bead), **words))
         status = main([command, path.name, *COMMANDS[command]])
         shown = capsys.readouterr()
         assert status in {0, 2, 3}, (path.name, shown.err)
