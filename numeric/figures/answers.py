@@ -28,8 +28,9 @@ def figure_of(
     answer of no rows.
     """
     quantity = plan.quantity.name
-    if plan.problem.dimension == 3:
-        raise SceneError("packing.dimension", 3, "an answer has a figure in two dimensions only")
+    if plan.problem.dimension == 3 and quantity not in {"profile", "histogram"}:
+        allowed = f"{quantity} has a figure in two dimensions only"
+        raise SceneError("packing.dimension", 3, allowed)
     with drawing():
         from . import networks_drawing
         from .answers_drawing import DRAWN

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, as_floats
-from ..lattice.branch import Branch, PerBranch
+from ..lattice.branch import Branch, PerAxis, PerBranch
 from ..planning.plan import Plan
 from ..quantities.base import first_order_std
 from . import parts, style
@@ -41,7 +41,8 @@ def _theory(plan: Plan) -> PerBranch[Array] | None:
     if found is None:
         return None
     unit = plan.scene.load.magnitude
-    return PerBranch(*(np.array([float(v * unit) for v in layers]) for _, layers in found))
+    rows = [np.array([float(v * unit) for v in layers]) for _, layers in found]
+    return PerBranch(*rows) if len(rows) == 2 else PerAxis(*rows)
 
 
 def contact_forces(plan: Plan, columns: Columns, errors: Columns) -> Figure:
@@ -156,10 +157,11 @@ def profile(plan: Plan, columns: Columns, errors: Columns) -> Figure:
             axes.plot(layers, exact, dashes, color="0.35", label=f"exact at finite $M$, $f^{own}$")
     elif theory is not None:
         axes.plot(layers, theory.plus, color="0.35", label="exact at finite $M$")
+    if theory is not None and not plan.problem.load.angle_deg and plan.problem.dimension == 2:
         number = 14 if plan.problem.load.kind == "bulk" else 13
         name = f"Eq. ({number}), printed"
         axes.plot(layers, theory.plus * _printed_over_exact(plan), "--", color="black", label=name)
-    for number, own in enumerate(Branch):
+    for number, own in enumerate(plan.quantity.branches):
         rows = branch == own
         error = errors["std"][rows] if "std" in errors else None
         colour, marker = style.series(number)

@@ -422,12 +422,21 @@ def test_what_is_not_offered_is_refused(changes: dict[str, dict[str, Any]], says
         fd.Scene(**sections)
 
 
-def test_studies_and_plots_refuse_three_dimensions() -> None:
+def test_studies_and_other_plots_refuse_three_dimensions() -> None:
     asked = scene("profile", height=2, width=6)
     with pytest.raises(fd.SceneError, match=r"packing.dimension = 3: must be 2"):
         fd.cost(asked)
-    with pytest.raises(fd.SceneError, match=r"packing.dimension = 3"):
-        asked.run().plot()
+    with pytest.raises(fd.SceneError, match=r"packing.dimension = 3: contact_forces has"):
+        scene(height=2, width=6).run().plot()
+
+
+def test_a_profile_and_a_histogram_are_drawn() -> None:
+    profile = scene("profile", height=2, width=6)
+    axes = profile.run().plot().axes[0]
+    names = axes.get_legend_handles_labels()[1]
+    assert names == ["exact at finite $M$", *(f"simulated, $f^{a}$" for a in (1, 2, 3))]
+    bins = fd.ensemble(scene("histogram", height=2, width=6, std=1e-4), 20).plot().axes[0]
+    assert "theory: a Gaussian a layer" in bins.get_legend_handles_labels()[1]
 
 
 @pytest.mark.parametrize("kind", ["surface", "bulk"])
