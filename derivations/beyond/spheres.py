@@ -20,7 +20,8 @@ from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test, undecided
 from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import M, j, kappa, m, phi, r, sigma, z
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.symbols import M, j, k, kappa, m, phi, r, sigma, z
 from force_diffusion.symbolic.variances.orders import compare_leading_order
 from force_diffusion.symbolic.variances.variance import (
     ClosedForm,
@@ -55,19 +56,32 @@ def exact_forms(load: str) -> dict[str, ClosedForm]:
 def slice_steps(load: str) -> Iterator[Step]:
     """Show the squares of the slices below the contact, and beside its path."""
     for words, on_path, lowest in (
-        ("Below the contact, at −j + 2 ≤ a < 0, a slice is met on its own line and four beside "
-         "it, by the line sums along the contact:", "below", 2 - j),
-        ("Beside the path, at 2 ≤ a < K, it holds in addition the line sums along the other two "
-         "vectors, which begin at the path and next to it, 2(j + a) + O(1) beads of each line:",
-         "path", sympy.Integer(2)),
-    ):  # fmt: skip
+        (
+            "Below the contact, at 2 − j ≤ a < 0, a slice is met on five lines, by the line sums "
+            "along the contact",
+            "below",
+            2 - j,
+        ),
+        (
+            "Beside the path, at 2 ≤ a < K = M − j, it holds in addition the line sums along the "
+            "other two vectors, which begin at the path and next to it",
+            "path",
+            sympy.Integer(2),
+        ),
+    ):
         region = Region({j: 2, M: j + 2, m: lowest})
         found = Slice(LOADS[load], m, on_path, {}, region).squares().to_sympy()
-        whole = UNIT * (r / sigma) ** 2
+        whole, left = UNIT * (r / sigma) ** 2, M - j - (m if on_path == "path" else 0)
+        in_k = sympy.Poly(sympy.expand((found / whole).xreplace({M: M + k - left})), k)
+        powers = [
+            times(sympy.factor(c), k**power) if power else sympy.factor(c)
+            for (power,), c in in_k.terms()
+        ]
         yield Step(
-            words,
-            equation(OF_SLICE, times(sympy.factor(found / whole), whole)),
-            identity({OF_SLICE: found}),
+            f"{words}. With k = {text(left)}, the squares of its weights"
+            f"{', times (M − j)²' if load == 'bulk' else ''}:",
+            equation(OF_SLICE, times(terms(*powers), whole)),
+            identity({OF_SLICE: found, k: left}),
             ("Eq. B11",),
         )
 
