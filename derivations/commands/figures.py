@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from force_diffusion.numeric.figures.catalogue import PaperFigure
     from force_diffusion.numeric.figures.packings import Notice
 
-NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5", "B7", "B9", "B10", "B11", "B12", "B13")
+NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5", "B7", "B9", "B10", "B11", "B12", "B13",
+         "B15")  # fmt: skip
 OF_ENSEMBLES = ("3", "4", "pf", "B2", "B5", "B7", "B9", "B12", "B13")
 MODELS = {"q-model": "3", "double-y": "4"}
 OWN_SPACING, OWN_STD = ("2", "3", "4", "pf", "chains"), ("3", "4", "pf", "chains")
@@ -69,8 +70,8 @@ def figures(
         list[str] | None,
         typer.Argument(
             metavar="WHICH",
-            help="Figures: 1, 2, 3, 4, pf, chains, B2, B5, B7, B9, B10, B11, B12, B13; by default "
-            "all. A scene of your own, FILE.toml, is answered and drawn.",
+            help=f"Figures: {', '.join(NAMES)}; by default all. A scene of your own, FILE.toml, is "
+            "answered and drawn.",
         ),
     ] = None,
     out: Annotated[Path, out_option("PNG, SVG, PDF and CSV")] = Path("figures"),

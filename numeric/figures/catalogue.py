@@ -25,6 +25,7 @@ from . import (
     neighbours,
     notation,
     response,
+    sharing,
     spheres,
     stress,
 )
@@ -216,6 +217,12 @@ FIGURES = {
         "Diffusion of forces in packings of spheres",
         lambda o: spheres.simulate(o.realisations or 100, o.seed, o.notice),
         spheres.draw,
+    ),
+    "B15": _Figure(
+        "figureB15",
+        "What the load of either branch gives to a mean force",
+        lambda o: sharing.shares(o.notice),
+        sharing.draw,
     ),
 }
 

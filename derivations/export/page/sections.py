@@ -32,6 +32,7 @@ _PACKINGS = {
     "chains": "One packing.",
     "B10": "Exact Taylor coefficients.",
     "B11": "Exact weights.",
+    "B15": "Exact Taylor coefficients.",
 } | {name: f"{n} packings in each ensemble." for name, n in REALISATIONS.items()}
 
 

@@ -205,6 +205,21 @@ def test_means_are_those_of_exact_packings(height: int) -> None:
         assert sunk == [n[1] * y for _, y in places]
 
 
+@pytest.mark.parametrize("height", [1, 2, 3, 4])
+def test_means_at_an_angle_are_those_of_exact_packings(height: int) -> None:
+    n, ratio = DIRECTIONS[1], Fraction(3, 7)
+    phi = n[1] ** 2 - n[0] ** 2
+    shifts = {
+        "surface": closed_forms.surface_mean_shift_at_angle,
+        "bulk": closed_forms.bulk_mean_shift_at_angle,
+    }
+    for load, form in shifts.items():
+        for branch, share in (("+", ratio), ("-", 1 / ratio)):
+            forces, _ = second_order.means(height, n, load, ratio, branch)
+            stated = [form(height, layer, share, phi, ONE, ONE) for layer in range(height)]
+            assert stated == list(forces)
+
+
 @pytest.mark.parametrize(("height", "layer", "count"), [(10, 5, 3), (12, 6, 4), (13, 7, 4)])
 def test_means_of_neighbours_are_those_of_exact_packings(
     height: int, layer: int, count: int

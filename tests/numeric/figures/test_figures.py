@@ -25,6 +25,7 @@ from force_diffusion.numeric.figures import (
     notation,
     packings,
     response,
+    sharing,
     spheres,
     stress,
 )
@@ -352,6 +353,15 @@ def test_figure_b12_finds_theory_within_the_band_and_a_wrong_one_outside() -> No
     assert len(rows) == len(layers.PAIRS)
     farthest = rows[len(layers.UPPER[layers.LOWER[0]]) - 1]
     assert float(farthest["covariance_simulated"]) > 0.1  # 20 layers higher, by far not zero
+
+
+def test_figure_b15_equals_theory_as_fractions() -> None:
+    found = sharing.shares(silent)
+    assert found.agree()
+    own, other = found.measured[0]
+    assert not replace(found, measured=((other, own), found.measured[1])).agree()
+    (rows,) = found.tables().values()
+    assert len(rows) == 4 * sharing.HEIGHT
 
 
 def test_figure_b9_finds_theory_within_the_bands_and_a_wrong_one_outside() -> None:
