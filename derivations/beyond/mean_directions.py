@@ -74,14 +74,10 @@ def mean_forms(force: sympy.Expr) -> dict[str, ClosedForm]:
 def printed(subjects: Subjects, own: sympy.Expr, other: sympy.Expr) -> tuple[sympy.Eq, sympy.Eq]:
     """What each branch's own load changes in ⟨f⟩/L less 1, and t or 1/t times what the other's."""
 
-    def of(share: sympy.Expr) -> sympy.Expr:
-        return times(
-            1 / (4 * (1 - phi**2) ** 2),
-            terms(*own.args, times(share, other)),
-            power(times(sigma, 1 / r), 2),
-        )
-
-    return equation(terms(subjects[0], -1), of(t)), equation(terms(subjects[1], -1), of(1 / t))
+    below, variance = 4 * (1 - phi**2) ** 2, power(times(sigma, 1 / r), 2)
+    plus = times(1 / below, terms(*own.args, times(t, other)), variance)
+    minus = times(1 / (t * below), terms(times(t, own), *other.args), variance)
+    return equation(terms(subjects[0], -1), plus), equation(terms(subjects[1], -1), minus)
 
 
 def balances(_: int, candidate: sympy.Eq) -> Ruling:
