@@ -189,7 +189,7 @@ def leg() -> sympy.Expr:
     return first + second + (l - 2 - j) * leg_step()
 
 
-LOSS = Symbol("leg_loss", r"\Delta_{\rm leg}", "loss of a leg per layer")
+LOSS = Symbol("leg_loss", r"\Delta_{\mathrm{leg}}", "loss of a leg per layer")
 
 
 def _stated(part: int, candidate: sympy.Eq) -> Ruling:

@@ -20,7 +20,7 @@ _MATHS = {
     "ᵀ": r"^{T}", "ᵃ": r"^{a}", "ᵇ": r"^{b}", "ⁿ": r"^{n}", "ʲ": r"^{j}", "′": "'",
     "⌊": r"\lfloor ", "⌋": r"\rfloor ", "⌈": r"\lceil ", "⌉": r"\rceil ", "∪": r"\cup ",
     "≪": r"\ll ", "≫": r"\gg ", "≲": r"\lesssim ", "⊥": r"\perp ", "∀": r"\forall ",
-    "∃": r"\exists ",
+    "∃": r"\exists ", "ℓ": r"\ell ", "⊗": r"\otimes ",
 }  # fmt: skip
 _RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-", strict=True))
 _WORDS = {"ˡᵒᵃᵈ": r"^{\mathrm{load}}"}
@@ -76,6 +76,8 @@ def _is_mathematics(word: str) -> bool:
     """Whether a word is a symbol or a formula rather than English."""
     if re.fullmatch(r"[b-zB-HJ-Z]", word):
         return True
+    if re.fullmatch(r"B\d+", word):  # an equation's number
+        return False
     letters = re.findall(r"[A-Za-z]+", _INDEXED.sub("", _NAMES.sub("", word)))
     return bool(_SYMBOLIC.search(word)) and all(len(run) <= 2 for run in letters)
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from xml.etree import ElementTree
 
 import pytest
+from force_diffusion.derivations.export.prose import both, prose_latex
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
@@ -60,10 +61,25 @@ def test_what_is_not_known_is_an_error(source: str) -> None:
         words.mathml(source)
 
 
-def test_sentences_of_every_derivation_can_be_set() -> None:
+def sentences() -> Iterator[str]:
     for number in modules():
         derivation = load(number)
-        told = [step.reason for step in derivation.steps()]
-        told += [check.name for check in (*derivation.claims, *derivation.witnesses)]
-        for sentence in (*told, *derivation.remarks, *derivation.assumptions, derivation.title):
-            assert str(words.prose(sentence))
+        for step in derivation.steps():
+            yield from (step.reason, both(step.uses) if step.uses else "follows")
+        yield from (check.name for check in (*derivation.claims, *derivation.witnesses))
+        yield from (*derivation.remarks, *derivation.assumptions, derivation.title)
+        yield from (said for _, said in derivation.symbols)
+
+
+def test_sentences_of_every_derivation_can_be_set() -> None:
+    for sentence in sentences():
+        assert str(words.prose(sentence))
+        source = prose_latex(sentence)
+        assert source.isascii()
+        assert r"\text{[" not in source, source  # a character that it has only a name for
+        assert not re.search(r"\$B\d+\$", source), source  # Eq. B4 is no product
+
+
+def test_fonts_are_commands_of_every_class() -> None:
+    for source in formulas():  # \bf and the like are no commands of KOMA's classes, nor of memoir
+        assert not re.search(r"\\(bf|rm|it|sf|tt|sl|sc|cal)\b", source), source
