@@ -50,7 +50,9 @@ def _significant(values: Array, digits: Array) -> Array:
     # what is rounded up to a power of ten has a digit too many
     sure &= usual & (whole >= _WHOLE_POWERS[digits - 1]) & (whole < _WHOLE_POWERS[digits])
     figures = _figures(np.where(sure, whole * _WHOLE_POWERS[MOST - digits], 0))
-    one_by_one = {int(n): f"{values[n]:.{digits[n]}g}" for n in np.flatnonzero(~sure)}
+    zero = values == 0
+    others = np.flatnonzero(~(sure | zero))
+    one_by_one = {int(n): f"{values[n]:.{digits[n]}g}" for n in others}
     width = max([MOST + 7, *map(len, one_by_one.values())])
     text = np.zeros((len(values), width), np.uint8)
     fixed = (power >= -4) & (power < digits)
@@ -60,7 +62,8 @@ def _significant(values: Array, digits: Array) -> Array:
         form, exponent = divmod(key, 2 * BULK)
         laid = (_scientific if form else _fixed)(figures[rows], exponent - BULK)
         text[rows, 1 : laid.shape[1] + 1] = laid
-    text[:, 0] = np.where(values < 0, ord("-"), 0)
+    text[zero, 1] = ord("0")
+    text[:, 0] = np.where(np.signbit(values), ord("-"), 0)
     for n, shown in one_by_one.items():
         text[n] = 0
         text[n, : len(shown)] = np.frombuffer(shown.encode(), np.uint8)

@@ -64,6 +64,7 @@ class Outline:
         if cut is not None:
             steps = segments.steps(steps, cut, self.quantity, memory, self.limit)
             memory = segments.memory(cut, self.quantity)
+            memory += self.quantity.gathered(problem.region, 1) * budget.FLOAT_BEAD
             problem, seconds = cut, segments.seconds(cut, self.quantity)
         budget.refuse_memory(scene, memory, self.limit)
         budget.refuse_seconds(scene, problem.realisations, seconds)
@@ -92,6 +93,7 @@ class Outline:
             at_once = visited // n
         elif problem.route == Route.ORDERED and problem.dimension == 2:
             at_once = 0
+        at_once += self.quantity.gathered(region, min(n, together))
         systems = [s for s in (method.system, method.longer) if s is not None]
         return max(_memory(self.scene, self.quantity, region, at_once, n, s) for s in systems)
 

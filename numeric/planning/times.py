@@ -80,7 +80,8 @@ def _pass(
         beads = quantity.line_beads(problem.load)
         return spent + n * (layer + beads * (bead + kilobit * bits))
     chunks = -(-n // together)
-    work = region.beads * n * (bead + kilobit * bits * (1 + bits / 10))
+    beads = region.beads * n + quantity.gathered(region, n)
+    work = beads * (bead + kilobit * bits * (1 + bits / 10))
     if problem.dimension == 3:
         return spent + len(region.rows) * chunks * layer + _SPHERE * work
     if system is FLOAT64 and problem.route == Route.EXACT and region.beads * n >= COMPILED_FROM:

@@ -147,6 +147,10 @@ class Quantity(ABC):
     def answer_rows(self, region: Region, realisations: int) -> int:
         """Bound the number of rows of the answer."""
 
+    def gathered(self, region: Region, realisations: int) -> int:
+        """Bound what gathering so many realisations at once takes beside them, counted in beads."""
+        return 0
+
     # How it is gathered
 
     @abstractmethod

@@ -17,7 +17,8 @@ class BaseReactions(Listed):
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a bead of the base."""
-        return (region.rows[0].count if region.rows else 1) * realisations
+        on_base = self.width or (region.rows[0].count if region.rows else 1)
+        return on_base * realisations
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give a row a bead of the base, from left to right."""

@@ -40,6 +40,11 @@ class Profile(ContactQuantity):
         """One a layer and branch."""
         return len(self.branches) * self.height
 
+    def gathered(self, region: Region, realisations: int) -> int:
+        """Whole layers, also where a load reaches few of their contacts: 50 numbers a bead."""
+        idle = (self.width or 0) * (self.height + 1) - region.beads
+        return 2 * idle * (realisations + 3) // 50
+
     def gatherer(self, problem: Problem, system: NumberSystem) -> "ProfileMoments":
         """Start to merge moments."""
         return ProfileMoments(self, problem, system)

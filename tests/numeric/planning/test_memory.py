@@ -24,6 +24,12 @@ SCENES = {
     "histogram": "packing = {height = 10, width = 40}\n"
     'ask = {quantity = "histogram", bins = 100_000, realisations = 50}',
     "profile": 'packing = {height = 300, width = 1000}\nask = {quantity = "profile"}',
+    "profile below a point": "packing = {height = 20, width = 60_000}\n"
+    'load = {kind = "point", at = [0, 20]}\nask = {quantity = "profile"}',
+    "profiles below a point": "packing = {height = 20, width = 3_000}\n"
+    'load = {kind = "point", at = [0, 20]}\nask = {quantity = "profile", realisations = 400}',
+    "base reactions below a point": "packing = {height = 20, width = 60_000}\n"
+    'load = {kind = "point", at = [0, 20]}\nask = {quantity = "base_reactions"}',
     "balls": 'packing = {height = 40, width = 90}\nask = {quantity = "contact_forces", '
     "tolerance = 1e-30}",
 }
