@@ -90,7 +90,10 @@ did you mean "profile"?
         raise SceneError("scene", None, f"has {dots} dots, {allowed}")
     try:
         raw = tomllib.loads(text, parse_float=Written)
-    except (tomllib.TOMLDecodeError, ArithmeticError, RecursionError) as error:
+    except ArithmeticError:
+        why = "has a number whose exponent no arithmetic holds"
+        raise SceneError("scene", None, why) from None
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
         reason = "is nested too deeply" if isinstance(error, RecursionError) else str(error)
         raise SceneError("scene", None, f"is no valid TOML: {reason}") from None
     except ValueError:  # Python reads no longer integer

@@ -130,6 +130,7 @@ def test_missing_sections_and_keys() -> None:
         ("[packing\n", "no valid TOML"),
         ("a = " + "[" * 5000, "TOML"),
         ("[packing]\nheight = 1" + "0" * 6000, "4300 digits, in line 2"),
+        ("[ask]\ntolerance = 1e-" + "9" * 30, "a number whose exponent no arithmetic holds"),
         ("[paking]\n[packing]\nheight = 3\n[ask]\nquantity='profile'", 'mean "packing"'),
         ("folder = 'x'\n", "is unknown"),
     ]:
