@@ -7,7 +7,7 @@ from typing import Any
 import flint
 import numpy as np
 
-from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_ball
+from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_ball, as_floats
 from ..quantities.base import RATIO, SCATTER_OF, Table
 from ..text import significant, text_of
 from .accuracy import Accuracy
@@ -28,11 +28,13 @@ def printed(
     """
     numbers: dict[str, Array] = {}
     for name, column in table.numbers.items():
-        if isinstance(system, Balls):
+        sampling = _of_sampling(table, name) if sampled else 0.0
+        if system is FLOAT64 or np.any(sampling):  # what scatters needs no more than a float has
+            error = _of_arithmetic(table, name, accuracy)
+            numbers[name] = known_digits(as_floats(column), error, sampling)
+        elif isinstance(system, Balls):
             most = most_digits(system)
             numbers[name] = text_of([_ball_string(v, most) for v in column])
-        elif system is FLOAT64:
-            numbers[name] = known_digits(column, *_errors(table, name, accuracy, sampled=sampled))
         else:
             numbers[name] = text_of(_long_strings(table, name, accuracy, system))
         if name in table.errors:
@@ -47,18 +49,23 @@ def of_errors(errors: Array) -> Array:
     return text
 
 
-def _errors(
-    table: Table, name: str, accuracy: Accuracy, *, sampled: bool
-) -> tuple[Array | float, Array | float]:
-    """Give the absolute errors of a column: of its arithmetic, and of sampling (0 if unknown).
-
-    The error of σ_f/⟨f⟩ is that of σ_f over ⟨f⟩, since ⟨f⟩ is known far better.
-    """
-    largest = max((float(np.abs(table.numbers[k]).max(initial=0)) for k in table.small), default=0)
+def _of_arithmetic(table: Table, name: str, accuracy: Accuracy) -> Array | float:
+    """Give the absolute error of a column, but for how it would scatter."""
+    small = [as_floats(abs(table.numbers[k])) for k in table.small]
+    largest = max((float(one.max(initial=0)) for one in small), default=0)
     bound = float(accuracy.error_bound) * largest if math.isfinite(accuracy.error_bound) else np.inf
-    errors = table.errors.get(SCATTER_OF.get(name, name)) if sampled else None
-    over = np.abs(table.numbers["mean"]) if name == RATIO else 1.0
-    return bound / over, 0.0 if errors is None else np.nan_to_num(errors) / over
+    return bound / _over(table, name)
+
+
+def _of_sampling(table: Table, name: str) -> Array | float:
+    """Give the standard errors of a column, 0 where they are not known."""
+    errors = table.errors.get(name if name in table.errors else SCATTER_OF.get(name, ""))
+    return 0.0 if errors is None else np.nan_to_num(errors) / _over(table, name)
+
+
+def _over(table: Table, name: str) -> Array | float:
+    """The error of σ_f/⟨f⟩ is that of σ_f over ⟨f⟩, since ⟨f⟩ is known far better."""
+    return abs(as_floats(table.numbers["mean"])) if name == RATIO else 1.0
 
 
 def _long_strings(table: Table, name: str, accuracy: Accuracy, system: NumberSystem) -> list[str]:

@@ -21,7 +21,7 @@ from ..statistics.histogram import histogram
 from ..statistics.moments import root
 from ..statistics.ratios import moments
 from ..unilateral.network import Network, Relaxed
-from .base import Gatherer, Listed, Table, column
+from .base import RATIO, Gatherer, Listed, Table, column
 from .histogram import DEFAULT_BINS
 
 
@@ -303,7 +303,7 @@ class _Layers(Gatherer):
                 "j": np.array([j for j, _ in rows]),
                 "samples": np.array([len(forces) for _, forces in rows]),
             },
-            {"mean": column(means, self.system), "std": std},
+            {"mean": (mean := column(means, self.system)), "std": std, RATIO: std / mean},
             ("mean", "std"),
             {"mean": of_mean, "std": of_std},
         )

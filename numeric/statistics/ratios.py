@@ -10,6 +10,10 @@ import numpy as np
 
 from ..arithmetic.systems import Array
 
+# Of a variance: no sample is so large that its error is less. Below lies rounding, as of two
+# samples, which lie equally far from their mean whatever they are.
+ROUNDING = 1e-9
+
 
 def ratio(counts: Array, totals: Array) -> tuple[Array, Array]:
     """Give Σ total/Σ count of each group, and its standard error; arrays are (packings, groups).
@@ -32,10 +36,17 @@ def ratio(counts: Array, totals: Array) -> tuple[Array, Array]:
 def moments(counts: Array, totals: Array, squares: Array) -> tuple[Array, Array, Array, Array]:
     """Give mean and standard deviation of each group, and the standard errors of both.
 
-    ``squares``: sums of the samples' squares. The error of a deviation of zero is NaN.
+    ``squares``: sums of the samples' squares. The error of a deviation is NaN where it is zero, or
+    nothing but rounding.
+
+    >>> a, b = np.array([[0.3], [0.7]]), np.array([[1], [1]])
+    >>> _, std, _, error = moments(b, a, a * a)
+    >>> round(float(std[0]), 9), float(error[0])
+    (0.2, nan)
     """
     mean, of_mean = ratio(counts, totals)
     variance, of_variance = ratio(counts, squares - 2 * mean * totals + mean**2 * counts)
     std = np.sqrt(np.maximum(variance, 0))
     with np.errstate(all="ignore"):
-        return mean, std, of_mean, np.where(std > 0, of_variance / (2 * std), np.nan)
+        known = of_variance > ROUNDING * variance
+        return mean, std, of_mean, np.where(known, of_variance / (2 * std), np.nan)

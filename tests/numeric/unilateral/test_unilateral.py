@@ -290,3 +290,20 @@ def test_quantities_are_the_same_under_the_effect() -> None:
 
     assert set(QUANTITIES) == set(NETWORK_QUANTITIES)
     assert all(issubclass(one, Quantity) for one in NETWORK_QUANTITIES.values())  # type: ignore[arg-type]
+
+
+def test_statistics_end_where_they_scatter_from_packing_to_packing() -> None:
+    found = strip("profile", realisations=4).run()
+    for row, shown in zip(found.rows(), found.decimals(), strict=True):
+        if row["samples"] < 10:  # two beads of the surface, in two packings
+            assert shown["std_error"] == ""
+            continue
+        for name in ("mean", "std"):
+            error = row[f"{name}_error"]
+            assert abs(float(shown[name]) - row[name]) <= error / 10
+            assert len(shown[name]) <= 6  # 0.764 ± 0.017, and no digits of these very packings
+        assert row["std_over_mean"] == pytest.approx(row["std"] / row["mean"])
+        assert len(shown["std_over_mean"]) <= 6
+    (one, *_) = strip("profile").run().decimals()
+    assert one["std_error"] == ""  # of one packing no scatter is known
+    assert len(one["std"]) > 20
