@@ -192,14 +192,19 @@ def _loads(problem: Problem, system: NumberSystem) -> Loads | None:
     return problem.load.on(problem.force_rows, strength, system)
 
 
-def _compiled(problem: Problem, system: NumberSystem) -> "Sweeps | None":
-    """Give the compiled sweeps, same numbers: for much work in float64, where numba is."""
+def worth_compiling(problem: Problem, system: NumberSystem, *, loaded: bool = False) -> bool:
+    """Say whether there is so much to do that compiled sweeps are taken, where numba is."""
     region = problem.region
     beads = (region.beads + OF_ROW * len(region.rows)) * problem.realisations
-    loaded = f"{__package__}.compiled" in sys.modules
     much = beads >= COMPILED_FROM * (ONCE_LOADED if loaded else 1)
     swept = problem.route in {Route.EXACT, Route.FIRST_ORDER}  # of the latter only the radii
-    if not (much and swept and system is FLOAT64):
+    return much and swept and system is FLOAT64
+
+
+def _compiled(problem: Problem, system: NumberSystem) -> "Sweeps | None":
+    """Give the compiled sweeps, same numbers: for much work in float64, where numba is."""
+    loaded = f"{__package__}.compiled" in sys.modules
+    if not worth_compiling(problem, system, loaded=loaded):
         return None
     try:
         from . import compiled

@@ -6,7 +6,7 @@ from fractions import Fraction
 from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import Monodisperse, Radii
 from ..lattice.layers import Region
-from ..mechanics.engine import chunk_size
+from ..mechanics.engine import chunk_size, worth_compiling
 from ..mechanics.images import sees_images
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
@@ -95,7 +95,8 @@ class Outline:
             at_once = 0
         at_once += self.quantity.gathered(region, min(n, together))
         systems = [s for s in (method.system, method.longer) if s is not None]
-        return max(_memory(self.scene, self.quantity, region, at_once, n, s) for s in systems)
+        most = max(_memory(self.scene, self.quantity, region, at_once, n, s) for s in systems)
+        return most + budget.COMPILED * worth_compiling(problem, method.system)
 
 
 def _memory(

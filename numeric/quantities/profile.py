@@ -42,7 +42,7 @@ class Profile(ContactQuantity):
 
     def gathered(self, region: Region, realisations: int) -> int:
         """Whole layers, also where a load reaches few of their contacts: 50 numbers a bead."""
-        idle = (self.width or 0) * (self.height + 1) - region.beads
+        idle = max((self.width or 0) * (self.height + 1) - region.beads, 0)
         return 2 * idle * (realisations + 3) // 50
 
     def gatherer(self, problem: Problem, system: NumberSystem) -> "ProfileMoments":
