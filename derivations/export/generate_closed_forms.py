@@ -418,31 +418,16 @@ def source() -> str:
         top, bottom = sympy.fraction(sympy.together(scaled))
         body = f"{top} / ({bottom})".replace("(1 - phi**2)**2", "((1 - phi) * (1 + phi)) ** 2")
         parts.append(PRINTED.format(name=name, load=load, number=number, body=body))
-    for name, load, number, equation in (
-        ("surface_variance", "surface load", 13, eq13),
-        ("bulk_variance", "bulk load", 14, eq14),
+    for what, how, template, both in (
+        ("variance", "load", EXACT, (eq13, eq14)),
+        ("variance_at_angle", "load at an angle", DIRECTION, (b2, b3)),
+        ("variance_of_spheres", "load", SPHERES, (b13, b14)),
+        ("mean_shift", "load", MEAN, (b5, b6)),
+        ("mean_shift_at_angle", "load at an angle", MEAN_AT_ANGLE, (b15, b16)),
     ):
-        parts.append(_exact(name, load, number, equation.exact_forms()))
-    for name, load, label, equation in (
-        ("surface_variance_at_angle", "surface load at an angle", "B2", b2),
-        ("bulk_variance_at_angle", "bulk load at an angle", "B3", b3),
-    ):
-        parts.append(_exact(name, load, label, equation.exact_forms(), DIRECTION))
-    for name, load, label, equation in (
-        ("surface_variance_of_spheres", "surface load", "B13", b13),
-        ("bulk_variance_of_spheres", "bulk load", "B14", b14),
-    ):
-        parts.append(_exact(name, load, label, equation.exact_forms(), SPHERES))
-    for name, load, label, equation in (
-        ("surface_mean_shift", "surface load", "B5", b5),
-        ("bulk_mean_shift", "bulk load", "B6", b6),
-    ):
-        parts.append(_exact(name, load, label, equation.exact_forms(), MEAN))
-    for name, load, label, equation in (
-        ("surface_mean_shift_at_angle", "surface load at an angle", "B15", b15),
-        ("bulk_mean_shift_at_angle", "bulk load at an angle", "B16", b16),
-    ):
-        parts.append(_exact(name, load, label, equation.exact_forms(), MEAN_AT_ANGLE))
+        for load, equation in zip(("surface", "bulk"), both, strict=True):
+            number, forms = equation.DERIVATION.number, equation.exact_forms()
+            parts.append(_exact(f"{load}_{what}", f"{load} {how}", number, forms, template))
     parts.append(_exact("stress_ratio_shift", "surface load", "B10", b10.ratio_forms(), STRESS))
     in_any = b11.PRINTED.rhs.doit().xreplace({kappa: sympy.Integer(1)})
     parts.append(DIMENSION.format(code=_code(in_any, M, d, z)))
