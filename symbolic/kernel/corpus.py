@@ -11,19 +11,23 @@ from itertools import product
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.kernel.sources import (
+    COSINES,
+    Source,
+    Zeros,
+    equal,
+    over,
+    plus,
+    put_in,
+    times,
+)
 from force_diffusion.symbolic.printing.text import text
-from sympy import Add, Eq, Mul, Pow, Rational, Sum
+from sympy import Add, Mul, Pow, Rational, Sum
 
-Change = Callable[[sympy.Expr], sympy.Expr]
 Made = Iterator[tuple[str, sympy.Eq]]
 """Why it is false, or true, and the statement."""
-Zeros = Iterator[tuple[str, sympy.Expr]]
-"""A place of the domain, in words, and what vanishes there."""
+Rule = Callable[[Source], Made]
 
-Rule = Callable[["Source"], Made]
-
-COSINES = tuple(Rational(*c) for c in ((1, 4), (-1, 4), (0, 1), (1, 3), (-49, 100), (49, 100)))
-HEIGHTS = tuple(Rational(*z) for z in ((1, 2), (1, 3), (3, 4), (1, 100)))
 _MILLIONTH = Rational(1, 10**6)
 
 
@@ -37,119 +41,13 @@ class Statement:
     equation: sympy.Eq
 
 
-@dataclass(frozen=True)
-class Source:
-    """A printed equation and its sign: "=", "≈", "∼" or "∝"."""
-
-    printed: sympy.Eq
-    relation: str
-
-    @property
-    def free(self) -> set[sympy.Symbol]:
-        """The symbols that are not summed over."""
-        return set(self.printed.free_symbols)
-
-    @property
-    def is_vector(self) -> bool:
-        """Whether it equates vectors."""
-        return bool(getattr(self.printed.lhs, "is_vector", False) or self.printed.rhs == 0)
-
-    @property
-    def size(self) -> sympy.Symbol:
-        """What grows in the limit."""
-        return sy.M if sy.M in self.free else sy.l
-
-    def right(self, change: Change) -> sympy.Eq:
-        """The right-hand side changed, or, where that is zero, one term of the left one."""
-        left, right = self.printed.args
-        if right:
-            return _eq(left, change(right))
-        first, *others = left.args
-        return _eq(Add(change(first), *others, evaluate=False), right)
-
-    def both(self, change: Change) -> sympy.Eq:
-        """The same change of both sides."""
-        return _eq(*map(change, self.printed.args))
-
-    def left(self, change: Change) -> sympy.Eq:
-        """The left-hand side changed."""
-        return _eq(change(self.printed.lhs), self.printed.rhs)
-
-    def term(self, factor: sympy.Expr) -> sympy.Expr:
-        """A term that may stand beside the right-hand side: a factor times a unit of its kind."""
-        return factor * sy.b_plus if self.is_vector else factor
-
-    def sums(self) -> list[sympy.Sum]:
-        """The sums in it."""
-        return sorted(self.printed.atoms(Sum), key=str)
-
-    def with_sum(self, series: sympy.Sum, other: sympy.Expr) -> sympy.Eq:
-        """One sum replaced."""
-        return _eq(*(side.xreplace({series: other}) for side in self.printed.args))
-
-    def radii(self) -> list[sympy.Expr]:
-        """The radius of the bead that it is about, and two on the base; none for statistics."""
-        beads = sorted(self.printed.atoms(sy.SiteFunction), key=str)[:1]
-        if not beads:
-            return []
-        across, layer = beads[0].args
-        sites = ((across - layer, 0), (across + layer, 0), (across, layer))
-        return [sy.DeltaR(*site) for site in sites]
-
-    def zeros(self) -> Zeros:
-        """Yield places of the domain, in words, with what vanishes there."""
-        for c in COSINES:
-            yield f"φ = {c}", sy.phi - c
-        yield "φ = 0", sy.n_x - sy.n_y
-        yield "φ = 5/13", 3 * sy.n_x - 2 * sy.n_y
-        yield "φ = 1/4", 8 * sy.n_x**2 - 3
-        yield "φ = ±1/4", 1 - 16 * sy.phi**2
-        if self.relation == "=":
-            for layer in (sy.j, sy.l, sy.site_s):
-                if layer in self.free:
-                    yield f"{text(layer)} = 3", layer - 3
-            if sy.M in self.free:
-                yield "M = 4", sy.M - 4
-                yield "M = j + 2", sy.M - sy.j - 2
-        yield from self.heights()
-
-    def heights(self) -> Zeros:
-        """Yield relative heights, with what vanishes there."""
-        height = sy.z if sy.z in self.free else sy.j / self.size
-        if self.relation in "≈∼":
-            for at in HEIGHTS:
-                yield f"{text(height)} = {at}", height - at
-        elif {sy.j, sy.M} <= self.free:
-            yield "j = M/2", 2 * sy.j - sy.M
-
-
-def _eq(left: sympy.Expr, right: sympy.Expr) -> sympy.Eq:
-    return Eq(left, right, evaluate=False)
-
-
-def _times(*factors: sympy.Expr) -> Change:
-    return lambda side: Mul(*factors, side, evaluate=False)
-
-
-def _plus(term: sympy.Expr) -> Change:
-    return lambda side: Add(side, term, evaluate=False)
-
-
-def _put_in(image: dict[sympy.Expr, sympy.Expr]) -> Change:
-    return lambda side: side.xreplace(image)
-
-
-def _over(divisor: sympy.Expr, power: int = 1) -> sympy.Expr:
-    return Pow(divisor, -power, evaluate=False)
-
-
 # false: what has no value, or says nothing, somewhere in the domain
 
 
 def _at_zero(source: Source, zeros: Zeros) -> Made:
     for where, a in zeros:
-        yield f"0/0 at {where}", source.right(_times(a, _over(a)))
-        yield f"0/0 at {where}, squared", source.right(_times(a**2, _over(a, 2)))
+        yield f"0/0 at {where}", source.right(times(a, over(a)))
+        yield f"0/0 at {where}, squared", source.right(times(a**2, over(a, 2)))
 
 
 def _zero_over_zero(source: Source) -> Made:
@@ -166,32 +64,32 @@ def _zero_over_zero_above(source: Source) -> Made:
 
 def _zero_over_zero_on_the_left(source: Source) -> Made:
     for where, a in source.zeros():
-        yield f"0/0 at {where}, on the left", source.left(_times(a, _over(a)))
+        yield f"0/0 at {where}, on the left", source.left(times(a, over(a)))
 
 
 def _divided(source: Source) -> Made:
     for where, a in source.zeros():
-        yield f"both sides divided by zero at {where}", source.both(_times(_over(a)))
+        yield f"both sides divided by zero at {where}", source.both(times(over(a)))
 
 
 def _added_and_taken_off(source: Source) -> Made:
     for where, a in source.zeros():
-        pole = source.term(_over(a))
+        pole = source.term(over(a))
         both = Add(pole, -pole, evaluate=False)
-        yield f"∞ − ∞ at {where}", source.right(_plus(both))
+        yield f"∞ − ∞ at {where}", source.right(plus(both))
 
 
 def _nothing_said(source: Source) -> Made:
     for where, a in source.zeros():
-        yield f"0 = 0 at {where}", source.both(_times(a))
-    yield "0 = 0", source.both(_times(sympy.Integer(0)))
+        yield f"0 = 0 at {where}", source.both(times(a))
+    yield "0 = 0", source.both(times(sympy.Integer(0)))
 
 
 def _pole(source: Source) -> Made:
     small = source.size if source.relation in "≈∼" else sympy.Integer(10**6)
     for (where, a), power in product(source.zeros(), (1, 2)):
-        one = 1 + _over(a, power) / small
-        yield f"a pole at {where}", source.right(_times(one))
+        one = 1 + over(a, power) / small
+        yield f"a pole at {where}", source.right(times(one))
 
 
 # false: another size
@@ -201,7 +99,7 @@ def _another_factor(source: Source) -> Made:
     if source.relation == "∝":
         return
     for factor in (sympy.Integer(2), -sympy.S.One, 1 + _MILLIONTH, 1 - _MILLIONTH, Rational(2, 3)):
-        yield f"{factor} times too large", source.right(_times(factor))
+        yield f"{factor} times too large", source.right(times(factor))
     for cosine in (
         1 + sy.phi,
         1 + sy.phi * _MILLIONTH,
@@ -209,26 +107,26 @@ def _another_factor(source: Source) -> Made:
         1 - sy.phi**2,
         2 * sy.n_x**2,
     ):
-        yield "another function of φ", source.right(_times(cosine))
-    yield "another function of φ", source.right(_times(sy.n_y, _over(sy.n_x)))
+        yield "another function of φ", source.right(times(cosine))
+    yield "another function of φ", source.right(times(sy.n_y, over(sy.n_x)))
 
 
 def _another_power(source: Source) -> Made:
     scales = [s for s in (sy.M, sy.l, sy.j, sy.sigma, sy.r) if s in source.printed.rhs.free_symbols]
     for scale in scales if source.relation != "=" else ():
         for power in (1, -1, Rational(1, 2), Rational(-1, 3)):
-            yield f"{text(scale)}^({power}) too much", source.right(_times(Pow(scale, power)))
+            yield f"{text(scale)}^({power}) too much", source.right(times(Pow(scale, power)))
 
 
 def _added(source: Source) -> Made:
     if source.relation == "∝":
         return
     unit = source.printed.rhs if source.relation == "∼" else source.term(sympy.Integer(1))
-    yield "a constant too much", source.right(_plus(_MILLIONTH * unit))
+    yield "a constant too much", source.right(plus(_MILLIONTH * unit))
     if not source.is_vector:
         weight = sy.M**2 if source.relation == "≈" else _MILLIONTH
         for radius in source.radii():
-            yield "a radius too much", source.right(_plus(weight * radius))
+            yield "a radius too much", source.right(plus(weight * radius))
 
 
 def _in_one_component(direction: sympy.Expr) -> Rule:
@@ -236,7 +134,7 @@ def _in_one_component(direction: sympy.Expr) -> Rule:
         if source.is_vector:
             for radius in (sympy.Integer(1), *source.radii()):
                 term = _MILLIONTH * radius * direction
-                yield f"{text(radius)} too much along {text(direction)}", source.right(_plus(term))
+                yield f"{text(radius)} too much along {text(direction)}", source.right(plus(term))
 
     return rule
 
@@ -245,7 +143,7 @@ def _near_the_base(source: Source) -> Made:
     for layer in (sy.j, sy.l, sy.site_s):
         if source.relation == "=" and layer in source.free:
             once = (layer - 1) * Sum(1, (sy.m, layer, 2))  # one in layer 2, an empty sum above it
-            wrong = source.right(_plus(source.term(_MILLIONTH) * once))
+            wrong = source.right(plus(source.term(_MILLIONTH) * once))
             yield f"wrong at {text(layer)} = 2 alone", wrong
 
 
@@ -254,24 +152,24 @@ def _as_large_somewhere(source: Source) -> Made:
         return
     places = [*source.heights(), *((f"φ = {c}", sy.phi - c) for c in COSINES)]
     for (where, a), (grows, even) in product(places, ((2, 2), (1, 2), (3, 4), (4, 2))):
-        bump = 1 + _over(1 + source.size**grows * a**even)
-        yield f"twice as large at {where}, of lower order beside it", source.right(_times(bump))
+        bump = 1 + over(1 + source.size**grows * a**even)
+        yield f"twice as large at {where}, of lower order beside it", source.right(times(bump))
 
 
 def _negative_or_zero(source: Source) -> Made:
     if source.relation != "∝":
         return
-    yield "it is negative", source.right(_times(sympy.Integer(-1)))
-    yield "it is negative", source.right(_times(sy.phi - 1))
-    yield "it is negative", source.right(_times(sy.phi**2 - 1, _over(sy.n_x)))
+    yield "it is negative", source.right(times(sympy.Integer(-1)))
+    yield "it is negative", source.right(times(sy.phi - 1))
+    yield "it is negative", source.right(times(sy.phi**2 - 1, over(sy.n_x)))
     for c in COSINES:
         a = sy.phi - c
-        yield f"it changes its sign at φ = {c}", source.right(_times(a))
-        yield f"it vanishes at φ = {c}", source.right(_times(a**2))
-        yield f"it has a pole at φ = {c}", source.right(_times(_over(a, 2)))
+        yield f"it changes its sign at φ = {c}", source.right(times(a))
+        yield f"it vanishes at φ = {c}", source.right(times(a**2))
+        yield f"it has a pole at φ = {c}", source.right(times(over(a, 2)))
         large = 1 + sy.M * a**2
-        yield f"another order at φ = {c}", source.right(_times(large, _over(sy.M)))
-    yield "it depends on the height", source.right(_times(sy.z))
+        yield f"another order at φ = {c}", source.right(times(large, over(sy.M)))
+    yield "it depends on the height", source.right(times(sy.z))
 
 
 # false: sums
@@ -284,10 +182,10 @@ def _sums(source: Source) -> Made:
             yield "two terms too many", source.with_sum(series, Sum(body, (m, low, high + 2)))
             yield "two terms too few", source.with_sum(series, Sum(body, (m, low + 2, high)))
         for words, other in (
-            ("divided by the index", Sum(body * _over(m), (m, low, high))),
+            ("divided by the index", Sum(body * over(m), (m, low, high))),
             ("another weight", Sum(body * m, (m, low, high))),
             ("another weight", Sum(body * (1 + _MILLIONTH), (m, low, high))),
-            ("divided by zero in the sum", Sum(_times(m - 2, _over(m - 2))(body), (m, low, high))),
+            ("divided by zero in the sum", Sum(times(m - 2, over(m - 2))(body), (m, low, high))),
         ):
             yield words, source.with_sum(series, other)
 
@@ -351,20 +249,20 @@ def _no_meaning(source: Source) -> Made:
         twice = Sum(Sum(body, (m, low, high)), (m, 1, 1))
         yield "one index for two sums", source.with_sum(series, twice)
     shadowed = Sum(Sum(radius, (sy.m, 1, sy.m)), (sy.m, 1, 2)) * unit
-    yield "a shadowed index", source.right(_plus(shadowed))
-    yield "a sum over φ", source.right(_plus(Sum(sy.phi, (sy.phi, 1, 2)) * unit))
+    yield "a shadowed index", source.right(plus(shadowed))
+    yield "a sum over φ", source.right(plus(Sum(sy.phi, (sy.phi, 1, 2)) * unit))
     yield (
         "a number and a vector added",
-        source.right(_plus(sympy.Integer(1) if source.is_vector else sy.n_plus)),
+        source.right(plus(sympy.Integer(1) if source.is_vector else sy.n_plus)),
     )
-    yield "an unknown symbol", source.right(_plus(sympy.Symbol("t") * unit))
-    yield "infinity", source.right(_plus(sympy.oo * unit))
-    yield "a float", source.right(_times(sympy.Float("1.0000001")))
-    yield "an angle", source.right(_times(1 + sympy.sin(sy.phi)))
+    yield "an unknown symbol", source.right(plus(sympy.Symbol("t") * unit))
+    yield "infinity", source.right(plus(sympy.oo * unit))
+    yield "a float", source.right(times(sympy.Float("1.0000001")))
+    yield "an angle", source.right(times(1 + sympy.sin(sy.phi)))
     for symbol in sorted(source.free, key=str):
         stranger = sympy.Symbol(symbol.name, real=True)
-        factor = Mul(symbol, _over(stranger), evaluate=False)
-        yield f"{symbol.name} in two roles", source.right(_times(factor))
+        factor = Mul(symbol, over(stranger), evaluate=False)
+        yield f"{symbol.name} in two roles", source.right(times(factor))
 
 
 # true
@@ -372,15 +270,15 @@ def _no_meaning(source: Source) -> Made:
 
 def _circle(source: Source) -> Made:
     one = sy.n_x**2 + sy.n_y**2
-    yield "n_x² + n_y² = 1", source.right(_times(one))
-    yield "n_x² + n_y² = 1", source.right(_times(_over(one)))
+    yield "n_x² + n_y² = 1", source.right(times(one))
+    yield "n_x² + n_y² = 1", source.right(times(over(one)))
     yield (
         "1 − φ² = 4n_x²n_y²",
-        source.right(_times(4 * sy.n_x**2 * sy.n_y**2, _over(1 - sy.phi**2))),
+        source.right(times(4 * sy.n_x**2 * sy.n_y**2, over(1 - sy.phi**2))),
     )
-    yield "2n_y² = 1 + φ", source.right(_times(1 + sy.phi, _over(2 * sy.n_y**2)))
-    yield "2n_x² = 1 − φ", source.right(_times(2 * sy.n_x**2, _over(1 - sy.phi)))
-    yield "s = 4rn_x", source.right(_times(sy.spacing, _over(4 * sy.r * sy.n_x)))
+    yield "2n_y² = 1 + φ", source.right(times(1 + sy.phi, over(2 * sy.n_y**2)))
+    yield "2n_x² = 1 − φ", source.right(times(2 * sy.n_x**2, over(1 - sy.phi)))
+    yield "s = 4rn_x", source.right(times(sy.spacing, over(4 * sy.r * sy.n_x)))
     for old, new in (
         (1 - sy.phi**2, 4 * sy.n_x**2 * sy.n_y**2),
         (sy.phi, sy.n_y**2 - sy.n_x**2),
@@ -388,7 +286,7 @@ def _circle(source: Source) -> Made:
     ):
         if source.printed.has(old):
             image = {old: new}
-            yield f"{text(old)} = {text(new)}", source.both(_put_in(image))
+            yield f"{text(old)} = {text(new)}", source.both(put_in(image))
 
 
 def _safe_divisor(source: Source) -> Made:
@@ -399,23 +297,23 @@ def _safe_divisor(source: Source) -> Made:
     if sy.z in source.free:
         divisors += [sy.z, 1 - sy.z, 1 + sy.z, 1 + sy.z - sy.z**2, sy.z**2 - sy.z + 1]
     for a in divisors:
-        yield f"{text(a)} vanishes nowhere", source.right(_times(a, _over(a)))
+        yield f"{text(a)} vanishes nowhere", source.right(times(a, over(a)))
 
 
 def _multiple(source: Source) -> Made:
     two = sympy.Integer(2)
-    for factor in (two, -two, sy.r, 1 + sy.phi, _over(2 - sy.phi), sy.n_x):
-        yield f"times {text(factor)}", source.both(_times(factor))
+    for factor in (two, -two, sy.r, 1 + sy.phi, over(2 - sy.phi), sy.n_x):
+        yield f"times {text(factor)}", source.both(times(factor))
 
 
 def _rearranged(source: Source) -> Made:
     left, right = source.printed.args
-    yield "sides exchanged", _eq(right, left)
+    yield "sides exchanged", equal(right, left)
     if right:
-        yield "all on one side", _eq(Add(left, -right, evaluate=False), sympy.Integer(0))
+        yield "all on one side", equal(Add(left, -right, evaluate=False), sympy.Integer(0))
         three = Add(right, right, -right, evaluate=False)
-        yield "thrice less twice", _eq(left, three)
-        yield "expanded", _eq(left, sympy.expand(right))
+        yield "thrice less twice", equal(left, three)
+        yield "expanded", equal(left, sympy.expand(right))
 
 
 def _sums_rewritten(source: Source) -> Made:
@@ -462,25 +360,25 @@ def _lower_order(source: Source) -> Made:
         1 + sy.n_x / (big * (1 + sy.phi**2)),
         1 + 1 / (big + sy.j),
     ):
-        yield "of lower order everywhere", source.right(_times(one))
+        yield "of lower order everywhere", source.right(times(one))
     if source.relation == "≈":
         for radius in (sy.DeltaR(sy.i, sy.j), sy.M * sy.DeltaR(sy.i - sy.j, 0)):
-            yield "a radius whose variance is dropped", source.right(_plus(radius))
+            yield "a radius whose variance is dropped", source.right(plus(radius))
     if sy.z in source.free:
         in_layers = {sy.z: sy.j / sy.M}
         yield "z = j/M", source.both(lambda side: side.xreplace(in_layers))
-        yield "lower order", source.right(_times(1 + 1 / (big * (1 + sy.z))))
+        yield "lower order", source.right(times(1 + 1 / (big * (1 + sy.z))))
 
 
 def _in_proportion(source: Source) -> Made:
     if source.relation != "∝":
         return
     seven = sympy.Integer(7)
-    for factor in (seven, 2 + sy.phi, sy.n_x, _over(1 - sy.phi), _over(sy.n_y), 1 + 2 * sy.phi):
-        yield "positive for every φ", source.right(_times(factor))
+    for factor in (seven, 2 + sy.phi, sy.n_x, over(1 - sy.phi), over(sy.n_y), 1 + 2 * sy.phi):
+        yield "positive for every φ", source.right(times(factor))
     if sy.M in source.free:
         for factor in (1 + 1 / sy.M, 1 - 10**6 / sy.M, 2 + sy.phi / sy.M):
-            yield "the same order", source.right(_times(factor))
+            yield "the same order", source.right(times(factor))
 
 
 _DIRECTIONS = (sy.b_plus, sy.b_minus, sy.e_y, sy.n_plus - sy.n_minus)
