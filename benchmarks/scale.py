@@ -1,7 +1,8 @@
 """Time and memory over the number of beads of one packing, and over the number of packings.
 
-Run with ``python benchmarks/scale.py`` (needs the extra ``fast``; ``--most 9`` goes to 10⁹ beads,
-which takes minutes, and ``--figure scale.png`` draws the table, which needs the extra ``plots``).
+Run with ``python benchmarks/scale.py`` (needs the extra ``fast``; ``--most 9 --packings 6`` goes to
+10⁹ beads and 10⁶ packings, which takes minutes; ``--figure scale.png`` draws the table, which needs
+the extra ``plots``).
 Each line is a process of its own: seconds are of the processor, estimating the error included;
 memory is that process's most, the interpreter included. Packings of more than ``--memory`` bytes
 are swept by segments.
@@ -12,6 +13,7 @@ import json
 import resource
 import subprocess
 import sys
+from pathlib import Path
 from time import process_time
 from typing import Any
 
@@ -59,23 +61,33 @@ def measured(what: str, power: int, memory: int) -> dict[str, Any]:
     }
 
 
-def drawn(found: list[dict[str, Any]], path: str) -> None:
+def drawn(found: list[dict[str, Any]], path: Path) -> None:
     """Draw nanoseconds a bead, and memory, over beads."""
-    from matplotlib.figure import Figure
+    from force_diffusion.numeric.figures import style
 
-    figure = Figure(figsize=(7, 3), layout="constrained")
-    times, memory = figure.subplots(1, 2)
-    for what, label in (("beads", "one packing"), ("packings", f"packings of {HEIGHT} × {WIDTH}")):
-        lines = [one for one in found if one["what"] == what]
-        beads = [one["beads"] for one in lines]
-        times.loglog(
-            beads, [1e9 * one["seconds"] / one["beads"] for one in lines], "o-", label=label
-        )
-        memory.loglog(beads, [one["bytes"] / 1e6 for one in lines], "o-", label=label)
-    times.set(xlabel="beads in all", ylabel="processor time, ns a bead")
-    memory.set(xlabel="beads in all", ylabel="memory, MB")
-    times.legend()
-    figure.savefig(path)
+    def draw() -> Any:
+        figure = style.figure(style.PAGE, 2.6)
+        panels = figure.subplots(1, 2)
+        labels = {"beads": "one packing", "packings": f"packings of {HEIGHT} × {WIDTH}"}
+        for place, (what, label) in enumerate(labels.items()):
+            lines = [one for one in found if one["what"] == what]
+            beads = [one["beads"] for one in lines]
+            colour, marker = style.series(place)
+            look = {"color": colour, "marker": marker, "mfc": "white", "ms": 3.5, "label": label}
+            panels[0].loglog(beads, [1e9 * one["seconds"] / one["beads"] for one in lines], **look)
+            panels[1].loglog(beads, [one["bytes"] / 1e6 for one in lines], **look)
+        panels[0].set_ylabel("processor time (ns a bead)")
+        panels[1].set_ylabel("memory (MB)")
+        panels[1].set_ylim(10, 10_000)
+        for axes in panels:
+            axes.set_xlabel("beads in all")
+        panels[0].legend(loc="upper right")
+        style.letter(list(panels))
+        return figure
+
+    command = " ".join(["python", "benchmarks/scale.py", *sys.argv[1:]])
+    for name, content in style.images(draw, path.stem, "Time and memory", command, ["png"]).items():
+        path.with_name(name).write_bytes(content)
 
 
 def main() -> int:
@@ -83,14 +95,15 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--most", type=int, default=BEADS[-1], help="power of ten of the beads")
     parser.add_argument("--memory", type=int, default=2 * 10**9, help="bytes that may be used")
-    parser.add_argument("--figure", metavar="FILE")
+    parser.add_argument("--packings", type=int, default=PACKINGS[-1], help="likewise, of packings")
+    parser.add_argument("--figure", type=Path, metavar="FILE.png")
     parser.add_argument("--one", nargs=2, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.one:
         print(json.dumps(measured(options.one[0], int(options.one[1]), options.memory)))
         return 0
     sizes = [("beads", power) for power in range(BEADS[0], options.most + 1)]
-    sizes += [("packings", power) for power in PACKINGS]
+    sizes += [("packings", power) for power in range(PACKINGS[0], options.packings + 1)]
     print("| size | way | seconds | ns a bead | memory |\n|---|---|---:|---:|---:|")
     found = []
     for what, power in sizes:
@@ -106,7 +119,7 @@ def main() -> int:
             flush=True,
         )
         found.append(one)
-    if options.figure:
+    if options.figure is not None:
         drawn(found, options.figure)
     return 0
 

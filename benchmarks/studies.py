@@ -10,7 +10,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from functools import partial
-from time import process_time
+from time import perf_counter, process_time, thread_time
 from typing import Any
 
 import numpy as np
@@ -101,28 +101,65 @@ def ensemble() -> Iterator[Line]:
         yield Line("  NumPy alone, a packing at a time / eight", gain, "", ">", 2)
 
 
-def probe() -> float:
-    """Wall seconds that so many packings more take, here."""
-    size = 5 * MORE
+def probe(clock: Callable[[], float]) -> float:
+    """Seconds that so many packings more take, here."""
+    size = 4 * MORE
     tasks = {str(n): partial(fd.ensemble, scene(), n) for n in (FEWER, size)}
-    found = in_turn(tasks, 3, of=min)
+    found = in_turn(tasks, 3, clock, min)
     return found[str(size)] - found[str(FEWER)]
 
 
+PROBES = {"wall": partial(probe, perf_counter), "thread": partial(probe, thread_time)}
+
+
 def cores() -> Iterator[Line]:
-    """Two cores against one, by the clock on the wall: they need to be free."""
+    """Two cores against one: by the clock on the wall, where they are free, and by that of threads.
+
+    This process's own thread does its part and all that is done by one alone: with free cores, the
+    clock on the wall goes with it, but for what the others' memory traffic costs.
+    """
     both = sorted(os.sched_getaffinity(0))[:2]
-    seconds = []
-    for allowed in (both[:1], both):
-        done = subprocess.run(
-            [sys.executable, __file__, "--probe", "cores"],
-            check=True,
-            capture_output=True,
-            text=True,
-            preexec_fn=partial(os.sched_setaffinity, 0, allowed),
-        )
-        seconds.append(float(done.stdout))
-    yield Line("one core / two, wall", seconds[0] / seconds[1], "", ">", 1.8)
+    load = os.getloadavg()[0]
+    for name, words in (("thread", "processor time of the busiest thread"), ("wall", "wall")):
+        seconds = []
+        for allowed in (both[:1], both):
+            done = subprocess.run(
+                [sys.executable, __file__, "--probe", name],
+                check=True,
+                capture_output=True,
+                text=True,
+                preexec_fn=partial(os.sched_setaffinity, 0, allowed),
+            )
+            seconds.append(float(done.stdout))
+        ratio = seconds[0] / seconds[1]
+        if name == "wall" and load > 0.5:
+            yield Line(f"one core / two, wall, with a load of {load:.1f} by others", ratio)
+        else:
+            yield Line(f"one core / two, {words}", ratio, "", ">", 1.8)
+
+
+def cluster() -> Iterator[Line]:
+    """Strong scaling on Dask's cluster of this machine: the same packings by one worker and two."""
+
+    def solve(workers: int, packings: int) -> None:
+        fd.ensemble(scene(), packings, workers=workers, scheduler="local")
+
+    def spent() -> float:  # of this process and of the workers that have ended
+        return sum(os.times()[:4])
+
+    load, size = os.getloadavg()[0], 4 * MORE
+    tasks = {(w, n): partial(solve, w, n) for w in (1, 2) for n in (FEWER, size)}
+    for name, clock in (("processor time", spent), ("wall", perf_counter)):
+        if name == "wall" and load > 0.5:
+            return  # the cores are not free
+        found = in_turn({f"{w} {n}": task for (w, n), task in tasks.items()}, 2, clock, min)
+        one, two = (found[f"{w} {size}"] - found[f"{w} {FEWER}"] for w in (1, 2))
+        if name == "wall":
+            yield Line("Dask, two workers / one: wall, efficiency", 100 * one / two / 2, " %")
+        else:
+            each = 1e9 * one / (size - FEWER) / BEADS
+            yield Line("Dask, one worker: processor time", each, " ns a bead")
+            yield Line("Dask, one worker / two: processor time of all", 100 * one / two, " %")
 
 
 def batch() -> Iterator[Line]:
@@ -139,9 +176,9 @@ def batch() -> Iterator[Line]:
     yield Line("of a batch of 64 / single, wall", found["many"] / 64 / found["one"], "", "<", 0.6)
 
 
-PARTS = {"ensemble": ensemble, "cores": cores, "batch": batch}
+PARTS = {"ensemble": ensemble, "cores": cores, "cluster": cluster, "batch": batch}
 
 
 if __name__ == "__main__":
     head = f"Packings of {HEIGHT} layers of {WIDTH} beads, σ/r = 1e-6, surface load"
-    raise SystemExit(program(__doc__, head, PARTS, {"cores": probe}))
+    raise SystemExit(program(__doc__, head, PARTS, PROBES))
