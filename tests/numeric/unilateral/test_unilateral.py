@@ -307,3 +307,68 @@ def test_statistics_end_where_they_scatter_from_packing_to_packing() -> None:
     (one, *_) = strip("profile").run().decimals()
     assert one["std_error"] == ""  # of one packing no scatter is known
     assert len(one["std"]) > 20
+
+
+def proved(outcome: fd.Outcome, folder: Path) -> bool:
+    return written(outcome, folder, lambda packing: None).proved
+
+
+@pytest.mark.parametrize(
+    ("protocol", "pressure"),
+    [("linear-programs", 0.1), ("linear-programs", 10), ("event-driven", 10)],
+)
+def test_a_point_load_on_pressure(protocol: str, pressure: float, tmp_path: Path) -> None:
+    """Under little pressure the load pushes beads aside, which become rattlers."""
+    load = fd.PointLoad(at=[0, 8], pressure=pressure)
+    outcome = strip(load=load, protocol=protocol).run()
+    (network,) = outcome.answer.networks
+    assert network.events > 0
+    assert (len(network.rattlers) > 20) == (pressure < 1)
+    assert proved(outcome, tmp_path)
+    base = -network.frame.load[:16, 1].astype(float)  # each carries its own load
+    np.add.at(base, network.pairs[:, 1][network.pairs[:, 1] < 16],
+              network.pushes()[network.pairs[:, 1] < 16, 1].astype(float))  # fmt: skip
+    assert base.sum() == pytest.approx(1 + 16 * pressure)
+
+
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+@pytest.mark.parametrize("load", [fd.SurfaceLoad(angle_deg=20), fd.BulkLoad()], ids=str)
+def test_equal_radii_rest_as_deposited(protocol: str, load: fd.Load, tmp_path: Path) -> None:
+    outcome = strip(std=0, load=load, protocol=protocol).run()
+    assert outcome.answer.networks[0].events == 0
+    assert proved(outcome, tmp_path)
+
+
+def test_equal_radii_under_one_load_are_no_strict_minimum(tmp_path: Path) -> None:
+    """Two straight chains bear it, whose beads nothing presses from the side."""
+    outcome = strip(std=0, load=fd.PointLoad(at=[0, 8])).run()
+    assert len(outcome.answer.networks[0].pairs) == 16
+    assert "strict" not in outcome.data()["networks"][0]["rest"]
+    assert not proved(outcome, tmp_path)
+
+
+@pytest.mark.parametrize("seed", [2, 4])
+@pytest.mark.parametrize("width", [3, 4, 5])
+def test_narrow_strips_are_proved(width: int, seed: int, tmp_path: Path) -> None:
+    assert proved(strip(std=0.03, seed=seed, width=width).run(), tmp_path)
+
+
+def test_an_inclined_load_on_a_larger_strip(tmp_path: Path) -> None:
+    outcome = strip(width=40, load=fd.SurfaceLoad(angle_deg=10)).run()
+    (network,) = outcome.answer.networks
+    assert network.events > 0
+    assert proved(outcome, tmp_path)
+
+
+def test_rattlers_touch_nothing() -> None:
+    """Beads that lost a load above them, or a support: each has room on all sides."""
+    load = fd.PointLoad(at=[0, 8], pressure=0.1)
+    (network,) = strip(load=load).run().answer.networks
+    assert len(network.rattlers)
+    assert not np.isin(network.rattlers, network.pairs).any()
+    x, radii = network.x.astype(float), network.frame.radii.astype(float)
+    period = float(network.frame.period)
+    for a in network.rattlers:
+        d = np.delete(x, a, axis=0) - x[a]
+        d[:, 0] -= period * np.round(d[:, 0] / period)
+        assert (np.hypot(*d.T) - np.delete(radii, a) - radii[a]).min() > 0

@@ -1,0 +1,107 @@
+"""What becomes of forces and of the response beyond the first tension: measured, with two errors.
+
+Run with ``python benchmarks/tensionless_forces.py --of-critical 0.5 1 2``. Strips of M layers of 2M
+beads come to rest by linear programs; those that do not are counted and left out. Printed are, with
+two standard errors over packings: σ_f/⟨f⟩ at four heights, shares of forces beyond multiples of the
+mean, and the response to a small load on one bead of the surface, while no contact opens: of the
+vertical forces p that base beads then bear besides, Σ|p| over the load, 1 where none is relieved.
+"""
+
+import argparse
+from fractions import Fraction
+
+import numpy as np
+from force_diffusion.numeric.arithmetic.systems import Array
+from force_diffusion.numeric.mechanics.work import Work
+from force_diffusion.numeric.planning.planner import plan
+from force_diffusion.numeric.statistics.ratios import moments
+from force_diffusion.numeric.unilateral.grains import Grains
+from force_diffusion.numeric.unilateral.network import UnfinishedError
+from force_diffusion.numeric.unilateral.relaxation import balanced, settle, start
+from scipy.sparse.linalg import splu
+
+import force_diffusion as fd
+
+HEIGHTS = (0.0, 0.25, 0.5, 0.75)  # z = j/M
+TIMES = (1, 2, 3, 4)
+
+
+def response(grains: Grains, pairs: Array, backbone: Array) -> Array:
+    """Give Σ|p| of each bead of the surface, were it loaded."""
+    W, place = grains.fixed, grains.coordinates(backbone)
+    factors = splu(grains.jacobian(pairs)[:, place].tocsc())
+    surface = [b for b in backbone if b >= len(grains.radii) - W]
+    down = np.zeros((grains.unknowns, len(surface)))
+    down[grains.coordinates(np.array(surface))[1::2], np.arange(len(surface))] = -1
+    change = factors.solve(-down[place], trans="T")
+    base = pairs[:, 1] < W
+    push = grains.directions(pairs[base])[:, 1:] * change[base]
+    borne = np.zeros((W, len(surface)))
+    np.add.at(borne, pairs[base][:, 1], push)
+    return np.asarray(np.abs(borne).sum(axis=0))
+
+
+def measured(load: fd.Load, M: int, of_critical: float, packings: int) -> None:
+    """Print a row."""
+    std = Fraction(int((of_critical / M) ** 1.5 * 10**9), 10**9)
+    sums, beyond, absolute, left_out = [], [], [], 0
+    for number in range(packings):
+        scene = fd.Scene(
+            packing=fd.Packing(height=M, width=2 * M),
+            disorder=fd.Disorder(kind="uniform", relative_std=std, seed=number),
+            load=load,
+            effects=fd.Effects(contacts="unilateral"),
+            ask=fd.Ask(quantity="contact_forces"),
+        )
+        problem = plan(scene).problem
+        try:
+            settled = settle(problem, 0, Work())
+        except UnfinishedError:
+            left_out += 1
+            continue
+        if settled is None:
+            grains, pairs, _ = start(problem, 0)
+            assert pairs is not None
+            backbone = np.arange(grains.fixed, len(grains.radii))
+        else:
+            grains, pairs, backbone = settled.grains, settled.contacts, settled.backbone
+        forces = balanced(grains, pairs, backbone)
+        layer = pairs[:, 1] // grains.fixed
+        groups = [forces[layer == round(z * M)] for z in HEIGHTS]
+        sums.append([[len(g) for g in groups], [g.sum() for g in groups],
+                     [(g**2).sum() for g in groups]])  # fmt: skip
+        beyond.append([(forces > k * forces.mean()).mean() for k in TIMES])
+        absolute.append(np.median(response(grains, pairs, backbone)))
+    counts, totals, squares = np.swapaxes(np.array(sums, dtype=float), 0, 1)
+    mean, sigma, _, error = moments(counts, totals, squares)
+    shares = np.array(beyond)
+    of_shares = 2 * shares.std(axis=0, ddof=1) / np.sqrt(len(shares))
+    logs = np.log10(absolute)
+    cells = [
+        load.kind, M, of_critical, f"{len(sums)}, {left_out}",
+        *(f"{s / m:.2f} ± {2 * e / m:.2f}" for s, m, e in zip(sigma, mean, error, strict=True)),
+        *(f"{s:.3f} ± {e:.3f}" for s, e in zip(shares.mean(axis=0), of_shares, strict=True)),
+        f"{10 ** logs.mean():.3g} ×÷ {10 ** (2 * logs.std(ddof=1) / len(logs) ** 0.5):.2g}",
+    ]  # fmt: skip
+    print("|", " | ".join(map(str, cells)), "|", flush=True)
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--of-critical", type=float, nargs="+", default=[0.25, 0.5, 1, 2])
+    parser.add_argument("--height", type=int, nargs="+", default=[16])
+    parser.add_argument("--packings", type=int, default=24)
+    parser.add_argument("--load", choices=["surface", "bulk"], default="surface")
+    options = parser.parse_args()
+    load = fd.SurfaceLoad() if options.load == "surface" else fd.BulkLoad()
+    names = [f"σ_f/⟨f⟩ at z = {z:g}" for z in HEIGHTS] + [f"f > {k} ⟨f⟩" for k in TIMES]
+    head = ["load", "M", "M/M*", "packings, unfinished", *names, "median Σ|p|"]
+    print("|", " | ".join(head), "|\n|", "|".join("---" for _ in head), "|")
+    for M in options.height:
+        for of_critical in options.of_critical:
+            measured(load, M, of_critical, options.packings)
+
+
+if __name__ == "__main__":
+    main()
