@@ -22,6 +22,7 @@ from .radii import NEARLY, OFFSET, DrawnRadii
 KINDS = {"two-point": 0, "uniform": 1, "normal": 2}
 
 _ARTANH, _COS, _SIN = tuple(normal.ARTANH), tuple(normal.COS), tuple(normal.SIN)
+_NEARLY = float(NEARLY)
 _LOG2, _ROOT_HALF, _TURN = math.log(2), math.sqrt(0.5), 2 * math.pi
 _ROOT3 = float(np.sqrt(3.0))
 _M0, _M1 = np.uint64(0xD2E7470EE14C6C93), np.uint64(0xCA5A826395121157)
@@ -179,4 +180,4 @@ def draw(radii: DrawnRadii, runs: Array, realisations: Sequence[int], rho: Array
     keys[:, 0], keys[:, 1] = radii.seed, realisations
     std = float(FLOAT64.scalar(radii.std))
     smallest = _draw(KINDS[radii.kind], std, keys, runs, rho)
-    return smallest * std > -NEARLY
+    return smallest * std > -_NEARLY

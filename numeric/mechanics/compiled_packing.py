@@ -164,7 +164,7 @@ class Deposition:
 
     def __init__(self, n_x: Fraction, region: Region) -> None:
         """Raise ``LookupError`` where the region lacks a support."""
-        self.n_x, self.region = n_x, region
+        self.n_x, self.region, self.metric = n_x, region, _metric(n_x)
         self.runs = tables.of_supports(region)
         self.starts = region.starts
         self.size = region.beads, region.widest
@@ -183,7 +183,7 @@ class Deposition:
         if len(self.block) < batch:
             self.block = memory(batch, 6, *self.size)
         block = self.block[:batch]
-        phi, inverse = _metric(self.n_x)
+        phi, inverse = self.metric
 
         def part(of: slice) -> bool:
             return _deposit(base, self.runs, rho[of], block[of], phi, inverse)
