@@ -15,7 +15,7 @@ from typing import Annotated, Any
 
 import typer
 from force_diffusion.derivations.export.prose import either
-from force_diffusion.numeric.arithmetic.errors import printable
+from force_diffusion.numeric.arithmetic.errors import WRONG_INPUT, printable
 from typer.core import TyperGroup
 
 # Name: (module, what --help says: the first paragraph of the command's docstring).
@@ -151,5 +151,8 @@ def run(arguments: list[str] | None = None) -> int:
     except SystemExit as done:
         if isinstance(done.__context__, OSError):  # a broken pipe, which typer calls status 1
             raise done.__context__ from None
+        if done.code and given[0].endswith("-completion"):
+            print("Completion is for bash, zsh or fish: call it from one of them.", file=sys.stderr)
+            return WRONG_INPUT
         return done.code if isinstance(done.code, int) else 1
     return 0

@@ -143,7 +143,7 @@ class _Run:
         for old in merged:
             self.blocks.remove(old)
         insort(self.blocks, block, key=lambda one: one.first)
-        if self.store is not None:
+        if self.store is not None and block.sums.realisations:  # none: a wrong scene is no result
             self.store.put(block, merged)
 
     def _advance(self) -> bool:

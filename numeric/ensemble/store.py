@@ -169,7 +169,8 @@ def open_store(path: Path, key: dict[str, Any] | None) -> Store:
         raise StoreError(f"{path} would be kept nowhere: give the name of a file")
     new = _looked_at(path, may_be_new=key is not None)
     with _reading(path):
-        database = sqlite3.connect(path, timeout=0, isolation_level=None)
+        # from the root, since SQLite obeys other names, such as file:x?mode=memory
+        database = sqlite3.connect(path.absolute(), timeout=0, isolation_level=None)
     try:
         with _reading(path):
             for setting in ("locking_mode = EXCLUSIVE", "synchronous = FULL", "trusted_schema = 0"):

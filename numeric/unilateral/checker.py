@@ -82,7 +82,10 @@ def check_packings(path: str | Path) -> list[Verdict]:
     path = Path(path)
     try:
         if not path.is_file():
-            raise PackingFileError(f"{path.name}: there is no such file")
+            why = "must be an ordinary file" if path.exists() else "there is no such file"
+            if path.is_dir():
+                why = "is a folder; give a packings.json in it"
+            raise PackingFileError(f"{path}: {why}")
         if path.stat().st_size > LARGEST_FILE:
             raise PackingFileError(f"{path.name}: more than {LARGEST_FILE // 10**6} MB")
         found = _File.model_validate(json.loads(path.read_bytes()))

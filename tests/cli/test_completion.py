@@ -121,3 +121,16 @@ def test_it_is_installed_where_the_shell_reads_it(tmp_path: Path) -> None:
         )  # fmt: skip
     assert (tmp_path / ".bashrc").read_text().count("force-diffusion.sh") == 1
     assert (tmp_path / ".bash_completions" / "force-diffusion.sh").is_file()
+
+
+@pytest.mark.parametrize("option", ["--show-completion", "--install-completion"])
+def test_a_shell_that_it_does_not_know(option: str, tmp_path: Path) -> None:
+    shell = tmp_path / "tcsh"
+    shell.symlink_to("/bin/sh")
+    command = f"force-diffusion {option}; exit $?"
+    done = subprocess.run(
+        [shell, "-c", command], env=environment(tmp_path), capture_output=True, text=True
+    )
+    assert done.returncode == 2
+    assert "bash, zsh or fish" in done.stderr
+    assert sorted(tmp_path.iterdir()) == [shell]

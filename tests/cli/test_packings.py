@@ -1,6 +1,7 @@
 """The commands about unilateral contacts as a user calls them."""
 
 import json
+import os
 from pathlib import Path
 
 import pytest
@@ -72,3 +73,17 @@ def test_cascade_writes_tables_and_a_figure(
     files = {path.name for path in (tmp_path / "out").iterdir()}
     assert files >= {"cascade.json", "cascade.csv", "cascade.png", "cascade.svg", "cascade.pdf"}
     assert main(["cascade", "--height", "0"]) == 2
+
+
+def test_check_packings_says_what_is_no_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "packings.json").write_text("{}")
+    os.mkfifo(tmp_path / "pipe")
+    for name, says in {
+        "nowhere.json": "there is no such file",
+        ".": "is a folder; give a packings.json in it",
+        "pipe": "must be an ordinary file",
+    }.items():
+        assert main(["check-packings", str(tmp_path / name)]) == 2
+        assert says in capsys.readouterr().err

@@ -415,6 +415,21 @@ def test_a_store_that_vanishes_is_told(how: str, tmp_path: Path) -> None:
     assert done[-1] == 300
 
 
-def test_a_store_in_memory_is_none() -> None:
+def test_a_store_in_memory_is_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
     with pytest.raises(StoreError, match="name of a file"):
         fd.ensemble(scene(PROFILE), 30, store=":memory:")
+    for name in ("file:here?mode=memory", "file::memory:"):  # names that SQLite could obey
+        fd.ensemble(scene(PROFILE), 30, store=name)
+        assert (tmp_path / name).is_file()
+        assert fd.read_store(name).realisations == 30
+
+
+def test_an_ensemble_that_can_not_be_built_blocks_no_corrected_scene(tmp_path: Path) -> None:
+    path = tmp_path / "ensemble.fd"
+    wrong = PROFILE | {"disorder": PROFILE["disorder"] | {"kind": "normal", "relative_std": "=5"}}
+    with pytest.raises(RealisationError, match="can't be built"):
+        fd.ensemble(scene(wrong), 30, store=path)
+    assert fd.read_store(path).realisations == 0
+    fd.ensemble(scene(PROFILE), 30, store=path)
+    assert fd.read_store(path).realisations == 30
