@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable
-from contextlib import nullcontext
+from contextlib import ExitStack, nullcontext
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -12,7 +12,7 @@ import typer
 from force_diffusion.derivations.commands.cli import shell_line
 from force_diffusion.derivations.commands.guard import about, say
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
-from force_diffusion.derivations.commands.shared import images, noticing
+from force_diffusion.derivations.commands.shared import images, noticing, sourced, warn
 from force_diffusion.numeric.arithmetic import processes
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
 
@@ -91,8 +91,11 @@ def figures(
         ),
     ] = None,
     seed: Annotated[
-        int, typer.Option(metavar="N", min=0, max=2**63 - 1, help="Seed of all radii.")
-    ] = 1,
+        int | None,
+        typer.Option(
+            metavar="N", min=0, max=2**63 - 1, help="Seed of all radii; scenes have theirs. [1]"
+        ),
+    ] = None,
     beside: Annotated[
         list[str] | None,
         typer.Option(
@@ -131,6 +134,10 @@ def figures(
             f"goes with figures {', '.join(first)} and {last} only; the others draw no ensemble.",
             param_hint="--realisations",
         )
+    if seed is not None and len(scenes) == len(wanted):
+        raise typer.BadParameter(
+            "is of the paper's figures; a scene has its own, disorder.seed.", param_hint="--seed"
+        )
     own = {
         "spacing": (_number("--spacing", spacing), OWN_SPACING),
         "relative_std": (_number("--relative-std", relative_std), OWN_STD),
@@ -160,7 +167,11 @@ def figures(
     words = ["force-diffusion", "figures", *wanted]
     words += [] if heights is None else ["--heights", heights]
     words += [] if realisations is None else ["--realisations", str(realisations)]
-    words += ["--seed", str(seed)]
+    words += (
+        ["--seed", str(1 if seed is None else seed)]
+        if seed is not None or len(scenes) < len(wanted)
+        else []
+    )
     words += [] if spacing is None else ["--spacing", spacing]
     words += [] if relative_std is None else ["--relative-std", relative_std]
     words += [word for model in beside or [] for word in ("--with", model)]
@@ -171,14 +182,20 @@ def figures(
             "several figures would have the same files; give scenes other names.",
             param_hint="WHICH",
         )
-    names = [file for stem in stems for file in (*images(stem), f"{stem}.csv", f"{stem}.json")]
-    with noticing() as notice, output(out, "figures", names, overwrite) as folder:
+    with noticing() as notice, ExitStack() as stack:
+        folders = {}
+        for name, stem in zip(wanted, stems, strict=True):
+            question = f"figures {name}" if name in scenes else "figures"
+            names = [*images(stem), f"{stem}.csv", f"{stem}.json"]
+            folders[name] = stack.enter_context(output(out, question, names, overwrite))
         data, files = _made(
             wanted, command, beside or [], own, **({} if chosen is None else {"heights": chosen}),
-            realisations=realisations, seed=seed, notice=notice,
+            realisations=realisations, seed=1 if seed is None else seed, notice=notice,
         )  # fmt: skip
-        if folder:
-            folder.write(files)
+        for name, folder in folders.items():
+            source = data["figures"][name].get("answer", {}).get("source", {})
+            if folder:
+                folder.write(files[name], seed=source.get("seed"), inputs=source.get("sha256"))
     if as_json:
         print(json.dumps(data, indent=2))
         return
@@ -193,10 +210,10 @@ def _made(
     beside: list[str],
     own: dict[str, tuple[Fraction | None, tuple[str, ...]]],
     **options: Any,
-) -> tuple[dict[str, Any], dict[str, str | bytes]]:
-    """Make figures, drawn in a process beside: what was found, and the files."""
+) -> tuple[dict[str, Any], dict[str, dict[str, str | bytes]]]:
+    """Make figures, drawn in a process beside: what was found, and the files of each."""
     data: dict[str, Any] = {"command": command, "figures": {}}
-    files: dict[str, str | bytes] = {}
+    files: dict[str, dict[str, str | bytes]] = {}
     with processes.beside() if len(wanted) > FEW else nullcontext(partial) as start:
         begun: dict[str, Callable[[], PaperFigure]] = {}
         for name in wanted:
@@ -217,7 +234,7 @@ def _made(
         data["figures"][name] = found
         text = json.dumps({"command": command, **found}, indent=2, allow_nan=False)
         stem = next(iter(made.files)).partition(".")[0]
-        files |= {**made.files, f"{stem}.json": text + "\n"}
+        files[name] = {**made.files, f"{stem}.json": text + "\n"}
     return data, files
 
 
@@ -248,14 +265,17 @@ def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":
     scene, name = fd.read_scene(path), path.stem
     notice(f"{name}: solving")
     found = scene.run()
+    warn(path, found.plan)
     title = f"{printable(name)}: {scene.ask.quantity}"
     notice(f"{name}: drawing")
     files: dict[str, str | bytes] = {
         **style.images(found.plot, name, title, command, KINDS),
-        f"{name}.csv": csv_bytes(found.text),
+        f"{name}.csv": f"# {title}\n# {command}\n".encode() + csv_bytes(found.text),
     }
     about = found.data(rows=False)
-    lines = [line for line in outcome_lines(about, found.count) if not line.startswith(" ")]
+    about["source"] = sourced(about["source"], path, None)
+    lines = outcome_lines(about, found.count)
+    lines = [line for line in lines if not line.startswith((" ", "What is"))]
     return PaperFigure(title, files, {"answer": about}, lines)
 
 

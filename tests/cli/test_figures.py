@@ -1,6 +1,7 @@
 """The command ``figures`` as a user calls it."""
 
 import csv
+import hashlib
 import io
 import json
 import shlex
@@ -223,7 +224,9 @@ def test_a_scene_of_ones_own_is_answered_and_drawn(
     assert "float64" in printed
     command = json.loads((out / "my $cene.json").read_text())["command"]
     check_images(out, "my $cene", command)
-    table = list(csv.DictReader(io.StringIO((out / "my $cene.csv").read_text())))
+    lines = (out / "my $cene.csv").read_text().splitlines()
+    assert [line[0] for line in lines[:2]] == ["#", "#"]
+    table = list(csv.DictReader(lines[2:]))
     assert len(table) == 8
     again = tmp_path / "other" / scene.name
     status, _, err = call(capsys, scene, again, "--out", out)
@@ -240,3 +243,57 @@ def test_a_scene_without_a_figure(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert status == 2
     assert "scene.toml: " in err
     assert not (tmp_path / "out").exists()
+
+
+SCENE = """
+[packing]
+height = 2
+width = 4
+[disorder]
+kind = "uniform"
+relative_std = 1e-3
+seed = 4
+[ask]
+quantity = "positions"
+"""
+
+
+def test_a_figure_of_a_scene_says_where_it_came_from(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("mine.toml").write_text(SCENE)
+    assert call(capsys, "mine.toml", "--out", "out")[0] == 0
+    manifest = read_manifest(Path("out"))
+    assert manifest is not None
+    made = manifest.files["mine.png"]
+    assert (made.result_of, made.seed) == ("figures mine.toml", 4)
+    hashed = hashlib.sha256(SCENE.encode()).hexdigest()
+    assert made.inputs == {"scene": hashed}
+    found = json.loads(Path("out/mine.json").read_text())
+    assert found["answer"]["source"]["sha256"] == {"scene": hashed}
+    assert found["answer"]["source"]["file"] == "mine.toml"
+    assert not [line for line in found["says"] if line.startswith("What is")]
+    title, command, *_ = Path("out/mine.csv").read_text().splitlines()
+    assert (title, command) == ("# mine: positions", f"# {found['command']}")
+    assert "--seed" not in command  # the scene has its own
+    status, _, err = call(capsys, "mine.toml", "--seed", "5", "--out", "out")
+    assert (status, "--seed" in err) == (2, True)
+
+
+def test_a_figure_replaces_only_the_same_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("other").mkdir()
+    for name in ("mine.toml", "other/mine.toml", "figure1.toml"):
+        Path(name).write_text(SCENE)
+    assert call(capsys, "mine.toml", "1", "--out", "out")[0] == 0
+    before = {path.name: path.read_bytes() for path in Path("out").iterdir()}
+    for name, of in {"other/mine.toml": "figures mine.toml", "figure1.toml": "figures"}.items():
+        status, _, err = call(capsys, name, "--out", "out")
+        assert status == 2
+        assert f"is the result of '{of}'" in err
+    assert {path.name: path.read_bytes() for path in Path("out").iterdir()} == before
+    assert call(capsys, "mine.toml", "--out", "out")[0] == 0
+    assert call(capsys, "figure1.toml", "--out", "out", "--overwrite")[0] == 0
