@@ -167,11 +167,8 @@ def figures(
     words = ["force-diffusion", "figures", *wanted]
     words += [] if heights is None else ["--heights", heights]
     words += [] if realisations is None else ["--realisations", str(realisations)]
-    words += (
-        ["--seed", str(1 if seed is None else seed)]
-        if seed is not None or len(scenes) < len(wanted)
-        else []
-    )
+    seeded = ["--seed", str(1 if seed is None else seed)]
+    words += [] if len(scenes) == len(wanted) else seeded
     words += [] if spacing is None else ["--spacing", spacing]
     words += [] if relative_std is None else ["--relative-std", relative_std]
     words += [word for model in beside or [] for word in ("--with", model)]
