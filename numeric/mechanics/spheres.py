@@ -131,7 +131,7 @@ def _squares(under: Array, both: Array, j: int, m: Metric, system: NumberSystem)
     size = m.dot(up, start)
     half = 1 + m.dot(up, step) / 2
     discriminant = half * half - m.dot(step_up, step) * size / 4
-    _check_rest(discriminant, (*pivots, *step), j, d, system)
+    _check_rest(discriminant, (np.prod(pivots, axis=0), *step), j, d, system)
     p = start - step * (size / (half + system.sqrt(discriminant)) / 2)
     steps = [p + u for u in apart]
     return np.stack([m.dot(m.raised(v), v) / 4 for v in steps])
@@ -207,7 +207,7 @@ def _check_rest(
     discriminant: Array, tilts: Sequence[Array], j: int, dimension: int, system: NumberSystem
 ) -> None:
     why = "its supports are too far apart to hold it, or too close to hold it up"
-    steep = "the plane through its supports is steeper than a base vector"
+    steep = "the plane through its supports is steeper than a base vector, or they lie crosswise"
     open_question = False
     for values, reason in ((discriminant, why), *((tilt, steep) for tilt in tilts)):
         good, bad = system.signs(values)

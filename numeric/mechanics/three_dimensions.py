@@ -211,7 +211,7 @@ def sees_images(problem: Problem, lowest_layer: int) -> bool:
     width, loaded = side(problem), problem.load.loaded
     height = problem.region.top
     if problem.route == Route.ORDERED:
-        return lowest_layer == 0 and loaded is not None and 0 < width <= height
+        return lowest_layer == 0 and any(j and j % width == 0 for _, j in loaded or [])
     if not problem.needs_forces:
         return height >= width
     if loaded is not None and len(loaded) == 1:

@@ -6,9 +6,11 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+import flint
 import mpmath
 import numpy as np
 import pytest
+from force_diffusion.numeric.arithmetic.errors import UndecidedError
 from force_diffusion.numeric.arithmetic.systems import (
     FLOAT64,
     LONGDOUBLE,
@@ -22,6 +24,7 @@ from force_diffusion.numeric.arithmetic.systems import (
 )
 from force_diffusion.numeric.mechanics.any_dimension import force_weights, together
 from force_diffusion.numeric.mechanics.engine import packings
+from force_diffusion.numeric.mechanics.forces import NotStandingError
 from force_diffusion.numeric.mechanics.packing import UnbuildableError
 from force_diffusion.numeric.mechanics.spheres import (
     Placed,
@@ -280,8 +283,12 @@ def test_the_smallest_gap_is_that_of_all_pairs() -> None:
             if b == a or b[2] > 3 or (a, b) in touching:
                 continue
             reach = 2 + float(radii[a] + radii[b[0] % 4, b[1] % 4, b[2]])
-            least = min(least, mpmath.norm(lattice.apart(a, b)) - reach)
+            gap = mpmath.norm(lattice.apart(a, b)) - reach
+            if gap < least:
+                least, between = gap, {a, (b[0] % 4, b[1] % 4, b[2])}
     assert physical.smallest_gap == pytest.approx(float(least), abs=1e-14)
+    assert physical.between is not None
+    assert set(physical.between) == between
 
 
 def test_gaps_of_touching_beads_are_told_apart() -> None:
@@ -527,3 +534,99 @@ def test_an_array_of_another_shape_is_refused(tmp_path: Path) -> None:
     given = fd.Disorder(kind="file", file="radii.npy")
     with pytest.raises(fd.ForceDiffusionError, match="of 5 × 5 beads"):
         fd.Scene(disorder=given, folder=tmp_path, **asked).run()
+
+
+def test_roundings_of_forces_do_not_pile_up() -> None:
+    """Three hundred layers: within four units of the last place, thrice less than plain sums."""
+    M, phi, rng = 300, Fraction(1, 5), np.random.default_rng(3)
+    rho = [1e-9 * rng.uniform(-1, 1, (3, 3)) for _ in range(M + 1)]
+
+    def solved(system: NumberSystem) -> list[Array]:
+        with system.active():
+            beads = [from_floats(system, row) for row in rho]
+            placed = deposit(beads, metric(3, phi, system), system, linear=False)
+            load = zeros(system, 3, 3) + system.number(Fraction(1))
+            borne = bear(placed, [None] * M + [load], system, linear=False)
+            return [as_floats(row) for row in borne.change[1:]]
+
+    near, enclosed = np.array(solved(FLOAT64)), np.array(solved(Balls(120)))
+    assert np.abs(near - enclosed).max() < 4 * 2.0**-52 * np.abs(enclosed).max()
+
+
+@pytest.mark.parametrize(
+    "rho",
+    [
+        [[[0.7, 0.1], [0.2, 0.2]], [[2.0, 0.9], [1.1, 0.1]], [[1.1, -0.5], [-0.7, 1.6]]],
+        [[[0.8, 1.3], [1.2, -0.8]], [[0.7, 1.7], [1.4, 1.0]], [[0.0, -0.4], [0.5, 1.8]]],
+    ],
+)
+def test_supports_that_lie_too_steeply_are_named(rho: list[list[list[float]]]) -> None:
+    """In the first their plane is steeper than a base vector, in the second two change places."""
+    with FLOAT64.active(), pytest.raises(UnbuildableError, match="steeper") as raised:
+        deposit([np.array(row) for row in rho], metric(3, Fraction(1, 5), FLOAT64), FLOAT64,
+                linear=False)  # fmt: skip
+    assert raised.value.site[2] == 2
+
+
+def test_contacts_in_one_plane_hold_nothing_up() -> None:
+    """The first contact of bead (1, 0, 1) is turned onto the second."""
+    m = metric(3, Fraction(1, 5), FLOAT64)
+    dn = np.zeros((3, 3, 2, 2))
+    dn[0, 0, 1, 0], dn[0, 1, 1, 0] = -1, 1
+    nothing = [np.zeros((2, 2))] * 2
+    placed = Placed(m, nothing, [np.zeros((3, 2, 2))] * 2, [np.zeros(0), dn])
+    with FLOAT64.active(), pytest.raises(NotStandingError, match=r"\(1, 0, 1\).*one plane"):
+        bear(placed, [None, np.ones((2, 2))], FLOAT64, linear=False)
+
+
+@pytest.mark.parametrize("layer", [0, 1])
+def test_a_radius_below_zero_is_named_in_any_layer(layer: int) -> None:
+    rho = [np.zeros((2, 2)), np.zeros((2, 2))]
+    rho[layer][0, 1] = -1.5
+    with FLOAT64.active(), pytest.raises(UnbuildableError, match="no positive number") as raised:
+        deposit(rho, metric(3, Fraction(1, 5), FLOAT64), FLOAT64, linear=False)
+    assert raised.value.site == (0, 1, layer)
+
+
+def test_what_balls_leave_open_is_undecided() -> None:
+    system = Balls(60)
+    with system.active():
+        rho = [zeros(system, 2, 2), zeros(system, 2, 2)]
+        rho[0][0, 1] = flint.arb(3, 3)  # a support of any size from r to 7 r
+        with pytest.raises(UndecidedError, match="layer 1"):
+            deposit(rho, metric(3, Fraction(1, 5), system), system, linear=False)
+
+
+def test_what_no_load_reaches_is_not_solved_and_bears_nothing() -> None:
+    load = fd.PointLoad(at=(1, 1, 2))
+    asked = scene("contact", height=5, width=6, at=(1, 1, 3, "1"), load=load)
+    assert asked.explain().problem.region.top == 2
+    assert asked.run().rows()[0]["force"] == 0
+    assert fd.ensemble(asked, 4).mean.tolist() == [0]
+
+
+@pytest.mark.parametrize("height", [2, 3])
+@pytest.mark.parametrize("width", [1, 2, 3, 4])
+def test_the_response_to_a_point_load_sees_images_where_its_cone_meets_itself(
+    height: int, width: int
+) -> None:
+    """All radii of a wide packing matter to some contact; images where two are W apart."""
+    wide = 2 * height + 2
+    apart = range(-height, 1)
+    # the simplex below the load, whose beads all decide where the loaded bead lies
+    beads = {(p, q, j) for j in range(height) for p in apart for q in apart
+             if height - j + p + q >= 0}  # fmt: skip
+    homes = {(p % width, q % width, j) for p, q, j in beads}
+    load = fd.PointLoad(at=(0, 0, height))
+    plan = scene("response", height=height, width=width, load=load).explain()
+    assert plan.sees_images == (len(homes) < len(beads))
+    assert not scene("response", height=height, width=wide, load=load).explain().sees_images
+
+
+@pytest.mark.parametrize(("at", "width"), [(2, 2), (4, 2), (3, 2), (3, 3), (0, 2)])
+def test_rays_of_an_ordered_packing_may_meet_on_the_base(at: int, width: int) -> None:
+    load = fd.PointLoad(at=(0, 0, at))
+    asked = scene("base_reactions", height=4, width=width, load=load, geometry="ordered")
+    found = asked.run().arrays["fz"]
+    bearing = sum(float(force) > 0 for force in found)
+    assert asked.explain().sees_images == (bearing < 3 and at > 0)
