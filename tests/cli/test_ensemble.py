@@ -240,9 +240,9 @@ def test_a_full_disk_keeps_what_is_written_and_says_how_to_go_on(
 
 
 LOADING = """
-import sys, time
+import os, sys, time
 if "--multiprocessing-fork" in sys.argv:
-    print("loading", file=sys.stderr, flush=True)
+    os.write(2, b"loading\\n")  # at once: lines of two workers do not mix
     time.sleep(60)
 """
 
