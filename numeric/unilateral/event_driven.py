@@ -183,17 +183,18 @@ def _corrected(
     for _ in range(ITERATIONS):
         residual = grains.gaps(basis.pairs, x) - basis.rest
         residual[opened] = 0.0
-        row, off = plane, 0.0
-        if met is not None:
-            row = grains.jacobian(met[None], x).toarray()[0]
-            off = float(grains.gaps(met[None], x)[0])
+        off = 0.0 if met is None else float(grains.gaps(met[None], x)[0])
         worst = max(float(np.abs(residual).max()), abs(off))
         if worst < CLOSED / 5:
             return x
         if not worst < 1:
             return None
         change = motion.factors.solve(residual)
-        change += (off - row @ change) / (row @ velocity) * velocity
+        if met is None:
+            own, rate = float(plane @ change), float(plane @ velocity)
+        else:
+            own, rate = (grains.rate(met, moves, x) for moves in (change, velocity))
+        change += (off - own) / rate * velocity
         x = x.copy()
         x[grains.fixed :] -= change.reshape(-1, 2)
     return None

@@ -77,6 +77,13 @@ class Grains:
             shape=(len(pairs), self.unknowns),
         )
 
+    def rate(self, pair: Array, moves: Array, x: Array) -> float:
+        """Give the derivative of one pair's gap along moves of all coordinates that may change."""
+        n = self.directions(pair[None], x)[0]
+        a, b = 2 * (pair - self.fixed)
+        other = moves[b : b + 2] if b >= 0 else 0.0
+        return float(n @ (moves[a : a + 2] - other))
+
     def near(self, reach: float) -> Pairs:
         """List the pairs whose gaps are at most about ``reach``, but those of two base beads."""
         low = self.x[:, 1].min()

@@ -106,12 +106,12 @@ class _Programs:
         program.a_matrix_.index_ = A.indices
         program.a_matrix_.value_ = A.data
         solver = highspy.Highs()  # type: ignore[no-untyped-call]
-        solver.passOptions(_options(highspy, "ipm", by_simplex, A.shape[1]))
+        solver.passOptions(_options(highspy, "ipm", by_simplex, A.shape[1] // 4))
         solver.passModel(program)
         names = self.grains.named(pairs).tolist()
         optimal = highspy.HighsModelStatus.kOptimal
         if by_simplex and self.columns:
-            solver.passOptions(_options(highspy, "simplex", by_simplex, A.shape[1]))
+            solver.passOptions(_options(highspy, "simplex", by_simplex, A.shape[1] // 4))
             basis, inactive = highspy.HighsBasis(), highspy.HighsBasisStatus.kBasic
             basis.valid = basis.alien = True
             basis.col_status = self.columns
@@ -119,7 +119,7 @@ class _Programs:
             solver.setBasis(basis)
             solver.run()
             if solver.getModelStatus() != optimal:
-                solver.passOptions(_options(highspy, "ipm", by_simplex, A.shape[1]))
+                solver.passOptions(_options(highspy, "ipm", by_simplex, A.shape[1] // 4))
                 solver.clearSolver()
         if solver.getModelStatus() != optimal:
             solver.run()
