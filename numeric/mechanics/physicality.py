@@ -22,6 +22,7 @@ class Physicality:
     """What was found, merged over layers and realisations."""
 
     smallest_gap: float | None = None
+    """Between beads that do not touch, in units of r (in ``data()``: the scene's unit)."""
     between: tuple[tuple[int, ...], tuple[int, ...]] | None = None
     overlaps: int = 0
     undecided_gaps: int = 0

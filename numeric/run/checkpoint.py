@@ -18,6 +18,7 @@ from ..arithmetic.errors import ForceDiffusionError, NotReachedError
 from ..arithmetic.systems import Array
 
 _MAGIC = "force-diffusion checkpoint 1"
+LONGEST_LINE = 10_000
 
 
 class CheckpointError(ForceDiffusionError, ValueError):
@@ -35,6 +36,8 @@ class Checkpoint:
         self.path = path
         self._places: dict[str, tuple[int, tuple[int, ...]]] = {}
         about = {"is": _MAGIC, "key": sha256(json.dumps(key).encode()).hexdigest()}
+        if path.exists() and not path.is_file():  # a device or a pipe may have no end
+            raise CheckpointError(f"{path} is no ordinary file: give another name")
         try:
             self._file = path.open("r+b" if path.exists() else "x+b")
         except OSError as error:
@@ -49,7 +52,8 @@ class Checkpoint:
     def _read(self, about: dict[str, str]) -> None:
         """Find what is there; begin anew behind the last array that is whole."""
         self._file.seek(0)
-        first, own = self._file.readline(), json.dumps(about).encode() + b"\n"
+        own = json.dumps(about).encode() + b"\n"
+        first = self._file.readline(LONGEST_LINE)
         if first != own and own.startswith(first):  # empty, or killed at its first line
             self._file.seek(0)
             self._file.truncate()

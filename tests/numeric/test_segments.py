@@ -1,5 +1,6 @@
 """A packing that the memory does not hold: the numbers of one that it holds; its checkpoint."""
 
+import os
 from dataclasses import replace
 from itertools import count
 from pathlib import Path
@@ -146,10 +147,15 @@ def test_what_is_no_checkpoint_of_this_run_is_left_alone(tmp_path: Path) -> None
     other, foreign = tmp_path / "other", tmp_path / "foreign"
     run(cut(planned(sections("profile", seed=4)), 4), checkpoint=other)
     foreign.write_text('{"is": "a list"}\n')
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
     for path, why in (
         (other, "of another scene"),
         (foreign, "is no checkpoint"),
-        (tmp_path, "can't be opened"),
+        (tmp_path, "is no ordinary file"),
+        (tmp_path / "nowhere" / "kept", "can't be opened"),
+        (Path("/dev/zero"), "is no ordinary file"),
+        (pipe, "is no ordinary file"),
     ):
         content = path.read_bytes() if path.is_file() else b""
         with pytest.raises(CheckpointError, match=why):
