@@ -167,8 +167,8 @@ def figures(
     words = ["force-diffusion", "figures", *wanted]
     words += [] if heights is None else ["--heights", heights]
     words += [] if realisations is None else ["--realisations", str(realisations)]
-    seeded = ["--seed", str(1 if seed is None else seed)]
-    words += [] if len(scenes) == len(wanted) else seeded
+    seed = 1 if seed is None else seed
+    words += [] if len(scenes) == len(wanted) else ["--seed", str(seed)]
     words += [] if spacing is None else ["--spacing", spacing]
     words += [] if relative_std is None else ["--relative-std", relative_std]
     words += [word for model in beside or [] for word in ("--with", model)]
@@ -187,10 +187,11 @@ def figures(
             folders[name] = stack.enter_context(output(out, question, names, overwrite))
         data, files = _made(
             wanted, command, beside or [], own, **({} if chosen is None else {"heights": chosen}),
-            realisations=realisations, seed=1 if seed is None else seed, notice=notice,
+            realisations=realisations, seed=seed, notice=notice,
         )  # fmt: skip
         for name, folder in folders.items():
-            source = data["figures"][name].get("answer", {}).get("source", {})
+            answer = data["figures"][name].get("answer", {"source": {"seed": seed}})
+            source = answer["source"]
             if folder:
                 folder.write(files[name], seed=source.get("seed"), inputs=source.get("sha256"))
     if as_json:

@@ -180,14 +180,17 @@ def cost(
     overwrite: Overwrite = False,
 ) -> None:
     """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
+    from force_diffusion.numeric.scene.source import source_of
     from force_diffusion.numeric.studies.cost.result import csv_rows
 
     command = shell_line(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
     names = ["cost.json", "cost.csv", *images("cost")]
     with output(out, f"cost {scene}", names, overwrite) as folder:
         with named(scene.name), noticing() as notice:
-            found = fd.cost(fd.read_scene(scene), notice)
-        data = {"command": command, **found.data()}
+            read = fd.read_scene(scene)
+            found = fd.cost(read, notice)
+        source = sourced(source_of(read), scene, None)
+        data = {"command": command, "source": source, **found.data()}
         if folder:
             title = printable(scene.stem)
             folder.write(
@@ -197,7 +200,9 @@ def cost(
                     **drawn(
                         lambda: found.plot(title), "cost", f"Cost of accuracy: {title}", command
                     ),
-                }
+                },
+                seed=source["seed"],
+                inputs=source["sha256"],
             )
     print(json.dumps(data, indent=2) if as_json else found)
 

@@ -1,6 +1,7 @@
 """The command ``cost`` as a user calls it."""
 
 import csv
+import hashlib
 import io
 import json
 import os
@@ -9,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.derivations.export.manifest import read_manifest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.studies.cost import rows
 
@@ -160,3 +162,22 @@ def test_what_ends_it_early(
     status, _, err = call(capsys, "cost", written(tmp_path))
     assert says in err
     assert "Traceback" not in err
+
+
+def test_a_study_says_where_it_came_from(tmp_path: Path) -> None:
+    scene, out = tmp_path / "scene.toml", tmp_path / "out"
+    text = (
+        "packing = {height = 2, width = 4}\n"
+        'disorder = {kind = "uniform", relative_std = 1e-3, seed = 7}\n'
+        'ask = {quantity = "contact_forces"}\n'
+    )
+    scene.write_text(text)
+    assert main(["cost", str(scene), "--out", str(out)]) == 0
+    source = json.loads((out / "cost.json").read_text())["source"]
+    hashed = {"scene": hashlib.sha256(text.encode()).hexdigest()}
+    assert (source["seed"], source["sha256"], source["file"]) == (7, hashed, "scene.toml")
+    manifest = read_manifest(out)
+    assert manifest is not None
+    assert {(one.seed, one.inputs["scene"]) for one in manifest.files.values()} == {
+        (7, hashed["scene"])
+    }
