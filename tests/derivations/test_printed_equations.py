@@ -70,6 +70,7 @@ class FromStrip:
 
     def __init__(self, packing: SmallPacking, r: Fraction, loads: str) -> None:
         self.packing, self.values, self.r = packing, explicit.geometry(*packing.n, r), r
+        self.known: dict[object, dict[object, object]] = {}
         self.loads = {
             "none": {},
             "single": {packing.loaded: (Fraction(0), -packing.load)},
