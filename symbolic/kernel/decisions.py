@@ -88,7 +88,7 @@ def _samples(
 
 
 def counterexample(
-    left: sympy.Expr, right: sympy.Expr, region: Region, *, is_vector: bool = False
+    left: sympy.Expr, right: sympy.Expr, region: Region, *, is_vector: bool
 ) -> str | None:
     """Look for a small packing on which two linear expressions have different weights."""
     free = tuple(
