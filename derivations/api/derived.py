@@ -63,15 +63,18 @@ class Derived:
 
         The fragments fit text of one column, or of two. Raises ``ValueError`` for any other number.
         """
-        about = [(one.derivation, finding(one)) for one in self.outcomes]
-        about.sort(key=lambda pair: list(modules()).index(pair[0].number))
+        about = [(one.derivation, finding(one)) for one in self._in_order()]
         return {**self.fragments(columns), DOCUMENT: document(about)}
 
     def fragments(self, columns: int = 1) -> dict[str, str]:
         """The same without the document."""
-        found = [one.derivation for one in self.outcomes]
-        found.sort(key=lambda one: list(modules()).index(one.number))
+        found = [one.derivation for one in self._in_order()]
         return {fragment_name(one): statement_latex(one, columns) for one in found}
+
+    def _in_order(self) -> list[Outcome]:
+        """Give the outcomes by number, not premises first."""
+        place = {number: at for at, number in enumerate(modules())}
+        return sorted(self.outcomes, key=lambda one: place[one.derivation.number])
 
     def __str__(self) -> str:
         lines = [line for one in self.outcomes for line in (summary_line(one), *trouble_lines(one))]

@@ -27,10 +27,6 @@ DEFAULT_BINS = 60
 REACH = 6
 # Of one of forces under unilateral contacts, in units of the mean ordered force.
 FORCES = 8
-_NO_REACH = (
-    "no theory says how wide it will be here: give reach (--reach X), the outer edge of the bins "
-    "in units of force"
-)
 # Variables of a covariance matrix, whose numbers grow with their square.
 MOST_VARIABLES = 2048
 KNOWN = ("profile", "contact", "contact_forces", "response", "histogram")
@@ -212,25 +208,8 @@ def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
     They are symmetric about no change at all; of unilateral contacts they are those of the forces
     themselves, and begin at 0.
     """
-    if reach is None and made.of_networks:
-        reach = FORCES * made.network.mean_force(made.problem)
-        if not reach:
-            raise SceneError("ask.quantity", "histogram", _NO_REACH)
-    elif reach is None:
-        theory = made.theory()
-        if theory is None:
-            raise SceneError(
-                "ask.quantity",
-                "histogram",
-                _NO_REACH,
-            )
-        contact = made.problem.contact
-        widest = (
-            max(*theory.plus, *theory.minus)
-            if contact is None
-            else theory[contact.branch][contact.j]
-        )
-        reach = float(REACH * widest)
+    if reach is None:
+        reach = _usual_reach(made)
     else:
         reach /= float(made.plan.scene.load.magnitude)
     if not 0 < reach < 1e300:
@@ -242,6 +221,24 @@ def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
     if len(set(edges)) <= bins:
         raise SceneError("ask.bins", bins, "are more than float64 can tell apart here")
     return edges
+
+
+def _usual_reach(made: Measurement) -> float:
+    """Give the outer edge that is taken where none is named."""
+    theory = None if made.of_networks else made.theory()
+    if made.of_networks and (mean := made.network.mean_force(made.problem)):
+        return FORCES * mean
+    if theory is None:
+        raise SceneError(
+            "ask.quantity",
+            "histogram",
+            "no theory says how wide it will be here: give reach (--reach X), the outer edge "
+            "of the bins in units of force",
+        )
+    contact = made.problem.contact
+    if contact is None:
+        return float(REACH * max(*theory.plus, *theory.minus))
+    return float(REACH * theory[contact.branch][contact.j])
 
 
 def _either(words: tuple[str, ...]) -> str:

@@ -39,7 +39,7 @@ HEIGHTS = (8, 32, 128)
 LEAST_REALISATIONS = 16
 MODELS = {"q-model": "3", "double-y": "4"}
 """What may be drawn beside which figure."""
-OWN_SPACING = ("2", "3", "4", "pf", "chains")
+OWN_SPACING, OWN_STD = ("2", "3", "4", "pf", "chains"), ("3", "4", "pf", "chains")
 """Figures of packings whose spacing, and σ/r but in figure 2, can be chosen."""
 LEAST_STD, MOST_STD = 1e-9, 0.5
 
@@ -333,7 +333,7 @@ def _finished(name: str, data: Data, made_by: str, kinds: Sequence[str]) -> Pape
 def _chosen(name: str, spacing: Any, relative_std: Any) -> tuple[Fraction | None, float | None]:
     """Check spacing and σ/r, if they are given."""
     for key, value, own in (
-        ("spacing", spacing, OWN_SPACING), ("relative_std", relative_std, OWN_SPACING[1:]),
+        ("spacing", spacing, OWN_SPACING), ("relative_std", relative_std, OWN_STD),
     ):  # fmt: skip
         if value is not None and name not in own:
             raise SceneError(key, value, f"goes with figures {', '.join(own)} only")
