@@ -147,10 +147,10 @@ def search(candidate: sympy.Eq) -> str | None:
     if candidate.lhs != MEAN_HEIGHT:
         return None
 
-    def exact(height: int, layer: int) -> Fraction:
-        return witnesses.means(height, witnesses.N, "surface")[1][layer][1]
+    def exact(height: int, layer: int) -> dict[sympy.Symbol, Fraction]:
+        return {MEAN_HEIGHT: witnesses.means(height, witnesses.N, "surface")[1][layer][1]}
 
-    return witnesses.fails(candidate, MEAN_HEIGHT, exact, iter([(4, 1), (4, 2), (4, 3), (4, 4)]))
+    return witnesses.fails(candidate, exact, [(4, layer) for layer in range(1, 5)])
 
 
 def _unit_vector() -> Ruling:

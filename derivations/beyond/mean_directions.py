@@ -5,15 +5,12 @@ from fractions import Fraction
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond.directions import in_other_branch
-from force_diffusion.derivations.beyond.mean_forces import SUM_OF_RADII, combined
+from force_diffusion.derivations.beyond.mean_forces import combined, known
 from force_diffusion.derivations.beyond.means import decide_in_field
 from force_diffusion.derivations.framework.follows import Decide
 from force_diffusion.derivations.framework.record import Search, Witness
 from force_diffusion.derivations.witnesses import second_order as witnesses
-from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.as_printed import equation, power, terms, times
@@ -28,22 +25,18 @@ from force_diffusion.symbolic.mechanics import second_order
 from force_diffusion.symbolic.mechanics.second_order import (
     FORCE_AT_ANGLE,
     mean_force,
-    mean_square,
-    with_both,
     with_force,
     with_other,
-    with_radii,
 )
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import M, j, phi, r, sigma, t
-from force_diffusion.symbolic.variances.means import covariance
 from force_diffusion.symbolic.variances.variance import ClosedForm, by_layer
 
 Forms = Callable[[], dict[str, ClosedForm]]
 Subjects = tuple[sympy.Symbol, sympy.Symbol]
 
 
-def _mirrored(value: RationalFunction) -> RationalFunction:
+def mirrored(value: RationalFunction) -> RationalFunction:
     """The same of the other branch: 1/t in place of t."""
     total = FIELD.zero
     for power_of_t, coefficient in enumerate(value.coefficients(t)):
@@ -51,24 +44,17 @@ def _mirrored(value: RationalFunction) -> RationalFunction:
     return total
 
 
-def _known(
-    force: sympy.Expr, at: dict[sympy.Symbol, sympy.Expr], region: Region
-) -> dict[sympy.Symbol, RationalFunction]:
-    """The means of products of first-order quantities of a contact, and of its mirror image."""
-    nu, rho, alpha = (e.xreplace(at) for e in (eq11.in_radii(b4.TILT), SUM_OF_RADII, force - 1))
-    own = covariance(nu, alpha, region)
-    return {
-        mean_square: covariance(nu, nu, region),
-        with_radii: covariance(nu, rho, region),
-        with_force: own,
-        with_other: _mirrored(own),
-        with_both: covariance(alpha, rho, region),
-    }
+def in_means(
+    part: sympy.Expr, force: sympy.Expr, at: dict[sympy.Symbol, sympy.Expr], region: Region
+) -> RationalFunction:
+    """A combination of means of a contact's first-order quantities, and of its mirror image's."""
+    found = known(force, at, region, {*part.free_symbols, with_force})
+    return combined(part, {**found, with_other: mirrored(found[with_force])})
 
 
 def mean_forms(force: sympy.Expr) -> dict[str, ClosedForm]:
     """⟨f⁺⟩ over its ordered value less 1; ``force`` is f⁺ to first order in the radii."""
-    return by_layer(lambda at, region: combined(FORCE_AT_ANGLE, _known(force, at, region)))
+    return by_layer(lambda at, region: in_means(FORCE_AT_ANGLE, force, at, region))
 
 
 def printed(subjects: Subjects, own: sympy.Expr, other: sympy.Expr) -> tuple[sympy.Eq, sympy.Eq]:
@@ -104,25 +90,15 @@ def decided(forms: Forms, subjects: Subjects) -> Decide:
 
 def searched(load: str, subjects: Subjects) -> Search:
     """Exact packings in which a mean force is another, at t = 3/5."""
-    ratio = Fraction(3, 5)
-    values = {**explicit.geometry(*witnesses.N, Fraction(1)), sigma: 1, t: ratio}
 
-    def search(candidate: sympy.Eq) -> str | None:
-        for height, layer in ((4, 2), (5, 2), (5, 3)):
-            plus, minus = (
-                1 + witnesses.means(height, witnesses.N, load, ratio, branch)[0][layer]
-                for branch in "+-"
-            )
-            at = {**values, M: height, j: layer, subjects[0]: plus, subjects[1]: minus}
-            try:
-                left, right = (explicit.number(side, at) for side in candidate.args)
-            except explicit.AmbiguousError:
-                return None
-            if left != right:
-                return f"for M = {height}, j = {layer}, t = {ratio}: {left} on the left, {right}"
-        return None
+    def exact(height: int, layer: int) -> dict[sympy.Symbol, Fraction]:
+        return {
+            subject: 1
+            + witnesses.means(height, witnesses.N, load, witnesses.SHARE, branch)[0][layer]
+            for subject, branch in zip(subjects, "+-", strict=True)
+        }
 
-    return search
+    return lambda candidate: witnesses.fails(candidate, exact)
 
 
 def superposes(forms: Forms, vertical: Forms) -> Ruling:
@@ -150,8 +126,8 @@ def ratio_stays(force: sympy.Expr, at: sympy.Expr) -> Ruling:
     def both(of: sympy.Expr, axis: int, angle: sympy.Expr) -> RationalFunction:
         """Moments of f⁺ and f⁻ at order ε², over those of the ordered packing."""
         part = second_order.mean_of(second_order.contact_moment()[axis], angle)
-        own = combined(part, _known(of, {}, Region({j: 2, M: j + 2})))
-        return (own + FIELD.generator(t) * _mirrored(own)) / FIELD.from_sympy(1 + t)
+        own = in_means(part, of, {}, Region({j: 2, M: j + 2}))
+        return (own + FIELD.generator(t) * mirrored(own)) / FIELD.from_sympy(1 + t)
 
     return from_test(
         all(

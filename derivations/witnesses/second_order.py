@@ -5,9 +5,11 @@ only its diagonal is left: one bead at a time is enlarged, and the changes of al
 layer are added up, which by translation is the sum over all beads for one contact.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from functools import cache
+from itertools import product
+from typing import TYPE_CHECKING
 
 import sympy
 from force_diffusion.derivations.witnesses.draws import SmallPacking
@@ -17,7 +19,33 @@ from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.variances.variance import ClosedForm, packings, value_at
 
+if TYPE_CHECKING:
+    from force_diffusion.numeric.mechanics.taylor import TaylorPacking
+
 HIGHEST = 5
+SHARE = Fraction(3, 5)
+"""t of the loads at an angle that candidates are tried with."""
+
+
+@cache
+def _solved(
+    height: int, n: tuple[Fraction, Fraction], load: str, ratio: Fraction, source: int
+) -> "TaylorPacking":
+    """The packing with one bead of layer ``source`` enlarged, to order ε².
+
+    Loads are −(n⁺ + ratio n⁻) on the beads of the surface, or on all above the base. It is so wide
+    that no exact force or position sees an image of itself.
+    """
+    from force_diffusion.numeric.mechanics import taylor
+
+    width = 2 * height + 3
+    loads = {
+        (across, layer): ((ratio - 1) * n[0], -(1 + ratio) * n[1])
+        for layer in (range(1, height + 1) if load == "bulk" else (height,))
+        for across in range(layer % 2, 2 * width, 2)
+    }
+    rho = {(source % 2, source): Fraction(1)}
+    return taylor.solve(width, height, n=n, rho=rho, loads=loads, order=2)
 
 
 @cache
@@ -30,25 +58,14 @@ def means(
 ) -> tuple[tuple[Fraction, ...], tuple[tuple[Fraction, Fraction], ...]]:
     """Means at order σ², for r = σ = 1: of a branch's f/⟨f⟩ of layers j < M, and of (δx, δy).
 
-    ``ratio`` is t = L⁻/L⁺ of the loads. The packing is so wide that no exact force or position sees
-    an image of itself.
+    ``ratio`` is t = L⁻/L⁺ of the loads.
     """
-    from force_diffusion.numeric.mechanics import taylor
-
-    width = 2 * height + 3
-    carrying = range(1, height + 1) if load == "bulk" else (height,)
-    loads = {
-        (across, layer): ((ratio - 1) * n[0], -(1 + ratio) * n[1])
-        for layer in carrying
-        for across in range(layer % 2, 2 * width, 2)
-    }
     forces = [Fraction(0)] * height
     places = [(Fraction(0), Fraction(0))] * (height + 1)
     for source in range(height + 1):
-        rho = {(source % 2, source): Fraction(1)}
-        solved = taylor.solve(width, height, n=n, rho=rho, loads=loads, order=2)
+        solved = _solved(height, n, load, ratio, source)
         for layer in range(height + 1):
-            for across in range(layer % 2, 2 * width, 2):
+            for across in range(layer % 2, 2 * solved.width, 2):
                 x, y = solved.displacement(across, layer)
                 places[layer] = places[layer][0] + x[2], places[layer][1] + y[2]
                 if layer < height:
@@ -96,17 +113,22 @@ def positions(stated: sympy.Expr, packing: SmallPacking) -> Ruling:
 N = (Fraction(21, 29), Fraction(20, 29))
 
 
+PACKINGS = ((4, 2), (5, 2), (5, 3))
+
+
 def fails(
     candidate: sympy.Eq,
-    subject: sympy.Symbol,
-    exact: Callable[[int, int], Fraction],
-    layers: Iterator[tuple[int, int]],
+    exact: Callable[[int, int], dict[sympy.Symbol, Fraction]],
+    layers: Iterable[tuple[int, int]] = PACKINGS,
 ) -> str | None:
-    """Where an equation of a mean, M and j fails on exact packings, r = σ = 1; None if nowhere."""
-    values = {**explicit.geometry(*N, Fraction(1)), sy.sigma: 1}
+    """Where an equation of means, M and j fails on exact packings, r = σ = 1; None if nowhere.
+
+    ``exact`` says what its means are there, for M and j; loads at an angle have t = SHARE.
+    """
+    values = {**explicit.geometry(*N, Fraction(1)), sy.sigma: 1, sy.t: SHARE}
     for height, layer in layers:
         try:
-            at = {**values, sy.M: height, sy.j: layer, subject: exact(height, layer)}
+            at = {**values, sy.M: height, sy.j: layer, **exact(height, layer)}
             left, right = (explicit.number(side, at) for side in candidate.args)
         except explicit.AmbiguousError:
             return None
@@ -153,34 +175,39 @@ def response(
 
 
 @cache
-def moments(height: int, n: tuple[Fraction, Fraction]) -> tuple[tuple[Fraction, Fraction], ...]:
-    """Means at order σ² of f ℓ N_x² and f ℓ N_y² over their ordered values, by layer, r = σ = 1.
+def moments(
+    height: int,
+    n: tuple[Fraction, Fraction],
+    load: str = "surface",
+    ratio: Fraction = Fraction(1),
+) -> tuple[tuple[Fraction, Fraction, Fraction], ...]:
+    """Means at order σ² of S_xx, S_yy and S_xy over their ordered values, by layer, r = σ = 1.
 
-    ℓ is the distance of the two centres, N the direction of a contact; a surface load.
+    S = Σ f ℓ N⊗N over the contacts of a layer, ℓ being the distance of the two centres and N the
+    direction. ``ratio`` is t = L⁻/L⁺ of the loads; for 1, where the ordered S_xy is 0, S_xy itself.
     """
-    from force_diffusion.numeric.mechanics import taylor
-
-    width = 2 * height + 3
-    loads = {
-        (across, height): (Fraction(0), -2 * n[1]) for across in range(height % 2, 2 * width, 2)
-    }
-    found = [[Fraction(0), Fraction(0)] for _ in range(height)]
+    found = [[Fraction(0)] * 3 for _ in range(height)]
     for source in range(height + 1):
-        one = {(source % 2, source): Fraction(1)}
-        solved = taylor.solve(width, height, n=n, rho=one, loads=loads, order=2)
-        for layer in range(height):
-            for across in range(layer % 2, 2 * width, 2):
-                ends = ((across, layer), ((across + 1) % (2 * width), layer + 1))
-                length = [
-                    Fraction(2),
-                    sum((one.get(end, Fraction(0)) for end in ends), Fraction(0)),
-                ]
-                force = solved.force(across, layer, "+")
-                for axis, change in enumerate(solved.direction(across, layer, "+")):
-                    unit = [n[axis] + change[0], *change[1:]]
-                    product = _times(_times(force, [*length, Fraction(0)]), _times(unit, unit))
-                    found[layer][axis] += product[2] / product[0]
-    return tuple((x, y) for x, y in found)
+        solved = _solved(height, n, load, ratio, source)
+        around = 2 * solved.width
+        for layer, (branch, side) in product(range(height), (("+", 1), ("-", -1))):
+            for i in range(layer % 2, around, 2):
+                ends = ((i, layer), ((i + side) % around, layer + 1))
+                grown = Fraction((source % 2, source) in ends)
+                push = _times(solved.force(i, layer, branch), [Fraction(2), grown, Fraction(0)])
+                ordered = (side * n[0], n[1])
+                turned = zip(ordered, solved.direction(i, layer, branch), strict=True)
+                x, y = ([direction + change[0], *change[1:]] for direction, change in turned)
+                for part, both in enumerate(((x, x), (y, y), (x, y))):
+                    found[layer][part] += _times(push, _times(*both))[2]
+    tilted = (1 - ratio) * n[0] * n[1] or Fraction(1)
+    units = [(1 + ratio) * n[0] ** 2, (1 + ratio) * n[1] ** 2, tilted]
+    shares = []
+    for layer, moment in enumerate(found):
+        carried = 2 * (height - layer if load == "bulk" else 1)
+        xx, yy, xy = (one / (carried * unit) for one, unit in zip(moment, units, strict=True))
+        shares.append((xx, yy, xy))
+    return tuple(shares)
 
 
 def _times(one: list[Fraction], other: list[Fraction]) -> list[Fraction]:

@@ -75,6 +75,9 @@ TURN: tuple[sympy.Expr, sympy.Expr] = (d_plus / (2 * r), (d_minus - tilt * radii
 SETTLED = STEP.xreplace({tilt**2: mean_square})
 """⟨n^±·d₂⟩: on average both line sums of a bead lie this much above those of the layer below."""
 
+LAYER = SETTLED / (r * (1 + phi))
+"""What that adds to the mean height of a layer, in units of the ordered one, 2r n_y."""
+
 
 @cache
 def _mean_momentum() -> sympy.ImmutableMatrix:
@@ -127,12 +130,15 @@ with_both = Symbol("C_force_radii", r"\langle\alpha_{1}\rho\rangle", "⟨α₁ρ
 
 @cache
 def contact_moment() -> sympy.ImmutableMatrix:
-    """Order ε² of f ℓ N_x² and f ℓ N_y² of a contact of length ℓ, over their ordered values."""
+    """Order ε² of f ℓ N_x², f ℓ N_y² and f ℓ N_x N_y, ℓ the length, over their ordered values."""
     unit = N_PLUS + epsilon * tilt * B_MINUS + epsilon**2 * (u_plus * B_PLUS + u_minus * B_MINUS)
     force = 1 + epsilon * alpha_1 + epsilon**2 * alpha_2
     length = 1 + epsilon * radii / (2 * r)
     return sympy.ImmutableMatrix(
-        [_order_2(force * length * unit[axis] ** 2) / N_PLUS[axis] ** 2 for axis in range(2)]
+        [
+            _order_2(force * length * unit[a] * unit[b]) / (N_PLUS[a] * N_PLUS[b])
+            for a, b in ((0, 0), (1, 1), (0, 1))
+        ]
     )
 
 

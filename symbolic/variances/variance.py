@@ -38,6 +38,7 @@ def pieces_of(expression: sympy.Expr, region: Region) -> Pieces:
     return take_apart(fluctuation(expression, region), region)
 
 
+@cache
 def variance(expression: sympy.Expr, region: Region) -> RationalFunction:
     """σ² Σ weight² of a linear expression in δr, in closed form, exact in the region."""
     return pieces_of(expression, region).sum_of_squares() * FIELD.from_sympy(sigma**2)
