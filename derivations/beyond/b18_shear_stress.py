@@ -64,7 +64,7 @@ SUBJECTS = tuple(
 AXES = tuple(
     Symbol(
         f"axes_{load}",
-        rf"\left(2 n_{{x}}n_{{y}}\,\tfrac{{1-t}}{{1+t}}\cot2\psi\right)_{{\mathrm{{{load}}}}}",
+        rf"\left(2 n_{{x}}n_{{y}}\,\frac{{1-t}}{{1+t}}\cot2\psi\right)_{{\mathrm{{{load}}}}}",
         f"[2n_x n_y (1−t)/(1+t) cot 2ψ]_{load}",
     )
     for load in ("surface", "bulk")
@@ -157,7 +157,7 @@ def _exact(
 ) -> dict[sympy.Symbol, Fraction]:
     """What exact packings say of all that is printed, less the ordered value, for r = σ = 1."""
     x, y = n[0] ** 2, n[1] ** 2
-    found = {}
+    found: dict[sympy.Symbol, Fraction] = {}
     for load, shear, axis in zip(LOADS, SUBJECTS, AXES, strict=True):
         xx, yy, xy = witnesses.moments(height, n, load, share)[layer]
         found |= {shear: xy, axis: y * yy - x * xx - (y - x) * xy}

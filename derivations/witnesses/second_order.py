@@ -11,9 +11,11 @@ from functools import cache
 from itertools import product
 from typing import TYPE_CHECKING
 
+import numpy as np
 import sympy
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import compare
+from force_diffusion.numeric.arithmetic.systems import Series
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.decisions import Ruling
@@ -186,33 +188,30 @@ def moments(
     S = Σ f ℓ N⊗N over the contacts of a layer, ℓ being the distance of the two centres and N the
     direction. ``ratio`` is t = L⁻/L⁺ of the loads; for 1, where the ordered S_xy is 0, S_xy itself.
     """
-    found = [[Fraction(0)] * 3 for _ in range(height)]
-    for source in range(height + 1):
-        solved = _solved(height, n, load, ratio, source)
-        around = 2 * solved.width
-        for layer, (branch, side) in product(range(height), (("+", 1), ("-", -1))):
-            for i in range(layer % 2, around, 2):
-                ends = ((i, layer), ((i + side) % around, layer + 1))
-                grown = Fraction((source % 2, source) in ends)
-                push = _times(solved.force(i, layer, branch), [Fraction(2), grown, Fraction(0)])
-                ordered = (side * n[0], n[1])
-                turned = zip(ordered, solved.direction(i, layer, branch), strict=True)
-                x, y = ([direction + change[0], *change[1:]] for direction, change in turned)
-                for part, both in enumerate(((x, x), (y, y), (x, y))):
-                    found[layer][part] += _times(push, _times(*both))[2]
+    system = Series(2)
+    found = np.zeros((height, 3), dtype=object)
+    with system.active():
+        for source in range(height + 1):
+            solved = _solved(height, n, load, ratio, source)
+            around = 2 * solved.width
+            for layer, (branch, side) in product(range(height), (("+", 1), ("-", -1))):
+                for i in range(layer % 2, around, 2):
+                    ends = ((i, layer), ((i + side) % around, layer + 1))
+                    length = system.series([Fraction(2), Fraction((source % 2, source) in ends)])
+                    push = system.series(solved.force(i, layer, branch)) * length
+                    turned = zip(
+                        (side * n[0], n[1]), solved.direction(i, layer, branch), strict=True
+                    )
+                    x, y = (
+                        system.number(ordered) + system.series(change) for ordered, change in turned
+                    )
+                    found[layer] += [(push * both)[2] for both in (x * x, y * y, x * y)]
     tilted = (1 - ratio) * n[0] * n[1] or Fraction(1)
     units = [(1 + ratio) * n[0] ** 2, (1 + ratio) * n[1] ** 2, tilted]
     shares = []
     for layer, moment in enumerate(found):
         carried = 2 * (height - layer if load == "bulk" else 1)
-        xx, yy, xy = (one / (carried * unit) for one, unit in zip(moment, units, strict=True))
+        changes = (Fraction(int(change.p), int(change.q)) for change in moment)
+        xx, yy, xy = (one / (carried * unit) for one, unit in zip(changes, units, strict=True))
         shares.append((xx, yy, xy))
     return tuple(shares)
-
-
-def _times(one: list[Fraction], other: list[Fraction]) -> list[Fraction]:
-    """The product of two series, to order ε²."""
-    return [
-        sum((one[k] * other[order - k] for k in range(order + 1)), Fraction(0))
-        for order in range(3)
-    ]
