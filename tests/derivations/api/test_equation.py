@@ -76,7 +76,7 @@ STANDARD = {
     "frac", "left", "right", "sum", "delta", "sigma", "phi", "langle", "rangle", "hat", "bf", "rm",
     "cdot", "begin", "end", "approx", "sim", "propto", "Delta", "biggl", "biggr", "quad", "qquad",
     "leq", "overline", "int", "sqrt", "operatorname", "limits", "infty", "nu", "rho", "varepsilon",
-    "pm", "kappa", "mathrm", "mathbf", "times", "cot", "psi",
+    "pm", "kappa", "mathrm", "mathbf", "times", "psi",
 }  # fmt: skip
 
 

@@ -377,12 +377,16 @@ def test_figure_b9_finds_theory_within_the_bands_and_a_wrong_one_outside() -> No
 
 def test_figure_b10_agrees_as_fractions_and_would_not_with_another_form() -> None:
     found = stress.ratios(silent)
-    assert found.agree()
-    other = stress.Ratios((found.measured[1], found.measured[0]))
-    assert not other.agree()
+    assert found.facts()["equal_as_fractions"]
+    surface, bulk = (found.measured[load] for load in ("surface", "bulk"))
+    other = stress.Ratios({"surface": bulk, "bulk": bulk})
+    assert other.agree("bulk")
+    assert not other.agree("surface")
+    assert not other.facts()["equal_as_fractions"]
     assert "does not equal" in other.lines()[0]
+    assert not stress.Ratios({"surface": surface[::-1], "bulk": bulk}).agree("surface")
     (rows,) = found.tables().values()
-    assert len(rows) == 2 * stress.HEIGHT
+    assert len(rows) == 4 * stress.HEIGHT
 
 
 def test_figure_b11_is_exact_in_two_dimensions_and_near_the_leading_order_in_others() -> None:
