@@ -64,7 +64,8 @@ SUBJECTS = tuple(
 AXES = tuple(
     Symbol(
         f"axes_{load}",
-        rf"\left(2 n_{{x}}n_{{y}}\,\frac{{1-t}}{{1+t}}\operatorname{{cot}}2\psi\right)_{{\mathrm{{{load}}}}}",
+        r"\left(2 n_{x}n_{y}\,\frac{1-t}{1+t}\operatorname{cot}2\psi\right)"
+        rf"_{{\mathrm{{{load}}}}}",
         f"[2n_x n_y (1−t)/(1+t) cot 2ψ]_{load}",
     )
     for load in ("surface", "bulk")
