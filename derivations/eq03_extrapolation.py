@@ -1,6 +1,7 @@
 """Eq. 3: the displacement in terms of the radii alone, by induction from the base."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
@@ -49,11 +50,13 @@ PRINTED = equation(
 NOTHING = sympy.Integer(0)
 
 
+@cache
 def displacement(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     """δx at a site of layer 1 or above, as a vector expression in the radii (Eq. 3)."""
     return PRINTED.rhs.xreplace({i: across, j: layer})
 
 
+@cache
 def _at(candidate: sympy.Expr, across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     return candidate.xreplace({i: across, j: layer})
 

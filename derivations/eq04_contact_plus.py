@@ -1,7 +1,7 @@
 """Eq. 4: the change of the direction of the contact along n⁺."""
 
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, partial
 
 import sympy
 from force_diffusion.derivations import eq01_ordered_positions as eq01
@@ -106,17 +106,21 @@ def steps() -> Iterator[Step]:
     )
 
 
+@cache
+def _derived(changed: sympy.Expr, on_base: bool) -> sympy.Expr:
+    """2r times a change of direction, Eq. 3 put in."""
+    at = {j: ZERO} if on_base else {}
+    return (2 * r * changed).xreplace(at).replace(DeltaX, displaced)
+
+
 def follows(candidate: sympy.Eq, changed: sympy.Expr) -> Ruling:
     """Compare with Eq. 3 put into the derivative: for j ≥ 1, and on the fixed base for j = 0."""
-    rulings = []
-    for at, region in (({}, Region({j: 1})), ({j: ZERO}, Region({}))):
-        derived = (2 * r * changed).xreplace(at).replace(DeltaX, displaced)
-        rulings.append(
-            decide_linear(
-                candidate.rhs.xreplace(at), derived, region, is_vector=True, basis=CARTESIAN
-            )
-        )
-    return all_of(*rulings)
+    decided = partial(decide_linear, is_vector=True, basis=CARTESIAN)
+    right = candidate.rhs
+    return all_of(
+        decided(right, _derived(changed, False), Region({j: 1})),
+        decided(right.xreplace({j: ZERO}), _derived(changed, True), Region({})),
+    )
 
 
 def decide(_: int, candidate: sympy.Eq) -> Ruling:

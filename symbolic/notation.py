@@ -4,9 +4,13 @@ SymPy's own printers, and with them notebooks, ask an object for its LaTeX (``_l
 printers of this package ask in the same way for plain text (``_text``) and Python (``_python``).
 """
 
-from typing import Any, Self
+from collections.abc import Iterable
+from functools import cache
+from typing import Any, Self, TypeVar
 
 import sympy
+
+T = TypeVar("T", bound=sympy.Basic)
 
 _RAISED = str.maketrans("0123456789+-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻")
 
@@ -14,6 +18,14 @@ _RAISED = str.maketrans("0123456789+-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻")
 def raised(written: str) -> str:
     """Digits and signs as superscripts."""
     return written.translate(_RAISED)
+
+
+_written = cache(str)  # SymPy takes longer to write an expression than to read it
+
+
+def by_name(found: Iterable[T]) -> list[T]:
+    """Expressions in the order of their text, so that the order of a set decides nothing."""
+    return sorted(found, key=_written)
 
 
 class Symbol(sympy.Symbol):  # type: ignore[misc]

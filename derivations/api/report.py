@@ -64,18 +64,18 @@ def report(
     """
     find_libraries()
     tell = notice or (lambda _: None)
-    return made(lambda: derived or derive(notice=notice), tell, command, partial)
+    return made(lambda _: derived or derive(notice=notice), tell, command, partial)
 
 
 def made(
-    deriving: Callable[[], Derived], notice: Callable[[str], None], command: str, start: Start
+    deriving: Callable[[Start], Derived], notice: Callable[[str], None], command: str, start: Start
 ) -> Report:
     """Make the page; what is measured by the clock is started first."""
     from force_diffusion.derivations.export.page import sections
     from force_diffusion.derivations.export.page.page import page
 
     measured = start(sections.measured_parts)
-    derived = deriving()
+    derived = deriving(start)
     parts = [sections.figures_part(notice)]
     notice("cost and stability")
     parts += measured()

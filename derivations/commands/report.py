@@ -13,6 +13,7 @@ from force_diffusion.derivations.framework.catalogue import modules
 
 if TYPE_CHECKING:
     from force_diffusion.derivations.api.derived import Derived
+    from force_diffusion.numeric.arithmetic.processes import Start
 
 PAGE = "report.html"
 STATUSES = (
@@ -34,8 +35,8 @@ def report(
     find_libraries()
     command = shell_line(["force-diffusion", "report", "--out", str(out)])
 
-    def deriving() -> "Derived":
-        return watched(modules(), display(len(modules()), as_json=False))
+    def deriving(start: "Start") -> "Derived":
+        return watched(modules(), display(len(modules()), as_json=False), start)
 
     with output(out, "report", [PAGE], overwrite) as folder:
         with beside() as start, noticing() as notice:

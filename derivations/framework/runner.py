@@ -1,7 +1,9 @@
 """Runs a derivation: its proofs, its witnesses, and the mutants that must be refuted."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import suppress
+import gc
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from itertools import chain
 from time import perf_counter
 
@@ -31,6 +33,17 @@ Watch = Callable[[Derivation, str], None]
 
 Rule = Callable[[Derivation, int, str, sympy.Eq], Ruling]
 """Rules on a candidate for a part of an equation, described in words."""
+
+
+@contextmanager
+def _rarely_collected() -> Iterator[None]:
+    """Look for circles of objects seldom: expressions make few, and the search takes a tenth."""
+    before = gc.get_threshold()
+    gc.set_threshold(100_000)
+    try:
+        yield
+    finally:
+        gc.set_threshold(*before)
 
 
 def _silent(_derivation: Derivation, _check: str) -> None:
@@ -136,8 +149,18 @@ def tried(derivation: Derivation, watch: Watch = _silent, rule: Rule = _rule) ->
             yield Tried(statement, ruling)
 
 
-def rulings(number: Number) -> list[tuple[int, str, Ruling]]:
-    """Rule on all mutants and statements of an equation, in their order; plain values."""
+@dataclass(frozen=True)
+class Ruled:
+    """Rulings on mutants and statements, in their order: part, words, ruling; plain values."""
+
+    rulings: Sequence[tuple[int, str, Ruling]] = ()
+    seconds: float = 0.0
+
+
+@_rarely_collected()
+def rulings(number: Number) -> Ruled:
+    """Rule on all mutants and statements of an equation."""
+    start = perf_counter()
     found = []
 
     def keep(derivation: Derivation, place: int, words: str, candidate: sympy.Eq) -> Ruling:
@@ -149,7 +172,7 @@ def rulings(number: Number) -> list[tuple[int, str, Ruling]]:
     with suppress(KernelError):  # who reads the rulings comes to it as well
         for _ in chain(judged_mutants(derivation, rule=keep), tried(derivation, rule=keep)):
             pass
-    return found
+    return Ruled(found, perf_counter() - start)
 
 
 def _read(known: Iterable[tuple[int, str, Ruling]]) -> Rule:
@@ -199,7 +222,7 @@ def run(
     derivation: Derivation,
     watch: Watch = _silent,
     known: Mapping[Number, Verdict] | None = None,
-    ruled: Callable[[], Iterable[tuple[int, str, Ruling]]] = tuple,
+    ruled: Callable[[], Ruled] = Ruled,
 ) -> Outcome:
     """Everything about one equation.
 
@@ -213,11 +236,14 @@ def run(
         *witnesses(derivation, watch),
     )
     watch(derivation, "mutants")
-    rule = _read(ruled())
+    asked = perf_counter()
+    before = ruled()
+    waited = perf_counter() - asked - before.seconds
+    rule = _read(before.rulings)
     mutants = tuple(judged_mutants(derivation, watch, rule))
     on = tuple(tried(derivation, watch, rule))
     verdict = overall(checks, mutants, on)
-    return Outcome(derivation, verdict, checks, mutants, on, perf_counter() - start)
+    return Outcome(derivation, verdict, checks, mutants, on, perf_counter() - start - waited)
 
 
 def run_all(
@@ -230,8 +256,9 @@ def run_all(
     """
     wanted = list(derivations)
     known: dict[Number, Verdict] = {}
-    ruled = [start(rulings, one.number) if start else tuple for one in wanted]
-    for derivation, found in zip(wanted, ruled, strict=True):
-        outcome = run(derivation, watch, known, found)
-        known[derivation.number] = outcome.verdict
-        yield outcome
+    ruled = [start(rulings, one.number) if start else Ruled for one in wanted]
+    with _rarely_collected():
+        for derivation, found in zip(wanted, ruled, strict=True):
+            outcome = run(derivation, watch, known, found)
+            known[derivation.number] = outcome.verdict
+            yield outcome

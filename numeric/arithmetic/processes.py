@@ -4,7 +4,7 @@ import os
 import signal
 import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from functools import partial
 from multiprocessing import connection, get_context, parent_process
@@ -15,6 +15,9 @@ from .machine import cores
 
 Start = Callable[..., Callable[[], Any]]
 """Takes a function and its arguments; gives what waits for its value. ``partial`` is one, too."""
+
+Answer = tuple[Any, Exception | None]
+"""What a call gave, or why it did not."""
 
 
 @contextmanager
@@ -51,8 +54,9 @@ def _follow_parent() -> None:
 def beside() -> Iterator[Start]:
     """Give what calls functions in a process beside this one, one after the other.
 
-    What is not begun when its value is asked for is called here; so is all where there is one core,
-    or where no process starts, or it dies. Functions, arguments and values have to be picklable.
+    Who waits for a value calls meanwhile what is not begun, the latest first; all is called here
+    where there is one core, or where no process starts, or it dies. Functions, arguments and
+    values have to be picklable.
     """
     ours, theirs = get_context("spawn").Pipe()
     process = get_context("spawn").Process(target=_serve, args=(theirs,), daemon=True)
@@ -67,28 +71,35 @@ def beside() -> Iterator[Start]:
     finally:
         theirs.close()
 
-    def ask(task: Callable[[], Any]) -> tuple[Any, Exception | None]:
+    def ask(task: Callable[[], Any]) -> Answer:
         ours.send(task)
-        answer: tuple[Any, Exception | None] = ours.recv()
+        answer: Answer = ours.recv()
         return answer
 
     def start(function: Callable[..., Any], *arguments: Any) -> Callable[[], Any]:
-        here = partial(function, *arguments)
-        future = asking.submit(ask, here)
+        task = partial(function, *arguments)
+        future = asking.submit(ask, task)
+        given[future] = task
 
         def value() -> Any:
-            if future.cancel():
-                return here()
+            while not future.done():
+                latest = next((one for one in reversed(given) if one.cancel()), None)
+                if latest is None:
+                    break
+                called[latest] = _answer(given.pop(latest))
+            given.pop(future, None)
             try:
-                found, error = future.result()
+                found, error = called.pop(future) if future in called else future.result()
             except (EOFError, OSError):  # it died
-                return here()
+                return task()
             if error is not None:
                 raise error
             return found
 
         return value
 
+    given: dict[Future[Answer], Callable[[], Any]] = {}
+    called: dict[Future[Answer], Answer] = {}
     asking = ThreadPoolExecutor(1)
     try:
         yield start
@@ -104,9 +115,11 @@ def _serve(connected: Connection) -> None:
     with suppress(EOFError, OSError):  # the parent has gone
         while True:
             task = connected.recv()
-            answer: tuple[Any, Exception | None]
-            try:
-                answer = task(), None
-            except Exception as error:
-                answer = None, error
-            connected.send(answer)
+            connected.send(_answer(task))
+
+
+def _answer(task: Callable[[], Any]) -> Answer:
+    try:
+        return task(), None
+    except Exception as error:
+        return None, error

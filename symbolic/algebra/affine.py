@@ -117,6 +117,7 @@ class Region:
             for symbol, bound in lower_bounds.items()
         }
         self._bounds = [(s, from_sympy(b)) for s, b in self.lower_bounds.items()]
+        self._key = tuple(self.lower_bounds.items())
         self._free = [place for s, place in _POSITION.items() if s not in self.lower_bounds]
 
     def excess(self, value: Affine) -> Affine:
@@ -171,6 +172,12 @@ class Region:
 
     def __len__(self) -> int:
         return len(self._bounds)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Region) and self._key == other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
 
     def __str__(self) -> str:
         return ", ".join(f"{symbol} ≥ {bound}" for symbol, bound in self.lower_bounds.items())

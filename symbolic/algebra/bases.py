@@ -16,7 +16,7 @@ def _pair(first: sympy.Expr, second: sympy.Expr) -> Pair:
     )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)  # each basis is one of its own
 class Basis:
     """Components of the paper's vectors, and the dot product in these components."""
 

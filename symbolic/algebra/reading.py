@@ -1,6 +1,7 @@
 """From a SymPy expression to its normal form: the only way in, for equations and mutants alike."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import sympy
 from force_diffusion.symbolic.algebra import affine
@@ -70,7 +71,10 @@ class Reader:
         raise NotExactError(f"{expression} is no vector")
 
     def read(self, expression: sympy.Expr) -> LinearForm | Vector:
-        """Read a scalar or a vector."""
+        """Read a scalar or a vector; what was read lately is remembered, and never changed."""
+        return read_with(self, expression)
+
+    def _read_anew(self, expression: sympy.Expr) -> LinearForm | Vector:
         if expression in self.basis.vectors:
             first, second = self.basis.vectors[expression]
             return LinearForm.constant(first), LinearForm.constant(second)
@@ -212,6 +216,10 @@ class Reader:
                     f"{affine.to_sympy(high)} is not shown to be in order for {self.region}"
                 )
         return form.summed(index, low, high)
+
+
+# Changed equations share most of their terms.
+read_with = lru_cache(maxsize=10_000)(Reader._read_anew)
 
 
 def split_by_cases(

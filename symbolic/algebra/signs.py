@@ -8,6 +8,7 @@ from functools import cache
 
 import sympy
 from force_diffusion.symbolic.algebra.exact import Domain, NotExactError
+from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.symbols import n_x, n_y, phi, z
 
 Symbols = tuple[sympy.Symbol, ...]
@@ -32,7 +33,7 @@ def sign(expression: sympy.Expr, positive: Symbols = (), nonnegative: Symbols = 
         if expression.exp.is_Integer:
             return base ** (int(expression.exp) % 2) if base else 0
         return base if base == 1 else 0
-    domain = Domain(sorted(expression.free_symbols, key=str))
+    domain = Domain(by_name(expression.free_symbols))
     try:
         value = domain.from_sympy(expression)
     except NotExactError:
@@ -88,7 +89,7 @@ def _of_cosines(factor: sympy.Expr) -> int:
 
 def _of_terms(factor: sympy.Expr, positive: Symbols, nonnegative: Symbols) -> int:
     """All terms of one sign, even powers of φ included, and one that is not zero anywhere."""
-    symbols = sorted(factor.free_symbols, key=str)
+    symbols = by_name(factor.free_symbols)
     may_vanish = {phi, *nonnegative} - set(positive)
     if not all(s in may_vanish or s == z or s.is_positive or s in positive for s in symbols):
         return 0

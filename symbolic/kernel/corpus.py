@@ -21,6 +21,7 @@ from force_diffusion.symbolic.kernel.sources import (
     put_in,
     times,
 )
+from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 from sympy import Add, Mul, Pow, Rational, Sum
 
@@ -206,7 +207,7 @@ def _empty_sums(source: Source) -> Made:
 def _cases_in_sums(source: Source) -> Made:
     for series in source.sums():
         (m, low, high), body = series.limits[0], series.function
-        found = sorted(body.atoms(sy.Braces), key=str)
+        found = by_name(body.atoms(sy.Braces))
         for braces in found:
             first, second, index, last = braces.args
 
@@ -242,7 +243,7 @@ def _no_meaning(source: Source) -> Made:
     radius, unit = sy.DeltaR(sy.m, sy.m), source.term(sympy.Integer(1))
     for series in source.sums():
         (m, low, high), body = series.limits[0], series.function
-        for index in sorted(source.free & set(sy.INDICES), key=str):
+        for index in by_name(source.free & set(sy.INDICES)):
             other = Sum(body.xreplace({m: index}), (index, low, high))
             yield f"{text(index)} is free and summed over", source.with_sum(series, other)
         yield "a sum up to its own index", source.with_sum(series, Sum(body, (m, low, m)))
@@ -259,7 +260,7 @@ def _no_meaning(source: Source) -> Made:
     yield "infinity", source.right(plus(sympy.oo * unit))
     yield "a float", source.right(times(sympy.Float("1.0000001")))
     yield "an angle", source.right(times(1 + sympy.sin(sy.phi)))
-    for symbol in sorted(source.free, key=str):
+    for symbol in by_name(source.free):
         stranger = sympy.Symbol(symbol.name, real=True)
         factor = Mul(symbol, over(stranger), evaluate=False)
         yield f"{symbol.name} in two roles", source.right(times(factor))

@@ -18,6 +18,7 @@ from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.bases import CARTESIAN, LINE_SUM, Basis
 from force_diffusion.symbolic.algebra.exact import Domain, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.reading import Reader
+from force_diffusion.symbolic.notation import by_name
 
 
 class Verdict(StrEnum):
@@ -92,9 +93,8 @@ def counterexample(
 ) -> str | None:
     """Look for a small packing on which two linear expressions have different weights."""
     free = tuple(
-        sorted(
-            (left.free_symbols | right.free_symbols) & set(sy.INDICES) - set(region.lower_bounds),
-            key=str,
+        by_name(
+            (left.free_symbols | right.free_symbols) & set(sy.INDICES) - set(region.lower_bounds)
         )
     )
     for values in _samples(region, free):
@@ -155,12 +155,11 @@ def decide_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
     All other symbols and lattice quantities are independent variables here; both sides may be
     undefined where a denominator vanishes.
     """
-    unknowns = sorted(
+    unknowns = by_name(
         left.free_symbols
         | right.free_symbols
         | left.atoms(sy.SiteFunction)
-        | right.atoms(sy.SiteFunction),
-        key=str,
+        | right.atoms(sy.SiteFunction)
     )
     field = Domain(dict.fromkeys([*unknowns, sy.n_x, sy.n_y, sy.phi]))
     try:

@@ -12,6 +12,7 @@ from itertools import chain
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.signs import never_zero, sign
+from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
 SUMMATION = (sy.m, sy.n)
@@ -116,7 +117,7 @@ def says_less(candidate: sympy.Eq, printed: sympy.Eq) -> str:
     What is multiplied by a factor that vanishes somewhere says nothing there.
     """
     known = _COMMON | {*sy.PARAMETERS} | printed.rhs.free_symbols
-    observed = sorted(printed.lhs.free_symbols - known, key=str)
+    observed = by_name(printed.lhs.free_symbols - known)
     if candidate.lhs == printed.lhs or not observed:
         return ""
     told, meant = (sympy.diff(one.lhs - one.rhs, observed[0]) for one in (candidate, printed))
@@ -127,7 +128,7 @@ def says_less(candidate: sympy.Eq, printed: sympy.Eq) -> str:
 
 def _strangers(candidate: sympy.Basic, known: Collection[sympy.Basic]) -> Iterator[str]:
     names = {symbol.name for symbol in known}
-    for symbol in sorted(candidate.atoms(sympy.Symbol) - set(known), key=str):
+    for symbol in by_name(candidate.atoms(sympy.Symbol) - set(known)):
         if symbol.name in names:
             yield (
                 f"{symbol.name}: not this equation's symbol, but another of the same name; take "
@@ -212,7 +213,7 @@ def _sum(series: sympy.Sum) -> str:
 
 def _values(candidate: sympy.Eq, in_the_limit: bool) -> Iterator[str]:
     # in an unevaluated tree two equal powers are one node, and a/a keeps its divisor
-    for power in sorted(candidate.atoms(sympy.Pow), key=str):
+    for power in by_name(candidate.atoms(sympy.Pow)):
         if power.exp.is_Integer and power.exp.is_negative:
             of_force = isinstance(power.base, _FORCES)
             if not of_force and not _has_one_sign(power.base, in_the_limit):
@@ -253,6 +254,6 @@ def _in_own_bounds(series: sympy.Sum, index: sympy.Symbol) -> bool:
 
 def _indices(candidate: sympy.Eq) -> Iterator[str]:
     summed = {limit[0] for one in candidate.atoms(sympy.Sum) for limit in one.limits}
-    for force in sorted(candidate.atoms(*_FORCES), key=str):
+    for force in by_name(candidate.atoms(*_FORCES)):
         if force.free_symbols & summed:
             yield f"the force {text(force)} stands in a sum"

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 from sympy import Add, Eq, Mul, Pow, Rational, Sum
 
@@ -60,7 +61,7 @@ class Source:
 
     def sums(self) -> list[sympy.Sum]:
         """The sums in it."""
-        return sorted(self.printed.atoms(Sum), key=str)
+        return by_name(self.printed.atoms(Sum))
 
     def with_sum(self, series: sympy.Sum, other: sympy.Expr) -> sympy.Eq:
         """One sum replaced."""
@@ -68,7 +69,7 @@ class Source:
 
     def radii(self) -> list[sympy.Expr]:
         """The radius of the bead that it is about, and two on the base; none for statistics."""
-        beads = sorted(self.printed.atoms(sy.SiteFunction), key=str)[:1]
+        beads = by_name(self.printed.atoms(sy.SiteFunction))[:1]
         if not beads:
             return []
         across, layer = beads[0].args

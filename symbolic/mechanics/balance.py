@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import sympy
 from force_diffusion.symbolic.algebra.exact import Domain
 from force_diffusion.symbolic.as_printed import equation, terms
-from force_diffusion.symbolic.notation import Symbol, raised
+from force_diffusion.symbolic.notation import Symbol, by_name, raised
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
@@ -61,7 +61,7 @@ ORDER_0, ORDER_1 = _pair("F", "0"), _pair("F", "1")
 
 
 def _in_lowest_terms(value: sympy.Expr) -> sympy.Expr:
-    return Domain([phi, *sorted(value.free_symbols - {phi}, key=str)]).from_sympy(value).to_sympy()
+    return Domain([phi, *by_name(value.free_symbols - {phi})]).from_sympy(value).to_sympy()
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic.algebra import affine, signs
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
-from force_diffusion.symbolic.algebra.reading import Reader
+from force_diffusion.symbolic.algebra.reading import Reader, read_with
 from force_diffusion.symbolic.kernel import decisions
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, proved, refuted
 from force_diffusion.symbolic.symbols import j
@@ -29,9 +29,12 @@ Plant = pytest.MonkeyPatch
 
 @pytest.fixture(autouse=True)
 def _nothing_is_remembered() -> Iterator[None]:
-    signs.sign.cache_clear()
+    remembering = (signs.sign, read_with)
+    for one in remembering:
+        one.cache_clear()
     yield
-    signs.sign.cache_clear()
+    for one in remembering:
+        one.cache_clear()
 
 
 @pytest.fixture

@@ -1,5 +1,6 @@
 """The runner: verdicts from checks, premises first, mutants judged."""
 
+import time
 from dataclasses import replace
 
 import pytest
@@ -14,7 +15,7 @@ from force_diffusion.derivations.export.terminal import (
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.derivations.framework.record import KernelError
-from force_diffusion.derivations.framework.runner import rulings, run
+from force_diffusion.derivations.framework.runner import Ruled, rulings, run
 from force_diffusion.symbolic.kernel.corpus import Statement
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 
@@ -142,10 +143,10 @@ def test_rulings_of_another_process_change_nothing() -> None:
     derivation = load(6)
     alone = run(derivation)
     found = rulings(6)
-    assert len(found) == len(alone.mutants) + len(alone.tried)
+    assert len(found.rulings) == len(alone.mutants) + len(alone.tried)
     calls = []
 
-    def ruled() -> list[tuple[int, str, Ruling]]:
+    def ruled() -> Ruled:
         calls.append(1)
         return found
 
@@ -153,7 +154,21 @@ def test_rulings_of_another_process_change_nothing() -> None:
     assert calls
     for name in ("verdict", "mutants", "tried"):
         assert getattr(beside, name) == getattr(alone, name)
-    wrong = [(place, words + "?", Ruling(Verdict.PROVED)) for place, words, _ in found]
-    assert run(derivation, ruled=lambda: wrong).mutants == alone.mutants
+    wrong = [(place, words + "?", Ruling(Verdict.PROVED)) for place, words, _ in found.rulings]
+    assert run(derivation, ruled=lambda: Ruled(wrong)).mutants == alone.mutants
+    wrong = [(place, words, Ruling(Verdict.PROVED)) for place, words, _ in found.rulings]
     with pytest.raises(KernelError):  # what is read off the list counts as if it were ruled here
-        run(derivation, ruled=lambda: [(p, words, Ruling(Verdict.PROVED)) for p, words, _ in found])
+        run(derivation, ruled=lambda: Ruled(wrong))
+
+
+def test_seconds_count_the_work_wherever_it_was_done_and_no_waiting() -> None:
+    derivation = load(6)
+
+    def late() -> Ruled:
+        time.sleep(1)
+        return Ruled()
+
+    start = time.perf_counter()
+    waited = run(derivation, ruled=late).seconds
+    assert waited < time.perf_counter() - start - 0.9
+    assert run(derivation, ruled=lambda: Ruled((), 100)).seconds > 100

@@ -41,6 +41,18 @@ def test_what_has_begun_is_done_beside_and_the_rest_here() -> None:
 
 
 @pytest.mark.usefixtures("_two_cores")
+def test_who_waits_works_meanwhile() -> None:
+    with processes.beside() as start:
+        slow = start(time.sleep, 4)
+        time.sleep(2)  # until it has been handed over
+        rest = [start(square_and_process, 1), start(refuse, 3), start(square_and_process, 2)]
+        assert slow() is None
+        with pytest.raises(ValueError, match="not 3"):  # when it is asked for, and not before
+            rest[1]()
+        assert [rest[0](), rest[2]()] == [(1, os.getpid()), (4, os.getpid())]
+
+
+@pytest.mark.usefixtures("_two_cores")
 def test_errors_come_back_and_a_death_is_made_good() -> None:
     with processes.beside() as start:
         refused, dead = start(refuse, 3), start(die_elsewhere, os.getpid())
