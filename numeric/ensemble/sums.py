@@ -217,13 +217,13 @@ def _tally(m: Measurement, solved: Solved) -> "Tally | None":
             side = 0 if branch is Branch.PLUS else 1
             start = forces.starts[j], forces.F.start[side][j]
             pieces.append((group, side, *start, forces.rows[j].count))
-    return Tally(np.array(pieces).reshape(-1, 5), m.groups, m.members, m.unit, m.edges)
+    table = np.array(pieces).reshape(-1, 5)
+    return Tally(table, forces.F.values, m.groups, m.members, m.unit, m.edges)
 
 
 def _tallied(tally: "Tally", solved: Solved) -> Array | None:
     forces = solved.forces
-    assert isinstance(forces, CompiledForces)
-    return tally.add(forces.g, forces.F.values)
+    return tally.add(forces.g) if isinstance(forces, CompiledForces) else None
 
 
 def _of_tally(m: Measurement, tally: "Tally") -> Sums:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.compiling import borrowed, compiled, on_all_cores
+from ..arithmetic.compiling import borrowed, compiled
 from ..arithmetic.systems import Array
 from .exact_sum import BITS, ExactSum
 
@@ -97,10 +97,11 @@ def _added_slowly(values: Array, e: int, sums: Array, squares: Array) -> bool:
 
 
 @compiled
-def _carried(limbs: Array, low: int, shift: int, total: Array) -> float:
+def _carried(limbs: Array, low: int, shift: int, total: Array, used: Array) -> float:
     """Make digits canonical, add them to ``total``, and forget them; give the rounded number.
 
-    It is ``ExactSum.rounded(shift)``: digits are added as floats, the lowest first.
+    It is ``ExactSum.rounded(shift)``: digits are added as floats, the lowest first. ``used`` are
+    the first and the last digit of a total that is not zero.
     """
     rounded = 0.0
     for k in range(limbs.size):
@@ -111,6 +112,7 @@ def _carried(limbs: Array, low: int, shift: int, total: Array) -> float:
             if k + 1 < limbs.size:
                 limbs[k + 1] += carry
             total[k] += digit
+            used[0], used[1] = min(used[0], k), max(used[1], k)
             rounded += math.ldexp(np.float64(digit), BITS * (low + k) + shift)
     return rounded
 
@@ -143,7 +145,9 @@ def _tally(
     members: int,
     unit: int,
     edges: Array,
+    least: Array,
     totals: tuple[Array, Array],
+    used: Array,
     means: Array,
     tensile: Array,
     counts: Array,
@@ -152,16 +156,17 @@ def _tally(
 
     ``g`` is (packings, 2, …), ``words`` its bits, ``F`` the ordered forces of both branches.
     ``pieces`` (pieces, 5): group, branch, where it begins in g and in F, contacts; groups come in
-    their order. Added to are ``totals``, digits of sums and sums of squares (groups, …), and
-    ``tensile`` (groups,); filled are ``means`` (2, groups, packings), counted up ``counts``
-    (packings, bins and 2).
+    their order; ``least`` (pieces,) is the smallest F of each. Added to are ``totals``, digits of
+    sums and sums of squares (groups, …), of which some lie within ``used`` (2, 2), and ``tensile``
+    (groups,); filled are ``means`` (2, groups, packings), counted up ``counts`` (packings, bins
+    and 2).
     """
     sums, squares = np.zeros(_PLANES, np.int64), np.zeros(_PLANES_OF_SQUARES, np.int64)
     g, words = borrowed(g), borrowed(words)
     for k in range(len(g)):
         for p in range(len(pieces)):
             group, branch, start, ordered = pieces[p, 0], pieces[p, 1], pieces[p, 2], pieces[p, 3]
-            stop = start + pieces[p, 4]
+            stop, bound = start + pieces[p, 4], 0.0
             for at in range(start, stop, _PIECE):
                 end = min(at + _PIECE, stop)
                 own = words[k, branch, at:end]
@@ -172,21 +177,23 @@ def _tally(
                     e = (largest >> 52) - 1022
                     if e < _LEAST or e > _MOST:
                         return False
+                    bound = max(bound, 2.0**e)
                     values = g[k, branch, at:end]
                     if not _added(values, e, sums, squares) and not _added_slowly(
                         values, e, sums, squares
                     ):
                         return False
-            own_g, own_F = g[k, branch, start:stop], F[branch][ordered : ordered + stop - start]
-            pull = 0
-            for q in range(own_g.size):
-                pull += own_F[q] + own_g[q] < 0
-            tensile[group] += pull
+            own_g = g[k, branch, start:stop]
+            if least[p] < bound:
+                pull, own_F = 0, F[branch][ordered : ordered + stop - start]
+                for q in range(own_g.size):
+                    pull += own_F[q] + own_g[q] < 0
+                tensile[group] += pull
             if edges.size:
                 _counted(own_g, edges, counts[k])
             if p + 1 == len(pieces) or pieces[p + 1, 0] != group:
-                mean = _carried(sums, _LOW, -unit, totals[0][group])
-                square = _carried(squares, _LOW_OF_SQUARES, -2 * unit, totals[1][group])
+                mean = _carried(sums, _LOW, -unit, totals[0][group], used[0])
+                square = _carried(squares, _LOW_OF_SQUARES, -2 * unit, totals[1][group], used[1])
                 means[0, group, k], means[1, group, k] = mean / members, square / members
     return True
 
@@ -195,41 +202,43 @@ class Tally:
     """Sums over packings, group by group, as they come; arrays as in ``ensemble.sums``."""
 
     def __init__(
-        self, pieces: Array, groups: int, members: int, unit: int, edges: tuple[float, ...]
+        self,
+        pieces: Array,
+        F: tuple[Array, Array],
+        groups: int,
+        members: int,
+        unit: int,
+        edges: tuple[float, ...],
     ) -> None:
-        """``pieces`` is the table of ``_tally``; the rest is that of a measurement."""
-        self.pieces, self.members, self.unit = pieces, members, unit
-        self.edges = np.array(edges)
-        self.totals = (
-            np.zeros((groups, _PLANES), np.int64),
-            np.zeros((groups, _PLANES_OF_SQUARES), np.int64),
-        )
+        """``pieces`` and ``F`` are those of ``_tally``; the rest is that of a measurement."""
+        self.pieces, self.F, self.members, self.unit = pieces, F, members, unit
+        least = [F[branch][at : at + count].min() for _, branch, _, at, count in pieces]
+        self.least, self.edges = np.array(least), np.array(edges)
+        shapes = (groups, _PLANES), (groups, _PLANES_OF_SQUARES)
+        self.totals, self._added = ([np.zeros(shape, np.int64) for shape in shapes] for _ in "12")
         self.tensile = np.zeros(groups, np.int64)
         self.bins = np.zeros((2, len(edges) + 1 if edges else 0), np.int64)
 
-    def add(self, g: Array, F: tuple[Array, Array]) -> Array | None:
+    def add(self, g: Array) -> Array | None:
         """Add packings; give their a and b, (2, groups, packings). None, and nothing, where not.
 
         Then some number is too large, too small, or none.
         """
         means = np.zeros((2, len(self.tensile), len(g)))
         counts = np.zeros((len(g), self.bins.shape[1]), np.int64)
-        found = []
-
-        def part(of: slice) -> bool:
-            totals = np.zeros_like(self.totals[0]), np.zeros_like(self.totals[1])
-            tensile = np.zeros_like(self.tensile)
-            found.append((*totals, tensile))
-            return _tally(
-                g[of], g[of].view(np.int64), F, self.pieces, self.members, self.unit, self.edges,
-                totals, means[:, :, of], tensile, counts[of],
-            )  # fmt: skip
-
-        if not on_all_cores(part, len(g)):
+        tensile = np.zeros_like(self.tensile)
+        used = np.array([[_PLANES, 0], [_PLANES_OF_SQUARES, 0]])
+        good = _tally(
+            g, g.view(np.int64), self.F, self.pieces, self.members, self.unit, self.edges,
+            self.least, tuple(self._added), used, means, tensile, counts,
+        )  # fmt: skip
+        for total, added, (first, last) in zip(self.totals, self._added, used, strict=True):
+            if good:
+                total[:, first : last + 1] += added[:, first : last + 1]
+            added[:, first : last + 1] = 0
+        if not good:
             return None
-        for of_part in found:
-            for total, one in zip((*self.totals, self.tensile), of_part, strict=True):
-                np.add(total, one, out=total)
+        self.tensile += tensile
         self.bins += [counts.sum(axis=0), (counts**2).sum(axis=0)]
         return means
 

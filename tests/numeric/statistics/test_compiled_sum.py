@@ -36,9 +36,9 @@ def pieces(n: int) -> Array:
 def test_sums_and_counts_are_the_exact_ones(g: Array, unit: int, reach: float) -> None:
     n, packings = g.shape[2] // GROUPS, len(g)
     edges = tuple(np.linspace(-reach, reach, 8).tolist())
-    tally = Tally(pieces(n), GROUPS, 2 * n, unit, edges)
     F = np.linspace(0, 1, GROUPS * n)
-    means = tally.add(g, (F, F))
+    tally = Tally(pieces(n), (F, F), GROUPS, 2 * n, unit, edges)
+    means = tally.add(g)
     rows = g.reshape(packings, 2, GROUPS, n).transpose(2, 0, 1, 3)
     exact = rows_and_squares(rows.reshape(-1, 2 * n))
     if means is None:  # then nothing was added, and some number is very small
@@ -62,6 +62,6 @@ def test_sums_and_counts_are_the_exact_ones(g: Array, unit: int, reach: float) -
 def test_what_is_out_of_the_ordinary_is_left_to_the_exact_sums(odd: float) -> None:
     g = np.full((2, 2, GROUPS), odd)
     g[0] = 1e-3
-    tally = Tally(pieces(1), GROUPS, 2, 0, ())
-    assert tally.add(g, (np.ones(GROUPS), np.ones(GROUPS))) is None
+    tally = Tally(pieces(1), (np.ones(GROUPS), np.ones(GROUPS)), GROUPS, 2, 0, ())
+    assert tally.add(g) is None
     assert tally.sums()[0].fractions() == [0] * GROUPS
