@@ -1,6 +1,7 @@
 """What this machine has to offer: cores and free memory."""
 
 import os
+import threading
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -13,6 +14,7 @@ _GROUPS = {
 _CACHE = {"inactive_file", "active_file"}  # the kernel makes room of it
 
 _processes = [1]
+_thread = threading.local()
 
 
 def share_cores(processes: int) -> None:
@@ -20,8 +22,15 @@ def share_cores(processes: int) -> None:
     _processes[0] = processes
 
 
+def take_one_core() -> None:
+    """Leave this thread one core: the others do as much beside it."""
+    _thread.alone = True
+
+
 def cores() -> int:
-    """Give the number of cores that this process may use."""
+    """Give the number of cores that this thread of this process may use."""
+    if getattr(_thread, "alone", False):
+        return 1
     try:
         found = len(os.sched_getaffinity(0))
     except AttributeError:  # not on this system

@@ -11,8 +11,9 @@ from functools import cached_property
 from typing import Any
 
 from ..arithmetic.errors import ForceDiffusionError
-from ..arithmetic.systems import Array
+from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import Direction, PerBranch
+from ..mechanics.engine import compiles
 from ..mechanics.problem import Problem, Route, Solved
 from ..planning.plan import Plan
 from ..planning.planner import plan
@@ -62,6 +63,11 @@ class Measurement:
     def many(self) -> Problem:
         """What is solved, with as many realisations as there will be."""
         return replace(self.problem, realisations=self.expected)
+
+    @property
+    def compiled(self) -> bool:
+        """Whether compiled loops solve the packings."""
+        return self.problem.route == Route.EXACT and compiles(self.many, FLOAT64)
 
     @property
     def of_networks(self) -> bool:

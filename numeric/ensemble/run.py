@@ -12,9 +12,12 @@ from .store import Block, Store, StoreError
 from .sums import AnySums, of_none
 from .workers import refuse_unbuildable
 
-# Beads of a block, about: a second of work at most, of which a kill loses no more; of a large
-# ensemble more, as long as there are so many blocks for workers to share.
-BLOCK, LARGE, SHARES = 1_000_000, 8_000_000, 16
+# Beads of a block, about; of a large ensemble more, as long as there are so many blocks for workers
+# to share: a second of work at most, compiled or not, of which a kill loses no more.
+BLOCK, SHARES = 1_000_000, 16
+LARGE = {True: 64_000_000, False: 8_000_000}
+# Numbers that large blocks keep of all their packings, those of a group, until they are summed up.
+MEANS = 2_000_000
 
 
 class Executor(Protocol):
@@ -113,8 +116,10 @@ class _Run:
     def _tasks(self) -> Iterator[tuple[int, int]]:
         """Give the ranges that are missing, in order; none lies across a cut."""
         beads = max(self.m.problem.region.beads, 1)
-        large = min(LARGE // beads, self.size // SHARES)
-        step = max(1, min(max(BLOCK // beads, large), 4096))
+        large = min(
+            LARGE[self.m.compiled] // beads, self.size // SHARES, MEANS // max(self.m.groups, 1)
+        )
+        step = max(1, min(BLOCK // beads, 4096), large)
         if self.m.of_networks:  # each takes a second, or many
             step = 1
         known = [(block.first, block.stop) for block in self.blocks]

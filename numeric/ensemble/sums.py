@@ -17,9 +17,9 @@ import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import Branch
+from ..mechanics import engine
 from ..mechanics.engine import packings as solved_packings
-from ..mechanics.forces import CompiledForces
-from ..mechanics.problem import Solved
+from ..mechanics.problem import Problem, Route
 from ..mechanics.work import Work
 from ..statistics.exact_sum import (
     ExactSum,
@@ -33,6 +33,7 @@ from . import networks
 from .measure import Measurement
 
 if TYPE_CHECKING:
+    from ..mechanics.compiled_forces import Descent
     from ..statistics.compiled import Tally
 
 _COUNTS = struct.Struct("<3q")
@@ -183,52 +184,62 @@ def measured(m: Measurement, realisations: Sequence[int], work: Work | None = No
     problem = m.many
     if m.expected < len(realisations):
         problem = replace(problem, realisations=len(realisations))
-    over_contacts = [none(m)]
-    packings: list[Array] = []
-    tally: Tally | None = None
+    over_contacts, packings, left = [none(m)], list[Array](), realisations
     with FLOAT64.active():
-        for solved, chunk in solved_packings(problem, realisations, FLOAT64, work, any_number=True):
+        if problem.route == Route.EXACT and m.pieces is not None:
+            summed, packings, left = _compiled(m, problem, realisations, work)
+            over_contacts.append(summed)
+        for solved, chunk in solved_packings(problem, left, FLOAT64, work, any_number=True):
             with work.timed("statistics"):
-                if tally is None:
-                    tally = _tally(m, solved)
-                means = None if tally is None else _tallied(tally, solved)
-                if means is None:
-                    summed, means = _over_contacts(m, *m.changes(solved, len(chunk)))
-                    over_contacts.append(summed)
-                packings.append(means)
+                summed, means = _over_contacts(m, *m.changes(solved, len(chunk)))
+            over_contacts.append(summed)
+            packings.append(means)
     with work.timed("statistics"):
-        if tally is not None:
-            over_contacts.append(_of_tally(m, tally))
         summed = replace(reduce(add, over_contacts), realisations=len(realisations))
         return _over_packings(m, summed, packings)
 
 
-def _tally(m: Measurement, solved: Solved) -> "Tally | None":
-    """Give compiled sums, the same numbers, for groups of many contacts of compiled forces."""
-    forces = solved.forces
-    table = m.pieces
-    if table is None or not isinstance(forces, CompiledForces):
-        return None
+def _compiled(
+    m: Measurement, problem: Problem, realisations: Sequence[int], work: Work
+) -> tuple[Sums, list[Array], Sequence[int]]:
+    """Sum up by compiled loops, if they are taken, a packing or a few at a time.
+
+    Gives also the a, b of packings, and realisations that are out of the ordinary.
+    """
+    sweeps, loads = engine.ready(problem, FLOAT64)
+    if sweeps is None or loads is None:
+        return none(m), [], realisations
+    descent = sweeps.descent(problem.force_rows, loads)
+    tally, packings, left = _tally(m, descent), list[Array](), list[int]()
+    beads, step = problem.region.beads, engine.at_once(problem, FLOAT64)
+    for at in range(0, len(realisations), step):
+        some = realisations[at : at + step]
+        g = sweeps.changes(some, descent)
+        means = None if g is None else tally.add(g)
+        if means is None:
+            left += some
+        else:
+            packings.append(means)
+        work.did_rows("balanced", problem.region.rows, beads * len(some))
+    engine.keep(problem, sweeps, loads)
+    change, square = tally.sums()
+    summed = replace(none(m), change=change, square=square, tensile=tally.tensile, bins=tally.bins)
+    return summed, packings, left
+
+
+def _tally(m: Measurement, descent: "Descent") -> "Tally":
+    """Give compiled sums, the same numbers, of groups of many contacts."""
     from ..statistics.compiled import Tally
 
+    assert m.pieces is not None
     pieces = []
-    for group, branch, j in table:
-        if forces.lowest <= j < len(forces.rows):  # some load reaches it
+    for group, branch, j in m.pieces:
+        if descent.lowest <= j < len(descent.rows):  # some load reaches it
             side = 0 if branch is Branch.PLUS else 1
-            start = forces.starts[j], forces.F.start[side][j]
-            pieces.append((group, side, *start, forces.rows[j].count))
+            start = descent.starts[j], descent.F.start[side][j]
+            pieces.append((group, side, *start, descent.rows[j].count))
     table = np.array(pieces).reshape(-1, 5)
-    return Tally(table, forces.F.values, m.groups, m.members, m.unit, m.edges)
-
-
-def _tallied(tally: "Tally", solved: Solved) -> Array | None:
-    forces = solved.forces
-    return tally.add(forces.g) if isinstance(forces, CompiledForces) else None
-
-
-def _of_tally(m: Measurement, tally: "Tally") -> Sums:
-    change, square = tally.sums()
-    return replace(none(m), change=change, square=square, tensile=tally.tensile, bins=tally.bins)
+    return Tally(table, descent.F.values, m.groups, m.members, m.unit, m.edges)
 
 
 def _over_contacts(m: Measurement, ordered: Array, changes: Array) -> tuple[Sums, Array]:

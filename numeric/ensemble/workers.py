@@ -2,17 +2,28 @@
 
 import os
 from collections.abc import Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    wait,
+)
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
+from functools import reduce
+from itertools import islice
 from multiprocessing import active_children, get_context
+from operator import add
+from threading import Event
 
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
-from ..arithmetic.machine import memory_limit, share_cores
+from ..arithmetic.machine import cores, memory_limit, share_cores, take_one_core
 from ..arithmetic.processes import end_with_parent, without_interrupts
 from ..disorder.radii import RadiusError
 from ..mechanics.forces import NotStandingError
 from ..mechanics.packing import UnbuildableError
+from ..mechanics.work import Progress, Work
 from ..unilateral.network import UnfinishedError
 from .measure import Measurement
 from .sums import AnySums, from_bytes, left_out, measured
@@ -43,15 +54,18 @@ def solve_block(m: Measurement, first: int, stop: int) -> bytes:
     return _without_unbuildable(m, first, stop).to_bytes()
 
 
-def _without_unbuildable(m: Measurement, first: int, stop: int) -> AnySums:
+def _without_unbuildable(
+    m: Measurement, first: int, stop: int, progress: Progress | None = None
+) -> AnySums:
     """Find them by halving: sums merge exactly, however they were cut."""
     try:
-        return measured(m, range(first, stop))
+        return measured(m, range(first, stop), Work(progress=progress))
     except _TROUBLE:
         if stop - first == 1:
             return left_out(m, first)
     middle = (first + stop) // 2
-    return _without_unbuildable(m, first, middle) + _without_unbuildable(m, middle, stop)
+    parts = (first, middle), (middle, stop)
+    return reduce(add, (_without_unbuildable(m, *part, progress) for part in parts))
 
 
 def refuse_unbuildable(m: Measurement, sums: AnySums) -> None:
@@ -69,15 +83,47 @@ def refuse_unbuildable(m: Measurement, sums: AnySums) -> None:
     )
 
 
+class _StoppedError(Exception):
+    """Nobody waits for a thread's block any more."""
+
+
 class InProcess:
-    """Solve one block after the other, here; compiled sweeps take all cores."""
+    """Solve blocks here: compiled ones on all cores, a block a core, others one after the other."""
 
     def results(
         self, m: Measurement, tasks: Iterator[tuple[int, int]]
     ) -> Iterator[tuple[int, int, AnySums]]:
-        """Give (first, stop, sums) of every task."""
-        for first, stop in tasks:
-            yield first, stop, from_bytes(solve_block(m, first, stop), m)
+        """Give (first, stop, sums) of every task, as they come."""
+        room = memory_limit() // max(m.plan.memory, 1)
+        threads = min(cores(), max(room, 1)) if m.compiled else 1
+        if threads == 1:
+            for first, stop in tasks:
+                yield first, stop, _without_unbuildable(m, first, stop)
+            return
+        stopped = Event()
+
+        def go_on(kind: str, beads: int) -> None:
+            if stopped.is_set():
+                raise _StoppedError
+
+        def block(first: int, stop: int) -> tuple[int, int, AnySums]:
+            return first, stop, _without_unbuildable(m, first, stop, go_on)
+
+        pool = ThreadPoolExecutor(threads, initializer=take_one_core)
+        try:
+            pending: set[Future[tuple[int, int, AnySums]]] = set()
+            while True:
+                pending |= {
+                    pool.submit(block, *task) for task in islice(tasks, threads + 1 - len(pending))
+                }
+                if not pending:
+                    return
+                done, pending = wait(pending, return_when=FIRST_COMPLETED)
+                for future in done:
+                    yield future.result()
+        finally:
+            stopped.set()
+            pool.shutdown(cancel_futures=True)
 
 
 _here: list[Measurement] = []  # what this process measures, if it is a worker

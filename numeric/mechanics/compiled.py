@@ -35,6 +35,17 @@ class Drawing:
     def __call__(self, realisations: Sequence[int]) -> tuple[Array, Sequence[Array]]:
         """Give δr/r, (packings, beads), and its rows. Raises what ``radii`` raises."""
         batch = len(realisations)
+        rho = self.drawn(realisations)
+        if rho is None:
+            rho = self.rho[:batch]
+            for j, row in enumerate(self.rows):
+                of = slice(self.starts[j], self.starts[j + 1])
+                rho[:, of] = self.radii.row(row, realisations, FLOAT64)
+        return rho, lazy_rows(rho[0] if batch == 1 else rho, self.starts)
+
+    def drawn(self, realisations: Sequence[int]) -> Array | None:
+        """Give δr/r, (packings, beads); None where a radius may not be positive."""
+        batch = len(realisations)
         if len(self.rho) < batch:
             self.rho = np.empty((batch, self.size))
         rho, radii, runs = self.rho[:batch], self.radii, self.runs
@@ -44,11 +55,7 @@ class Drawing:
             assert runs is not None
             return drawing.draw(radii, runs, realisations[of], rho[of])
 
-        if runs is None or not on_all_cores(part, batch):
-            for j, row in enumerate(self.rows):
-                of = slice(self.starts[j], self.starts[j + 1])
-                rho[:, of] = radii.row(row, realisations, FLOAT64)
-        return rho, lazy_rows(rho[0] if batch == 1 else rho, self.starts)
+        return None if runs is None or not on_all_cores(part, batch) else rho
 
 
 class Sweeps:
@@ -97,12 +104,25 @@ class Sweeps:
         work: Work | None = None,
     ) -> Forces:
         """Balance what was deposited last; the tables are kept for the same ``loads``."""
-        if self._descent is None or self._descent[0] is not loads:
-            self._descent = loads, Descent(solved.region, rows, loads)
         return _swept(
-            self._descent[1], solved, loads,
+            self.descent(rows, loads), solved, loads,
             linear=linear, stop_at_tension=stop_at_tension, work=work,
         )  # fmt: skip
+
+    def descent(self, rows: tuple[Layer, ...], loads: Loads) -> Descent:
+        """Give what balances, the same for the same ``loads``."""
+        if self._descent is None or self._descent[0] is not loads:
+            self._descent = loads, Descent(self._deposit.region, rows, loads)
+        return self._descent[1]
+
+    def changes(self, realisations: Sequence[int], descent: Descent) -> Array | None:
+        """Draw, deposit and balance; give g, as ``CompiledForces`` have it, and nothing else.
+
+        None where something is out of the ordinary.
+        """
+        rho = self._draw.drawn(realisations)
+        block = None if rho is None else self._deposit.rested(rho)
+        return None if block is None else descent.changes(block)
 
 
 def _swept(

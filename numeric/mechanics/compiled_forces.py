@@ -203,21 +203,8 @@ class Descent:
 
         ``above`` holds what ``row`` gave of the highest row, if that is balanced already.
         """
-        batch, spare = len(solved.block), self.size[1]
-        if len(self.g) < batch:
-            self.g = memory(batch, 2, *self.size)
-            self.lost = memory(batch, 2, 2 * spare, spare)
-        g, F, runs = self.g[:batch], self.F, self.runs
-        if above is not None:
-            top = len(self.rows) - 1
-            runs = runs[runs[:, 0] < self.starts[top]]
-            of_g, of_lost = self._of_row(top)
-            g[0, :, of_g], self.lost[0, :, of_lost] = above
-
-        def part(of: slice) -> bool:
-            return _sweep_down(F.values, runs, solved.block[of], g[of], self.lost[of])
-
-        if not on_all_cores(part, batch):
+        g, F = self.changes(solved.block, above), self.F
+        if g is None:
             return None
         found = g[0] if solved.rho[0].ndim == 1 else g.swapaxes(0, 1)
         plus, minus = (self._ordered(F.values[b], F.start[b]) for b in (0, 1))
@@ -232,6 +219,24 @@ class Descent:
             starts=self.starts,
             lowest=self.lowest,
         )
+
+    def changes(self, block: Array, above: Array | None = None) -> Array | None:
+        """Give ``g`` of ``_sweep_down`` alone, for packings whose ``block`` that is."""
+        batch, spare = len(block), self.size[1]
+        if len(self.g) < batch:
+            self.g = memory(batch, 2, *self.size)
+            self.lost = memory(batch, 2, 2 * spare, spare)
+        g, lost, runs = self.g[:batch], self.lost, self.runs
+        if above is not None:
+            top = len(self.rows) - 1
+            runs = runs[runs[:, 0] < self.starts[top]]
+            of_g, of_lost = self._of_row(top)
+            g[0, :, of_g], lost[0, :, of_lost] = above
+
+        def part(of: slice) -> bool:
+            return _sweep_down(self.F.values, runs, block[of], g[of], lost[of])
+
+        return g if on_all_cores(part, batch) else None
 
     def _of_row(self, j: int) -> tuple[slice, slice]:
         """Give the places of a row: those of changes, and of what their sums have lost."""

@@ -178,17 +178,8 @@ class Deposition:
         ``base`` holds c⁺ and c⁻ of the lowest row, (2, beads), if it is not the ordered base. What
         was given before is overwritten.
         """
-        batch = len(rho)
-        base = np.zeros((2, self.region.rows[0].count)) if base is None else base
-        if len(self.block) < batch:
-            self.block = memory(batch, 6, *self.size)
-        block = self.block[:batch]
-        phi, inverse = self.metric
-
-        def part(of: slice) -> bool:
-            return _deposit(base, self.runs, rho[of], block[of], phi, inverse)
-
-        if not on_all_cores(part, batch):
+        block = self.rested(rho, base)
+        if block is None:
             return None
         found = block[0] if rows[0].ndim == 1 else block.swapaxes(0, 1)
         turns = [_pairs(found[m], found[m + 1], self.starts) for m in (2, 4)]
@@ -202,3 +193,17 @@ class Deposition:
             rho,
             block,
         )
+
+    def rested(self, rho: Array, base: Array | None = None) -> Array | None:
+        """Give the ``block`` of ``_deposit`` alone; arguments as above."""
+        batch = len(rho)
+        base = np.zeros((2, self.region.rows[0].count)) if base is None else base
+        if len(self.block) < batch:
+            self.block = memory(batch, 6, *self.size)
+        block = self.block[:batch]
+        phi, inverse = self.metric
+
+        def part(of: slice) -> bool:
+            return _deposit(base, self.runs, rho[of], block[of], phi, inverse)
+
+        return block if on_all_cores(part, batch) else None

@@ -1,8 +1,10 @@
 """The engine: the one way in which packings are solved, whatever is asked and of how many."""
 
 import sys
+import threading
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 from weakref import ref
 
@@ -35,8 +37,14 @@ TOGETHER = 200_000
 ROW, MOST = 4096, 1_100_000
 
 
-# The sweeps of the last ensemble, for its next block; nobody has them who does not take them away.
-_kept: "list[tuple[ref[Problem], Sweeps, Loads | None]]" = []
+class _Kept(threading.local):
+    """The sweeps of a thread's last block of an ensemble, for its next one, until it takes them."""
+
+    def __init__(self) -> None:
+        self.last: list[tuple[ref[Problem], Sweeps, Loads | None]] = []
+
+
+_kept = _Kept()
 
 
 def chunk_size(problem: Problem, system: NumberSystem) -> int:
@@ -44,6 +52,12 @@ def chunk_size(problem: Problem, system: NumberSystem) -> int:
     if not _in_batches(problem, system):
         return 1
     return max(1, TOGETHER // max(problem.region.beads, 1))
+
+
+def at_once(problem: Problem, system: NumberSystem) -> int:
+    """Say how many realisations compiled sweeps take together: whole chunks, one a core or more."""
+    size = chunk_size(problem, system)
+    return size * -(-cores() // size)
 
 
 def _in_batches(problem: Problem, system: NumberSystem) -> bool:
@@ -72,10 +86,10 @@ def packings(
     """
     work = Work() if work is None else work
     size = chunk_size(problem, system)
-    sweeps, loads = (None, None) if plainly else _ready(problem, system)
+    sweeps, loads = (None, None) if plainly else ready(problem, system)
     together = size
     if sweeps is not None:
-        together = size * -(-cores() // size)
+        together = at_once(problem, system)
     elif any_number and _in_batches(problem, system):
         region = problem.region
         together = max(size, min(ROW // max(region.widest, 1), MOST // max(region.beads, 1)))
@@ -106,8 +120,8 @@ def packings(
                     work.did_rows("checked", region.rows, region.beads * len(chunk))
                 yield solved, chunk
     finally:
-        if sweeps is not None and any_number:
-            _kept[:] = [(ref(problem, lambda _: _kept.clear()), sweeps, loads)]
+        if any_number:
+            keep(problem, sweeps, loads)
 
 
 def _look(physical: Physicality, solved: Solved) -> None:
@@ -123,7 +137,7 @@ def solve(
     problem: Problem, realisations: Sequence[int], system: NumberSystem, work: Work
 ) -> Solved:
     """Solve some realisations together; the caller activates ``system``."""
-    sweeps, loads = _ready(problem, system)
+    sweeps, loads = ready(problem, system)
     return _solved(problem, realisations, system, work, sweeps, loads)
 
 
@@ -173,12 +187,19 @@ def _solved(
     return Solved(system, solved, forces, None)
 
 
-def _ready(problem: Problem, system: NumberSystem) -> "tuple[Sweeps | None, Loads | None]":
+def keep(problem: Problem, sweeps: "Sweeps | None", loads: Loads | None) -> None:
+    """Keep what ``ready`` gave for this thread's next block of the same problem."""
+    if sweeps is not None:
+        last = _kept.last
+        last[:] = [(ref(problem, lambda _: last.clear()), sweeps, loads)]
+
+
+def ready(problem: Problem, system: NumberSystem) -> "tuple[Sweeps | None, Loads | None]":
     """Give what all realisations have alike: the compiled sweeps, if they are taken, and loads."""
     if problem.dimension == 3:
         return None, None
     with suppress(IndexError):
-        last, sweeps, loads = _kept.pop()
+        last, sweeps, loads = _kept.last.pop()
         if last() is problem:
             return sweeps, loads
     return _compiled(problem, system), _loads(problem, system)
@@ -201,15 +222,24 @@ def worth_compiling(problem: Problem, system: NumberSystem, *, loaded: bool = Fa
     return much and swept and system is FLOAT64
 
 
-def _compiled(problem: Problem, system: NumberSystem) -> "Sweeps | None":
-    """Give the compiled sweeps, same numbers: for much work in float64, where numba is."""
+def compiles(problem: Problem, system: NumberSystem) -> bool:
+    """Say whether compiled sweeps are taken: for much work in float64, where numba is."""
     loaded = f"{__package__}.compiled" in sys.modules
     if not worth_compiling(problem, system, loaded=loaded):
-        return None
+        return False
     try:
-        from . import compiled
+        import_module(".compiled", __package__)
     except ImportError:
+        return False
+    return True
+
+
+def _compiled(problem: Problem, system: NumberSystem) -> "Sweeps | None":
+    """Give the compiled sweeps, same numbers, if they are taken."""
+    if not compiles(problem, system):
         return None
+    from . import compiled
+
     return compiled.Sweeps(problem.radii, problem.n_x, problem.region)
 
 

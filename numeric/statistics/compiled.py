@@ -118,6 +118,16 @@ def _carried(limbs: Array, low: int, shift: int, total: Array, used: Array) -> f
 
 
 @compiled
+def _moved(total: Array, added: Array, first: int, last: int, good: bool) -> None:
+    """Forget digits first … last of what was added; if it is ``good``, to the total."""
+    for group in range(len(total)):
+        for k in range(first, last + 1):
+            if good:
+                total[group, k] += added[group, k]
+            added[group, k] = 0
+
+
+@compiled
 def _counted(values: Array, edges: Array, counts: Array) -> None:
     """Count into bins: below, in, and above ``edges`` (``np.searchsorted``, side "right")."""
     bins = edges.size - 1
@@ -134,6 +144,16 @@ def _counted(values: Array, edges: Array, counts: Array) -> None:
             while at <= bins and value >= edges[at]:
                 at += 1
             counts[at] += 1
+
+
+@compiled
+def _least(F: tuple[Array, Array], pieces: Array) -> Array:
+    """Give the smallest F of each of the ``pieces`` of ``_tally``."""
+    least = np.empty(len(pieces))
+    for p in range(len(pieces)):
+        start, count = pieces[p, 3], pieces[p, 4]
+        least[p] = F[pieces[p, 1]][start : start + count].min()
+    return least
 
 
 @compiled
@@ -212,10 +232,10 @@ class Tally:
     ) -> None:
         """``pieces`` and ``F`` are those of ``_tally``; the rest is that of a measurement."""
         self.pieces, self.F, self.members, self.unit = pieces, F, members, unit
-        least = [F[branch][at : at + count].min() for _, branch, _, at, count in pieces]
-        self.least, self.edges = np.array(least), np.array(edges)
+        self.least, self.edges = _least(F, pieces), np.array(edges)
         shapes = (groups, _PLANES), (groups, _PLANES_OF_SQUARES)
-        self.totals, self._added = ([np.zeros(shape, np.int64) for shape in shapes] for _ in "12")
+        self.totals = np.zeros(shapes[0], np.int64), np.zeros(shapes[1], np.int64)
+        self._added = np.zeros(shapes[0], np.int64), np.zeros(shapes[1], np.int64)
         self.tensile = np.zeros(groups, np.int64)
         self.bins = np.zeros((2, len(edges) + 1 if edges else 0), np.int64)
 
@@ -230,12 +250,10 @@ class Tally:
         used = np.array([[_PLANES, 0], [_PLANES_OF_SQUARES, 0]])
         good = _tally(
             g, g.view(np.int64), self.F, self.pieces, self.members, self.unit, self.edges,
-            self.least, tuple(self._added), used, means, tensile, counts,
+            self.least, self._added, used, means, tensile, counts,
         )  # fmt: skip
         for total, added, (first, last) in zip(self.totals, self._added, used, strict=True):
-            if good:
-                total[:, first : last + 1] += added[:, first : last + 1]
-            added[:, first : last + 1] = 0
+            _moved(total, added, first, last, good)
         if not good:
             return None
         self.tensile += tensile

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from pathlib import Path
+from threading import current_thread
 from typing import Any
 
 import pytest
@@ -19,8 +20,10 @@ from force_diffusion.numeric.ensemble.scene_key import ensemble_key
 from force_diffusion.numeric.ensemble.store import Block, Store, StoreError, open_store
 from force_diffusion.numeric.ensemble.sums import Sums, measured
 from force_diffusion.numeric.ensemble.workers import InProcess, Pool, RealisationError, WorkersError
+from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.forces import NotStandingError
 from force_diffusion.numeric.mechanics.packing import UnbuildableError
+from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.statistics.confidence import Rule
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -257,6 +260,46 @@ def test_packings_that_can_not_be_built_are_left_out_and_counted() -> None:
         assert replace(sums, unbuildable=0, first_unbuildable=-1).to_bytes() == (
             measured(wild, good).to_bytes()
         )
+
+
+@pytest.mark.parametrize("std", ["=1e-4", "=0.16"])
+def test_threads_that_sweep_compiled_give_the_same_bytes(
+    std: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of rough packings, too, of which some can't be built: blocks come in any order."""
+    pytest.importorskip("numba")
+    m = case("profile", kind="normal", relative_std=std)
+    alone = run.run(m, 300, InProcess()).estimates.sums.to_bytes()
+    names = set()
+
+    def noted(*arguments: Any) -> Any:
+        names.add(current_thread().name)
+        return measured(*arguments)
+
+    monkeypatch.setattr(engine, "COMPILED_FROM", 1)
+    monkeypatch.setattr(workers, "cores", lambda: 3)
+    monkeypatch.setattr(workers, "measured", noted)
+    assert m.compiled
+    assert run.run(m, 300, InProcess()).estimates.sums.to_bytes() == alone
+    assert "MainThread" not in names
+
+
+def test_who_stops_waiting_stops_the_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("numba")
+    done = []
+
+    def noted(m: Measurement, realisations: Any, work: Work) -> Any:
+        found = measured(m, realisations, work)
+        done.append(realisations)
+        return found
+
+    monkeypatch.setattr(engine, "COMPILED_FROM", 1)
+    monkeypatch.setattr(workers, "cores", lambda: 2)
+    monkeypatch.setattr(workers, "measured", noted)
+    results = InProcess().results(M, ((k, k + 1) for k in range(10_000)))
+    next(results)
+    results.close()
+    assert 1 <= len(done) < 100
 
 
 def test_where_hardly_a_packing_can_be_built_one_is_named() -> None:

@@ -82,6 +82,26 @@ def test_whoever_solves_gives_the_same_bytes(
     assert measured(m, range(7)).to_bytes() == usual
 
 
+def test_what_compiled_sums_refuse_is_summed_up_by_the_others(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    pytest.importorskip("numba")
+    from force_diffusion.numeric.statistics import compiled
+
+    m, taken = case("histogram of all"), compiled.Tally.add
+    usual, asked = measured(m, range(7)).to_bytes(), []
+
+    def refusing(tally: compiled.Tally, g: Array) -> Array | None:
+        asked.append(len(g))
+        return None if len(asked) % 2 else taken(tally, g)
+
+    monkeypatch.setattr(engine, "COMPILED_FROM", 1)
+    monkeypatch.setattr(engine, "at_once", lambda *_: 2)
+    monkeypatch.setattr(compiled.Tally, "add", refusing)
+    assert measured(m, range(7)).to_bytes() == usual
+    assert asked == [2, 2, 2, 1]
+
+
 @ALL
 def test_sums_are_those_of_the_changes_as_fractions(name: str) -> None:
     m, N = case(name, covariance=True), 3
