@@ -14,7 +14,7 @@ from .workers import refuse_unbuildable
 
 # Beads of a block, about; of a large ensemble more, as long as there are so many blocks for workers
 # to share: a second of work at most, compiled or not, of which a kill loses no more.
-BLOCK, SHARES = 1_000_000, 16
+BLOCK, SHARES = 1_000_000, 32
 LARGE = {True: 64_000_000, False: 8_000_000}
 # Numbers that large blocks keep of all their packings, those of a group, until they are summed up.
 MEANS = 2_000_000
