@@ -242,7 +242,8 @@ def plan_lines(data: dict[str, Any]) -> list[str]:
     if data["tension"]:
         expected, one = data["tension"]["expected_contacts"], data["tension"]["height_of_one"]
         low = "at no height allowed" if one is None else f"from a height of about {one} on"
-        lines.append(f"About {expected:.2g} contacts are expected to pull; one does {low}")
+        many = f"About {expected:.2g} contacts are" if expected >= 1e-3 else "No contact is"
+        lines.append(f"{many} expected to pull; one does {low}")
     if data["sees_images"]:
         lines.append("The answer sees periodic images: it is that of the strip, not of the slab")
     return lines
