@@ -129,7 +129,10 @@ def run(
     if len(asked) > 1 and checkpoint is not None:
         raise ForceDiffusionError("--checkpoint is of one scene: leave it out, or set one value")
     plans = [_planned(scene, tolerance, certified, one) for one in asked]  # all are checked first
-    for planned, changes in zip(plans, asked, strict=True):
+    listed = as_json and len(asked) > 1
+    for place, (planned, changes) in enumerate(zip(plans, asked, strict=True)):
+        if listed:
+            print("," if place else "[")
         words = [word for key, value in changes.items() for word in ("--set", f"{key}={value}")]
         folder = out
         if len(asked) > 1:
@@ -139,6 +142,8 @@ def run(
                 say(f"# {', '.join(f'{key} = {value}' for key, value in varied.items())}")
         question = shell_line(["run", str(scene), *words]) if words else f"run {scene}"
         _answer(planned, scene, question, folder, written, as_json, quiet, checkpoint, overwrite)
+    if listed:
+        print("]")
 
 
 def _answer(

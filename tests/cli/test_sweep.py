@@ -64,6 +64,14 @@ def test_a_sweep_answers_every_combination_in_a_folder_of_its_own(
     assert "# packing.height = 3\n" in printed
 
 
+def test_json_of_a_sweep_is_one_list(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    status, printed, _ = call(capsys, "run", scene, "--set", "packing.height=2,3", "--json")
+    assert status == 0
+    for height, answer in zip((2, 3), json.loads(printed), strict=True):
+        _, alone, _ = call(capsys, "run", scene, "--set", f"packing.height={height}", "--json")
+        assert answer["results"] == json.loads(alone)["results"]
+
+
 @pytest.mark.parametrize(
     ("words", "says"),
     [
