@@ -47,12 +47,12 @@ def ensemble(
     ``histogram``, of drawn radii. There are ``realisations`` packings, by default as many as the
     scene says; with ``until`` fewer, if every σ_f is known to that share of itself, all together
     with confidence ``confidence``, already before. ``store`` is a file that keeps what is done, and
-    goes on from there. ``workers`` are processes, None for as many as are good here; above 1 they
-    start the program anew, so that a script needs its ``if __name__ == "__main__"``. ``scheduler``
-    is the address of a Dask scheduler, or "local" for a cluster made here. ``covariance`` asks for
-    that between groups. ``reach`` is the outer edge of a histogram's bins, in units of force; by
-    default six times the largest σ_f of theory. ``progress`` is told how many packings are done,
-    and the half-width at the last look.
+    goes on from there. ``workers`` are processes, None for as many as are good here (compiled
+    sweeps take all cores in one); above 1 they start the program anew, so that a script needs its
+    ``if __name__ == "__main__"``. ``scheduler`` is the address of a Dask scheduler, or "local" for
+    a cluster made here. ``covariance`` asks for that between groups. ``reach`` is the outer edge of
+    a histogram's bins, in units of force; by default six times the largest σ_f of theory.
+    ``progress`` is told how many packings are done, and the half-width at the last look.
 
     Raises ``TypeError`` for what is no scene, ``ArgumentError``, ``SceneError``, ``StoreError`` for
     a file that can't serve, ``StoreFailedError`` where it can't be written, ``RealisationError``
@@ -154,8 +154,9 @@ def _executor(m: Measurement, size: int, workers: int | None, scheduler: str | N
         if workers is not None and workers > room:
             raise ArgumentError("workers", workers, f"the free memory is enough for {room}")
         if workers is None:
-            short = scheduler is None and size * m.plan.estimated_seconds < WORTH_WORKERS
-            workers = 1 if short else min(cores(), room)
+            short = size * m.plan.estimated_seconds < WORTH_WORKERS
+            alone = scheduler is None and (short or m.compiled)  # that takes all cores by itself
+            workers = 1 if alone else min(cores(), room)
         if scheduler is None:
             return InProcess() if workers == 1 else Pool(workers)
     try:
