@@ -56,6 +56,7 @@ GOOD = {
     "certified": ["true", "false"],
     "realisations": ["1", "2", "5"],
     "bins": ["2", "10"],
+    "layers": ["[0]", "[0, 2]"],
 }  # fmt: skip
 SECTIONS = {
     "packing": ["height", "width", "dimension", "spacing", "allow_images"],
@@ -69,7 +70,7 @@ SECTIONS = {
         "most_seconds",
         "stop_at_tension",
     ],
-    "ask": ["quantity", "tolerance", "certified", "realisations", "bins", "at"],
+    "ask": ["quantity", "tolerance", "certified", "realisations", "bins", "layers", "at"],
 }
 VALUES = [
     "0", "-1", "1", "2", "7", "1e-3", "1e-300", "1e-5000", "1e999999999", "-0.0", "nan", "-inf",
@@ -81,7 +82,7 @@ VALUES = [
 KEYS = [
     "height", "width", "spacing", "radius", "allow_images", "kind", "relative_std", "seed", "file",
     "magnitude", "angle_deg", "at", "geometry", "stop_at_tension", "quantity", "tolerance",
-    "certified", "realisations", "bins", "a.b.c.d", '"\\u2028"', "heigth",
+    "certified", "realisations", "bins", "layers", "a.b.c.d", '"\\u2028"', "heigth",
 ]  # fmt: skip
 WORDS = ["i,j,fx,fy", "i,j,delta_r", "1,1,0,-1", "0,0,1e-3", "x", "1,1,nan,1", "\x00", "9" * 400]
 

@@ -19,6 +19,8 @@ def ensemble_key(m: Measurement) -> dict[str, Any]:
     scene = m.plan.scene
     sections = scene.model_dump(exclude={"folder": True, **_NOT_IN_IT})
     sections["packing"]["spacing"] = scene.spacing
+    if scene.ask.layers is None:  # as in stores that were made before there were any
+        del sections["ask"]["layers"]
     if scene.load.file is not None:  # its content counts, not its name
         forces = sorted((list(site), list(map(str, force))) for site, force in _loads(m))
         digest = hashlib.sha256(json.dumps(forces).encode()).hexdigest()

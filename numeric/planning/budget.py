@@ -33,11 +33,14 @@ def memory(*, beads: int, rows: int, layers: int, system: NumberSystem, file: bo
 def refuse_memory(scene: Scene, needed: int, limit: int) -> None:
     """Raise ``SceneError`` with the size where a scene needs more than ``limit`` bytes."""
     if needed > limit:
+        less = "less"
+        if scene.ask.quantity == "response" and scene.ask.layers is None:
+            less = "some layers of the response, as with ask.layers = [0]"
         raise SceneError(
             "packing.height",
             scene.packing.height,
             f"this scene would need about {size(needed)} of memory and {size(limit)} may be "
-            "used: ask for less, or for a smaller packing",
+            f"used: ask for {less}, or for a smaller packing",
         )
 
 

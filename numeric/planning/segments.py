@@ -13,7 +13,7 @@ from ..scene.sections import Ask
 from . import budget
 from .plan import Method, Step
 
-# Quantities whose answer comes from one segment after the other.
+# Quantities whose answer comes from one segment after the other; of a response some layers do.
 KNOWN = ("profile", "contact", "base_reactions", "histogram")
 # Columns of the packing, as high, whose error stands for that of the whole.
 COLUMNS = 16
@@ -29,7 +29,7 @@ def suits(scene: Scene) -> bool:
     """Say whether a scene's packing could be swept by segments, as far as is plain at once."""
     ask, disorder = scene.ask, scene.disorder
     return (
-        ask.quantity in KNOWN
+        (ask.quantity in KNOWN or ask.layers is not None)
         and scene.packing.dimension == 2
         and ask.realisations == 1
         and ask.tolerance is None

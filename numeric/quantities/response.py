@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from ..lattice.layers import Layer, Region, pick
 from ..mechanics.problem import Problem, Route, Solved
 from ..statistics.moments import Moments, Scatter, unit_near
 from .base import (
+    Block,
     ContactQuantity,
     Gatherer,
     Table,
@@ -32,9 +34,23 @@ class Response(ContactQuantity):
     plain = True
     merged = True
 
+    @cached_property
+    def layers(self) -> frozenset[int] | None:
+        """The layers of lower beads that are asked for; None: all."""
+        asked = self.scene.ask.layers
+        return None if asked is None else frozenset(asked)
+
+    def blocks(self, problem: Problem) -> list[Block]:
+        """Give the contacts, block by block: of the layers that are asked for."""
+        found, layers = super().blocks(problem), self.layers
+        return found if layers is None else [one for one in found if one.row.j - 1 in layers]
+
     def answer_rows(self, region: Region, realisations: int) -> int:
         """The contacts below each bead of the cone."""
-        return len(self.branches) * region.beads
+        beads = region.beads
+        if self.layers is not None:
+            beads = sum(region.rows[j + 1].count for j in self.layers if j < region.top)
+        return len(self.branches) * beads
 
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
         """Start with no realisation."""
@@ -62,11 +78,42 @@ class Response(ContactQuantity):
         Shapes: (contacts,), (realisations, contacts) and the same.
         """
         assert solved.forces is not None
+        blocks = above_stop(self.blocks(problem), solved.forces)
+        return self._both(problem, solved, realisations, blocks)
+
+    def rows_of(self, problem: Problem, solved: Solved, within: range) -> Table:
+        """Give the rows of one packing whose upper beads lie in some layers."""
+        blocks = [block for block in self.blocks(problem) if block.row.j in within]
+        return self.one(problem, solved.system, *self._both(problem, solved, 1, blocks))
+
+    def one(
+        self,
+        problem: Problem,
+        system: NumberSystem,
+        contacts: dict[str, Array],
+        F: Array,
+        g: Array,
+        vertical: Array,
+    ) -> Table:
+        """Give the rows of one packing, from what ``both`` gave."""
+        F_y = F * slope(problem, system)
+        return Table(
+            contacts,
+            {
+                "force": F + g[0],
+                "change": g[0],
+                "vertical": F_y + vertical[0],
+                "vertical_change": vertical[0],
+            },
+            ("change", "vertical_change"),
+        )
+
+    def _both(
+        self, problem: Problem, solved: Solved, realisations: int, blocks: Sequence[Block]
+    ) -> tuple[dict[str, Array], Array, Array, Array]:
         system = solved.system
         ny = slope(problem, system)
-        parts = contact_changes(
-            solved, above_stop(self.blocks(problem), solved.forces), realisations
-        )
+        parts = contact_changes(solved, blocks, realisations)
         verticals = []
         for (branch, row), F, g in parts:
             tilt = self.tilt(solved, branch, row)
@@ -116,19 +163,10 @@ class _Responses(Gatherer):
     def table(self) -> Table:
         """One row a contact."""
         assert self.last is not None
-        contacts, F, g, vertical = self.last
-        ny = slope(self.problem, self.system)
         if self.problem.realisations == 1:
-            return Table(
-                contacts,
-                {
-                    "force": F + g[0],
-                    "change": g[0],
-                    "vertical": F * ny + vertical[0],
-                    "vertical_change": vertical[0],
-                },
-                ("change", "vertical_change"),
-            )
+            return self.quantity.one(self.problem, self.system, *self.last)
+        contacts, F, *_ = self.last
+        ny = slope(self.problem, self.system)
         half = len(F)
         mean, std = self.moments.average(), self.moments.std(self.system)
         of_mean, of_std = self.scatter.errors()

@@ -25,6 +25,7 @@ from ..quantities.answer import Answer, at_home, in_units
 from ..quantities.base import Block, Listed, Table, contact_changes
 from ..quantities.histogram import Histogram
 from ..quantities.profile import Profile
+from ..quantities.response import Response
 from ..scene.source import program_version
 from ..statistics.histogram import counted, edges_between
 from ..statistics.moments import Moments
@@ -174,6 +175,14 @@ def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
             return _Part(physical, {}, {})
         lows, highs = zip(*extremes, strict=True)
         return _Part(physical, {}, {"change": np.array([min(lows), max(highs)])})
+    if isinstance(quantity, Response):
+        table = quantity.rows_of(problem, solved, layers)
+        rows_there = table.rows
+        return _Part(
+            physical,
+            {k: v.tolist() for k, v in table.index.items()} if rows_there else {},
+            table.numbers if rows_there else {},
+        )
     contact = problem.contact
     wanted = 1 if contact is None else contact.j + 1  # the layer whose forces are the answer
     if wanted not in layers:
@@ -186,11 +195,15 @@ def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
 def _table(plan: Plan, parts: list[_Part]) -> Table:
     quantity = plan.quantity
     if not isinstance(quantity, Profile):
-        (part,) = [part for part in parts if part.numbers]
-        small = tuple(name for name in part.numbers if name.startswith("change"))
+        parts = [part for part in parts if part.numbers]
+        small = tuple(name for name in parts[0].numbers if "change" in name)
         types = {"branch": "U1"}
-        index = {k: np.array(v, dtype=types.get(k, "i8")) for k, v in part.index.items()}
-        return Table(index, part.numbers, small)
+        index = {
+            name: np.concatenate([np.array(p.index[name], types.get(name, "i8")) for p in parts])
+            for name in parts[0].index
+        }
+        numbers = {n: np.concatenate([p.numbers[n] for p in parts]) for n in parts[0].numbers}
+        return Table(index, numbers, small)
     gatherer = quantity.gatherer(plan.problem, FLOAT64)
     for part in parts:
         columns = (part.numbers[name] for name in ("ordered", "unit", "count", "mean", "square"))

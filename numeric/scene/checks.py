@@ -20,6 +20,7 @@ def check(
         _check_disorder(disorder, ask)
     _check_load(load, packing)
     _check_ask(ask, packing, load)
+    _check_layers(ask, load, effects)
     _check_effects(effects, packing, ask)
     if effects.stop_at_tension and effects.geometry != "exact":
         raise SceneError(
@@ -253,6 +254,27 @@ def _check_ask(ask: Ask, packing: Packing, load: Load) -> None:
             None,
             f'is required: an infinite slab has infinitely many answers to "{ask.quantity}"',
         )
+
+
+def _check_layers(ask: Ask, load: Load, effects: Effects) -> None:
+    """Check the layers that a response is asked of."""
+    if ask.layers is None:
+        return
+    if ask.quantity != "response":
+        raise SceneError("ask.layers", ask.layers, 'needs quantity = "response"')
+    if effects.contacts == "unilateral":
+        why = 'can\'t be said with contacts = "unilateral": beads leave their layers'
+        raise SceneError("ask.layers", ask.layers, why)
+    if effects.stop_at_tension:
+        why = "can't be said with stop_at_tension: the sweep may not come so far"
+        raise SceneError("ask.layers", ask.layers, why)
+    assert load.at is not None
+    top = int(load.at[-1])
+    if not ask.layers or len(set(ask.layers)) < len(ask.layers):
+        raise SceneError("ask.layers", ask.layers, "must be one layer or several, each once")
+    if not all(0 <= j < top for j in ask.layers):
+        allowed = f"must be layers of lower beads below the load, from 0 to {top - 1}"
+        raise SceneError("ask.layers", ask.layers, allowed)
 
 
 def _check_at(ask: Ask, packing: Packing) -> None:

@@ -75,11 +75,13 @@ if TYPE_CHECKING:  # what may be given; held is the type below
     Number = Any
     Bead = Any
     Place = Any
+    Layers = Any
 else:
     Number = Annotated[Fraction, BeforeValidator(exact)]
     _listed = BeforeValidator(lambda at: list(at) if isinstance(at, tuple) else at)
     Bead = Annotated[list[int], _listed]
     Place = Annotated[list[int | str], _listed]
+    Layers = Annotated[list[Whole], _listed]
 
 
 MOST = 10**40  # as long as numbers are shown in full
@@ -269,7 +271,10 @@ class Effects(Section):
 
 
 class Ask(Section):
-    """The question; ``at`` is a contact (i, j, "+" or "-"), or for positions a bead (i, j)."""
+    """The question; ``at`` is a contact (i, j, "+" or "-"), or for positions a bead (i, j).
+
+    ``layers`` are those of the lower beads of a response's contacts, by default all.
+    """
 
     section = "ask"
     quantity: Literal[
@@ -286,6 +291,7 @@ class Ask(Section):
     certified: bool = False
     realisations: Whole = Field(default=1, ge=1, le=10**9)
     bins: Whole | None = Field(default=None, ge=1, le=1_000_000)
+    layers: Layers | None = None
 
 
 def unknown(key: str, model: type[Section]) -> str:
@@ -299,6 +305,7 @@ def unknown(key: str, model: type[Section]) -> str:
 # Forms of lists, whose elements say nothing when they are named alone.
 _LISTS = {
     "load.at": "must be a bead, at = [k, l], of whole numbers; in three dimensions [p, q, l]",
+    "ask.layers": "must be a list of layers, such as layers = [0, 10], of whole numbers",
     "ask.at": 'must be a contact, at = [i, j, "+"] or [i, j, "-"], or for positions a bead, '
     'at = [i, j]; in three dimensions [p, q, j, "1"], "2" or "3", or [p, q, j]',
 }

@@ -412,6 +412,32 @@ def test_responses_add_up(width: int) -> None:
         )
 
 
+@pytest.mark.parametrize(
+    ("dimension", "effects"),
+    [(2, "exact"), (2, "first-order"), (2, "ordered"), (3, "exact"), (3, "ordered")],
+)
+@pytest.mark.parametrize("more", [{}, {"realisations": 3}, {"tolerance": "=1e-25"}])
+def test_some_layers_of_a_response_are_those_of_the_whole(
+    dimension: int, effects: str, more: dict[str, Any]
+) -> None:
+    """Layers may come in any order; with a tolerance, within twice of it."""
+    sections = basic(5, 7, **{"quantity": "response", **more})
+    at = [2, 4] if dimension == 2 else [1, 2, 4]
+    if dimension == 3:
+        sections["packing"] |= {"dimension": 3, "spacing": "=2.2"}
+    sections |= {"load": {"kind": "point", "at": at}, "effects": {"geometry": effects}}
+    whole = answer(sections)
+    some = answer({**sections, "ask": {**sections["ask"], "layers": [3, 0]}})
+    kept = np.isin(whole.arrays["j"], [0, 3])
+    assert 0 < kept.sum() < len(kept)
+    for name, column in some.arrays.items():
+        if column.dtype == object:
+            error = abs(column - whole.arrays[name][kept])
+            assert all(float(one) < 2e-25 for one in error)
+        else:
+            assert column.tobytes() == whole.arrays[name][kept].tobytes(), name
+
+
 def test_measured_radii_are_read_exactly(tmp_path: Path) -> None:
     """The same radii, once drawn and once written to a file as exact decimals, in other units."""
     from force_diffusion.numeric.disorder.radii import DrawnRadii

@@ -39,6 +39,13 @@ CASES: dict[str, dict[str, dict[str, Any]]] = {
     "base of a slab": {
         "packing": {"height": 19}, "load": POINT, "ask": {"quantity": "base_reactions"},
     },
+    "response": {
+        "packing": STRIP, "load": POINT, "ask": {"quantity": "response", "layers": [16, 0, 9, 8]},
+    },
+    "response of a slab": {
+        "packing": {"height": 19}, "load": {"kind": "point", "at": [-4, 18], "angle_deg": 7},
+        "ask": {"quantity": "response", "layers": [3]},
+    },
     "histogram": {"packing": STRIP, "ask": {"quantity": "histogram", "bins": 7}},
     "histogram of a point load": {
         "packing": STRIP, "load": POINT | {"magnitude": "=3.7"}, "ask": {"quantity": "histogram"},

@@ -33,6 +33,11 @@ CASES: dict[str, dict[str, dict[str, Any]]] = {
         "load": {"kind": "point", "at": [0, 4]},
         "ask": {"quantity": "response"},
     },
+    "two layers of a response": {
+        **PROFILE,
+        "load": {"kind": "point", "at": [0, 4]},
+        "ask": {"quantity": "response", "layers": [3, 1]},
+    },
     "histogram of all": {**PROFILE, "ask": {"quantity": "histogram", "bins": 11}},
     "histogram of one": {**PROFILE, "ask": {"quantity": "histogram", "at": [0, 2, "+"]}},
 }

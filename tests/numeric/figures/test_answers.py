@@ -78,6 +78,14 @@ def test_a_point_load_near_the_edge_has_one_cone() -> None:
     assert vertical.sum() == pytest.approx(M, abs=1e-3 * M)
 
 
+def test_some_layers_of_a_response_are_drawn_alone() -> None:
+    one, layers = fd.PointLoad(at=(0, M)), [0, M // 2]
+    asked = scene("response", load=one, packing=fd.Packing(height=M, width=2 * M))
+    some = asked.model_copy(update={"ask": asked.ask.model_copy(update={"layers": layers})})
+    (beads,) = (c for c in some.run().plot().axes[0].collections if isinstance(c, PatchCollection))
+    assert len(beads.get_paths()) == sum(M - j + 1 for j in layers)
+
+
 def test_a_profile_stands_beside_theory() -> None:
     for load, number in ((fd.SurfaceLoad(), 13), (fd.BulkLoad(), 14)):
         outcome = scene("profile", realisations=20, load=load).run()

@@ -53,6 +53,8 @@ WRONG: list[tuple[str, str, Any, str]] = [
     ("ask", "tolerance", 1, "between 0 and 1"),
     ("ask", "realisations", 0, "greater than or equal to 1"),
     ("ask", "bins", 5, 'needs quantity = "histogram"'),
+    ("ask", "layers", [0], 'needs quantity = "response"'),
+    ("ask", "layers", [0.5], "a list of layers"),
     ("ask", "at", [0, 0, "+"], "no meaning"),
 ]
 
@@ -119,6 +121,26 @@ def test_columns_of_a_slab_may_be_negative() -> None:
 def test_contacts_outside_the_packing(at: list[Any], says: str) -> None:
     with pytest.raises(SceneError, match=says):
         scene(basic(quantity="contact", at=at))
+
+
+@pytest.mark.parametrize(
+    ("layers", "effects", "says"),
+    [
+        ([], {}, "one layer or several, each once"),
+        ([1, 1], {}, "one layer or several, each once"),
+        ([4], {}, "below the load, from 0 to 3"),
+        ([0, -1], {}, "below the load, from 0 to 3"),
+        ([1], {"contacts": "unilateral"}, "beads leave their layers"),
+        ([1], {"stop_at_tension": True}, "may not come so far"),
+    ],
+)
+def test_layers_that_a_response_has_not(
+    layers: list[int], effects: dict[str, Any], says: str
+) -> None:
+    sections = basic(5, 14, quantity="response", layers=layers)
+    sections |= {"load": {"kind": "point", "at": [0, 4]}, "effects": effects}
+    with pytest.raises(SceneError, match=says):
+        scene(sections)
 
 
 def test_missing_sections_and_keys() -> None:
