@@ -15,10 +15,10 @@ from ..arithmetic.systems import (
 )
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii
 from ..mechanics.problem import Problem
-from ..quantities.base import Quantity
+from ..quantities.base import Quantity, wide
 from ..scene.scene import Scene
 from ..theory.critical_height import critical_height
-from ..theory.expected import ExpectedTension, expected_tension
+from ..theory.expected import ExpectedTension, expected_tension, expected_tension_of_spheres
 from ..theory.tension import LOADS
 
 ESTIMATE, CERTIFY = "estimate the error", "certify"
@@ -150,31 +150,33 @@ class Plan:
         """How many contacts of a packing are expected to pull.
 
         None where no theory says so: it knows drawn radii of packings wider than high, under
-        surface and bulk loads straight down, whose contacts may pull.
+        surface and bulk loads, of spheres straight down, whose contacts may pull.
         """
-        load, width, problem = self.scene.load, self.problem.width, self.problem
+        load, problem = self.scene.load, self.problem
         drawn = isinstance(problem.radii, DrawnRadii)
         stays = self.scene.effects.contacts == "bilateral"
-        known = drawn and stays and load.kind in LOADS and not load.angle_deg
-        known &= problem.dimension == 2
-        if not known or width is None or width <= problem.height or not self.quantity.needs_forces:
+        known = drawn and stays and load.kind in LOADS and self.quantity.needs_forces
+        if not known or problem.width is None or not wide(problem):
             return None
-        std = float(problem.radii.relative_std())
-        return expected_tension(
-            problem.height, width, float(1 - 2 * problem.n_x**2), std, load.kind
-        )
+        phi, std = float(1 - 2 * problem.n_x**2), float(problem.radii.relative_std())
+        if problem.dimension == 3:
+            return expected_tension_of_spheres(problem.height, problem.width, phi, std, load.kind)
+        plus, minus = map(float, problem.load.strength(problem.n_x, FLOAT64).unit)
+        return expected_tension(problem.height, problem.width, phi, std, load.kind, (plus, minus))
 
     @property
     def notes(self) -> list[str]:
         """What should be known before an answer is used."""
         notes = []
+        problem = self.problem
         if self.tension is not None and self.tension.typical:
+            contacts = problem.dimension * (problem.width or 0) * problem.height
             notes.append(
                 f"a typical packing of this scene has tension: about {self.tension.contacts:.2g} "
-                f"of its {2 * (self.problem.width or 0) * self.problem.height} contacts pull; at "
+                f"of its {contacts} contacts pull; at "
                 f"this width one does from a height of about {self.tension.height_of_one} on"
             )
-        radii = self.problem.radii
+        radii = problem.radii
         spread = radii.relative_std()
         if isinstance(radii, MeasuredRadii | ArrayRadii) and abs(radii.mean) > float(spread) / 2:
             notes.append(
@@ -182,9 +184,9 @@ class Plan:
                 f"changes, σ/r = {short(spread)} and M* are about packing.radius"
             )
         highest = critical_height(spread)
-        if self.tension is None and self.quantity.needs_forces and self.problem.height > highest:
+        if self.tension is None and self.quantity.needs_forces and problem.height > highest:
             notes.append(
-                f"the height M = {self.problem.height} is above M* = {highest:.3g}, where forces "
+                f"the height M = {problem.height} is above M* = {highest:.3g}, where forces "
                 "scatter as widely as they are large: many contacts may pull"
             )
         return notes

@@ -12,7 +12,6 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
@@ -25,6 +24,7 @@ from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.three_dimensions import side
 from ..scene.scene import Scene
+from ..theory.first_order import std_of_spheres, stds_of_discs
 
 # σ_f/⟨f⟩, and the columns that scatter from sample to sample as others do, whose errors are known.
 RATIO = "std_over_mean"
@@ -329,7 +329,7 @@ def column(values: Sequence[Any], system: NumberSystem) -> Array:
     return filled
 
 
-def _wide(problem: Problem) -> bool:
+def wide(problem: Problem) -> bool:
     """Say whether first-order forces see no images."""
     if problem.dimension == 3:
         return side(problem) > problem.height + 1
@@ -353,43 +353,26 @@ def first_order_std(problem: Problem) -> PerBranch[list[Fraction]] | None:
         problem.route == Route.ORDERED
         or not isinstance(radii, DrawnRadii)
         or load.loaded is not None
-        or not _wide(problem)
+        or not wide(problem)
     ):
         return None
     phi = float(1 - 2 * problem.n_x**2)
+    over = [problem.height - j if load.kind == "bulk" else 1 for j in range(problem.height)]
     if problem.dimension == 3:
-        return _of_spheres(load, phi, radii.std)
+        root = math.sqrt(3 * (1 + 2 * phi))
+        found = [
+            Fraction(std_of_spheres(load.kind, problem.height, j, phi) * (n / root)) * radii.std
+            for j, n in enumerate(over)
+        ]
+        return PerAxis(found, found, found)
     plus, minus = map(float, load.strength(problem.n_x, FLOAT64).unit)
-    found: PerBranch[list[Fraction]] = PerBranch([], [])
-    for j in range(problem.height):
-        layers = problem.height - j if load.kind == "bulk" else 1
-        for branch, own, other in ((Branch.PLUS, plus, minus), (Branch.MINUS, minus, plus)):
-            root = _std(load, problem.height, j, phi, own, other)
-            found[branch].append(Fraction(root * layers) * radii.std)
-    return found
-
-
-def _of_spheres(load: LoadSpec, phi: float, std: Fraction) -> PerAxis[list[Fraction]]:
-    """Give the same in three dimensions, alike along all axes (Eqs. B13 and B14)."""
-    bulk, height = load.kind == "bulk", load.height
-    form = (
-        closed_forms.bulk_variance_of_spheres if bulk else closed_forms.surface_variance_of_spheres
+    stds = [
+        stds_of_discs(load.kind, problem.height, j, phi, (plus, minus))
+        for j in range(problem.height)
+    ]
+    return PerBranch(
+        *(
+            [Fraction(std * n) * radii.std for std, n in zip(own, over, strict=True)]
+            for own in zip(*stds, strict=True)
+        )
     )
-    found = []
-    for j in range(height):
-        force = (height - j if bulk else 1) / math.sqrt(3 * (1 + 2 * phi))
-        found.append(Fraction(math.sqrt(float(form(height, j, phi, 1, 1))) * force) * std)
-    return PerAxis(found, found, found)
-
-
-def _std(load: LoadSpec, M: int, j: int, phi: float, own: float, other: float) -> float:
-    """Give σ_f for σ = r = 1 and one loaded layer's components along the branch and the other."""
-    bulk = load.kind == "bulk"
-    if not load.angle_deg:
-        vertical = closed_forms.bulk_variance if bulk else closed_forms.surface_variance
-        return math.sqrt(float(vertical(M, j, phi, 1, 1))) * own
-    tilted = closed_forms.bulk_variance_at_angle if bulk else closed_forms.surface_variance_at_angle
-    # own² times a polynomial of degree 2 in t = other/own, where own may vanish
-    none, plus, minus = (float(tilted(M, j, t, phi, 1, 1)) for t in (0, 1, -1))
-    mixed, last = (plus - minus) / 2, (plus + minus) / 2 - none
-    return math.sqrt(max(0.0, none * own**2 + mixed * own * other + last * other**2))

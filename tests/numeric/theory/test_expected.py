@@ -31,6 +31,36 @@ def test_exact_packings_have_as_many(load: str, relative_std: float, room: float
     assert found.tensile.sum() / 120 == pytest.approx(expected, rel=room)
 
 
+@pytest.mark.parametrize(
+    ("load", "angle", "relative_std", "room"),
+    [("surface", 20, 0.004, 0.2), ("bulk", -20, 0.008, 0.2), ("surface", 50, 0.002, 0.02)],
+)
+def test_packings_under_a_load_at_an_angle_have_as_many(
+    load: str, angle: int, relative_std: float, room: float
+) -> None:
+    """At 50° one branch pulls in the ordered packing: about half of all contacts do."""
+    asked = scene(load, relative_std)
+    asked = asked.model_copy(update={"load": fd.Load(kind=load, angle_deg=angle)})
+    expected = asked.explain().data()["tension"]["expected_contacts"]
+    assert expected > 1
+    found = fd.ensemble(asked, 60)
+    assert found.tensile.sum() / 60 == pytest.approx(expected, rel=room)
+
+
+@pytest.mark.parametrize(("load", "relative_std"), [("surface", 0.02), ("bulk", 0.03)])
+def test_packings_of_spheres_have_as_many(load: str, relative_std: float) -> None:
+    asked = fd.Scene(
+        packing=fd.Packing(height=8, width=10, dimension=3),
+        disorder=fd.Disorder(kind="normal", relative_std=relative_std, seed=8),
+        load=fd.Load(kind=load),
+        ask=fd.Ask(quantity="profile"),
+    )
+    expected = asked.explain().data()["tension"]["expected_contacts"]
+    assert expected > 1
+    found = fd.ensemble(asked, 60)
+    assert found.tensile.sum() / 60 == pytest.approx(expected, rel=0.2)
+
+
 @pytest.mark.parametrize("load", ["surface", "bulk"])
 @pytest.mark.parametrize("height", [1, 3, 40, 399, 400, 401, 2000])
 def test_the_number_is_the_fraction_times_the_contacts(load: str, height: int) -> None:
