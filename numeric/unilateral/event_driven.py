@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.sparse.linalg import splu
 
 from ..arithmetic.systems import Array
 from .grains import Grains, Pairs
@@ -99,7 +98,7 @@ def _motion(grains: Grains, basis: _Basis, before: _Motion | None = None) -> tup
 
     A motion that goes on keeps its row, and its direction.
     """
-    factors = splu(grains.jacobian(basis.pairs).tocsc())
+    factors = grains.factors(basis.pairs)
     forces = factors.solve(-grains.weights, trans="T")
     opened = basis.worst(forces) if before is None else before.opened
     unit = np.zeros(grains.unknowns)

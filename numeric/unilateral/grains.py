@@ -5,9 +5,11 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse.linalg import splu
 from scipy.spatial import cKDTree
 
 from ..arithmetic.systems import Array
+from .network import UnfinishedError
 
 # Pairs are two columns of bead numbers, the first of which is free.
 Pairs = Array
@@ -76,6 +78,18 @@ class Grains:
             (values[free], (rows[free], columns.ravel()[free])),
             shape=(len(pairs), self.unknowns),
         )
+
+    def factors(self, pairs: Pairs, place: Any = slice(None)) -> Any:
+        """Factorise the derivatives of as many gaps as there are coordinates at ``place``.
+
+        Raises ``UnfinishedError`` where they are not independent.
+        """
+        try:
+            return splu(self.jacobian(pairs)[:, place].tocsc())
+        except RuntimeError:
+            raise UnfinishedError(
+                "the contacts are not independent: their Jacobian is singular"
+            ) from None
 
     def rate(self, pair: Array, moves: Array, x: Array) -> float:
         """Give the derivative of one pair's gap along moves of all coordinates that may change."""

@@ -21,11 +21,15 @@ TRUST = 0.8
 # The energy of the load, relative to its own scale, that a program must gain for another to follow.
 GAIN = 1e-12
 MOST_PROGRAMS = 400
-# Gaps up to this are constraints at once; others become so when a move would close them.
+# Gaps up to this are constraints; a move ends where it would close another one.
 CLOSE = 0.8
-# Where fewer beads than this share of all move by more than 0.1 r, vertices hardly change: the
-# simplex method goes on from the last one. Before, interior points are faster.
-FEW, FAR = 0.1, 0.1
+# Where fewer contacts than this are new, the simplex method goes on from the last vertex: it costs
+# what has changed. Before, interior points are faster.
+FEW = 200
+# Forces below this share of the largest one are none.
+NO_FORCE = 1e-7
+# Coordinates from which on HiGHS's newer interior points, if installed, are faster.
+LARGE = 8000
 
 
 class MissingSolverError(ForceDiffusionError, ImportError):
@@ -39,7 +43,7 @@ def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array
     ``MissingSolverError`` without highspy.
     """
     scale = float(np.abs(grains.weights).sum())
-    programs, by_simplex = _Programs(grains), False
+    programs, by_simplex, bore = _Programs(grains), False, np.array([])
     for program in range(1, MOST_PROGRAMS + 1):
         pairs, move, forces = programs.solve(by_simplex)
         before = grains.energy()
@@ -55,8 +59,9 @@ def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array
         at_rest = gain < GAIN * scale
         if at_rest and by_simplex:
             return pairs, forces, program
-        far = np.abs(move.reshape(-1, 2)).max(axis=1) > FAR
-        by_simplex = at_rest or bool(far.mean() < FEW)
+        bear = grains.named(pairs[forces > NO_FORCE * forces.max()])
+        by_simplex = at_rest or len(np.setdiff1d(bear, bore)) < FEW
+        bore = bear
     raise UnfinishedError(f"beads still move after {MOST_PROGRAMS} linear programs")
 
 
@@ -73,14 +78,12 @@ class _Programs:
         near = self.grains.near(2 * np.sqrt(2) * TRUST)
         gaps = np.maximum(self.grains.gaps(near), 0)
         A = self.grains.jacobian(near)
-        taken = gaps < CLOSE
-        while True:
-            pairs = near[taken]
-            move, forces = self._solved(pairs, gaps[taken], A[taken], by_simplex)
-            closed = (gaps + A @ move < -1e-9) & ~taken
-            if not closed.any():
-                return pairs, move, forces
-            taken |= closed
+        close = gaps < CLOSE
+        move, forces = self._solved(near[close], gaps[close], A[close], by_simplex)
+        narrower = -(A @ move)
+        meet = ~close & (narrower > gaps)
+        move *= (gaps[meet] / narrower[meet]).min(initial=1.0)
+        return near[close], move, forces
 
     def _solved(self, pairs: Pairs, gaps: Array, A: Any, by_simplex: bool) -> tuple[Array, Array]:
         """Solve by the simplex method from the last vertex, or by interior points.
@@ -106,7 +109,8 @@ class _Programs:
         program.a_matrix_.index_ = A.indices
         program.a_matrix_.value_ = A.data
         solver = highspy.Highs()  # type: ignore[no-untyped-call]
-        solver.passOptions(_options(highspy, "ipm", by_simplex, A.shape[1] // 4))
+        interior = "ipm" if A.shape[1] > LARGE else "ipx"
+        solver.passOptions(_options(highspy, interior, by_simplex, A.shape[1] // 4))
         solver.passModel(program)
         names = self.grains.named(pairs).tolist()
         optimal = highspy.HighsModelStatus.kOptimal
@@ -119,7 +123,7 @@ class _Programs:
             solver.setBasis(basis)
             solver.run()
             if solver.getModelStatus() != optimal:
-                solver.passOptions(_options(highspy, "ipm", by_simplex, A.shape[1] // 4))
+                solver.passOptions(_options(highspy, interior, by_simplex, A.shape[1] // 4))
                 solver.clearSolver()
         if solver.getModelStatus() != optimal:
             solver.run()

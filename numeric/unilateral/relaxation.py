@@ -6,7 +6,6 @@ from time import process_time
 
 import numpy as np
 from scipy.optimize import linprog
-from scipy.sparse.linalg import splu, spsolve
 
 from ..arithmetic.decimals import short
 from ..arithmetic.errors import UndecidedError
@@ -191,11 +190,9 @@ def balanced(grains: Grains, contacts: Pairs, backbone: Array | None = None) -> 
 
     ``backbone``: the numbers of those beads, by default all free ones.
     """
-    A, weights = grains.jacobian(contacts), grains.weights
-    if backbone is not None:
-        place = grains.coordinates(backbone)
-        A, weights = A[:, place], weights[place]
-    return np.atleast_1d(spsolve(A.T.tocsc(), -weights))
+    place = slice(None) if backbone is None else grains.coordinates(backbone)
+    factors = grains.factors(contacts, place)
+    return np.asarray(factors.solve(-grains.weights[place], trans="T"))
 
 
 def _bearing(grains: Grains, pairs: Pairs, forces: Array) -> Pairs:
@@ -227,12 +224,8 @@ def _close(grains: Grains, contacts: Pairs, backbone: Array) -> None:
         gaps = grains.gaps(contacts)
         if np.abs(gaps).max() < event_driven.CLOSED / 5:
             return
-        try:
-            factors = splu(grains.jacobian(contacts)[:, place].tocsc())
-        except RuntimeError:
-            break
         move = np.zeros(grains.unknowns)
-        move[place] = factors.solve(gaps)
+        move[place] = grains.factors(contacts, place).solve(gaps)
         grains.x = grains.x.copy()
         grains.x[grains.fixed :] -= move.reshape(-1, 2)
         if not np.abs(move).max() < 1:
