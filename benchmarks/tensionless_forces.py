@@ -4,7 +4,8 @@ Run with ``python benchmarks/tensionless_forces.py --of-critical 0.5 1 2``. Stri
 beads come to rest by linear programs; those that do not are counted and left out. Printed are, with
 two standard errors over packings: σ_f/⟨f⟩ at four heights, shares of forces beyond multiples of the
 mean, and the response to a small load on one bead of the surface, while no contact opens: of the
-vertical forces p that base beads then bear besides, Σ|p| over the load, 1 where none is relieved.
+vertical forces p that base beads then bear besides, Σ|p| over the load, 1 where none is relieved,
+and the mean of Σp over the beads at a distance x, in units of that of the ordered packing's beads.
 """
 
 import argparse
@@ -24,10 +25,11 @@ import force_diffusion as fd
 
 HEIGHTS = (0.0, 0.25, 0.5, 0.75)  # z = j/M
 TIMES = (1, 2, 3, 4)
+DISTANCES = np.arange(0, 2.25, 0.25)  # up to half a strip of 2M beads
 
 
-def response(grains: Grains, pairs: Array, backbone: Array) -> Array:
-    """Give Σ|p| of each bead of the surface, were it loaded."""
+def response(grains: Grains, pairs: Array, backbone: Array) -> tuple[Array, Array]:
+    """Give Σ|p| of each bead of the surface, were it loaded, and their mean Σp by ``DISTANCES``."""
     W, place = grains.fixed, grains.coordinates(backbone)
     factors = splu(grains.jacobian(pairs)[:, place].tocsc())
     surface = [b for b in backbone if b >= len(grains.radii) - W]
@@ -38,16 +40,25 @@ def response(grains: Grains, pairs: Array, backbone: Array) -> Array:
     push = grains.directions(pairs[base])[:, 1:] * change[base]
     borne = np.zeros((W, len(surface)))
     np.add.at(borne, pairs[base][:, 1], push)
-    return np.asarray(np.abs(borne).sum(axis=0))
+    x = grains.x[:W, :1] - grains.x[surface, 0]
+    x -= grains.period * np.round(x / grains.period)
+    nearest = np.round(np.abs(x) / (grains.period / 4) / DISTANCES[1]).astype(int)
+    profile = np.bincount(nearest.ravel(), borne.ravel(), len(DISTANCES)) / len(surface)
+    return np.abs(borne).sum(axis=0), profile
 
 
-def measured(load: fd.Load, M: int, of_critical: float, packings: int) -> None:
+def errors(values: Array) -> Array:
+    """Give two standard errors of the means over packings."""
+    return np.asarray(2 * values.std(axis=0, ddof=1) / np.sqrt(len(values)))
+
+
+def measured(load: fd.Load, spacing: float, M: int, of_critical: float, packings: int) -> None:
     """Print a row."""
     std = Fraction(int((of_critical / M) ** 1.5 * 10**9), 10**9)
-    sums, beyond, absolute, left_out = [], [], [], 0
+    sums, beyond, absolute, profiles, left_out = [], [], [], [], 0
     for number in range(packings):
         scene = fd.Scene(
-            packing=fd.Packing(height=M, width=2 * M),
+            packing=fd.Packing(height=M, width=2 * M, spacing=spacing),
             disorder=fd.Disorder(kind="uniform", relative_std=std, seed=number),
             load=load,
             effects=fd.Effects(contacts="unilateral"),
@@ -71,17 +82,19 @@ def measured(load: fd.Load, M: int, of_critical: float, packings: int) -> None:
         sums.append([[len(g) for g in groups], [g.sum() for g in groups],
                      [(g**2).sum() for g in groups]])  # fmt: skip
         beyond.append([(forces > k * forces.mean()).mean() for k in TIMES])
-        absolute.append(np.median(response(grains, pairs, backbone)))
+        sizes, profile = response(grains, pairs, backbone)
+        absolute.append(np.median(sizes))
+        profiles.append(profile)
     counts, totals, squares = np.swapaxes(np.array(sums, dtype=float), 0, 1)
     mean, sigma, _, error = moments(counts, totals, squares)
-    shares = np.array(beyond)
-    of_shares = 2 * shares.std(axis=0, ddof=1) / np.sqrt(len(shares))
-    logs = np.log10(absolute)
+    shares, logs, profile = np.array(beyond), np.log10(absolute)[:, None], np.array(profiles)
+    typical = float(logs.mean())
     cells = [
-        load.kind, M, of_critical, f"{len(sums)}, {left_out}",
+        M, of_critical, f"{len(sums)}, {left_out}",
         *(f"{s / m:.2f} ± {2 * e / m:.2f}" for s, m, e in zip(sigma, mean, error, strict=True)),
-        *(f"{s:.3f} ± {e:.3f}" for s, e in zip(shares.mean(axis=0), of_shares, strict=True)),
-        f"{10 ** logs.mean():.3g} ×÷ {10 ** (2 * logs.std(ddof=1) / len(logs) ** 0.5):.2g}",
+        *(f"{s:.3f} ± {e:.3f}" for s, e in zip(shares.mean(axis=0), errors(shares), strict=True)),
+        f"{10**typical:.3g} ×÷ {10 ** float(errors(logs)[0]):.2g}",
+        *(f"{p:.2f} ± {e:.2f}" for p, e in zip(profile.mean(axis=0), errors(profile), strict=True)),
     ]  # fmt: skip
     print("|", " | ".join(map(str, cells)), "|", flush=True)
 
@@ -93,14 +106,19 @@ def main() -> None:
     parser.add_argument("--height", type=int, nargs="+", default=[16])
     parser.add_argument("--packings", type=int, default=24)
     parser.add_argument("--load", choices=["surface", "bulk"], default="surface")
+    parser.add_argument("--angle", type=float, default=0, help="of a surface load, degrees")
+    parser.add_argument("--spacing", type=float, default=3, help="of beads in a layer, in r")
     options = parser.parse_args()
-    load = fd.SurfaceLoad() if options.load == "surface" else fd.BulkLoad()
+    surface = options.load == "surface"
+    load = fd.SurfaceLoad(angle_deg=options.angle) if surface else fd.BulkLoad()
     names = [f"σ_f/⟨f⟩ at z = {z:g}" for z in HEIGHTS] + [f"f > {k} ⟨f⟩" for k in TIMES]
-    head = ["load", "M", "M/M*", "packings, unfinished", *names, "median Σ|p|"]
+    names += ["median Σ|p|", *(f"Σp at x = {d:g}" for d in DISTANCES)]
+    head = ["M", "M/M*", "packings, unfinished", *names]
+    print(load, f"s = {options.spacing:g} r")
     print("|", " | ".join(head), "|\n|", "|".join("---" for _ in head), "|")
     for M in options.height:
         for of_critical in options.of_critical:
-            measured(load, M, of_critical, options.packings)
+            measured(load, options.spacing, M, of_critical, options.packings)
 
 
 if __name__ == "__main__":

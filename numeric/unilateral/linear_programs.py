@@ -42,7 +42,7 @@ def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array
     Gives near pairs, the force of each, and the number of programs. Raises ``UnfinishedError``, and
     ``MissingSolverError`` without highspy.
     """
-    scale = float(np.abs(grains.weights).sum())
+    scale, start = float(np.abs(grains.weights).sum()), grains.x
     programs, by_simplex, bore = _Programs(grains), False, np.array([])
     for program in range(1, MOST_PROGRAMS + 1):
         pairs, move, forces = programs.solve(by_simplex)
@@ -62,7 +62,11 @@ def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array
         bear = grains.named(pairs[forces > NO_FORCE * forces.max()])
         by_simplex = at_rest or len(np.setdiff1d(bear, bore)) < FEW
         bore = bear
-    raise UnfinishedError(f"beads still move after {MOST_PROGRAMS} linear programs")
+    moved = float(np.abs(grains.x - start)[grains.fixed :].max(axis=1).mean())
+    raise UnfinishedError(
+        f"beads still move after {MOST_PROGRAMS} linear programs, by {moved:.3g} r in the mean so "
+        "far: perhaps nothing holds them"
+    )
 
 
 @dataclass

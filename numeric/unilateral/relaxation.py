@@ -90,6 +90,7 @@ def settle(problem: Problem, realisation: int, work: Work) -> Settled | None:
         forces = balanced(grains, supports)
         if forces.min() >= -event_driven.SLACK * np.abs(forces).max():
             return None
+    _must_hold(grains)
     before = grains.energy()
     with work.timed("relax"):
         if problem.protocol == "event-driven":
@@ -158,6 +159,29 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None, int
     rise = np.sqrt(apart**2 - (2 * nx) ** 2) if apart > 2 * nx else 0.0
     grains.x = np.stack([2 * nx * i, max(rise, 2 * ny) * j.astype(float)], axis=1)
     return grains, None, 0
+
+
+def _must_hold(grains: Grains) -> None:
+    """Raise where no packing can stand: the base can't push sideways as much as the load does.
+
+    A bead that touches a bead of the base is at its side the further the smaller it is, until it
+    touches the next one too; between those two none can fall through.
+    """
+    base, s = grains.radii[: grains.fixed], grains.period / grains.fixed
+    smallest = grains.radii[grains.fixed :].min()
+    one = base + smallest
+    sines = []
+    for other in (np.roll(one, 1), np.roll(one, -1)):
+        if (one + other <= s).any():
+            return
+        sines.append((s**2 + one**2 - other**2) / (2 * s * one))
+    side, up = grains.load[grains.fixed :].sum(axis=0)
+    lean, most = np.arctan2(abs(side), -up), np.arcsin(np.max(sines))
+    if lean > most + 1e-9:
+        raise UnfinishedError(
+            f"no packing can stand: the load leans by {np.degrees(lean):.4g}° to the vertical, and "
+            f"beads of the base hold others against {np.degrees(most):.4g}° at most"
+        )
 
 
 def _supports(width: int, height: int) -> Pairs:

@@ -1,30 +1,11 @@
 """LAMMPS as a witness: stiff bonds, minimised, give the forces of the sweep as they stiffen."""
 
-import os
-import subprocess
-import sys
-from pathlib import Path
-
-import pytest
-
-ROOT = Path(__file__).parents[3]
-PROGRAM = ROOT / "benchmarks" / "against_lammps.py"
-MISSING = 77
+from tests.lammps import said_by
 
 
 def error_of_change(stiffness: float) -> float:
-    arguments = ["--height", "5", "--width", "9", "--error-at", str(stiffness)]
-    done = subprocess.run(
-        [sys.executable, str(PROGRAM), *arguments],
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    if done.returncode == MISSING and os.environ.get("FORCE_DIFFUSION_TEST_LAMMPS") != "required":
-        pytest.skip("LAMMPS can't be loaded")
-    assert done.returncode == 0, done.stderr
-    return float(done.stdout)
+    size = ("--height", "5", "--width", "9")
+    return float(said_by("against_lammps.py", *size, "--error-at", str(stiffness)))
 
 
 def test_lammps_approaches_the_sweep_as_its_bonds_stiffen() -> None:

@@ -1,37 +1,22 @@
 """LAMMPS as a witness: stiff repulsive discs rest where rigid ones are proved to."""
 
 import json
-import os
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import force_diffusion as fd
-
-ROOT = Path(__file__).parents[3]
-PROGRAM = ROOT / "benchmarks" / "tensionless_lammps.py"
-MISSING = 77
+from tests.lammps import said_by
 
 
 def by_lammps(folder: Path, seed: int, *options: str) -> tuple[dict[str, Any], fd.Verdict]:
     """Minimise 84 discs; give what was said, and the verdict on the packing as LAMMPS sees it."""
     out = folder / f"{seed}.json"
-    arguments = ["--height", "6", "--width", "12", "--relative-std", "0.03", "--out", str(out)]
-    done = subprocess.run(
-        [sys.executable, str(PROGRAM), *arguments, "--seed", str(seed), *options],
-        env={**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    if done.returncode == MISSING and os.environ.get("FORCE_DIFFUSION_TEST_LAMMPS") != "required":
-        pytest.skip("LAMMPS can't be loaded")
-    assert done.returncode == 0, done.stderr
+    packing = ("--height", "6", "--width", "12", "--relative-std", "0.03", "--seed", str(seed))
+    said = said_by("tensionless_lammps.py", *packing, "--out", str(out), *options)
     (verdict,) = fd.check_packings(out)
-    return json.loads(done.stdout), verdict
+    return json.loads(said), verdict
 
 
 @pytest.mark.parametrize("seed", [1, 3])

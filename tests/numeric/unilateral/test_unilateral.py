@@ -12,6 +12,8 @@ import pytest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.quantities.base import Quantity
 from force_diffusion.numeric.unilateral.event_driven import UnfinishedError
+from force_diffusion.numeric.unilateral.grains import Grains
+from force_diffusion.numeric.unilateral.relaxation import _must_hold
 
 import force_diffusion as fd
 
@@ -331,6 +333,37 @@ def test_a_point_load_on_pressure(protocol: str, pressure: float, tmp_path: Path
     np.add.at(base, network.pairs[:, 1][network.pairs[:, 1] < 16],
               network.pushes()[network.pairs[:, 1] < 16, 1].astype(float))  # fmt: skip
     assert base.sum() == pytest.approx(1 + 16 * pressure)
+
+
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+@pytest.mark.parametrize(("angle", "stands"), [(48, True), (49, False), (-49, False)])
+def test_the_base_holds_loads_that_lean_less_than_its_contacts(
+    protocol: str, angle: int, stands: bool
+) -> None:
+    """Beads between two of the base touch them at asin(3/4) = 48.6° to the vertical."""
+    scene = strip(std=0, load=fd.SurfaceLoad(angle_deg=angle), protocol=protocol)
+    if stands:
+        assert scene.run().answer.networks[0].events == 0
+    else:
+        with pytest.raises(UnfinishedError, match=r"leans by 49° .* against 48.59°"):
+            scene.run()
+
+
+def test_a_small_bead_is_held_at_the_side_of_a_large_one() -> None:
+    """Centres of radii 0.9 and 1.2, 3 apart, touched by 0.9: 2.1 and 1.8 from them, by Heron."""
+    x = np.array([[0.0, 0.0], [3.0, 0.0], [1.5, 2.0]])
+    # from the horizontal at the bead of 1.2: cos = (3² + 2.1² − 1.8²) / (2 · 3 · 2.1)
+    steepest = np.pi / 2 - np.arccos((9 + 2.1**2 - 1.8**2) / 12.6)
+    other = np.pi / 2 - np.arccos((9 + 1.8**2 - 2.1**2) / 10.8)
+    most = max(steepest, other)
+    for lean, holds in ((most - 1e-6, True), (most + 1e-6, False)):
+        load = np.array([[0, 0], [0, 0], [np.sin(lean), -np.cos(lean)]])
+        grains = Grains(x, np.array([1.2, 0.9, 0.9]), 6.0, load, 2)
+        if holds:
+            _must_hold(grains)
+        else:
+            with pytest.raises(UnfinishedError, match="no packing can stand"):
+                _must_hold(grains)
 
 
 def test_contacts_that_stop_being_independent_are_no_answer() -> None:
