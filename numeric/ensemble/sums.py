@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array
-from ..lattice.branch import Branch
 from ..mechanics import engine
 from ..mechanics.engine import packings as solved_packings
 from ..mechanics.problem import Problem, Route
@@ -34,6 +33,7 @@ from .measure import Measurement
 
 if TYPE_CHECKING:
     from ..mechanics.compiled_forces import Descent
+    from ..mechanics.compiled_spheres import SphereDescent
     from ..statistics.compiled import Tally
 
 _COUNTS = struct.Struct("<3q")
@@ -227,7 +227,7 @@ def _compiled(
     return summed, packings, left
 
 
-def _tally(m: Measurement, descent: "Descent") -> "Tally":
+def _tally(m: Measurement, descent: "Descent | SphereDescent") -> "Tally":
     """Give compiled sums, the same numbers, of groups of many contacts."""
     from ..statistics.compiled import Tally
 
@@ -235,7 +235,7 @@ def _tally(m: Measurement, descent: "Descent") -> "Tally":
     pieces = []
     for group, branch, j in m.pieces:
         if descent.lowest <= j < len(descent.rows):  # some load reaches it
-            side = 0 if branch is Branch.PLUS else 1
+            side = branch.number
             start = descent.starts[j], descent.F.start[side][j]
             pieces.append((group, side, *start, descent.rows[j].count))
     table = np.array(pieces).reshape(-1, 5)

@@ -17,6 +17,11 @@ class Direction(StrEnum):
         """The change of i; 0 in three dimensions, where nothing is called i."""
         return 0
 
+    @property
+    def number(self) -> int:
+        """0, 1 or 2, in the order in which they are named."""
+        return list(type(self)).index(self)
+
 
 class Branch(Direction):
     """Orientation of a contact: from its lower bead (i, j) up to (i + side, j + 1).
@@ -42,18 +47,13 @@ class Branch(Direction):
 class Axis(Direction):
     """One of the three base vectors in three dimensions.
 
-    >>> [(axis.value, axis.number) for axis in Axis]
-    [('1', 0), ('2', 1), ('3', 2)]
+    >>> [(axis.value, axis.number) for axis in Axis], Branch.MINUS.number
+    ([('1', 0), ('2', 1), ('3', 2)], 1)
     """
 
     FIRST = "1"
     SECOND = "2"
     THIRD = "3"
-
-    @property
-    def number(self) -> int:
-        """0, 1 or 2."""
-        return int(self.value) - 1
 
 
 def direction(name: str) -> Direction:

@@ -46,7 +46,7 @@ def of_supports(region: Region) -> Array:
 
 
 def of_loads(
-    rows: Sequence[Layer], region: Region, F: tuple[Array, Array], missing: tuple[int, int]
+    rows: Sequence[Layer], region: Region, F: tuple[Array, ...], missing: tuple[int, int]
 ) -> Array:
     """Give the runs of ``rows`` from the highest layer down, in a packing of ``region``.
 
@@ -134,6 +134,21 @@ def of_pairs(region: Region, layers: range, offsets: Sequence[tuple[int, int]]) 
             tables.append((j, table + offset[:, None]))
         found.append(_ordered(tables, 5, downwards=False))
     return np.concatenate([np.empty((0, 5), dtype=np.int64), *found])
+
+
+def of_steps(width: int, layers: int, steps: Sequence[tuple[int, ...]]) -> Array:
+    """Give the same table for the beads of whole layers of W × W, and those so many steps on."""
+    index = np.arange(width**2).reshape(width, width)
+    found = []
+    for k, (p, q, third) in enumerate(steps):
+        other = np.roll(index, (-p, -q), (0, 1)).reshape(-1)
+        above = p + q + third
+        if above or other[0]:  # else a bead beside its own image
+            j = np.arange(max(layers - above, 0))
+            table = np.array([(at, other[at], n, k, 0) for at, n in _cuts(other)])
+            offset = np.stack([j * index.size, (j + above) * index.size, 0 * j, 0 * j, j], axis=-1)
+            found.append((j, table + offset[:, None]))
+    return _ordered(found, 5, downwards=False)
 
 
 def _places(wanted: Layer, source: Layer, width: int | None) -> Array:

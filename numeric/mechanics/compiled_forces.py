@@ -99,7 +99,7 @@ def _order(own: Array, loads: Array, width: int, side: int) -> tuple[Array, Arra
 
 
 @compiled
-def _sweep_down(F: tuple[Array, Array], runs: Array, block: Array, g: Array, lost: Array) -> bool:
+def _sweep_down(F: tuple[Array, ...], runs: Array, block: Array, g: Array, lost: Array) -> bool:
     """Sweep packings from the highest layer down; say if all is in order.
 
     ``F`` are the ordered forces, ``runs`` the table ``runs.of_loads``, ``block`` is that of

@@ -10,11 +10,11 @@ from weakref import ref
 
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.machine import cores
-from ..arithmetic.systems import FLOAT64, NumberSystem
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..disorder.radii import rows_of
 from ..lattice.branch import Branch
 from ..lattice.layers import Layer
-from . import first_order, packing, three_dimensions
+from . import first_order, packing, spheres, three_dimensions
 from .forces import Loads, sweep_down
 from .physicality import PHYSICAL, Physicality
 from .plain_form import solve_plainly
@@ -23,6 +23,7 @@ from .work import Work
 
 if TYPE_CHECKING:
     from .compiled import Sweeps
+    from .compiled_spheres import SphereSweeps
 
 # Beads from which on the compiled sweeps repay loading the compiler (half a second). A row of a
 # packing, which NumPy draws by a call of its own, counts for so many beads; once the compiler is
@@ -41,7 +42,7 @@ class _Kept(threading.local):
     """The sweeps of a thread's last block of an ensemble, for its next one, until it takes them."""
 
     def __init__(self) -> None:
-        self.last: list[tuple[ref[Problem], Sweeps, Loads | None]] = []
+        self.last: list[tuple[ref[Problem], Any, Any]] = []
 
 
 _kept = _Kept()
@@ -146,11 +147,22 @@ def _solved(
     realisations: Sequence[int],
     system: NumberSystem,
     work: Work,
+    sweeps: Any,
+    loads: Any,
+) -> Solved:
+    if problem.dimension == 3:
+        return three_dimensions.solve(problem, realisations, system, work, sweeps, loads)
+    return _of_discs(problem, realisations, system, work, sweeps, loads)
+
+
+def _of_discs(
+    problem: Problem,
+    realisations: Sequence[int],
+    system: NumberSystem,
+    work: Work,
     sweeps: "Sweeps | None",
     loads: Loads | None,
 ) -> Solved:
-    if problem.dimension == 3:
-        return three_dimensions.solve(problem, realisations, system, work)
     if problem.route == Route.ORDERED:
         with work.timed("closed form"):
             return _ordered(problem, system)
@@ -187,17 +199,18 @@ def _solved(
     return Solved(system, solved, forces, None)
 
 
-def keep(problem: Problem, sweeps: "Sweeps | None", loads: Loads | None) -> None:
+def keep(problem: Problem, sweeps: Any, loads: Any) -> None:
     """Keep what ``ready`` gave for this thread's next block of the same problem."""
     if sweeps is not None:
         last = _kept.last
         last[:] = [(ref(problem, lambda _: last.clear()), sweeps, loads)]
 
 
-def ready(problem: Problem, system: NumberSystem) -> "tuple[Sweeps | None, Loads | None]":
-    """Give what all realisations have alike: the compiled sweeps, if they are taken, and loads."""
-    if problem.dimension == 3:
-        return None, None
+def ready(problem: Problem, system: NumberSystem) -> tuple[Any, Any]:
+    """Give what all realisations have alike: the compiled sweeps, if they are taken, and loads.
+
+    ``Sweeps`` and ``Loads``; in three dimensions ``SphereSweeps`` and those of ``spheres.bear``.
+    """
     with suppress(IndexError):
         last, sweeps, loads = _kept.last.pop()
         if last() is problem:
@@ -205,10 +218,12 @@ def ready(problem: Problem, system: NumberSystem) -> "tuple[Sweeps | None, Loads
     return _compiled(problem, system), _loads(problem, system)
 
 
-def _loads(problem: Problem, system: NumberSystem) -> Loads | None:
+def _loads(problem: Problem, system: NumberSystem) -> Loads | Sequence[Array | None] | None:
     """Give the loads, the same for all realisations; None where no sweep needs them."""
     if not problem.needs_forces or problem.route not in {Route.EXACT, Route.FIRST_ORDER}:
         return None
+    if problem.dimension == 3:
+        return three_dimensions.loads(problem, system)
     strength = problem.load.strength(problem.n_x, system)
     return problem.load.on(problem.force_rows, strength, system)
 
@@ -234,12 +249,15 @@ def compiles(problem: Problem, system: NumberSystem) -> bool:
     return True
 
 
-def _compiled(problem: Problem, system: NumberSystem) -> "Sweeps | None":
+def _compiled(problem: Problem, system: NumberSystem) -> "Sweeps | SphereSweeps | None":
     """Give the compiled sweeps, same numbers, if they are taken."""
     if not compiles(problem, system):
         return None
-    from . import compiled
+    from . import compiled, compiled_spheres
 
+    if problem.dimension == 3:
+        m = spheres.metric(3, three_dimensions.cosine(problem), system)
+        return compiled_spheres.SphereSweeps(problem.radii, m, problem.region)
     return compiled.Sweeps(problem.radii, problem.n_x, problem.region)
 
 

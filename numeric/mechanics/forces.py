@@ -72,17 +72,17 @@ class Forces:
 class Ordered:
     """Ordered forces of all packings alike: numbers, where each row's begin, and where zeros are.
 
-    Plus and minus; ``start`` (layers + 1,), of which the last is that of nothing above the highest.
+    By branches; ``start`` (layers + 1,), of which the last is that of nothing above the highest.
     """
 
-    values: tuple[Array, Array]
-    start: tuple[Array, Array]
+    values: tuple[Array, ...]
+    start: tuple[Array, ...]
     missing: tuple[int, int]
 
 
 @dataclass(frozen=True, kw_only=True)
 class CompiledForces(Forces):
-    """Forces of compiled sweeps: their changes lie in ``g``, (batch, 2, …), row after row.
+    """Forces of compiled sweeps: their changes lie in ``g``, (batch, branches, …), row after row.
 
     ``F`` are the ordered ones; ``starts`` says where rows begin in ``g``, ``lowest`` which row is
     the lowest that forces reach.

@@ -68,8 +68,18 @@ class Physicality:
         """
         top = packing.region.top
         layers = range(top + 1) if layers is None else layers
-        if isinstance(packing, CompiledPacking) and self._compiled(packing, layers):
-            return
+        if isinstance(packing, CompiledPacking):
+            from . import compiled_gaps
+
+            region, width = packing.region, packing.region.width
+            period = None if width is None else 2 * width
+
+            def named(bead: int) -> Site:
+                i, j = region.site(bead)
+                return _home(i, period), j
+
+            if self.took(compiled_gaps.gaps(packing, layers), named):
+                return
         rows = range(layers.start, min(layers.stop + 3, top + 1))
         c_plus = {j: as_floats(packing.c.plus[j]) for j in rows}
         c_minus = {j: as_floats(packing.c.minus[j]) for j in rows}
@@ -80,22 +90,20 @@ class Physicality:
                     if dj_of == dj:
                         self._pairs(packing, (c_plus, c_minus, rho), j, (di, dj))
 
-    def _compiled(self, packing: CompiledPacking, layers: range) -> bool:
-        """Do the same by a compiled loop; say whether it could."""
-        from . import compiled_gaps
-
-        found = compiled_gaps.gaps(packing, layers)
+    def took(
+        self,
+        found: tuple[float, tuple[int, int, int] | None, int, int] | None,
+        named: Callable[[int], tuple[int, ...]],
+    ) -> bool:
+        """Take in what ``compiled_gaps`` found; ``named`` names a bead. Say whether it could."""
         if found is None:
             return False
         smallest, beads, overlaps, undecided = found
         self.overlaps += overlaps
         self.undecided_gaps += undecided
         if beads is not None and (self.smallest_gap is None or not smallest >= self.smallest_gap):
-            width = packing.region.width
-            period = None if width is None else 2 * width
-            (i, j), (other_i, other_j) = (packing.region.site(bead) for bead in beads[:2])
             self.smallest_gap, self.smallest_in = smallest, self.looks_at[beads[2]]
-            self.between = (_home(i, period), j), (_home(other_i, period), other_j)
+            self.between = named(beads[0]), named(beads[1])
         return True
 
     def _pairs(

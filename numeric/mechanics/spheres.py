@@ -15,16 +15,18 @@ Less that of a = d they are linear in p = p^d, but for A = |p|²/4, which obeys 
 small root has a form without cancellation.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
 from itertools import product
+from operator import add, mul
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..arithmetic.errors import UndecidedError
-from ..arithmetic.systems import Array, NumberSystem, as_floats, zeros
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats, zeros
 from .forces import NotStandingError, added
 from .packing import UnbuildableError
 
@@ -39,11 +41,11 @@ class Metric(NamedTuple):
 
     def raised(self, components: Array) -> Array:
         """Turn n^a·v, shape (d, …), into v^a of v = Σ v^a n^a: multiply by the inverse of G."""
-        return np.asarray(components * self.own + components.sum(axis=0) * self.cross)
+        return np.asarray(components * self.own + reduce(add, components) * self.cross)
 
     def dot(self, raised: Array, components: Array) -> Array:
         """Give the dot product of two vectors, one of them ``raised``."""
-        return np.asarray((raised * components).sum(axis=0))
+        return np.asarray(reduce(add, raised * components))
 
 
 def metric(dimension: int, phi: Fraction, system: NumberSystem) -> Metric:
@@ -90,6 +92,18 @@ class Placed:
     dn: Sequence[Array]
 
 
+@dataclass(frozen=True)
+class CompiledPlaced(Placed):
+    """Spheres of compiled sweeps, d = 3, layer after layer.
+
+    ``flat``: δr/r, (batch, beads). ``block``, (batch, 12, …): c, and dn of contacts with the first,
+    second and third support.
+    """
+
+    flat: Array
+    block: Array
+
+
 def deposit(rho: Sequence[Array], m: Metric, system: NumberSystem, *, linear: bool) -> Placed:
     """Deposit layer by layer on the ordered base; to first order only if ``linear``.
 
@@ -131,7 +145,7 @@ def _squares(under: Array, both: Array, j: int, m: Metric, system: NumberSystem)
     size = m.dot(up, start)
     half = 1 + m.dot(up, step) / 2
     discriminant = half * half - m.dot(step_up, step) * size / 4
-    _check_rest(discriminant, (np.prod(pivots, axis=0), *step), j, d, system)
+    _check_rest(discriminant, (reduce(mul, pivots), *step), j, d, system)
     p = start - step * (size / (half + system.sqrt(discriminant)) / 2)
     steps = [p + u for u in apart]
     return np.stack([m.dot(m.raised(v), v) / 4 for v in steps])
@@ -148,6 +162,19 @@ class Borne:
     change: Sequence[Array]
 
 
+def straight_down(
+    loads: Sequence[Array | None], shape: tuple[int, ...], system: NumberSystem
+) -> Iterator[tuple[int, Array]]:
+    """Give layers from the highest down to j = 1, and the ordered forces below, (d, W, …, W)."""
+    d = len(shape) + 1
+    F = zeros(system, d, *shape)
+    for j in range(len(loads) - 1, 0, -1):
+        load = loads[j]
+        F = F if load is None else F + load
+        yield j, F
+        F = np.stack([along(F[a], a, 1, d) for a in range(d)])
+
+
 def bear(
     placed: Placed, loads: Sequence[Array | None], system: NumberSystem, *, linear: bool
 ) -> Borne:
@@ -160,27 +187,23 @@ def bear(
     top = len(placed.rho) - 1
     shape = placed.rho[0].shape
     batch = len(shape) - d + 1
-    F = zeros(system, d, *(1,) * batch, *shape[batch:])  # the same for all packings
     g = zeros(system, d, *shape)
     turn = zeros(system, d, *shape)
     ordered, change = [zeros(system, 0)] * (top + 1), [zeros(system, 0)] * (top + 1)
-    for j in range(top, 0, -1):
-        load, dn = loads[j], placed.dn[j]
-        F = F if load is None else F + load
+    for j, of_all in straight_down(loads, shape[batch:], system):
+        dn, F = placed.dn[j], of_all.reshape(d, *(1,) * batch, *shape[batch:])
         turn = turn - _turned(F, dn)
         if not linear:  # (1 + D) h = s, written for h − s, which is small of second order
             s = g + turn
             matrix = [[dn[a, b] for a in range(d)] for b in range(d)]
-            small = np.stack([sum(matrix[b][a] * s[a] for a in range(d)) for b in range(d)])
-            less, pivots = _solved(matrix, small)
-            _check_standing(np.prod(pivots, axis=0), j, d, system)
+            less, pivots = _solved(matrix, _turned(s, dn))
+            _check_standing(reduce(mul, pivots), j, d, system)
             turn = turn - less
         g, lost = added(g, turn, system)
         ordered[j], change[j] = F, g
         turn = _turned(F if linear else F + g, dn, up=True)
         if lost is not None:
             turn = turn + np.stack([along(lost[a], a, 1, d) for a in range(d)])
-        F = np.stack([along(F[a], a, 1, d) for a in range(d)])
         g = np.stack([along(g[a], a, 1, d) for a in range(d)])
     return Borne(ordered, change)
 
@@ -189,8 +212,7 @@ def _turned(force: Array, dn: Array, *, up: bool = False) -> Array:
     """Give Σ_a f_a δn^a of the contacts below beads, at those; or ``up`` from the beads below."""
     d = len(force)
     parts = [force[a] * dn[a] for a in range(d)]
-    return np.asarray(sum((along(v, a, 1, d) if up else v for a, v in enumerate(parts[1:], 1)),
-                          along(parts[0], 0, 1, d) if up else parts[0]))  # fmt: skip
+    return np.asarray(reduce(add, (along(v, a, 1, d) if up else v for a, v in enumerate(parts))))
 
 
 def _site(bad: Array, j: int, dimension: int) -> tuple[int, ...]:
@@ -241,6 +263,12 @@ def near_pairs(dimension: int) -> list[tuple[int, ...]]:
     return sorted(found, key=lambda steps: (sum(steps), steps))
 
 
+def of_lattice(phi: Fraction, steps: tuple[int, ...]) -> tuple[float, ...]:
+    """Give the steps, the square of the distance in the ordered packing, and that less 4."""
+    exact = 4 * (sum(s * s for s in steps) * (1 - phi) + sum(steps) ** 2 * phi)
+    return (*steps, float(exact), float(exact - 4))
+
+
 def gaps(placed: Placed, phi: Fraction, j: int, steps: tuple[int, ...]) -> Array | None:
     """Give the gaps of the beads of layer j with those at lattice distance ``steps``, units of r.
 
@@ -257,13 +285,12 @@ def gaps(placed: Placed, phi: Fraction, j: int, steps: tuple[int, ...]) -> Array
             values = along(values, axis, count, d)
         return values
 
-    exact = sum(s * s for s in steps) * (1 - phi) + sum(steps) ** 2 * phi
+    *_, square, least = of_lattice(phi, steps)
     u = there(as_floats(placed.c[other])) - as_floats(placed.c[j])
     both = there(as_floats(placed.rho[other])) + as_floats(placed.rho[j])
-    floats = Metric(
-        d, float(phi), 1 / float(1 - phi), float(-phi / ((1 - phi) * (1 + (d - 1) * phi)))
-    )
-    change = 4 * sum(s * u[a] for a, s in enumerate(steps)) + floats.dot(floats.raised(u), u)
-    distance = np.sqrt(np.maximum(float(4 * exact) + change, 0))
-    excess = float(4 * exact - 4) + (change - 4 * both - both * both)
+    floats = metric(d, phi, FLOAT64)
+    tilt = reduce(add, (s * u[a] for a, s in enumerate(steps)))
+    change = 4 * tilt + floats.dot(floats.raised(u), u)
+    distance = np.sqrt(np.maximum(square + change, 0))
+    excess = least + (change - 4 * both - both * both)
     return np.asarray(excess / (distance + 2 + both))

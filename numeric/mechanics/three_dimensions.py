@@ -8,19 +8,32 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import isqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..arithmetic.systems import Array, NumberSystem, zeros
-from ..disorder.radii import Monodisperse, RadiusError
+from ..disorder.radii import Monodisperse, RadiusError, rows_of
 from ..lattice.branch import Axis, AxisContact, Direction, PerAxis, Site
 from ..lattice.layers import Layer, LazyRows
 from .forces import Forces
 from .physicality import Physicality
 from .problem import Problem, Route, Solved
-from .spheres import Borne, Placed, along, bear, deposit, gaps, metric, near_pairs
+from .spheres import (
+    Borne,
+    CompiledPlaced,
+    Placed,
+    along,
+    bear,
+    deposit,
+    gaps,
+    metric,
+    near_pairs,
+)
 from .work import Work
+
+if TYPE_CHECKING:
+    from .compiled_spheres import SphereSweeps
 
 Bead = tuple[int, int, int]
 
@@ -39,6 +52,16 @@ def bead_of(site: Site, width: int) -> Bead:
     """Name a bead (p, q, j), of a site of the row of W² beads."""
     i, j = site
     return (*divmod((i - j % 2) // 2 % width**2, width), j)
+
+
+def bead_of_number(number: int, width: int) -> Bead:
+    """Name a bead by its number, layer after layer.
+
+    >>> bead_of_number(29, 5)
+    (0, 4, 1)
+    """
+    j, column = divmod(number, width**2)
+    return (*divmod(column, width), j)
 
 
 def site_of(bead: Bead, width: int) -> Site:
@@ -87,6 +110,14 @@ class Spheres(Solved):
 
     def look_at_gaps(self, physical: Physicality) -> None:
         """Measure the gaps of near pairs, from the base up."""
+        placed = self.placed
+        if isinstance(placed, CompiledPlaced):
+            from . import compiled_gaps
+
+            W = placed.rho[0].shape[-1]
+            all_gaps = compiled_gaps.gaps_of_spheres(placed, self.phi)
+            if physical.took(all_gaps, lambda bead: bead_of_number(bead, W)):
+                return
         for j, row in enumerate(self.placed.rho):
             width = row.shape[-1]
             for steps in near_pairs(3):
@@ -110,29 +141,40 @@ class Spheres(Solved):
 
         forces, placed = self.forces, self.placed
         if forces is not None:
-            change = [of(rows, 0) for _, rows in forces.change]
-            forces = replace(forces, change=PerAxis[Sequence[Array]](*change))
-        placed = Placed(placed.metric, of(placed.rho, 0), of(placed.c, 1), of(placed.dn, 2))
+            change = PerAxis[Sequence[Array]](*(of(rows, 0) for _, rows in forces.change))
+            forces = AxisForces(forces.system, forces.rows, forces.ordered, change)
+        if isinstance(placed, CompiledPlaced):
+            part = at if isinstance(at, slice) else slice(at, at + 1)
+            placed = replace(placed, flat=placed.flat[part], block=placed.block[part])
+        placed = replace(placed, rho=of(placed.rho, 0), c=of(placed.c, 1), dn=of(placed.dn, 2))
         return replace(self, forces=forces, placed=placed)
 
 
 def solve(
-    problem: Problem, realisations: Sequence[int], system: NumberSystem, work: Work
+    problem: Problem,
+    realisations: Sequence[int],
+    system: NumberSystem,
+    work: Work,
+    sweeps: "SphereSweeps | None" = None,
+    on_beads: Sequence[Array | None] | None = None,
 ) -> Spheres:
     """Solve some realisations together; the caller activates ``system``.
 
-    Raises ``UnbuildableError``, ``NotStandingError`` or ``RadiusError``, naming (p, q, j).
+    ``on_beads``: the ``loads`` of the problem, if they are known, the same for the same problem.
+    Packings out of the ordinary are left to NumPy's sweeps by the compiled ``sweeps``. Raises
+    ``UnbuildableError``, ``NotStandingError`` or ``RadiusError``, naming (p, q, j).
     """
     rows, linear = problem.region.rows, problem.route != Route.EXACT
     beads = problem.region.beads * len(realisations)
     ordered = problem.route == Route.ORDERED
     with work.timed("closed form" if ordered else "radii"):
-        rho = _radii(problem, realisations, system)
+        rho = _radii(problem, realisations, system, sweeps)
     if not ordered:
         work.did_rows("radii", rows, beads)
     m = metric(3, cosine(problem), system)
     with work.timed("closed form" if ordered else "line sums" if linear else "deposit"):
-        placed = deposit(rho, m, system, linear=linear)
+        quick = None if sweeps is None or linear else sweeps.deposit(rho)
+        placed = deposit(rho, m, system, linear=linear) if quick is None else quick
     if not ordered:
         work.did_rows("deposited", rows[:1] if linear else rows, rows[0].count if linear else beads)
         if linear:
@@ -140,8 +182,13 @@ def solve(
     forces = None
     if problem.needs_forces:
         with work.timed("closed form" if ordered else "balance forces"):
-            forces = _told(problem, bear(placed, loads(problem, system), system, linear=linear),
-                           system)  # fmt: skip
+            on_beads = loads(problem, system) if on_beads is None else on_beads
+            borne: Borne | None = None
+            if sweeps is not None and quick is not None:
+                borne = sweeps.bear(quick, on_beads)
+            if borne is None:
+                borne = bear(placed, on_beads, system, linear=linear)
+            forces = _told(problem, borne, system)
         if not ordered:
             work.did_rows("balanced", rows[1:], beads - rows[0].count * len(realisations))
     return Spheres(system, None, forces, None, placed=placed, phi=cosine(problem))
@@ -172,16 +219,22 @@ def _told(problem: Problem, borne: Borne, system: NumberSystem) -> AxisForces:
     )
 
 
-def _radii(problem: Problem, realisations: Sequence[int], system: NumberSystem) -> list[Array]:
-    width, found = side(problem), []
-    for layer in problem.region.rows:
-        try:
-            row = problem.radii.row(layer, realisations, system)
-        except RadiusError as error:
-            i, j = error.site
-            raise RadiusError(bead_of((i, j), width), error.reason) from None
-        found.append(row.reshape(*row.shape[:-1], width, width))
-    return found
+def _radii(
+    problem: Problem,
+    realisations: Sequence[int],
+    system: NumberSystem,
+    sweeps: "SphereSweeps | None",
+) -> Sequence[Array]:
+    width = side(problem)
+    try:
+        if sweeps is None:
+            rows = rows_of(problem.radii, problem.region.rows, realisations, system)
+        else:
+            rows = sweeps.radii(realisations)
+    except RadiusError as error:
+        i, j = error.site
+        raise RadiusError(bead_of((i, j), width), error.reason) from None
+    return LazyRows(len(rows), lambda j: rows[j].reshape(*rows[j].shape[:-1], width, width))
 
 
 def loads(problem: Problem, system: NumberSystem) -> list[Array | None]:

@@ -150,7 +150,7 @@ class SphereContact(SphereContacts, Listed):
         """Give the one row."""
         F, g = self.changes(problem, solved, 1)
         index = {k: np.array(v) for k, v in self.labels(problem).items()}
-        return Table(index, {"force": F[0] + g[0, 0], "change": g[0, 0]}, ("change",))
+        return Table(index, {"force": F[0] + g[0, 0], "change": g[0, 0].copy()}, ("change",))
 
 
 class SpherePositions(SphereQuantity, Listed):

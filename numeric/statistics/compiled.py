@@ -147,7 +147,7 @@ def _counted(values: Array, edges: Array, counts: Array) -> None:
 
 
 @compiled
-def _least(F: tuple[Array, Array], pieces: Array) -> Array:
+def _least(F: tuple[Array, ...], pieces: Array) -> Array:
     """Give the smallest F of each of the ``pieces`` of ``_tally``."""
     least = np.empty(len(pieces))
     for p in range(len(pieces)):
@@ -160,7 +160,7 @@ def _least(F: tuple[Array, Array], pieces: Array) -> Array:
 def _tally(
     g: Array,
     words: Array,
-    F: tuple[Array, Array],
+    F: tuple[Array, ...],
     pieces: Array,
     members: int,
     unit: int,
@@ -174,7 +174,7 @@ def _tally(
 ) -> bool:
     """Sum up packings; False where ``exact_sum`` has to.
 
-    ``g`` is (packings, 2, …), ``words`` its bits, ``F`` the ordered forces of both branches.
+    ``g`` is (packings, branches, …), ``words`` its bits, ``F`` the ordered forces of branches.
     ``pieces`` (pieces, 5): group, branch, where it begins in g and in F, contacts; groups come in
     their order; ``least`` (pieces,) is the smallest F of each. Added to are ``totals``, digits of
     sums and sums of squares (groups, …), of which some lie within ``used`` (2, 2), and ``tensile``
@@ -224,7 +224,7 @@ class Tally:
     def __init__(
         self,
         pieces: Array,
-        F: tuple[Array, Array],
+        F: tuple[Array, ...],
         groups: int,
         members: int,
         unit: int,

@@ -11,6 +11,7 @@ PROFILE: dict[str, dict[str, Any]] = {
     "disorder": {"kind": "uniform", "relative_std": "=1e-4", "seed": 5},
     "ask": {"quantity": "profile"},
 }
+SPHERES: dict[str, dict[str, Any]] = {"packing": {"height": 3, "width": 5, "dimension": 3}}
 CASES: dict[str, dict[str, dict[str, Any]]] = {
     "profile": PROFILE,
     "profile of a bulk load": {**PROFILE, "load": {"kind": "bulk"}},
@@ -39,6 +40,21 @@ CASES: dict[str, dict[str, dict[str, Any]]] = {
         "ask": {"quantity": "response", "layers": [3, 1]},
     },
     "histogram of all": {**PROFILE, "ask": {"quantity": "histogram", "bins": 11}},
+    "profile of spheres": {**PROFILE, **SPHERES},
+    "bulk profile of spheres": {**PROFILE, **SPHERES, "load": {"kind": "bulk"}},
+    "all contacts of spheres": {**PROFILE, **SPHERES, "ask": {"quantity": "contact_forces"}},
+    "one contact of spheres": {
+        **PROFILE,
+        **SPHERES,
+        "ask": {"quantity": "contact", "at": [0, 2, 1, "2"]},
+    },
+    "response of spheres": {
+        **PROFILE,
+        **SPHERES,
+        "load": {"kind": "point", "at": [1, 1, 2]},
+        "ask": {"quantity": "response"},
+    },
+    "histogram of spheres": {**PROFILE, **SPHERES, "ask": {"quantity": "histogram", "bins": 11}},
     "histogram of one": {**PROFILE, "ask": {"quantity": "histogram", "at": [0, 2, "+"]}},
 }
 

@@ -1,0 +1,282 @@
+"""Scenes in three dimensions: what they answer, and what they refuse."""
+
+from fractions import Fraction
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.arithmetic.systems import (
+    FLOAT64,
+    Array,
+)
+from force_diffusion.numeric.mechanics.any_dimension import force_weights, together
+from force_diffusion.numeric.mechanics.spheres import (
+    along,
+    bear,
+    deposit,
+    metric,
+)
+
+import force_diffusion as fd
+from tests.numeric.spheres import columns, drawn, scene
+
+
+@pytest.mark.parametrize("kind", ["surface", "bulk"])
+def test_the_base_bears_the_load(kind: Any) -> None:
+    load = fd.Load(kind=kind, magnitude=2.5)
+    found = scene("base_reactions", height=4, width=5, load=load).run().arrays
+    total = 2.5 * 25 * (1 if kind == "surface" else 5)
+    assert found["fz"].sum() == pytest.approx(total, rel=1e-14)
+    assert abs(found["fx"].sum()) + abs(found["fy"].sum()) < 1e-13 * total
+    assert abs(found["change_z"]).max() > 1e-3
+
+
+def test_a_point_load_comes_down_to_the_base() -> None:
+    load = fd.PointLoad(at=(1, 1, 3))
+    found = scene("base_reactions", height=3, width=5, load=load).run().arrays
+    forces = [found[name].sum() for name in ("fx", "fy", "fz")]
+    assert np.abs(np.array(forces) - (0, 0, 1)).max() < 1e-14
+
+
+def test_a_response_has_vertical_forces_that_sum_to_the_load() -> None:
+    load = fd.PointLoad(at=(1, 1, 3))
+    found = scene("response", height=3, width=5, load=load).run().arrays
+    for j in range(3):
+        assert found["vertical"][found["j"] == j].sum() == pytest.approx(1, abs=1e-14)
+
+
+def test_a_radius_that_is_not_positive_is_named() -> None:
+    asked = scene("profile", height=2, width=3, std=0.5)
+    packed = asked.model_copy(
+        update={"disorder": fd.Disorder(kind="normal", relative_std=0.9, seed=1)}
+    )
+    with pytest.raises(fd.ForceDiffusionError, match=r"bead \(\d, \d, \d\): the drawn radius"):
+        packed.run()
+
+
+def test_one_contact_and_one_bead_are_those_of_all() -> None:
+    every = scene(height=3, width=4).run()
+    for p, q, j, branch, change in columns(every, "p", "q", "j", "branch", "change"):
+        if (p + 2 * q + j) % 5 == 0:
+            one = scene("contact", height=3, width=4, at=(p, q, j, branch)).run()
+            assert one.arrays["change"].tolist() == [change]
+            assert one.rows()[0]["branch"] == branch
+    beads = scene("positions", height=3, width=4).run()
+    one = scene("positions", height=3, width=4, at=(3, 1, 2)).run()
+    assert one.rows()[0] in beads.rows()
+
+
+@pytest.mark.parametrize("quantity", ["profile", "positions", "base_reactions"])
+@pytest.mark.parametrize(("geometry", "height"), [("exact", 2), ("first-order", 3)])
+def test_images_are_seen_where_a_wider_packing_differs(
+    quantity: str, geometry: str, height: int
+) -> None:
+    """Which beads matter is tried one by one; images matter where two of them are W apart."""
+    M, wide = height, 4 * height + 1
+    lowest = 1 if quantity == "profile" else 0
+    rng = np.random.default_rng(1)
+    rho = [1e-3 * rng.uniform(-1, 1, (wide, wide)) for _ in range(M + 1)]
+    phi, linear = Fraction(1, 5), geometry == "first-order"
+
+    def asked(rows: list[Array]) -> Array:
+        """Rows of the answer that tell most, by what they depend on."""
+        with FLOAT64.active():
+            placed = deposit(rows, metric(3, phi, FLOAT64), FLOAT64, linear=linear)
+            if quantity == "positions":
+                return np.asarray([np.abs(placed.c[M][:, 0, 0]).sum()])
+            borne = bear(placed, [None] * M + [np.ones((wide, wide))], FLOAT64, linear=linear)
+            change, dn = borne.change[1], placed.dn[1]
+            if lowest:
+                return np.asarray(change[:, 0, 0])
+            parts = [along(change[a] + np.abs(dn[a]).sum(axis=0), a, 1, 3) for a in range(3)]
+            return np.asarray([np.stack(parts)[:, 0, 0].sum()])
+
+    before = asked(rho)
+    matter: list[set[tuple[int, int, int]]] = [set() for _ in before]
+    for j, p, q in product(range(M + 1), range(wide), range(wide)):
+        rows = [row.copy() for row in rho]
+        rows[j][p, q] += 1e-4
+        unwrapped = (p if p <= wide // 2 else p - wide, q if q <= wide // 2 else q - wide, j)
+        for beads, off in zip(matter, np.abs(asked(rows) - before), strict=True):
+            if off > 1e-15:
+                beads.add(unwrapped)
+    for width in range(1, 2 * M + 2):
+        homes = [{(p % width, q % width, j) for p, q, j in beads} for beads in matter]
+        sees = any(len(home) < len(beads) for home, beads in zip(homes, matter, strict=True))
+        plan = scene(quantity, height=M, width=width, geometry=geometry).explain()
+        assert plan.sees_images == sees, width
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"packing": {"width": None}}, "packing.width"),
+        ({"packing": {"spacing": 3.3}}, "packing.spacing = 3.3: must lie strictly"),
+        ({"load": {"angle_deg": 3}}, "load.angle_deg"),
+        ({"load": {"kind": "point", "at": (1, 1)}}, r"load.at.*\[p, q, l\]"),
+        ({"load": {"kind": "point", "at": (9, 1, 1)}}, "p and q must be from 0 to 5"),
+        ({"effects": {"contacts": "unilateral"}}, "effects.contacts"),
+        ({"effects": {"stop_at_tension": True}}, "effects.stop_at_tension"),
+        ({"ask": {"quantity": "contact", "at": (1, 1, "+")}}, "must be a contact"),
+        ({"ask": {"quantity": "contact", "at": (1, 1, 4, "1")}}, "j must be from 0 to 3"),
+        ({"ask": {"quantity": "positions", "at": (1, 1)}}, "must be a bead"),
+        ({"ask": {"quantity": "histogram", "at": (1, 1, 1, "1")}}, "ask.at"),
+        ({"disorder": {"kind": "file", "file": "radii.csv"}}, "disorder.file"),
+    ],
+)
+def test_what_is_not_offered_is_refused(changes: dict[str, dict[str, Any]], says: str) -> None:
+    sections: dict[str, dict[str, Any]] = {
+        "packing": {"height": 4, "width": 6, "dimension": 3},
+        "disorder": {"kind": "uniform", "relative_std": 1e-3},
+        "load": {},
+        "effects": {},
+        "ask": {"quantity": "profile"},
+    }
+    for name, keys in changes.items():
+        sections[name] = keys if name == "disorder" else sections[name] | keys
+    with pytest.raises(fd.SceneError, match=says):
+        fd.Scene(**sections)
+
+
+def test_studies_and_other_plots_refuse_three_dimensions() -> None:
+    asked = scene("profile", height=2, width=6)
+    with pytest.raises(fd.SceneError, match=r"packing.dimension = 3: must be 2"):
+        fd.cost(asked)
+    with pytest.raises(fd.SceneError, match=r"packing.dimension = 3: contact_forces has"):
+        scene(height=2, width=6).run().plot()
+
+
+def test_a_profile_and_a_histogram_are_drawn() -> None:
+    profile = scene("profile", height=2, width=6)
+    axes = profile.run().plot().axes[0]
+    names = axes.get_legend_handles_labels()[1]
+    assert names == ["exact at finite $M$", *(f"simulated, $f^{a}$" for a in (1, 2, 3))]
+    bins = fd.ensemble(scene("histogram", height=2, width=6, std=1e-4), 20).plot().axes[0]
+    assert "theory: a Gaussian a layer" in bins.get_legend_handles_labels()[1]
+
+
+@pytest.mark.parametrize("kind", ["surface", "bulk"])
+@pytest.mark.parametrize(("height", "width"), [(3, 5), (3, 4)])
+def test_a_profile_has_the_exact_first_order_width_where_no_image_is_seen(
+    kind: Any, height: int, width: int
+) -> None:
+    """Squared weights by the recursion, not the closed forms; F is the load over 3 n_z."""
+    load = fd.Load(kind=kind)
+    found = scene("profile", height=height, width=width, load=load).run().arrays
+    if width <= height + 1:
+        assert "first_order_std" not in found
+        return
+    phi = 1 - Fraction("2.9") ** 2 / 8
+    for j, stated in zip(found["j"].tolist(), found["first_order_std"].tolist(), strict=True):
+        weights = together(force_weights(3, height, j, phi, bulk=kind == "bulk"))
+        force = (height - j if kind == "bulk" else 1) / np.sqrt(3 * float(1 + 2 * phi))
+        variance = float(sum(w * w for w in weights.values()))
+        assert stated == pytest.approx(1e-2 * force * np.sqrt(variance), rel=1e-11)
+
+
+def test_an_ensemble_has_the_width_of_theory() -> None:
+    """With 400 packings σ_f is known to 1 %; what is sampled is independent of theory."""
+    asked = scene("profile", height=4, width=6, std=1e-4)
+    found = fd.ensemble(asked, 400)
+    assert found.first_order_std is not None
+    off = (found.std - found.first_order_std) / found.std_error
+    # 12 rows: one beyond 4.5 standard errors has a chance below 1e-4; the seed is fixed
+    assert np.abs(off).max() < 4.5
+    assert (found.std_error / found.std).max() < 0.02
+
+
+def inside(outcome: fd.Outcome, load: tuple[int, int, int], width: int) -> Array:
+    """Whether a contact's lower bead is reached from the load by steps along all three axes."""
+    found = []
+    for p, q, j in columns(outcome, "p", "q", "j"):
+        first, second = (load[0] - p) % width, (load[1] - q) % width
+        steps = first, second, load[2] - j - first - second
+        found.append(min(steps) > 0)
+    return np.array(found)
+
+
+def test_a_point_load_fluctuates_on_the_faces_of_its_cone_alone() -> None:
+    """To first order; what the inside bears is of second order."""
+    load = fd.PointLoad(at=(4, 4, 5))
+
+    def largest(geometry: str, std: float) -> tuple[float, float]:
+        outcome = scene("response", height=5, width=7, load=load, geometry=geometry, std=std).run()
+        change, within = np.abs(outcome.arrays["change"]), inside(outcome, (4, 4, 5), 7)
+        assert within.sum() > 20
+        return change[within].max(), change[~within].max()
+
+    silent, faces = largest("first-order", 1e-4)
+    assert silent == 0
+    assert faces > 1e-5
+    (wide, wide_faces), (narrow, narrow_faces) = (largest("exact", std) for std in (1e-4, 1e-5))
+    assert wide_faces / narrow_faces == pytest.approx(10, rel=0.02)
+    assert wide / narrow == pytest.approx(100, rel=0.02)  # the next order is a share of 1e-3
+
+
+def test_radii_of_ones_own_are_an_array_of_beads(tmp_path: Path) -> None:
+    """The drawn radii, given as an array and in a file, make the same packing."""
+    asked = scene(height=3, width=4)
+    values = np.zeros((4, 4, 4))
+    for (p, q, j), rho in drawn(asked).items():
+        values[j, p, q] = float(1 + rho)
+    np.save(tmp_path / "radii.npy", values)
+    first = asked.run().arrays["change"]
+    for disorder in (
+        fd.GivenRadii(radii=values),
+        fd.GivenRadii(radii=np.stack([values, values])),
+        fd.Disorder(kind="file", file="radii.npy"),
+    ):
+        again = asked.model_copy(update={"disorder": disorder, "folder": tmp_path}).run()
+        # radii near 1 are rounded to 1e-16, of which changes are a few times as much
+        assert np.abs(again.arrays["change"] - first).max() < 1e-14
+
+
+def test_an_array_of_another_shape_is_refused(tmp_path: Path) -> None:
+    asked = {
+        "packing": fd.Packing(height=3, width=5, dimension=3),
+        "ask": fd.Ask(quantity="profile"),
+    }
+    for shape in ((4, 5), (4, 5, 4), (2, 2, 4, 5, 5)):
+        with pytest.raises(fd.SceneError, match=r"give \(4, 5, 5\)|must be an array"):
+            fd.Scene(disorder=fd.GivenRadii(radii=np.ones(shape)), **asked)
+    np.save(tmp_path / "radii.npy", np.ones((4, 5)))
+    given = fd.Disorder(kind="file", file="radii.npy")
+    with pytest.raises(fd.ForceDiffusionError, match="of 5 × 5 beads"):
+        fd.Scene(disorder=given, folder=tmp_path, **asked).run()
+
+
+def test_what_no_load_reaches_is_not_solved_and_bears_nothing() -> None:
+    load = fd.PointLoad(at=(1, 1, 2))
+    asked = scene("contact", height=5, width=6, at=(1, 1, 3, "1"), load=load)
+    assert asked.explain().problem.region.top == 2
+    assert asked.run().rows()[0]["force"] == 0
+    assert fd.ensemble(asked, 4).mean.tolist() == [0]
+
+
+@pytest.mark.parametrize("height", [2, 3])
+@pytest.mark.parametrize("width", [1, 2, 3, 4])
+def test_the_response_to_a_point_load_sees_images_where_its_cone_meets_itself(
+    height: int, width: int
+) -> None:
+    """All radii of a wide packing matter to some contact; images where two are W apart."""
+    wide = 2 * height + 2
+    apart = range(-height, 1)
+    # the simplex below the load, whose beads all decide where the loaded bead lies
+    beads = {(p, q, j) for j in range(height) for p in apart for q in apart
+             if height - j + p + q >= 0}  # fmt: skip
+    homes = {(p % width, q % width, j) for p, q, j in beads}
+    load = fd.PointLoad(at=(0, 0, height))
+    plan = scene("response", height=height, width=width, load=load).explain()
+    assert plan.sees_images == (len(homes) < len(beads))
+    assert not scene("response", height=height, width=wide, load=load).explain().sees_images
+
+
+@pytest.mark.parametrize(("at", "width"), [(2, 2), (4, 2), (3, 2), (3, 3), (0, 2)])
+def test_rays_of_an_ordered_packing_may_meet_on_the_base(at: int, width: int) -> None:
+    load = fd.PointLoad(at=(0, 0, at))
+    asked = scene("base_reactions", height=4, width=width, load=load, geometry="ordered")
+    found = asked.run().arrays["fz"]
+    bearing = sum(float(force) > 0 for force in found)
+    assert asked.explain().sees_images == (bearing < 3 and at > 0)
