@@ -307,6 +307,50 @@ def writing() -> Iterator[Line]:
         yield Line(f"writing as {form} / that", times / solving, "", "<", 1)
 
 
+def _sphere_tasks(height: int, width: int) -> tuple[int, dict[str, Callable[[], Any]]]:
+    """Give the beads of a packing of spheres, and who deposits and balances it."""
+    from force_diffusion.numeric.mechanics import three_dimensions
+    from force_diffusion.numeric.mechanics.compiled_spheres import SphereSweeps
+    from force_diffusion.numeric.mechanics.spheres import bear, deposit, metric
+
+    import force_diffusion as fd
+
+    scene = fd.Scene(
+        packing=fd.Packing(height=height, width=width, dimension=3, allow_images=True),
+        disorder=fd.Disorder(kind="uniform", relative_std=1e-6, seed=1),
+        ask=fd.Ask(quantity="profile"),
+    )
+    problem = scene.explain().problem
+    m = metric(3, three_dimensions.cosine(problem), FLOAT64)
+    sweeps = SphereSweeps(problem.radii, m, problem.region)
+    loads = three_dimensions.loads(problem, FLOAT64)
+    rho = [row.reshape(width, width) for row in sweeps.radii([0])]
+
+    def numpy() -> Any:
+        with FLOAT64.active():
+            return bear(deposit(rho, m, FLOAT64, linear=False), loads, FLOAT64, linear=False)
+
+    def fast() -> Any:
+        placed = sweeps.deposit(rho)
+        assert placed is not None
+        return sweeps.bear(placed, loads)
+
+    return problem.region.beads, {"NumPy": numpy, "fast": fast}
+
+
+def spheres() -> Iterator[Line]:
+    """Packings of spheres, deposited and balanced: by NumPy, and compiled in memory that stays."""
+    for height, width in ((20, 10), (60, 64), (30, 200)):
+        beads, tasks = _sphere_tasks(height, width)
+        usual, quick = (list(task().change)[1:] for task in tasks.values())
+        same = all(a.tobytes() == b.tobytes() for a, b in zip(usual, quick, strict=True))
+        spent = in_turn(tasks, 9, process_time, min)
+        for name, seconds in spent.items():
+            yield Line(f"{name}, {height} × {width} × {width}", 1e9 * seconds / beads, " ns a bead")
+        yield Line("  NumPy / fast", spent["NumPy"] / spent["fast"], "", ">", 3)
+        yield Line("  the same bits (1: yes)", float(same), "", ">", 1)
+
+
 PARTS: dict[str, Callable[[], Iterator[Line]]] = {
     "forces": forces,
     "size": size,
@@ -314,6 +358,7 @@ PARTS: dict[str, Callable[[], Iterator[Line]]] = {
     "digits": digits,
     "profile": profile,
     "writing": writing,
+    "spheres": spheres,
 }
 
 

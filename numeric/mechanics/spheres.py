@@ -5,9 +5,9 @@ periodic in d − 1 directions: its beads have d − 1 columns, each from 0 to W
 of x modulo W. The step −e_a is one column back for a < d, and none for a = d.
 
 Displacements are carried as c_a = n^a·δx: to first order each is a line sum of δr, as in two
-dimensions (see ``packing`` and ``forces``, whose sweeps write d = 2 out by hand, for discs and
-compiled). With p^a = δx less the displacement of the support x − e_a, ρ^a the sum of the two δr,
-and r = 1, the contacts say exactly
+dimensions (see ``packing`` and ``forces``, whose sweeps write d = 2 out by hand; the compiled ones
+of ``compiled_spheres`` write d = 3). With p^a = δx less the displacement of the support x − e_a,
+ρ^a the sum of the two δr, and r = 1, the contacts say exactly
 
     n^a·p^a + |p^a|²/4 = R^a,        R^a = ρ^a + ρ^a²/4.
 

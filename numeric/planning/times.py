@@ -82,8 +82,7 @@ def _pass(
     chunks = -(-n // together)
     beads = region.beads * n + quantity.gathered(region, n)
     work = beads * (bead + kilobit * bits * (1 + bits / 10))
-    if problem.dimension == 3:
-        return spent + len(region.rows) * chunks * layer + _SPHERE * work
+    work *= _SPHERE if problem.dimension == 3 else 1
     if system is FLOAT64 and problem.route == Route.EXACT and region.beads * n >= COMPILED_FROM:
         work = _COMPILER + work * _COMPILED
     return spent + len(region.rows) * chunks * layer + work
