@@ -1,5 +1,6 @@
 """Packings of spheres, solved exactly, against the first-order weights of any dimension."""
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from functools import cache
@@ -12,6 +13,8 @@ from force_diffusion.numeric.arithmetic.systems import Series, zeros
 from force_diffusion.numeric.mechanics.any_dimension import (
     Bead,
     force_weights,
+    reciprocal,
+    squared,
     stepped,
     together,
 )
@@ -132,3 +135,86 @@ def squares_of_spheres(phi: Fraction, height: int, load: str) -> tuple[Fraction,
                     slope = Fraction(int(change[1].p), int(change[1].q)) / ordered
                     found[j] += slope**2
     return tuple(found)
+
+
+def response_weights(
+    dimension: int, level: int, phi: Fraction, steps: Bead, axis: int, *, vertical: bool = False
+) -> dict[Bead, Fraction]:
+    """Weights in δr of one contact's force below a point load, r = 1, over the ordered legs' force.
+
+    Beads are named by their steps down from the loaded one, in layer ``level``. The contact leads
+    up along ``axis`` from the bead ``steps``. To first order what enters a bead leaves it along the
+    same vector, but where the ordered force of a leg turns with its contacts. ``vertical``: the
+    vertical component, over that of the ordered legs.
+    """
+    own, cross = reciprocal(dimension, phi)
+    total: dict[Bead, Fraction] = defaultdict(Fraction)
+
+    def carries(bead: Bead, along: int) -> bool:
+        return 0 < sum(bead) == bead[along]
+
+    def line_sum(bead: Bead, along: int, factor: Fraction) -> None:
+        layer = level - sum(bead)
+        for below in range(layer + 1 if layer else 0):
+            total[stepped(bead, along, below)] += factor * (1 if below in (0, layer) else 2)
+
+    def turn(bead: Bead, up: int, shares: Mapping[int, Fraction]) -> None:
+        upper = stepped(bead, up, -1)
+        for along in set(range(dimension)) - {up}:
+            line_sum(upper, along, shares[along] / 2)
+            line_sum(bead, along, -shares[along] / 2)
+            for end in (bead, upper):
+                total[end] -= phi * shares[along] / 2
+
+    def products(sign: int) -> dict[int, Fraction]:
+        return {along: sign * (own if along == axis else cross) for along in range(dimension)}
+
+    bead = stepped(steps, axis, -1)
+    while min(bead) >= 0:
+        for c in range(dimension):
+            for contact, sign in ((bead, 1), (stepped(bead, c), -1)):
+                if carries(contact, c):
+                    turn(contact, c, products(sign))
+        bead = stepped(bead, axis, -1)
+    if vertical and carries(steps, axis):
+        turn(steps, axis, dict.fromkeys(range(dimension), 1 / (1 + (dimension - 1) * phi)))
+    return dict(total)
+
+
+@cache
+def response_variance(
+    level: int, phi: Fraction, contacts: tuple[tuple[Bead, int], ...], *, vertical: bool = False
+) -> Fraction:
+    """Sum of the squared weights of several contacts' forces together, in three dimensions."""
+    total: dict[Bead, Fraction] = defaultdict(Fraction)
+    for steps, axis in contacts:
+        for bead, w in response_weights(3, level, phi, steps, axis, vertical=vertical).items():
+            total[bead] += w
+    return squared(total)
+
+
+def response_of_spheres(
+    phi: Fraction, level: int, rho: Mapping[Bead, Fraction]
+) -> dict[tuple[Bead, int], Fraction]:
+    """Order ε¹ of every contact's force in an exact packing of spheres with one load.
+
+    Radii are 1 + ερ, by steps down from the loaded bead; the packing is periodic, so wide that no
+    contact in reach of the load sees an image.
+    """
+    system, width = Series(1), level + 2
+    with system.active():
+        layers = [zeros(system, width, width) for _ in range(level + 1)]
+        for bead, value in rho.items():
+            place = (-bead[0] % width, -bead[1] % width)
+            layers[level - sum(bead)][place] = system.series([Fraction(0), value])
+        loads: list[Any] = [None] * level + [zeros(system, width, width)]
+        loads[level][0, 0] = system.number(Fraction(1))
+        placed = deposit(layers, metric(3, phi, system), system, linear=False)
+        borne = bear(placed, loads, system, linear=False)
+        found = {}
+        for steps, axis in product(product(range(level + 1), repeat=3), range(3)):
+            x, y, _ = upper = stepped(steps, axis, -1)
+            if 0 < sum(steps) <= level:
+                force = borne.change[level - sum(upper)][axis][-x % width, -y % width]
+                found[steps, axis] = Fraction(int(force[1].p), int(force[1].q))
+    return found
