@@ -36,7 +36,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import f_load, j, l, p, phi, q, r, sigma
+from force_diffusion.symbolic.symbols import d, f_load, j, l, p, phi, q, r, sigma
 from force_diffusion.symbolic.variances.cases import Case, Piece, first_difference
 from sympy import Rational
 
@@ -359,8 +359,8 @@ def steps() -> Iterator[Step]:
     )
     yield Step(
         "Both ν are differences of line sums down 2 and down 3, in the planes of these and of the "
-        "leg, and of radii of the leg. Squared and summed, and with the share ⅓ of the vertical, one "
-        "contact of a face has, but for j = 0 and q = 1,",
+        "leg, and of radii of the leg. Squared and summed, and with the share ⅓ of the vertical, "
+        "one contact of a face has, but for j = 0 and q = 1,",
         PRINTED[0],
         _value(ON_FACE),
         ("Eq. B11", "step 1", "step 2"),
@@ -450,15 +450,13 @@ def _position() -> Ruling:
 
 
 def _leading() -> Ruling:
-    """The leading orders in l and j, and that of discs."""
-    factor = b11.KAPPA**2 + b11.CROSSED**2
-    three = factor.xreplace({b11.d: sympy.Integer(3)})
+    """What stands for κ² of discs, and that it does."""
     whole = SHARE / ((1 - phi) ** 2 * (1 + 2 * phi) ** 2)
     discs = eq16.PRINTED.rhs.doit() / (Rational(3, 2) * (l + j) * (sigma / r) ** 2)
-    return all_of(
-        decide_identity(three, whole),
-        decide_identity(b11.KAPPA.xreplace({b11.d: sympy.Integer(2)}) ** 2, discs),
+    spheres, plane = (
+        (b11.KAPPA**2 + (d - 2) * b11.CROSSED**2).xreplace({d: sympy.Integer(n)}) for n in (3, 2)
     )
+    return all_of(decide_identity(spheres, whole), decide_identity(plane, discs))
 
 
 def _squares(packing: SmallPacking) -> Ruling:
