@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from force_diffusion.numeric.figures.packings import Notice
 
 NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5", "B7", "B9", "B10", "B11", "B12", "B13",
-         "B15")  # fmt: skip
-OF_ENSEMBLES = ("3", "4", "pf", "B2", "B5", "B7", "B9", "B12", "B13")
+         "B15", "B19")  # fmt: skip
+OF_ENSEMBLES = ("3", "4", "pf", "B2", "B5", "B7", "B9", "B12", "B13", "B19")
 MODELS = {"q-model": "3", "double-y": "4"}
 OWN_SPACING, OWN_STD = ("2", "3", "4", "pf", "chains"), ("3", "4", "pf", "chains")
 LEAST_REALISATIONS, MOST_REALISATIONS = 16, 1_000_000

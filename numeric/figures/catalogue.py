@@ -19,6 +19,7 @@ from . import (
     dimensions,
     directions,
     distribution,
+    faces,
     layers,
     mean_forces,
     mean_response,
@@ -223,6 +224,12 @@ FIGURES = {
         "What the load of either branch gives to a mean force",
         lambda o: sharing.shares(o.notice),
         sharing.draw,
+    ),
+    "B19": _Figure(
+        "figureB19",
+        "Fluctuations of the response to a point load on spheres",
+        lambda o: faces.respond(o.realisations or 1000, o.seed, o.notice),
+        faces.draw,
     ),
 }
 

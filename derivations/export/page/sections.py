@@ -23,6 +23,7 @@ REALISATIONS = {
     "B9": 2000,
     "B12": 200,
     "B13": 100,
+    "B19": 100,
 }
 """Packings in each ensemble of a figure that draws ensembles."""
 

@@ -18,6 +18,7 @@ from force_diffusion.numeric.figures import (
     dimensions,
     directions,
     distribution,
+    faces,
     layers,
     mean_forces,
     mean_response,
@@ -413,6 +414,32 @@ def test_figure_b13_holds_spheres_to_theory_and_would_not_to_that_of_discs(
     monkeypatch.setattr(closed_forms, "surface_variance_of_spheres", closed_forms.surface_variance)
     assert min(found.deviations()) > 10
     assert "outside" in found.lines()[0]
+
+
+def test_figure_b19_holds_faces_to_theory_and_the_inside_to_zero(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found = faces.respond(200, 1, silent)
+    assert found.deviation() <= 1
+    assert 0 < found.share() < 0.01  # of order σ/r, 2.9e-4, times a power of the height
+    (rows,) = found.tables().values()
+    assert [row["exact_first_order"] > 0 for row in rows] == [True] * 5 + [False] * 7
+    discs = math.sqrt(closed_forms.response(10, 4, float(faces.PHI), 1.0, 1.0))
+    monkeypatch.setattr(faces, "theory", lambda: np.full(5, discs))
+    assert found.deviation() > 3  # its curve is half as high again
+    assert "outside" in found.lines()[0]
+
+
+def test_the_response_of_spheres_is_nothing_off_legs_and_faces() -> None:
+    form = closed_forms.spheres_response
+    phi, one = Fraction(1, 5), Fraction(1)
+    assert [form(steps, 9, phi, one, one) for steps in ((1, 1, 1), (2, -1, 1), (0, 0, 0))] == [
+        0
+    ] * 3
+    face = form((2, 3, 0), 9, phi, one, one)
+    assert face == form((3, 0, 2), 9, phi, one, one) == form((0, 1, 4), 9, phi, one, one) > 0
+    with pytest.raises(ValueError, match="whole number"):
+        form((5, 5, 0), 9, phi, one, one)
 
 
 def test_figure_b13_has_the_leading_orders_of_the_exact_forms() -> None:
