@@ -59,13 +59,15 @@ def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array
         at_rest = gain < GAIN * scale
         if at_rest and by_simplex:
             return pairs, forces, program
-        bear = grains.named(pairs[forces > NO_FORCE * forces.max()])
+        bear = grains.named(pairs[forces > NO_FORCE * forces.max(initial=0)])
         by_simplex = at_rest or len(np.setdiff1d(bear, bore)) < FEW
         bore = bear
     moved = float(np.abs(grains.x - start)[grains.fixed :].max(axis=1).mean())
+    through = int(np.count_nonzero(grains.x[:, 1] < grains.x[: grains.fixed, 1].min()))
     raise UnfinishedError(
         f"beads still move after {MOST_PROGRAMS} linear programs, by {moved:.3g} r in the mean so "
-        "far: perhaps nothing holds them"
+        + (f"far, and {through} fell through the base" if through else "far")
+        + ": perhaps nothing holds them"
     )
 
 

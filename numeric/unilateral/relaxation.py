@@ -152,12 +152,17 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None, int
     if radii.min() <= 0:
         raise UnbuildableError((0, 0), "a radius is not positive")
     apart = 2 * float(radii.max()) * (1 + 1e-9)
-    if apart >= 4 * nx:
+    if apart >= 8 * nx:
         raise UnfinishedError(
-            "no start without overlaps is known: some radius is half of the spacing or more"
+            "no start without overlaps is known: some radius is the spacing or more"
         )
-    rise = np.sqrt(apart**2 - (2 * nx) ** 2) if apart > 2 * nx else 0.0
-    grains.x = np.stack([2 * nx * i, max(rise, 2 * ny) * j.astype(float)], axis=1)
+    rise, step = np.sqrt(max(apart**2 - (2 * nx) ** 2, (2 * ny) ** 2)), np.zeros(width)
+    if apart >= 4 * nx:  # neighbours in a layer would overlap: every second one is a step higher
+        step = apart * (np.arange(width) % 2.0)
+        step[-1] = apart * (1 + width % 2)  # the first follows the last
+        rise = apart + step.max()
+    lift = np.where(j > 0, np.tile(step, height + 1), 0)
+    grains.x = np.stack([2 * nx * i, rise * j + lift], axis=1)
     return grains, None, 0
 
 

@@ -179,13 +179,24 @@ def test_all_loads_come_to_rest(load: fd.Load, protocol: str) -> None:
     assert outcome.answer.networks[0].events > 0
 
 
-@pytest.mark.parametrize("std", [0.03, 0.08, 0.12])
-def test_what_cannot_be_deposited_starts_from_a_stretched_lattice(std: float) -> None:
-    """Above M*; as deposited, seed 3 has overlaps or beads that can't rest."""
-    (network,) = strip(std=std, seed=3).run().answer.networks
-    assert network.events > 0
+@pytest.mark.parametrize(
+    ("std", "width"), [(0.03, 16), (0.08, 16), (0.12, 16), (0.3, 16), (0.354, 5)]
+)
+def test_what_cannot_be_deposited_starts_from_a_stretched_lattice(
+    std: float, width: int, tmp_path: Path
+) -> None:
+    """Up to 4 M*; as deposited, seed 3 has overlaps or beads that can't rest."""
+    outcome = strip(std=std, seed=3, width=width).run()
+    assert outcome.answer.networks[0].events > 0
+    assert proved(outcome, tmp_path)
     with pytest.raises(UnfinishedError, match="linear-programs"):
-        strip(std=std, seed=3, protocol="event-driven").run()
+        strip(std=std, seed=3, width=width, protocol="event-driven").run()
+
+
+def test_beads_that_fall_through_the_base_are_told() -> None:
+    """Radii down to 0.39 r, 3 r apart."""
+    with pytest.raises(UnfinishedError, match="fell through the base"):
+        strip(std=0.354, seed=3).run()
 
 
 @pytest.mark.parametrize("width", [3, 4])
