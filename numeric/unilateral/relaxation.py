@@ -156,12 +156,12 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None, int
         raise UnfinishedError(
             "no start without overlaps is known: some radius is the spacing or more"
         )
-    rise, step = np.sqrt(max(apart**2 - (2 * nx) ** 2, (2 * ny) ** 2)), np.zeros(width)
+    rise, turn = np.sqrt(max(apart**2 - (2 * nx) ** 2, (2 * ny) ** 2)), np.zeros(width)
     if apart >= 4 * nx:  # neighbours in a layer would overlap: every second one is a step higher
-        step = apart * (np.arange(width) % 2.0)
-        step[-1] = apart * (1 + width % 2)  # the first follows the last
-        rise = apart + step.max()
-    lift = np.where(j > 0, np.tile(step, height + 1), 0)
+        turn[1::2] = 1
+        turn[-1] += width % 2 * 2  # the first follows the last
+        rise = apart * (1 + turn.max())
+    lift = np.where(j > 0, apart * np.tile(turn, height + 1), 0)
     grains.x = np.stack([2 * nx * i, rise * j + lift], axis=1)
     return grains, None, 0
 
