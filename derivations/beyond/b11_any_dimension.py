@@ -1,6 +1,6 @@
 """Eq. B11: variance of the contact forces in any dimension, to leading order."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from functools import cache
 
@@ -9,8 +9,15 @@ import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations.beyond import b4_settling as b4
-from force_diffusion.derivations.framework.follows import identity
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness, usual
+from force_diffusion.derivations.framework.follows import Decide, identity
+from force_diffusion.derivations.framework.record import (
+    Claim,
+    Derivation,
+    Search,
+    Step,
+    Witness,
+    usual,
+)
 from force_diffusion.derivations.witnesses import dimensions as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import compare
@@ -81,21 +88,21 @@ LINES = -Dot(n_plus, DeltaNMinus(i + M - j + 1, M - 1)) - sympy.Sum(
 
 
 @cache
-def _form() -> LinearForm:
-    return Reader(DEEP).scalar(eq11.in_radii(LINES))
+def _form(lines: sympy.Expr) -> LinearForm:
+    return Reader(DEEP).scalar(eq11.in_radii(lines))
 
 
 @cache
-def one_direction() -> RationalFunction:
+def one_direction(lines: sympy.Expr = LINES) -> RationalFunction:
     """Variance of X in the plane of the contact and one other direction."""
-    return take_apart(_form(), DEEP).sum_of_squares() * FIELD.from_sympy(sigma**2)
+    return take_apart(_form(lines), DEEP).sum_of_squares() * FIELD.from_sympy(sigma**2)
 
 
 @cache
-def two_directions() -> RationalFunction:
+def two_directions(lines: sympy.Expr = LINES) -> RationalFunction:
     """Covariance of X for two other directions, which share the line through the contact alone."""
     own = affine.from_sympy(i - j)
-    form = _form()
+    form = _form(lines)
     shared = LinearForm(
         {
             site: weight
@@ -108,9 +115,9 @@ def two_directions() -> RationalFunction:
 
 
 @cache
-def along_lines() -> sympy.Expr:
+def along_lines(lines: sympy.Expr = LINES) -> sympy.Expr:
     """Variance of the sum over the d − 1 other directions, exact for j ≥ 4, M ≥ j + 4."""
-    own, shared = one_direction().to_sympy(), two_directions().to_sympy()
+    own, shared = one_direction(lines).to_sympy(), two_directions(lines).to_sympy()
     return kappa**2 * ((d - 1) * own + (d - 1) * (d - 2) * shared)
 
 
@@ -196,32 +203,43 @@ def _order_in_M(expression: sympy.Expr) -> int:
     return int(value.numerator.degrees()[place]) - int(value.denominator.degrees()[place])
 
 
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
+def to_leading_order(subject: sympy.Symbol, lines: Callable[[], sympy.Expr]) -> Decide:
     """The variance along the lines less the candidate is of order M² at most, as is the rest."""
-    if candidate.lhs != eq13.RELATIVE_VARIANCE:
-        return undecided("the left-hand side is not σ_f²/⟨f⟩²")
-    right = candidate.rhs.xreplace({z: j / M}) if candidate.rhs.has(j) else candidate.rhs
-    try:
-        power_left = _order_in_M(along_lines() - right)
-    except NotExactError as reason:
-        return undecided(str(reason))
-    if power_left >= 3:
-        return refuted(f"it differs by order M^{power_left} from the line sums along the contact")
-    if max(order(value) for value in the_rest()) > 2:
-        return undecided("what is left is not shown to be of order M²")
-    return proved("equal to order M³; line sums off the contact's lines are of order M²")
+
+    def decide(_: int, candidate: sympy.Eq) -> Ruling:
+        if candidate.lhs != subject:
+            return undecided("the left-hand side is not σ_f²/⟨f⟩²")
+        right = candidate.rhs.xreplace({z: j / M}) if candidate.rhs.has(j) else candidate.rhs
+        try:
+            left = _order_in_M(along_lines(lines()) - right)
+        except NotExactError as reason:
+            return undecided(str(reason))
+        if left >= 3:
+            return refuted(f"it differs by order M^{left} from the line sums along the contact")
+        if max(order(value) for value in the_rest()) > 2:
+            return undecided("what is left is not shown to be of order M²")
+        return proved("equal to order M³; line sums off the contact's lines are of order M²")
+
+    return decide
 
 
-def search(candidate: sympy.Eq) -> str | None:
-    """Values at growing M, in two and in three dimensions, where the candidate parts."""
-    if candidate.lhs != eq13.RELATIVE_VARIANCE:
+def parting(subject: sympy.Symbol, lines: Callable[[], sympy.Expr]) -> Search:
+    """Values at growing M, in two, three and five dimensions, where the candidate parts."""
+
+    def search(candidate: sympy.Eq) -> str | None:
+        if candidate.lhs != subject:
+            return None
+        for dimension in (2, 3, 5):
+            at = {d: sympy.Integer(dimension), kappa: sympy.Rational(7, 5)}
+            exact, right = (side.xreplace(at) for side in (along_lines(lines()), candidate.rhs))
+            if found := parts_in_the_limit(exact, right, LAYERS):
+                return f"d = {dimension}, {found}"
         return None
-    for dimension in (2, 3, 5):
-        at = {d: sympy.Integer(dimension), kappa: sympy.Rational(7, 5)}
-        exact, right = (side.xreplace(at) for side in (along_lines(), candidate.rhs))
-        if found := parts_in_the_limit(exact, right, LAYERS):
-            return f"d = {dimension}, {found}"
-    return None
+
+    return search
+
+
+decide = to_leading_order(eq13.RELATIVE_VARIANCE, lambda: LINES)
 
 
 def _reciprocal() -> Ruling:
@@ -255,7 +273,10 @@ def _height() -> Ruling:
     )
 
 
-def _lines_witness(packing: SmallPacking) -> Ruling:
+def witness_of_lines(
+    packing: SmallPacking, lines: sympy.Expr = LINES, *, bulk: bool = False
+) -> Ruling:
+    """The variance along the lines against squared weights in two, three and four dimensions."""
     cosine = packing.n[1] ** 2 - packing.n[0] ** 2
 
     def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
@@ -266,10 +287,12 @@ def _lines_witness(packing: SmallPacking) -> Ruling:
             for height, layer in ((8, 4), (10, 5)):
                 values: explicit.Values = {phi: cosine, sigma: 1, r: 1, M: height, j: layer}
                 at = {**values, d: dimension, kappa: own}
-                lines, _ = any_dimension.force_weights(dimension, height, layer, cosine)
+                weights, _ = any_dimension.force_weights(
+                    dimension, height, layer, cosine, bulk=bulk
+                )
                 where = f"d = {dimension}, M = {height}, j = {layer}"
-                stated = explicit.number(along_lines(), at)
-                yield where, stated, any_dimension.squared(lines)
+                stated = explicit.number(along_lines(lines), at)
+                yield where, stated, any_dimension.squared(weights)
 
     return compare(pairs())
 
@@ -306,7 +329,7 @@ DERIVATION = Derivation(
     relation="∼",
     steps=steps,
     decide=decide,
-    search=search,
+    search=parting(eq13.RELATIVE_VARIANCE, lambda: LINES),
     claims=(
         Claim("the products of the reciprocal vectors", _reciprocal),
         Claim("for d = 2 it is Eq. 13", _flat),
@@ -320,7 +343,7 @@ DERIVATION = Derivation(
     witnesses=(
         Witness(
             "the variance along the lines, exact at finite M, in two, three and four dimensions",
-            _lines_witness,
+            witness_of_lines,
         ),
         Witness("spheres in three dimensions, solved at 50 digits", _spheres_witness),
     ),
@@ -328,7 +351,7 @@ DERIVATION = Derivation(
         "What is special to discs is that nothing is left but lines: for d ≥ 3 the force also "
         "holds line sums along every third direction, summed over the contact's path. They cover "
         "an area with weights of order 1, and drop out of the leading order alone.",
-        "Eqs. B13 and B14 are the exact forms at finite M for d = 3.",
+        "Eqs. B13 and B14 are the exact forms at finite M for d = 3; Eq. B20 is for a bulk load.",
     ),
 )
 
