@@ -21,8 +21,8 @@ COLUMNS = 16
 _BEAD, _KEPT = 96, 16
 # Layers that are solved beside those of a segment.
 _BESIDE = 5
-# Seconds of a bead, all steps together.
-_SECONDS = 1.5e-7
+# Seconds of a bead, all steps together, in whole layers and in others.
+_SECONDS, _SECONDS_OF_CONE = 8e-8, 1.6e-7
 
 
 def suits(scene: Scene) -> bool:
@@ -80,7 +80,8 @@ def memory(problem: Problem, quantity: Quantity) -> int:
 
 def seconds(problem: Problem, quantity: Quantity) -> float:
     """Predict how long it takes."""
-    return problem.region.beads * _SECONDS * (5 / 3 if quantity.name == "histogram" else 1)
+    each = _SECONDS if problem.region.is_whole else _SECONDS_OF_CONE
+    return problem.region.beads * each * (5 / 3 if quantity.name == "histogram" else 1)
 
 
 def steps(

@@ -4,13 +4,18 @@ Good to a factor of a few; what it decides is only between algorithms of one ari
 would take longer than a day.
 """
 
+import math
 from collections.abc import Mapping
+from dataclasses import replace
+from importlib.util import find_spec
 from typing import NamedTuple
 
 from ..arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, NumberSystem
-from ..mechanics.engine import COMPILED_FROM
+from ..mechanics.engine import worth_compiling
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
+from ..theory.expected import expected_tension
+from ..theory.tension import LOADS
 from .plan import Method
 
 
@@ -23,12 +28,12 @@ class _Times(NamedTuple):
 
 
 _SWEEPS = {
-    ("float64", Route.EXACT): _Times(6e-4, 1e-6),
-    ("float64", Route.FIRST_ORDER): _Times(2e-4, 2e-7),
-    ("float64", Route.LINE_SUMS): _Times(7e-4, 8e-6),
-    ("longdouble", Route.EXACT): _Times(6e-4, 1.6e-6),
-    ("longdouble", Route.FIRST_ORDER): _Times(2e-4, 5e-7),
-    ("longdouble", Route.LINE_SUMS): _Times(6e-4, 5e-6),
+    ("float64", Route.EXACT): _Times(4e-4, 2.5e-7),
+    ("float64", Route.FIRST_ORDER): _Times(8e-5, 5e-8),
+    ("float64", Route.LINE_SUMS): _Times(5e-4, 1.5e-6),
+    ("longdouble", Route.EXACT): _Times(1.6e-4, 6.5e-7),
+    ("longdouble", Route.FIRST_ORDER): _Times(1.2e-4, 3e-7),
+    ("longdouble", Route.LINE_SUMS): _Times(5e-4, 4e-6),
     ("mpmath", Route.EXACT): _Times(7e-4, 2.5e-4, 5e-5),
     ("mpmath", Route.FIRST_ORDER): _Times(4e-4, 8e-5, 2e-5),
     ("mpmath", Route.LINE_SUMS): _Times(5e-4, 1.6e-5, 1e-6),
@@ -39,8 +44,8 @@ _SWEEPS = {
 # Seconds of a row of the answer: gathered, certified, and printed; of one that is compared only.
 _ROWS = {"float64": 1e-6, "longdouble": 2e-5, "mpmath": 6e-5, "balls": 1e-5}
 _COMPARED = {"float64": 1e-7, "longdouble": 1e-7, "mpmath": 6e-5, "balls": 1e-5}
-# Loading the compiled sweeps, and how much quicker the whole is with them.
-_COMPILER, _COMPILED = 0.7, 0.6
+# Loading the compiled sweeps; a bead with them, all steps together.
+_COMPILER, _COMPILED = 0.8, 8e-8
 # How much longer a bead takes in three dimensions.
 _SPHERE = 3
 
@@ -73,8 +78,8 @@ def _pass(
     if problem.route == Route.ORDERED:
         return spent
     region = problem.region
-    if problem.route == Route.UNILATERAL:  # half of M*; far from it much less, beyond it more
-        return spent + n * (1e-3 + 1e-5 * float(region.beads**1.85))
+    if problem.route == Route.UNILATERAL:
+        return spent + n * _relaxed(problem)
     layer, bead, kilobit = _SWEEPS[family, problem.route]
     if problem.route == Route.LINE_SUMS:
         beads = quantity.line_beads(problem.load)
@@ -82,10 +87,28 @@ def _pass(
     chunks = -(-n // together)
     beads = region.beads * n + quantity.gathered(region, n)
     work = beads * (bead + kilobit * bits * (1 + bits / 10))
-    work *= _SPHERE if problem.dimension == 3 else 1
-    if system is FLOAT64 and problem.route == Route.EXACT and region.beads * n >= COMPILED_FROM:
-        work = _COMPILER + work * _COMPILED
-    return spent + len(region.rows) * chunks * layer + work
+    size = _SPHERE if problem.dimension == 3 else 1
+    if problem.route == Route.EXACT and _compiles(problem, system, n):
+        return spent + _COMPILER + _COMPILED * size * beads
+    return spent + len(region.rows) * chunks * layer + size * work
+
+
+def _compiles(problem: Problem, system: NumberSystem, n: int) -> bool:
+    many = worth_compiling(replace(problem, realisations=n), system)
+    return many and find_spec("numba") is not None
+
+
+def _relaxed(problem: Problem) -> float:
+    """Predict the seconds of a packing with unilateral contacts: most, where none pulls, need few.
+
+    Where some do, times of both protocols lay within a factor of four of this.
+    """
+    beads, load, relaxing = problem.region.beads, problem.load, 1.0
+    if load.kind in LOADS and not load.angle_deg and problem.width is not None:
+        phi, std = float(1 - 2 * problem.n_x**2), float(problem.radii.relative_std())
+        found = expected_tension(problem.height, problem.width, phi, std, load.kind)
+        relaxing = -math.expm1(-found.contacts)
+    return 5e-3 + 4e-5 * beads + relaxing * 1e-5 * float(beads**1.85)
 
 
 def _family(system: NumberSystem) -> str:

@@ -8,6 +8,7 @@ pull far below it.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 from .first_order import std_of_spheres, stds_of_discs
 
@@ -35,6 +36,7 @@ class ExpectedTension:
         return self.contacts > TYPICAL
 
 
+@lru_cache(maxsize=16)
 def expected_tension(
     height: int,
     width: int,
