@@ -128,7 +128,7 @@ def _floor(plan: Plan, whole: Table, largest: Fraction) -> Fraction:
     if longer is None or isinstance(longer, Balls):
         return Fraction(0)
     if plan.problem.needs_forces:
-        loads = (max(abs(x), abs(y)) for x, y in plan.problem.load.single.values())
+        loads = (max(map(abs, force)) for force in plan.problem.load.single.values())
         scale = max(max(loads, default=Fraction(1)), Fraction(1)) * plan.scene.load.magnitude
         for name, values in whole.numbers.items():
             if name not in whole.small:

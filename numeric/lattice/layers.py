@@ -13,6 +13,7 @@ from typing import Any, TypeVar, overload
 import numpy as np
 
 from ..arithmetic.systems import Array
+from .branch import Site
 
 T = TypeVar("T")
 
@@ -37,6 +38,36 @@ def column(i: int, j: int, width: int) -> int:
     if (i + j) % 2:
         raise ValueError(f"({i}, {j}) is no lattice site: i + j must be even")
     return (i - lowest_column(j)) // 2 % width
+
+
+Bead = tuple[int, int, int]
+"""A bead (p, q, j) in three dimensions, whose layers of W² beads lie in rows: column p W + q."""
+
+
+def bead_of(site: Site, width: int) -> Bead:
+    """Name a bead (p, q, j), of a site of the row of W² beads."""
+    i, j = site
+    return (*divmod((i - j % 2) // 2 % width**2, width), j)
+
+
+def bead_of_number(number: int, width: int) -> Bead:
+    """Name a bead by its number, layer after layer.
+
+    >>> bead_of_number(29, 5)
+    (0, 4, 1)
+    """
+    j, column = divmod(number, width**2)
+    return (*divmod(column, width), j)
+
+
+def site_of(bead: Bead, width: int) -> Site:
+    """Give the site in the row of W² beads.
+
+    >>> site_of((2, 1, 3), 5), bead_of((23, 3), 5)
+    ((23, 3), (2, 1, 3))
+    """
+    p, q, j = bead
+    return 2 * (p % width * width + q % width) + j % 2, j
 
 
 @dataclass(frozen=True)

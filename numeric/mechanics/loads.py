@@ -68,6 +68,11 @@ def on_layers(
     return Loads(tuple(plus), tuple(minus))
 
 
+def _exact(system: NumberSystem) -> Balls:
+    """Give balls of a system's own precision; of other systems, better than they can hold."""
+    return Balls(system.bits if isinstance(system, Balls) else system.bits + 64)
+
+
 @dataclass(frozen=True)
 class Strength:
     """A load's components (L⁺, L⁻) in a number system: one pair, or one pair a loaded bead."""
@@ -80,8 +85,9 @@ class Strength:
 class LoadSpec:
     """A load of unit magnitude: "surface", "bulk", "point" (on ``at``) or "file" (``single``).
 
-    ``angle_deg`` turns the load away from straight down, positive towards +i. ``single`` holds
-    {(i, j): (fx, fy)} in units of the magnitude. ``height`` and ``width`` are the packing's.
+    ``angle_deg`` turns the load away from straight down, positive towards +i; in three dimensions
+    towards +x. ``single`` holds {(i, j): (fx, fy)} in units of the magnitude, or (fx, fy, fz).
+    ``height`` and ``width`` are the packing's.
     """
 
     kind: str
@@ -89,7 +95,7 @@ class LoadSpec:
     width: int | None
     angle_deg: Fraction = Fraction(0)
     at: Site | None = None
-    single: Mapping[Site, tuple[Fraction, Fraction]] = field(default_factory=dict)
+    single: Mapping[Site, tuple[Fraction, ...]] = field(default_factory=dict)
 
     @property
     def loaded(self) -> list[Site] | None:
@@ -100,13 +106,10 @@ class LoadSpec:
 
     def strength(self, n_x: Fraction, system: NumberSystem) -> Strength:
         """Give (L⁺, L⁻) = (cos θ/n_y ∓ sin θ/n_x)/2 of the unit load, or of each loaded bead."""
-        # Balls keep their own precision; other systems get constants better than they can hold.
-        bits = system.bits if isinstance(system, Balls) else system.bits + 64
-        exact = Balls(bits)
+        exact = _exact(system)
         with exact.active():
             nx, ny = plain.axes(n_x, exact)
-            turn = flint.fmpq(self.angle_deg.numerator, self.angle_deg.denominator) / 180
-            sin, cos = flint.arb.sin_cos_pi_fmpq(turn)
+            sin, cos = self._turn()
             unit = components(sin, -cos, nx, ny)
             single = {
                 site: components(exact.number(fx), exact.number(fy), nx, ny)
@@ -116,6 +119,17 @@ class LoadSpec:
             (system.from_ball(unit[0]), system.from_ball(unit[1])),
             {s: (system.from_ball(p), system.from_ball(m)) for s, (p, m) in single.items()},
         )
+
+    def turn(self, system: NumberSystem) -> tuple[Any, Any]:
+        """Give sin θ and cos θ of the load's angle."""
+        with _exact(system).active():
+            sin, cos = self._turn()
+        return system.from_ball(sin), system.from_ball(cos)
+
+    def _turn(self) -> tuple[flint.arb, flint.arb]:
+        angle = flint.fmpq(self.angle_deg.numerator, self.angle_deg.denominator) / 180
+        sin, cos = flint.arb.sin_cos_pi_fmpq(angle)
+        return sin, cos
 
     def on(self, rows: tuple[Layer, ...], strength: Strength, system: NumberSystem) -> Loads:
         """Put the load on the beads of ``rows`` (layers 0 … top)."""

@@ -180,8 +180,8 @@ def bear(
 ) -> Borne:
     """Carry loads down (see ``forces``): Σ g N (lower) = Σ g N + Σ F δn (upper) − Σ F δn (lower).
 
-    ``loads[j]``: what beads of layer j add to F of each contact below, (W, …, W), or None: a load
-    along −Σ n^a. Raises ``NotStandingError``.
+    ``loads[j]``: what beads of layer j add to F of the contacts below, (d, W, …, W), or (W, …, W)
+    if to all the same, or None. Raises ``NotStandingError``.
     """
     d = placed.metric.dimension
     top = len(placed.rho) - 1

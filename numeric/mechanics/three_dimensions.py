@@ -14,9 +14,10 @@ import numpy as np
 
 from ..arithmetic.systems import Array, NumberSystem, zeros
 from ..disorder.radii import Monodisperse, RadiusError, rows_of
-from ..lattice.branch import Axis, AxisContact, Direction, PerAxis, Site
-from ..lattice.layers import Layer, LazyRows
+from ..lattice.branch import Axis, AxisContact, Direction, PerAxis
+from ..lattice.layers import Bead, Layer, LazyRows, bead_of, bead_of_number
 from .forces import Forces
+from .loads import LoadSpec
 from .physicality import Physicality
 from .problem import Problem, Route, Solved
 from .spheres import (
@@ -35,8 +36,6 @@ from .work import Work
 if TYPE_CHECKING:
     from .compiled_spheres import SphereSweeps
 
-Bead = tuple[int, int, int]
-
 
 def cosine(problem: Problem) -> Fraction:
     """Give φ = n^a·n^b = 1 − s²/8r², as in two dimensions."""
@@ -46,32 +45,6 @@ def cosine(problem: Problem) -> Fraction:
 def side(problem: Problem) -> int:
     """Give W."""
     return isqrt(problem.width or 0)
-
-
-def bead_of(site: Site, width: int) -> Bead:
-    """Name a bead (p, q, j), of a site of the row of W² beads."""
-    i, j = site
-    return (*divmod((i - j % 2) // 2 % width**2, width), j)
-
-
-def bead_of_number(number: int, width: int) -> Bead:
-    """Name a bead by its number, layer after layer.
-
-    >>> bead_of_number(29, 5)
-    (0, 4, 1)
-    """
-    j, column = divmod(number, width**2)
-    return (*divmod(column, width), j)
-
-
-def site_of(bead: Bead, width: int) -> Site:
-    """Give the site in the row of W² beads.
-
-    >>> site_of((2, 1, 3), 5), bead_of((23, 3), 5)
-    ((23, 3), (2, 1, 3))
-    """
-    p, q, j = bead
-    return 2 * (p % width * width + q % width) + j % 2, j
 
 
 def lower_bead(upper: Bead, axis: Direction, width: int) -> Bead:
@@ -238,21 +211,45 @@ def _radii(
 
 
 def loads(problem: Problem, system: NumberSystem) -> list[Array | None]:
-    """Give what beads add to F of each contact below: of a unit load, 1/|Σ n^a| = 1/√(3 + 6φ)."""
-    load, width = problem.load, side(problem)
+    """Give L^a that beads add to F of the contacts below, (3, W, W) a layer, of F = −Σ L^a n^a.
+
+    Of a force straight down they are 1/|Σ n^a| = 1/√(3 + 6φ), with n^1 − n^3 along x.
+    """
+    load, width, top = problem.load, side(problem), len(problem.region.rows)
     unit = system.root(1 / (3 + 6 * cosine(problem)))
-    found: list[Any] = [None] * len(problem.region.rows)
+    x, y = system.scalar(1 / (2 * problem.n_x)), system.root(1 / (12 * problem.n_x**2))
+
+    def on_axes(fx: Any, fy: Any, fz: Any) -> Array:
+        down = -(fz * unit)
+        parts = down + fy * y - fx * x, down - 2 * (fy * y), down + fy * y + fx * x
+        found = zeros(system, 3, 1, 1)
+        found[:, 0, 0] = parts
+        return found
+
+    rows: list[Array | None] = [None] * top
     if load.loaded is None:
+        row = zeros(system, 3, width, width) + on_axes(*_unit_force(load, system))
         first = 0 if load.kind == "bulk" else problem.height
-        for j in range(first, len(found)):
-            found[j] = zeros(system, width, width) + unit
+        rows[first:] = [row] * (top - first)
     for site in load.loaded or []:
         p, q, j = bead_of(site, width)
-        down = -load.single[site][1] if load.single else Fraction(1)
-        if found[j] is None:
-            found[j] = zeros(system, width, width)
-        found[j][p, q] = found[j][p, q] + unit * system.scalar(down)
-    return found
+        force = _unit_force(load, system)
+        if load.single:
+            force = tuple(system.scalar(one) for one in load.single[site])
+        row_j = rows[j]
+        row_j = zeros(system, 3, width, width) if row_j is None else row_j
+        row_j[:, p, q] = row_j[:, p, q] + on_axes(*force)[:, 0, 0]
+        rows[j] = row_j
+    return rows
+
+
+def _unit_force(load: LoadSpec, system: NumberSystem) -> tuple[Any, ...]:
+    """Give the load of a bead, (fx, fy, fz)."""
+    zero, one = system.scalar(Fraction(0)), system.scalar(Fraction(1))
+    if not load.angle_deg:
+        return zero, zero, -one
+    sin, cos = load.turn(system)
+    return sin, zero, -cos
 
 
 def sees_images(problem: Problem, lowest_layer: int) -> bool:

@@ -8,6 +8,8 @@ from fractions import Fraction
 
 from ..arithmetic.decimals import short
 from ..disorder.radii import ArrayRadii, MeasuredRadii, Radii
+from ..lattice.branch import Site
+from ..lattice.layers import bead_of
 from ..mechanics.loads import LoadSpec
 from ..scene.scene import Scene
 from ..scene.sections import GivenRadii, SceneError
@@ -53,11 +55,18 @@ def check(scene: Scene, radii: Radii, load: LoadSpec) -> None:
     unit = scene.load.magnitude
     if not least <= unit <= MOST:
         raise SceneError("load.magnitude", unit, allowed)
-    for site, (fx, fy) in load.single.items():
-        size = max(abs(fx), abs(fy))
+    for site, force in load.single.items():
+        size = max(map(abs, force))
         if size and not (least <= size <= MOST and least <= size * unit <= MOST):
             raise SceneError(
                 "load.file" if scene.load.file else "load.pressure",
                 scene.load.file or scene.load.pressure,
-                f"the load on bead {site} is {short(size)} times load.magnitude, which {allowed}",
+                f"the load on bead {_named(site, scene)} is {short(size)} times load.magnitude, "
+                f"which {allowed}",
             )
+
+
+def _named(site: Site, scene: Scene) -> tuple[int, ...]:
+    if scene.packing.dimension == 2:
+        return site
+    return bead_of(site, scene.packing.width or 1)

@@ -159,6 +159,8 @@ class Plan:
         if not known or problem.width is None or not wide(problem):
             return None
         phi, std = float(1 - 2 * problem.n_x**2), float(problem.radii.relative_std())
+        if problem.dimension == 3 and load.angle_deg:
+            return None
         if problem.dimension == 3:
             return expected_tension_of_spheres(problem.height, problem.width, phi, std, load.kind)
         plus, minus = map(float, problem.load.strength(problem.n_x, FLOAT64).unit)

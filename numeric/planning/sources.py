@@ -5,10 +5,9 @@ from fractions import Fraction
 from ..arithmetic.decimals import short
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii, Radii
 from ..lattice.branch import Site
-from ..lattice.layers import full_layer
+from ..lattice.layers import full_layer, site_of
 from ..lattice.regions import Rows
 from ..mechanics.loads import LoadSpec
-from ..mechanics.three_dimensions import site_of
 from ..scene.scene import Scene
 from ..scene.sections import GivenRadii
 from ..scene.tables import TableError, read_array, read_loads, read_radii
@@ -17,41 +16,43 @@ from ..scene.tables import TableError, read_array, read_loads, read_radii
 def load_of(scene: Scene) -> LoadSpec:
     """Give the load. Raises ``TableError``."""
     load, packing = scene.load, scene.packing
-    if packing.dimension == 3:
-        return _load_of_spheres(scene)
-    single = {}
+    single: dict[Site, tuple[Fraction, ...]] = {}
     if load.file is not None:
         single = read_loads(
             scene.folder / load.file,
             magnitude=load.magnitude,
             width=packing.width,
             height=packing.height,
+            dimension=packing.dimension,
         )
+    if packing.dimension == 3:
+        return _load_of_spheres(scene, single)
     if load.pressure and load.at is not None:  # loads on single beads, one by one
         assert packing.width is not None
         down = Fraction(load.pressure) / load.magnitude
         top = packing.height
         single = {(i, top): (Fraction(0), -down) for i in range(top % 2, 2 * packing.width, 2)}
         site = int(load.at[0]), int(load.at[1])
-        single[site] = Fraction(0), single.get(site, (0, Fraction(0)))[1] - 1
+        single[site] = Fraction(0), single.get(site, (Fraction(0),))[-1] - 1
         return LoadSpec("file", top, packing.width, Fraction(0), None, single)
     at = None if load.at is None else (int(load.at[0]), int(load.at[1]))
     return LoadSpec(load.kind, packing.height, packing.width, load.angle_deg, at, single)
 
 
-def _load_of_spheres(scene: Scene) -> LoadSpec:
+def _load_of_spheres(scene: Scene, single: dict[Site, tuple[Fraction, ...]]) -> LoadSpec:
     """Give the load in three dimensions, beads as sites in rows of W²."""
     load, width, top = scene.load, scene.packing.width, scene.packing.height
     assert width is not None
     if load.at is None:
-        return LoadSpec(load.kind, top, width**2)
+        return LoadSpec(load.kind, top, width**2, load.angle_deg, single=single)
     p, q, j = map(int, load.at)
     at = site_of((p, q, j), width)
     if not load.pressure:
-        return LoadSpec(load.kind, top, width**2, at=at)
+        return LoadSpec(load.kind, top, width**2, load.angle_deg, at)
     down = -Fraction(load.pressure) / load.magnitude
-    single = {(i, top): (Fraction(0), down) for i in full_layer(top, width**2).sites()}
-    single[at] = Fraction(0), single.get(at, (0, Fraction(0)))[1] - 1
+    none = Fraction(0)
+    single = {(i, top): (none, none, down) for i in full_layer(top, width**2).sites()}
+    single[at] = none, none, single.get(at, (none,))[-1] - 1
     return LoadSpec("file", top, width**2, single=single)
 
 
@@ -96,6 +97,7 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
         width=packing.width,
         height=packing.height,
         needed=needed,
+        dimension=packing.dimension,
     )
     if packing.width is None:
         missing = (
@@ -103,4 +105,5 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
         )
         for site in missing:
             raise TableError(f"disorder.file: {disorder.file}: bead {site} is missing")
-    return MeasuredRadii(measured, packing.width)
+    width = packing.width
+    return MeasuredRadii(measured, None if width is None else width ** (packing.dimension - 1))

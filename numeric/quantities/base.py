@@ -358,6 +358,8 @@ def first_order_std(problem: Problem) -> PerBranch[list[Fraction]] | None:
         return None
     phi = float(1 - 2 * problem.n_x**2)
     over = [problem.height - j if load.kind == "bulk" else 1 for j in range(problem.height)]
+    if problem.dimension == 3 and load.angle_deg:
+        return None
     if problem.dimension == 3:
         root = math.sqrt(3 * (1 + 2 * phi))
         found = [

@@ -13,7 +13,7 @@ def check(
     """Check what keys say about each other. Raises ``SceneError``."""
     _check_packing(packing)
     if packing.dimension == 3:
-        _check_three(packing, disorder, load, effects, ask)
+        _check_three(packing, effects, ask)
     if isinstance(disorder, GivenRadii):
         _check_given(disorder, packing, ask)
     elif disorder is not None:
@@ -86,18 +86,11 @@ def _check_packing(p: Packing) -> None:
         )
 
 
-def _check_three(
-    packing: Packing, disorder: Disorder | None, load: Load, effects: Effects, ask: Ask
-) -> None:
+def _check_three(packing: Packing, effects: Effects, ask: Ask) -> None:
     """Refuse what is offered in two dimensions only."""
-    listed = disorder is not None and disorder.file is not None
-    listed &= not str(getattr(disorder, "file", "")).endswith(".npy")
     alone = ask.quantity not in {"contact", "positions"}
     for wrong, key, value, allowed in (
         (packing.width is None, "packing.width", None, "is required: W × W beads in a layer"),
-        (listed, "disorder.file", getattr(disorder, "file", None), "must be an array, .npy,"),
-        (load.kind == "file", "load.kind", load.kind, 'must be "surface", "bulk" or "point"'),
-        (load.angle_deg, "load.angle_deg", load.angle_deg, "must be 0: straight down"),
         (effects.contacts != "bilateral", "effects.contacts", effects.contacts, "must stay closed"),
         (effects.stop_at_tension, "effects.stop_at_tension", True, "must be false"),
         (ask.at is not None and alone, "ask.at", ask.at, 'is for "contact" and "positions"'),

@@ -217,10 +217,11 @@ class GivenRadii(Disorder):
 
 
 class Load(Section):
-    """The load; angles in degrees from straight down, positive towards +i.
+    """The load; angles in degrees from straight down, positive towards +i, of spheres towards +x.
 
     ``kind``: "surface" (on every bead of layer M), "bulk" (on every bead), "point" (on the bead
-    ``at`` = (k, l)) or "file" (``file`` lists i, j, fx, fy). ``magnitude`` is the load on a bead.
+    ``at`` = (k, l)) or "file" (``file`` lists i, j, fx, fy; of spheres p, q, j, fx, fy, fz, beads
+    being (p, q, j) everywhere). ``magnitude`` is the load on a bead.
     ``pressure`` is a load straight down on every bead of the surface, beside a point load.
     """
 

@@ -14,9 +14,11 @@ import numpy as np
 from ..arithmetic.decimals import parse, short
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
+from ..lattice.branch import Site
+from ..lattice.layers import bead_of, full_layer, site_of
 from .sections import radii_array
 
-Site = tuple[int, int]
+Bead = tuple[int, ...]
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}", re.ASCII)
 _NO_FILE = "there is no such file"
 LONGEST_LINE = 20_000  # characters; a number has at most 5000
@@ -77,18 +79,18 @@ def _lines(path: Path, file: TextIO) -> Iterator[str]:
         yield line
 
 
-def _parsed(where: str, header: list[str], row: list[str]) -> tuple[Site, list[Fraction]]:
-    """Read a bead (i, j), and the numbers after it."""
-    coordinates = []
-    for name, text in zip(header[:2], row, strict=False):
+def _parsed(where: str, header: list[str], row: list[str]) -> tuple[Bead, list[Fraction]]:
+    """Read a bead (i, j) or (p, q, j), and the numbers after it."""
+    count, coordinates = header.index("j") + 1, []
+    for name, text in zip(header[:count], row, strict=False):
         if not _WHOLE.fullmatch(text.strip()):
             shown = text if len(text) <= 40 else text[:40] + "…"
             raise TableError(
                 f"{where}: {name} = {shown!r} must be a whole number of at most 18 digits"
             )
         coordinates.append(int(text))
-    site = (coordinates[0], coordinates[1])
-    return site, _numbers(f"{where}: bead {site}", header[2:], row[2:])
+    bead = tuple(coordinates)
+    return bead, _numbers(f"{where}: bead {bead}", header[count:], row[count:])
 
 
 def _numbers(where: str, header: list[str], row: list[str]) -> list[Fraction]:
@@ -123,15 +125,18 @@ def _on_lattice(
     return (i if width is None else i % (2 * width)), j
 
 
-def _check_site(where: str, site: Site, width: int | None, height: int) -> None:
-    i, j = site
-    if (i + j) % 2:
-        raise TableError(f"{where}: bead {site}: i + j must be even")
-    if not 0 <= j <= height or (width is not None and not 0 <= i < 2 * width):
-        across = "" if width is None else f"0 <= i < {2 * width}, "
+def _site(where: str, bead: Bead, width: int | None, height: int) -> Site:
+    """Give the place of a bead (i, j) in its layer, or of (p, q, j) in a row of W²."""
+    *columns, j = bead
+    if len(columns) == 1 and (columns[0] + j) % 2:
+        raise TableError(f"{where}: bead {bead}: i + j must be even")
+    name, end = ("i", 2 * (width or 0)) if len(columns) == 1 else ("p, q", width or 0)
+    if not 0 <= j <= height or (width is not None and not all(0 <= n < end for n in columns)):
+        across = "" if width is None else f"0 <= {name} < {end}, "
         raise TableError(
-            f"{where}: bead {site} lies outside the packing: {across}0 <= j <= {height}"
+            f"{where}: bead {bead} lies outside the packing: {across}0 <= j <= {height}"
         )
+    return (columns[0], j) if len(columns) == 1 else site_of((columns[0], columns[1], j), end)
 
 
 @_named("disorder.file")
@@ -143,39 +148,45 @@ def read_radii(
     width: int | None,
     height: int,
     needed: Callable[[Site], bool],
+    dimension: int = 2,
 ) -> dict[Site, Fraction]:
     """Read ``i,j,delta_r``, ``i,j,r`` or ``x,y,r`` into {(i, j): δr/r}, keeping ``needed`` beads.
 
-    ``radius`` is r, ``spacing`` s, in the unit of the file; beads at x, y are put on the nearest
-    site. A periodic packing's file must name each of its W (M + 1) beads once. Raises
-    ``TableError``.
+    In three dimensions ``p,q,j,delta_r`` or ``p,q,j,r``, into rows of W² beads. ``radius`` is r,
+    ``spacing`` s, in the unit of the file; beads at x, y are put on the nearest site. A periodic
+    packing's file must name each of its beads once. Raises ``TableError``.
     """
     rho: dict[Site, Fraction] = {}
-    for where, header, row in _rows(path, ["i", "j", "delta_r"], ["i", "j", "r"], ["x", "y", "r"]):
+    names = ["i", "j"] if dimension == 2 else ["p", "q", "j"]
+    headers = [[*names, "delta_r"], [*names, "r"]] + [["x", "y", "r"]] * (dimension == 2)
+    bead: Bead
+    for where, header, row in _rows(path, *headers):
         if header[0] == "x":
             x, y, delta = _numbers(where, header, row)
-            site = _on_lattice(where, x, y, radius=radius, spacing=spacing, width=width)
+            bead = _on_lattice(where, x, y, radius=radius, spacing=spacing, width=width)
         else:
-            site, (delta,) = _parsed(where, header, row)
-        delta -= radius if header[2] == "r" else 0
-        _check_site(where, site, width, height)
+            bead, (delta,) = _parsed(where, header, row)
+        delta -= radius if header[-1] == "r" else 0
+        site = _site(where, bead, width, height)
         if delta <= -radius:
             raise TableError(
-                f"{where}: bead {site}: delta_r = {short(delta)} leaves no positive radius"
+                f"{where}: bead {bead}: delta_r = {short(delta)} leaves no positive radius"
             )
         if delta > MOST * radius:
             raise TableError(
-                f"{where}: bead {site}: delta_r = {short(delta)} must be at most 1e100 r"
+                f"{where}: bead {bead}: delta_r = {short(delta)} must be at most 1e100 r"
             )
         if width is not None or needed(site):
             if site in rho:
-                raise TableError(f"{where}: bead {site} is named twice")
+                raise TableError(f"{where}: bead {bead} is named twice")
             rho[site] = delta / radius
-    if width is not None and len(rho) < width * (height + 1):
-        for j in range(height + 1):
-            for i in range(j % 2, 2 * width, 2):
-                if (i, j) not in rho:
-                    raise TableError(f"{path.name}: bead {(i, j)} is missing")
+    beads = None if width is None else width ** (dimension - 1)
+    if beads is not None and len(rho) < beads * (height + 1):
+        every = ((i, j) for j in range(height + 1) for i in full_layer(j, beads).sites())
+        bead = site = next(one for one in every if one not in rho)
+        if dimension == 3:
+            bead = bead_of(site, width or 0)
+        raise TableError(f"{path.name}: bead {bead} is missing")
     if abs(mean := math.fsum(map(float, rho.values())) / max(len(rho), 1)) > 0.5:
         raise TableError(
             f"{path.name}: the mean radius is {1 + mean:.3g} times packing.radius = "
@@ -211,14 +222,18 @@ def read_array(path: Path, shape: tuple[int | None, ...]) -> Array:
 
 @_named("load.file")
 def read_loads(
-    path: Path, *, magnitude: Fraction, width: int | None, height: int
-) -> dict[Site, tuple[Fraction, Fraction]]:
-    """Read ``i,j,fx,fy`` into {(i, j): (fx, fy)/magnitude}. Raises ``TableError``."""
-    loads: dict[Site, tuple[Fraction, Fraction]] = {}
-    for where, header, row in _rows(path, ["i", "j", "fx", "fy"]):
-        site, (fx, fy) = _parsed(where, header, row)
-        _check_site(where, site, width, height)
+    path: Path, *, magnitude: Fraction, width: int | None, height: int, dimension: int = 2
+) -> dict[Site, tuple[Fraction, ...]]:
+    """Read ``i,j,fx,fy`` into {(i, j): (fx, fy)/magnitude}, in three dimensions ``p,q,j,fx,fy,fz``.
+
+    Raises ``TableError``.
+    """
+    loads: dict[Site, tuple[Fraction, ...]] = {}
+    header = ["i", "j", "fx", "fy"] if dimension == 2 else ["p", "q", "j", "fx", "fy", "fz"]
+    for where, _, row in _rows(path, header):
+        bead, force = _parsed(where, header, row)
+        site = _site(where, bead, width, height)
         if site in loads:
-            raise TableError(f"{where}: bead {site} is named twice")
-        loads[site] = (fx / magnitude, fy / magnitude)
+            raise TableError(f"{where}: bead {bead} is named twice")
+        loads[site] = tuple(one / magnitude for one in force)
     return loads

@@ -1,5 +1,6 @@
 """Scenes in three dimensions: what they answer, and what they refuse."""
 
+from collections.abc import Iterator
 from fractions import Fraction
 from itertools import product
 from pathlib import Path
@@ -7,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from force_diffusion.numeric.arithmetic.decimals import decimal_string
 from force_diffusion.numeric.arithmetic.systems import (
     FLOAT64,
     Array,
@@ -114,7 +116,6 @@ def test_images_are_seen_where_a_wider_packing_differs(
     [
         ({"packing": {"width": None}}, "packing.width"),
         ({"packing": {"spacing": 3.3}}, "packing.spacing = 3.3: must lie strictly"),
-        ({"load": {"angle_deg": 3}}, "load.angle_deg"),
         ({"load": {"kind": "point", "at": (1, 1)}}, r"load.at.*\[p, q, l\]"),
         ({"load": {"kind": "point", "at": (9, 1, 1)}}, "p and q must be from 0 to 5"),
         ({"effects": {"contacts": "unilateral"}}, "effects.contacts"),
@@ -123,7 +124,6 @@ def test_images_are_seen_where_a_wider_packing_differs(
         ({"ask": {"quantity": "contact", "at": (1, 1, 4, "1")}}, "j must be from 0 to 3"),
         ({"ask": {"quantity": "positions", "at": (1, 1)}}, "must be a bead"),
         ({"ask": {"quantity": "histogram", "at": (1, 1, 1, "1")}}, "ask.at"),
-        ({"disorder": {"kind": "file", "file": "radii.csv"}}, "disorder.file"),
     ],
 )
 def test_what_is_not_offered_is_refused(changes: dict[str, dict[str, Any]], says: str) -> None:
@@ -280,3 +280,89 @@ def test_rays_of_an_ordered_packing_may_meet_on_the_base(at: int, width: int) ->
     found = asked.run().arrays["fz"]
     bearing = sum(float(force) > 0 for force in found)
     assert asked.explain().sees_images == (bearing < 3 and at > 0)
+
+
+def beads(width: int, height: int) -> Iterator[tuple[int, int, int]]:
+    return product(range(width), range(width), range(height + 1))
+
+
+def test_radii_are_listed_in_any_order(tmp_path: Path) -> None:
+    """The drawn radii, listed exactly, as δr or as r in another unit."""
+    asked = scene("contact_forces", height=3, width=4)
+    values = drawn(asked)
+    before = asked.run(tolerance="1e-30")
+    for name, unit in (("delta_r", Fraction(1)), ("r", Fraction(1, 8))):
+        lines = [f"p,q,j,{name}"]
+        for p, q, j in reversed([*beads(4, 3)]):
+            delta = values[p, q, j] + (name == "r")
+            lines.append(f"{p},{q},{j},{decimal_string(delta * unit, None)}")
+        (tmp_path / "radii.csv").write_text("\n".join(lines))
+        packing = asked.packing.model_copy(
+            update={"radius": unit, "spacing": unit * Fraction("2.9")}
+        )
+        disorder = fd.Disorder(kind="file", file="radii.csv")
+        listed = {"packing": packing, "disorder": disorder, "folder": tmp_path}
+        again = asked.model_copy(update=listed).run(tolerance="1e-30")
+        for a, b in zip(before.arrays["change"], again.arrays["change"], strict=True):
+            assert abs(float((a - b).mid())) < 1e-30
+
+
+@pytest.mark.parametrize(
+    ("lines", "says"),
+    [
+        (["i,j,delta_r"], "first line must be p,q,j,delta_r or p,q,j,r"),
+        (["x,y,r"], "first line must be p,q,j,delta_r or p,q,j,r"),
+        (
+            ["p,q,j,r", "0,2,1,1"],
+            r"line 2: bead \(0, 2, 1\) lies outside .*0 <= p, q < 2, 0 <= j <= 1",
+        ),
+        (["p,q,j,r", "0,1,2,1"], r"bead \(0, 1, 2\) lies outside"),
+        (["p,q,j,r", "0,1,1,1", "0,1,1,1"], r"line 3: bead \(0, 1, 1\) is named twice"),
+        (["p,q,j,r", "0,1,1,0"], r"bead \(0, 1, 1\): delta_r = -1 leaves no positive"),
+        (["p,q,j,r", "0,0,0,1", "0,1,0,1", "1,1,0,1"], r"bead \(1, 0, 0\) is missing"),
+        (["p,q,j,r", "0,0.5,0,1"], "q = '0.5' must be a whole number"),
+    ],
+)
+def test_what_is_wrong_in_a_list_of_radii_is_named(
+    lines: list[str], says: str, tmp_path: Path
+) -> None:
+    (tmp_path / "radii.csv").write_text("\n".join(lines))
+    asked = scene("profile", height=1, width=2).model_copy(
+        update={"disorder": fd.Disorder(kind="file", file="radii.csv"), "folder": tmp_path}
+    )
+    with pytest.raises(fd.ForceDiffusionError, match=says):
+        asked.run()
+
+
+def test_a_file_of_loads_is_what_it_lists(tmp_path: Path) -> None:
+    load = fd.PointLoad(at=(1, 2, 2), pressure=0.5)
+    before = scene("contact_forces", height=3, width=4, load=load).run()
+    lines = ["p,q,j,fx,fy,fz", "1,2,2,0,0,-1"]
+    lines += [f"{p},{q},3,0,0,-0.5" for p in range(4) for q in range(4)]
+    (tmp_path / "loads.csv").write_text("\n".join(lines))
+    asked = scene("contact_forces", height=3, width=4, load=fd.Load(kind="file", file="loads.csv"))
+    again = asked.model_copy(update={"folder": tmp_path}).run()
+    assert again.arrays["force"].tolist() == before.arrays["force"].tolist()
+
+
+def test_a_load_at_an_angle_comes_down_to_the_base() -> None:
+    """Straight down less a push along x, in the ordered packing and in an exact one."""
+    load = fd.PointLoad(at=(1, 1, 3), angle_deg=30, magnitude=2)
+    found = scene("base_reactions", height=3, width=5, load=load).run().arrays
+    forces = [found[name].sum() for name in ("fx", "fy", "fz")]
+    assert np.abs(np.array(forces) - (-1, 0, np.sqrt(3))).max() < 1e-14
+
+
+def test_no_theory_is_said_of_loads_at_an_angle() -> None:
+    asked = scene("profile", height=3, width=6, load=fd.SurfaceLoad(angle_deg=5))
+    assert "first_order_std" not in asked.run().arrays
+    assert asked.explain().tension is None
+
+
+@pytest.mark.parametrize("magnitude", ["1e-250", "1e300"])
+def test_a_load_that_float64_cannot_hold_is_named(magnitude: str, tmp_path: Path) -> None:
+    (tmp_path / "loads.csv").write_text(f"p,q,j,fx,fy,fz\n1,2,2,0,{magnitude},0")
+    asked = scene("profile", load=fd.Load(kind="file", file="loads.csv"), height=2, width=3,
+                  std=1e-60)  # fmt: skip
+    with pytest.raises(fd.SceneError, match=r"the load on bead \(1, 2, 2\) is"):
+        asked.model_copy(update={"folder": tmp_path}).run()

@@ -155,8 +155,13 @@ ASKED: dict[str, Any] = {
 @pytest.mark.parametrize("quantity", ASKED)
 @pytest.mark.parametrize(
     "load",
-    [fd.SurfaceLoad(), fd.BulkLoad(), POINT, fd.PointLoad(at=(0, 1, 3), pressure=0.5)],
-    ids=["surface", "bulk", "point", "point and pressure"],
+    [
+        fd.SurfaceLoad(),
+        fd.BulkLoad(angle_deg=20),
+        POINT,
+        fd.PointLoad(at=(0, 1, 3), pressure=0.5),
+    ],
+    ids=["surface", "bulk, 20°", "point", "point and pressure"],
 )
 @pytest.mark.parametrize("realisations", [1, 5])
 def test_answers_are_those_without_numba(

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 import flint
@@ -100,10 +101,11 @@ def test_beads_touch_their_three_supports() -> None:
 @pytest.mark.usefixtures("digits")
 @pytest.mark.parametrize(
     "load", [fd.SurfaceLoad(), fd.BulkLoad(), fd.PointLoad(at=(1, 2, 2)),
-             fd.PointLoad(at=(0, 1, 1), pressure=0.5)],
-    ids=["surface", "bulk", "point", "point and pressure"],
+             fd.PointLoad(at=(0, 1, 1), pressure=0.5), fd.BulkLoad(angle_deg=20),
+             fd.PointLoad(at=(1, 2, 2), angle_deg=-70), fd.Load(kind="file", file="loads.csv")],
+    ids=["surface", "bulk", "point", "point and pressure", "bulk, 20°", "point, −70°", "file"],
 )  # fmt: skip
-def test_forces_solve_the_balance_of_all_beads_at_once(load: fd.Load) -> None:
+def test_forces_solve_the_balance_of_all_beads_at_once(load: fd.Load, tmp_path: Path) -> None:
     """A dense linear system, three equations a bead, of the positions alone."""
     width, height = 3, 2
     asked = scene("positions", height=height, width=width)
@@ -119,15 +121,22 @@ def test_forces_solve_the_balance_of_all_beads_at_once(load: fd.Load) -> None:
         for bead, sign in (((p % width, q % width, j), 1), (lower, -1)):
             for k in range(3 if bead in row else 0):
                 A[row[bead] + k, column] += sign * d[k]
+    listed = {(0, 1, 2): (0.5, -0.25, -1), (2, 2, 1): (-1, 2, 0.125)}  # doubles, exact
+    lines = [",".join(map(str, (*bead, *force))) for bead, force in listed.items()]
+    (tmp_path / "loads.csv").write_text("p,q,j,fx,fy,fz\n" + "\n".join(lines))
+    angle = mpmath.mpf(int(load.angle_deg)) * mpmath.pi / 180
     for bead in beads:
         pressed = load.kind == "bulk" or (load.kind == "surface" and bead[2] == height)
         if load.kind == "point":
             pressed = bead == tuple(load.at)
-        b[row[bead] + 2] = int(pressed)
+        b[row[bead]], b[row[bead] + 2] = -pressed * mpmath.sin(angle), pressed * mpmath.cos(angle)
         if load.pressure and bead[2] == height:
             b[row[bead] + 2] += mpmath.mpf(1) / 2
+        for k in range(3 if load.kind == "file" else 0):
+            b[row[bead] + k] = -listed.get(bead, (0, 0, 0))[k]
     solved = mpmath.lu_solve(A, b)
-    outcome = scene("contact_forces", height=height, width=width, load=load).run(tolerance="1e-38")
+    asked = scene("contact_forces", height=height, width=width, load=load)
+    outcome = asked.model_copy(update={"folder": tmp_path}).run(tolerance="1e-38")
     found = dict.fromkeys(numbers, mpmath.mpf(0))
     for p, q, j, branch, force in columns(outcome, "p", "q", "j", "branch", "force"):
         found[(p, q, j), int(branch) - 1] = mpmath.mpf(force.mid().str(50, radius=False))
