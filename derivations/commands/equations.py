@@ -27,12 +27,16 @@ class Form(StrEnum):
 
 
 class Place(StrEnum):
-    """What an exact form is for: layers (13, 14), a load (15), a place in the cone (16)."""
+    """What an exact form is for: layers (13, 14), a load (15, B18), a place in the cone (16)."""
 
     INTERIOR = "interior"
     BASE = "base"
     NEXT = "base+1"
     SURFACE = "surface"
+    BULK_INTERIOR = "bulk-interior"
+    BULK_BASE = "bulk-base"
+    BULK_NEXT = "bulk-base+1"
+    BULK_SURFACE = "bulk-surface"
     SURFACE_LOAD = "surface-load"
     BULK_LOAD = "bulk-load"
     BEAD = "bead"
