@@ -65,7 +65,7 @@ LEG_MAGNITUDE = Symbol(
 # and q along another below the loaded bead, p, q ≥ 1, in layer j = l − p − q; a leg has q = 0.
 SHARE = 1 + 2 * phi + 2 * phi**2
 _HALF = Rational(1, 2)
-_FACE = SHARE * (6 * (j + q) - 9 * _HALF) + (3 + phi**2) / 2
+_FACE = (SHARE * (12 * (j + q) - 9) + 3 + phi**2) / 2
 _BEAD = SHARE * (6 * (l + j) - 9) + 3 + phi**2
 _BELOW = 2 * phi**2 * j + _HALF + 3 * phi + 7 * phi**2
 _LEG = (6 + 12 * phi + 10 * phi**2) * l + 4 * j - 4 * (1 + phi - phi**2)
@@ -295,7 +295,8 @@ def at_finite_size() -> dict[str, ExactCase]:
 
         def put_in(piece: Piece) -> sympy.Expr:
             numbers = {symbol: sympy.Integer(value) for symbol, value in piece.at.items()}
-            return piece.expression.xreplace({j: numbers[j]} if j in numbers else {}) * unit
+            expression = piece.expression.xreplace({j: numbers[j]} if j in numbers else {})
+            return sympy.together(expression) * unit  # one fraction: 5/2 alone is no whole number
 
         *edges, main = (
             Missed(
