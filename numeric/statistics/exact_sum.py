@@ -100,10 +100,10 @@ class ExactSum:
 
     @classmethod
     def _canonical(cls, low: int, limbs: Array) -> "ExactSum":
-        for k in range(len(limbs) - 1):
-            carry = (limbs[k] + _HALF) >> BITS
-            limbs[k] -= carry << BITS
-            limbs[k + 1] += carry
+        lower = limbs[:-1]
+        while (carry := (lower + _HALF) >> BITS).any():  # by all digits at once, twice or so
+            lower -= carry << BITS
+            limbs[1:] += carry
         used = np.flatnonzero(limbs.any(axis=tuple(range(1, limbs.ndim))))
         if not len(used):
             return cls(0, limbs[:0])
@@ -125,9 +125,15 @@ class ExactSum:
 
     def __add__(self, other: "ExactSum") -> "ExactSum":
         """Add, number by number."""
-        both = (self, other)
-        planes = [(one.low + k, limb) for one in both for k, limb in enumerate(one.limbs)]
-        return ExactSum.of(planes, self.shape)
+        both = [one for one in (self, other) if len(one.limbs)]
+        if len(both) < 2:
+            return both[0] if both else self
+        low = min(one.low for one in both)
+        high = max(one.low + len(one.limbs) for one in both)
+        limbs = np.zeros((high - low + 1, *self.shape), dtype=np.int64)  # one takes the carry
+        for one in both:
+            limbs[one.low - low : one.low - low + len(one.limbs)] += one.limbs
+        return ExactSum._canonical(low, limbs)
 
     def reshaped(self, *shape: int) -> "ExactSum":
         """Give the same numbers in another shape."""
