@@ -211,7 +211,7 @@ def _compiled(
         return none(m), [], realisations
     descent = sweeps.descent(problem.force_rows, loads)
     tally, packings, left = _tally(m, descent), list[Array](), list[int]()
-    beads, step = problem.region.beads, engine.at_once(problem, FLOAT64)
+    beads, step = problem.region.beads, engine.at_once(problem)
     for at in range(0, len(realisations), step):
         some = realisations[at : at + step]
         g = sweeps.changes(some, descent)

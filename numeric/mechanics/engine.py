@@ -33,6 +33,8 @@ COMPILED_FROM, OF_ROW, ONCE_LOADED = 2_000_000, 40, 1 / 50
 BLOCK = 10_000
 # Beads that are swept together: their arrays still fit into a cache.
 TOGETHER = 200_000
+# Likewise where compiled loops sum up at once: few, since other programs use the cache, too.
+NEAR = 50_000
 # Where it does not matter how many are: numbers of a row, for which calls of NumPy cost little, and
 # beads at the most.
 ROW, MOST = 4096, 1_100_000
@@ -55,10 +57,9 @@ def chunk_size(problem: Problem, system: NumberSystem) -> int:
     return max(1, TOGETHER // max(problem.region.beads, 1))
 
 
-def at_once(problem: Problem, system: NumberSystem) -> int:
-    """Say how many realisations compiled sweeps take together: whole chunks, one a core or more."""
-    size = chunk_size(problem, system)
-    return size * -(-cores() // size)
+def at_once(problem: Problem) -> int:
+    """Say how many realisations compiled sweeps take together where nothing else needs them."""
+    return max(cores(), NEAR // max(problem.region.beads, 1))
 
 
 def _in_batches(problem: Problem, system: NumberSystem) -> bool:
@@ -90,7 +91,7 @@ def packings(
     sweeps, loads = (None, None) if plainly else ready(problem, system)
     together = size
     if sweeps is not None:
-        together = at_once(problem, system)
+        together = size * -(-cores() // size)
     elif any_number and _in_batches(problem, system):
         region = problem.region
         together = max(size, min(ROW // max(region.widest, 1), MOST // max(region.beads, 1)))
