@@ -32,6 +32,8 @@ STEP = 0.25
 REACH = 0.6
 # Newton's iterations before a step is halved, and halvings before it is given up.
 ITERATIONS, HALVINGS = 12, 40
+# Steps before a motion in which no pair meets is given up.
+MOST_STEPS = 2000
 # Events for each coordinate before the motion is given up as endless.
 MOST_EVENTS = 50
 
@@ -73,14 +75,21 @@ def relax(grains: Grains, supports: Pairs, progress: Callable[[int], None]) -> t
         if motion.rate >= -slack:
             return basis.pairs[~basis.held], event
         met: Array | None = None
+        steps = 0
         while met is None and motion.rate < -slack:
+            if (steps := steps + 1) > MOST_STEPS:
+                raise UnfinishedError(f"beads move on and on: no pair met in {MOST_STEPS} steps")
+            progress(event)
             if np.abs(grains.x - looked).max() > REACH / 5:
                 near, looked = grains.near(REACH), grains.x.copy()
             kept = ~basis.held
             kept[motion.opened] &= motion.opens  # what opened may meet again, further along
             contacts = basis.pairs[kept]
             others = near[~np.isin(grains.named(near), grains.named(contacts))]
+            at = grains.x
             met = _step(grains, basis, others, motion)
+            if met is None and (grains.x == at).all():
+                raise UnfinishedError("no step from here, however small, lowers the load's energy")
             if met is None:
                 motion, slack = _motion(grains, basis, motion)
         row = motion.opened

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.quantities.base import Quantity
-from force_diffusion.numeric.unilateral.event_driven import UnfinishedError
+from force_diffusion.numeric.unilateral import event_driven
 from force_diffusion.numeric.unilateral.grains import Grains
+from force_diffusion.numeric.unilateral.network import UnfinishedError
 from force_diffusion.numeric.unilateral.relaxation import _must_hold
 
 import force_diffusion as fd
@@ -375,6 +376,22 @@ def test_a_small_bead_is_held_at_the_side_of_a_large_one() -> None:
         else:
             with pytest.raises(UnfinishedError, match="no packing can stand"):
                 _must_hold(grains)
+
+
+def test_a_motion_that_gets_stuck_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Here steps shrink to nothing, though forces say that energy falls."""
+    scene = fd.Scene(
+        packing=fd.Packing(height=9, width=11, allow_images=True),
+        disorder=fd.Disorder(kind="uniform", relative_std=0.03, seed=751671),
+        load=fd.SurfaceLoad(angle_deg=-20),
+        effects=fd.Effects(contacts="unilateral", protocol="event-driven"),
+        ask=fd.Ask(quantity="profile"),
+    )
+    with pytest.raises(UnfinishedError, match="however small"):
+        scene.run()
+    monkeypatch.setattr(event_driven, "MOST_STEPS", 1)
+    with pytest.raises(UnfinishedError, match="no pair met in 1 steps"):
+        scene.run()
 
 
 def test_contacts_that_stop_being_independent_are_no_answer() -> None:
