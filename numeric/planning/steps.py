@@ -7,19 +7,20 @@ from ..mechanics.physicality import PHYSICAL
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
 from .plan import CERTIFY, ESTIMATE, Method, Step
+from .times import compiles
 
 
 def steps_of(quantity: Quantity, problem: Problem, method: Method) -> tuple[Step, ...]:
     """List what is done for all realisations."""
     n, arithmetic = problem.realisations, method.system.name
-    one = _solving(quantity, problem)
+    one = _solving(quantity, problem, method)
     steps = [replace(step, beads=step.beads * n, arithmetic=arithmetic) for step in one]
     if problem.route != Route.ORDERED:
         steps.append(_judging(one, problem, method))
     return tuple(steps)
 
 
-def _solving(quantity: Quantity, problem: Problem) -> list[Step]:
+def _solving(quantity: Quantity, problem: Problem, method: Method) -> list[Step]:
     """List the steps of one realisation."""
     if problem.route == Route.ORDERED:
         return [Step("closed form", "the ordered packing is known: nothing is swept", 0)]
@@ -39,7 +40,9 @@ def _solving(quantity: Quantity, problem: Problem) -> list[Step]:
     beads, exact = problem.region.beads, problem.route == Route.EXACT
     steps = [Step(source, _why_region(problem), beads)]
     if exact:
-        why = "exact positions, as deviations in line-sum coordinates"
+        quick = compiles(problem, method.system, problem.realisations)
+        by = ", by compiled code" if quick else ""
+        why = f"exact positions, as deviations in line-sum coordinates{by}"
         steps.append(Step("deposit", why, beads))
     else:
         steps.append(Step("line sums", "displacements to first order, layer by layer", beads))

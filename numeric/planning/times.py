@@ -88,12 +88,13 @@ def _pass(
     beads = region.beads * n + quantity.gathered(region, n)
     work = beads * (bead + kilobit * bits * (1 + bits / 10))
     size = _SPHERE if problem.dimension == 3 else 1
-    if problem.route == Route.EXACT and _compiles(problem, system, n):
+    if problem.route == Route.EXACT and compiles(problem, system, n):
         return spent + _COMPILER + _COMPILED * size * beads
     return spent + len(region.rows) * chunks * layer + size * work
 
 
-def _compiles(problem: Problem, system: NumberSystem, n: int) -> bool:
+def compiles(problem: Problem, system: NumberSystem, n: int) -> bool:
+    """Say whether compiled sweeps will solve so many realisations, without loading them."""
     many = worth_compiling(replace(problem, realisations=n), system)
     return many and find_spec("numba") is not None
 

@@ -203,10 +203,13 @@ def test_the_engine_takes_the_compiled_sweeps_for_as_much_work_as_of_discs(
         assert isinstance(solved(problem, 4).placed, spheres.CompiledPlaced) == taken
 
 
-def test_a_plan_knows_that_compiled_sweeps_are_quicker(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_plan_says_that_compiled_sweeps_are_taken_and_quicker(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     plan = scene("profile", height=60, width=200).explain()
     assert plan.problem.region.beads > engine.COMPILED_FROM
     quick_one = predicted(plan.quantity, plan.problem, plan.method, 1)
+    assert any(step.reason.endswith("by compiled code") for step in plan.steps)
     monkeypatch.setattr(engine, "COMPILED_FROM", 1 << 60)
     assert quick_one < predicted(plan.quantity, plan.problem, plan.method, 1)
 
@@ -216,3 +219,13 @@ def test_first_order_draws_compiled_radii(monkeypatch: pytest.MonkeyPatch) -> No
     before = asked.run().arrays["change"]
     monkeypatch.setattr(engine, "COMPILED_FROM", 1)
     assert asked.run().arrays["change"].tobytes() == before.tobytes()
+
+
+def test_processes_of_an_ensemble_compile_and_sum_up_alike(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As many packings as make them take compiled sweeps by themselves."""
+    asked = scene("profile", height=10, width=20)
+    packings = engine.COMPILED_FROM // asked.explain().problem.region.beads + 1
+    found = [fd.ensemble(asked, packings, workers=workers).std.tolist() for workers in (1, 2)]
+    monkeypatch.setattr(engine, "COMPILED_FROM", 1 << 60)
+    usual = fd.ensemble(asked, packings, workers=1).std.tolist()
+    assert found == [usual, usual]
