@@ -1,6 +1,7 @@
 """Eq. B10: mean contact stress, to second order: what becomes of a constant stress ratio."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
@@ -59,7 +60,7 @@ PRINTED = (
     ),
 )
 
-STRESS = Stress("surface", lambda: eq11.in_radii(eq11.PRINTED.rhs))
+STRESS = Stress("surface", cache(lambda: eq11.in_radii(eq11.PRINTED.rhs)))
 
 
 def steps() -> Iterator[Step]:

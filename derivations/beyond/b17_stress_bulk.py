@@ -1,6 +1,7 @@
 """Eq. B17: mean contact stress under a bulk load, to second order."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
@@ -60,7 +61,7 @@ PRINTED = (
     ),
 )
 
-STRESS = Stress("bulk", lambda: eq11.in_radii(eq14.bulk_force()))
+STRESS = Stress("bulk", cache(lambda: eq11.in_radii(eq14.bulk_force())))
 
 
 def steps() -> Iterator[Step]:

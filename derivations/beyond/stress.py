@@ -118,11 +118,11 @@ class Stress:
         return [xx - yy, yy, yy - grown]
 
     def witness(self, packing: SmallPacking) -> Ruling:
-        """The closed forms of every layer against exact packings of M ≤ 5."""
+        """The closed forms of every layer against exact packings of M ≤ 4."""
         values = {**explicit.geometry(*packing.n, Fraction(1)), sigma: 1}
 
         def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
-            for height, layer, case in packings(5):
+            for height, layer, case in packings(4):
                 true = self._exact(height, layer, packing.n)
                 for (subject, of), one in zip(self.parts, true, strict=True):
                     stated = explicit.number(value_at(of(), height, layer, case), values)
