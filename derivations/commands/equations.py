@@ -140,7 +140,7 @@ def list_equations() -> None:
     Beside each stands what Coq said of it when it was last asked.
     """
     for one in map(fd.equation, modules()):
-        print(f"{one.number!s:>3}  {one.name:<22}  {one.coq.verdict:<13}  {one.title}")
+        print(f"{one.number!s:>3}  {one.name:<26}  {one.coq.verdict:<13}  {one.title}")
 
 
 def register(app: typer.Typer) -> None:

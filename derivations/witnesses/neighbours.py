@@ -24,11 +24,13 @@ DIRECTION: Direction = (Fraction(21, 29), Fraction(20, 29))
 def weights(quantity: str, height: int, layer: int, n: Direction) -> dict[Site, Fraction]:
     """First-order weights of what ``quantity`` names in a layer: "force" f⁺/⟨f⟩, or "bead".
 
+    "bulk" is f⁺/⟨f⟩ under a bulk load.
     "bead" is the vertical force that a bead gets from both upper contacts, over the load. Keys are
     (offset, layer) of the radius, as in ``weights_of_forces``; a surface load.
     """
-    if quantity == "force":
-        return weights_of_forces(height, n, "surface")[layer]
+    if quantity in ("force", "bulk"):
+        load = "bulk" if quantity == "bulk" else "surface"
+        return weights_of_forces(height, n, load)[layer]
 
     def vertical(packing: "TaylorPacking", across: int, layer: int) -> Fraction:
         total = Fraction(0)
@@ -37,8 +39,8 @@ def weights(quantity: str, height: int, layer: int, n: Direction) -> dict[Site, 
             total += slope * n[1] + ordered * packing.direction(across, layer, branch)[1][1]
         return total
 
-    load = {height: (Fraction(0), Fraction(-1))}
-    (found,) = weights_by_layer(height, n, load, vertical, (layer,))
+    above = {height: (Fraction(0), Fraction(-1))}
+    (found,) = weights_by_layer(height, n, above, vertical, (layer,))
     return found
 
 
