@@ -41,21 +41,13 @@ PRINTED = equation(
             terms(
                 times(12, terms(M, -j) ** 2, terms(M, times(4, j))),
                 times(15, terms(M, -j) ** 2),
-                times(20, terms(M, -j), terms(1, minus(times(3, phi)), times(7, phi**2))),
+                times(terms(M, -j), terms(20, minus(times(60, phi)), times(140, phi**2))),
                 times(60, j, terms(1, times(2, phi**2))),
                 times(120, phi**3),
                 minus(times(210, phi**2)),
                 times(240, phi),
                 -105,
-                times(
-                    2 / (M - j),
-                    terms(
-                        14,
-                        minus(times(45, phi)),
-                        times(50, phi**2),
-                        minus(times(15, phi**3)),
-                    ),
-                ),
+                (28 - 90 * phi + 100 * phi**2 - 30 * phi**3) / (M - j),
             ),
             _RADII,
         ),
