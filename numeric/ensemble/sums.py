@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from ..mechanics.compiled_spheres import SphereDescent
     from ..statistics.compiled import Tally
 
+# Packings whose a and b are cut into digits together.
+AT_ONCE = 1024
 _COUNTS = struct.Struct("<3q")
 
 
@@ -271,17 +273,17 @@ def _pulling(ordered: Array, changes: Array) -> Array:
 
 def _over_packings(m: Measurement, summed: Sums, packings: list[Array]) -> Sums:
     """Add the sums over the a, b of packings, arrays of shape (2, groups, realisations)."""
-    cut = digits(np.concatenate(packings, axis=2))
-    a, b = [(k, q[0]) for k, q in cut], [(k, q[1]) for k, q in cut]
-    shape = (m.groups,)
-    products = [total_products(x, y, shape) for x, y in ((a, a), (a, b), (b, b))]
-    chosen = b if m.squares else a
-    return replace(
-        summed,
-        means=total(cut, (2, m.groups)),
-        products=_stacked(products),
-        pairs=total_matrix(chosen, m.groups) if m.covariance else summed.pairs,
-    )
+    values = np.concatenate(packings, axis=2)
+    means, products, pairs = summed.means, summed.products, summed.pairs
+    for at in range(0, values.shape[2], AT_ONCE):
+        cut = digits(values[:, :, at : at + AT_ONCE])
+        a, b = [(k, q[0]) for k, q in cut], [(k, q[1]) for k, q in cut]
+        shape = (m.groups,)
+        means += total(cut, (2, m.groups))
+        products += _stacked([total_products(x, y, shape) for x, y in ((a, a), (a, b), (b, b))])
+        if m.covariance:
+            pairs += total_matrix(b if m.squares else a, m.groups)
+    return replace(summed, means=means, products=products, pairs=pairs)
 
 
 def _stacked(parts: list[ExactSum]) -> ExactSum:

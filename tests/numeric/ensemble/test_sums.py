@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array
+from force_diffusion.numeric.ensemble import sums
 from force_diffusion.numeric.ensemble.estimates import Estimates
 from force_diffusion.numeric.ensemble.measure import Measurement, measurement
 from force_diffusion.numeric.ensemble.sums import Sums, from_bytes, measured
@@ -49,6 +50,8 @@ def test_batches_and_single_packings_give_the_same_bytes(
     monkeypatch.setattr(
         engine, "chunk_size", lambda problem, _: 1 if problem.route == Route.LINE_SUMS else 3
     )
+    assert measured(m, range(7)).to_bytes() == whole
+    monkeypatch.setattr(sums, "AT_ONCE", 2)
     assert measured(m, range(7)).to_bytes() == whole
 
 
