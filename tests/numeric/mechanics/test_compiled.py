@@ -28,7 +28,10 @@ from hypothesis.extra.numpy import arrays
 from tests.numeric.scenes import basic, planned
 
 pytest.importorskip("numba")
+import numba
+from force_diffusion.numeric.disorder import compiled as drawing
 from force_diffusion.numeric.mechanics import compiled as fast
+from numba.extending import intrinsic
 
 SIZES = st.tuples(st.integers(1, 9), st.integers(1, 3), st.integers(1, 33))
 N_X = st.fractions(Fraction(51, 100), Fraction(86, 100), max_denominator=10**6)
@@ -275,3 +278,19 @@ def test_the_compiled_code_fuses_no_product_with_a_sum() -> None:
     u = 1 + 2.0**-52 * np.arange(1.0, 65.0)
     compiled(u, found := np.empty_like(u))
     assert found.tobytes() == (u * u + u).tobytes()
+
+
+def test_products_of_words_are_exact_whatever_the_processor() -> None:
+    """Wide registers have them made of halves, others as one product of 128 bits."""
+    whole_product = intrinsic(drawing._product_code)
+
+    @numba.njit
+    def by_one(a: Any, b: Any) -> Any:
+        return whole_product(a, b)
+
+    ends = [0, 1, 2**32 - 1, 2**32, 2**63, 2**64 - 1]
+    drawn = np.random.default_rng(3).integers(0, 2**64, (200, 2), dtype=np.uint64, endpoint=False)
+    for a, b in [(a, b) for a in ends for b in ends] + [(int(a), int(b)) for a, b in drawn]:
+        for made in (by_one, drawing._product_of_halves):
+            high, low = made(np.uint64(a), np.uint64(b))
+            assert (int(high) << 64) + int(low) == a * b
