@@ -81,8 +81,8 @@ def _check_packing(p: Packing) -> None:
             "packing.width",
             p.width,
             f"must be greater than the height {p.height}, or contacts see their periodic images; "
-            "say allow_images = true if a narrow periodic strip is meant, or leave width out "
-            "for the infinite slab",
+            "say allow_images = true if a narrow periodic strip is meant"
+            + (", or leave width out for the infinite slab" if flat else ""),
         )
 
 

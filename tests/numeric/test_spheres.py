@@ -140,6 +140,16 @@ def test_what_is_not_offered_is_refused(changes: dict[str, dict[str, Any]], says
         fd.Scene(**sections)
 
 
+@pytest.mark.parametrize(("dimension", "ends"), [(3, "is meant"), (2, "for the infinite slab")])
+def test_the_slab_is_advice_in_two_dimensions_alone(dimension: Any, ends: str) -> None:
+    with pytest.raises(fd.SceneError, match=f"allow_images = true.*{ends}$"):
+        fd.Scene(
+            packing=fd.Packing(height=2, width=2, dimension=dimension),
+            disorder=fd.Disorder(kind="uniform", relative_std=1e-3),
+            ask=fd.Ask(quantity="profile"),
+        )
+
+
 def test_studies_and_other_plots_refuse_three_dimensions() -> None:
     asked = scene("profile", height=2, width=6)
     with pytest.raises(fd.SceneError, match=r"packing.dimension = 3: must be 2"):
