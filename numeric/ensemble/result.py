@@ -66,15 +66,16 @@ class Ensemble:
 
     @cached_property
     def index(self) -> dict[str, Array]:
-        """Columns that name the groups: j, branch, i, component; empty for a histogram."""
+        """Columns that name the groups: j, branch, i or p, q, component; none for a histogram."""
         labels = self.estimates.measurement.labels
         return {name: self._sorted(column) for name, column in labels.items()}
 
     @cached_property
     def _order(self) -> Array:
-        """Where the rows, by j, i, branch and component, stand among the groups."""
+        """Where the rows, by j, i (or p, q), branch and component, stand among the groups."""
         labels = self.estimates.measurement.labels
-        keys = [labels[name] for name in ("component", "branch", "i", "j") if name in labels]
+        names = ("component", "branch", "q", "p", "i", "j")
+        keys = [labels[name] for name in names if name in labels]
         return np.lexsort(keys) if keys else np.arange(self.estimates.measurement.groups)
 
     @property
