@@ -349,7 +349,7 @@ base+1 or surface.
                 "single beads. equation(…).python_code() is a function of these."
             )
         needed = set().union(*(side.free_symbols for side in sides))
-        values, exact = read_arguments(self._heading, needed, arguments)
+        values, exact = read_arguments(self._heading, needed, arguments, self._derivation.dimension)
         for relation in self._derivation.domain:
             if not holds(relation, values):
                 at = sorted(relation.free_symbols, key=str)
@@ -458,7 +458,11 @@ def equation(number: EquationNumber) -> Equation:
     Raises:
         NoSuchFormError: there is none.
     """
-    if not isinstance(number, Integral | str) or number not in modules():
+    if (
+        isinstance(number, bool)
+        or not isinstance(number, Integral | str)
+        or number not in modules()
+    ):
         raise NoSuchFormError(
             f"there is no equation {number!r}: give a number {allowed()}", "number"
         )

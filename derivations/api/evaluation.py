@@ -18,10 +18,9 @@ from force_diffusion.symbolic.printing.text import text
 Number: TypeAlias = int | float | Fraction
 """What is put in: int, Fraction and, at run time, SymPy's Rational are exact; floats are not."""
 
-_HALF = sympy.Rational(1, 2)
 _ORDER = "M l j z i k phi sigma r"
 _ALLOWED: dict[sympy.Symbol, tuple[str, Callable[[Any], bool]]] = {
-    sy.phi: ("−1/2 < φ < 1/2", lambda value: -_HALF < value < _HALF),
+    sy.d: ("a whole number from 2 on", lambda value: value >= 2),
     sy.z: ("0 ≤ z ≤ 1", lambda value: 0 <= value <= 1),
     sy.sigma: ("a number from 0 on", lambda value: value >= 0),
     sy.M: ("a whole number from 1 on", lambda value: value >= 1),
@@ -42,7 +41,7 @@ class ArgumentError(ForceDiffusionError, ValueError):
 
 
 def read_arguments(
-    about: str, needed: Iterable[sympy.Symbol], given: Mapping[str, Number]
+    about: str, needed: Iterable[sympy.Symbol], given: Mapping[str, Number], dimension: int = 2
 ) -> tuple[dict[sympy.Symbol, sympy.Rational], bool]:
     """Values of the symbols that a formula needs, and whether all of them are exact.
 
@@ -52,6 +51,7 @@ def read_arguments(
         about: what is evaluated, for messages.
         needed: symbols of the formula.
         given: values by name.
+        dimension: of the packing, d; no spheres overlap where −1/d < φ < 1/2.
 
     Raises:
         ArgumentError: a name is unknown or missing, or a value is not allowed.
@@ -66,7 +66,7 @@ def read_arguments(
     _compare_names(about, by_name, given)
     values = {by_name[name]: _exactly(name, value) for name, value in given.items()}
     for symbol, value in values.items():
-        _assert_allowed(symbol, value, given[symbol.in_code])
+        _assert_allowed(symbol, value, given[symbol.in_code], dimension)
     for pair, (words, allowed) in _TOGETHER.items():
         if set(pair) <= set(values) and not allowed(*(values[symbol] for symbol in pair)):
             raise ArgumentError(f"{told(pair, values)}: {words} is allowed")
@@ -94,15 +94,23 @@ def _exactly(name: str, value: Number) -> sympy.Rational:
     )
 
 
-def _assert_allowed(symbol: sympy.Symbol, value: sympy.Rational, given: Number) -> None:
-    words, allowed = _ALLOWED.get(
-        symbol,
-        ("a whole number", lambda _: True)
-        if symbol.is_integer
-        else ("a number above 0", lambda value: value > 0),
-    )
+def _assert_allowed(
+    symbol: sympy.Symbol, value: sympy.Rational, given: Number, dimension: int
+) -> None:
+    words, allowed = _range(symbol, dimension)
     if not allowed(value) or (symbol.is_integer and not value.is_integer):
         raise ArgumentError(f"{symbol.in_code} = {given}: {words} is allowed")
+
+
+def _range(symbol: sympy.Symbol, dimension: int) -> tuple[str, Callable[[Any], bool]]:
+    if symbol == sy.phi:
+        low, high = sympy.Rational(-1, dimension), sympy.Rational(1, 2)
+        return f"−1/{dimension} < φ < 1/2", lambda value: low < value < high
+    if symbol in _ALLOWED:
+        return _ALLOWED[symbol]
+    if symbol.is_integer:
+        return "a whole number", lambda _: True
+    return "a number above 0", lambda value: value > 0
 
 
 def told(symbols: Iterable[sympy.Symbol], values: Mapping[sympy.Symbol, sympy.Rational]) -> str:

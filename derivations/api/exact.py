@@ -36,6 +36,7 @@ class ExactForm(Formula):
         line = Eq(form.quantity, form.expression, evaluate=False)
         super().__init__(name, f"Eq. {derivation.number}", (line,))
         self._case, self._form, self._number = case, form, derivation.number
+        self._dimension = derivation.dimension
 
     @property
     def case(self) -> str:
@@ -94,7 +95,7 @@ class ExactForm(Formula):
         needed = set().union(*(one.free_symbols for one in (*expressions, *conditions)))
         about = f"Eq. {self._number}, exact form '{self._case}',"
         left_out = {symbol for symbol in fixed if symbol.in_code not in arguments}
-        values, exact = read_arguments(about, needed - left_out, arguments)
+        values, exact = read_arguments(about, needed - left_out, arguments, self._dimension)
         for symbol in left_out:
             values[symbol] = fixed[symbol].xreplace(values)
         for relation in form.domain:

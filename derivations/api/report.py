@@ -74,10 +74,10 @@ def made(
     from force_diffusion.derivations.export.page import sections
     from force_diffusion.derivations.export.page.page import page
 
-    measured = start(sections.measured_parts)
+    measured = [start(part) for part in (sections.cost_part, sections.stability_part)]
     derived = deriving(start)
     parts = [sections.figures_part(notice)]
     notice("cost and stability")
-    parts += measured()
+    parts += [part() for part in measured]
     now = f"{datetime.now(UTC):%Y-%m-%d %H:%M} UTC"
     return Report(page(derived.outcomes, parts, command, now), derived)

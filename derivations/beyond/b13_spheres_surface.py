@@ -53,6 +53,7 @@ DERIVATION = Derivation(
     name="spheres_surface",
     title="Variance of the forces in three dimensions under a surface load",
     symbols=spheres.SYMBOLS,
+    dimension=3,
     assumptions=(
         *spheres.ASSUMPTIONS,
         "a surface load along the sum of the base vectors",

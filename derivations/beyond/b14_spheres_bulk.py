@@ -63,6 +63,7 @@ DERIVATION = Derivation(
     name="spheres_bulk",
     title="Variance of the forces in three dimensions under a bulk load",
     symbols=spheres.SYMBOLS,
+    dimension=3,
     assumptions=(
         *spheres.ASSUMPTIONS,
         "a bulk load along the sum of the base vectors",

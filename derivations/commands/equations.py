@@ -87,7 +87,7 @@ def show(
     number: Annotated[str, typer.Argument(metavar="N", help="Number of the equation.")],
     form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
     exact: Annotated[
-        bool, typer.Option("--exact", help="The exact form at finite size (Eqs. 13 to 16).")
+        bool, typer.Option("--exact", help="The exact form at finite size, where there is one.")
     ] = False,
     at_j: Annotated[
         Place | None,
@@ -97,7 +97,8 @@ def show(
             help="Which exact form. Eqs. 13 and 14: interior (2 ≤ j ≤ M − 2, the default), "
             "base (j = 0), base+1 (j = 1) or surface (j = M − 1). Eq. 15: surface-load (the "
             "default) or bulk-load. Eq. 16: bead (both upper contacts, the default), contact (one "
-            "of them), leg (the contact on a leg of the cone) or leg-force (its magnitude).",
+            "of them), leg (the contact on a leg of the cone) or leg-force (its magnitude). Beyond "
+            "the paper: as for 13 and 14, bulk-… for a bulk load beside another; B19 as 16.",
         ),
     ] = None,
     columns: Columns = 1,

@@ -142,6 +142,7 @@ class Derivation:
     witnesses: tuple[Witness, ...] = ()
     remarks: tuple[str, ...] = ()
     domain: tuple[sympy.Basic, ...] = ()  # relations of whole numbers, where the printed form holds
+    dimension: int = 2  # of the packing: −1/d < φ < 1/2
     loads: tuple[str, ...] = ()  # "single", "surface", "bulk", or "any" but on the bead passed
     relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
     exact: Callable[[], dict[str, "ExactCase"]] | None = None  # forms at finite size, by case

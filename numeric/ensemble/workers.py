@@ -43,6 +43,12 @@ class RealisationError(ForceDiffusionError, ValueError):
     """Hardly a realisation can be built; the message says which can't, and why."""
 
 
+class UnsettledError(RealisationError):
+    """Hardly a packing comes to rest, or is proved to, within what was asked."""
+
+    exit_status = NOT_REACHED
+
+
 class WorkersError(ForceDiffusionError, RuntimeError):
     """Those who should solve are missing or die; the message says what to do."""
 
@@ -72,13 +78,14 @@ def refuse_unbuildable(m: Measurement, sums: AnySums) -> None:
     """Raise ``RealisationError`` where no two packings are left, and say why one can't be built."""
     if sums.realisations >= 2:
         return
-    first, why = sums.first_unbuildable, ""
+    first, why, kind = sums.first_unbuildable, "", RealisationError
     try:
         measured(m, [first])
     except _TROUBLE as error:
         why = str(error)
-    raise RealisationError(
-        f"{sums.unbuildable} of {sums.tried} packings can't be built, and statistics need two: "
+        kind = UnsettledError if isinstance(error, UnfinishedError | UndecidedError) else kind
+    raise kind(
+        f"{sums.unbuildable} of {sums.tried} packings are left out, and statistics need two: "
         f"realisation {first}: {why}"
     )
 

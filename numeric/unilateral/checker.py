@@ -77,6 +77,14 @@ class Verdict:
         )
 
 
+def _wrong(error: ValidationError) -> str:
+    """Say in a line what of a file is wrong first."""
+    first = error.errors()[0]
+    words = {"model_type": "must be an object, {…}", "missing": "is missing"}
+    rule = words.get(first["type"], first["msg"].lower().replace("input should", "must"))
+    return f"{'.'.join(map(str, first['loc'])) or 'all of it'} {rule}"
+
+
 def check_packings(path: str | Path) -> list[Verdict]:
     """Check the packings of a file that ``run --out`` wrote. Raises ``PackingFileError``."""
     path = Path(path)
@@ -94,8 +102,7 @@ def check_packings(path: str | Path) -> list[Verdict]:
             raise
         what = "no JSON"
         if isinstance(error, ValidationError):
-            first = error.errors()[0]
-            what = f"{'.'.join(map(str, first['loc']))}: {first['msg']}"
+            what = _wrong(error)
         raise PackingFileError(
             f"{path.name}: no file of packings, as run --out writes: {what}"
         ) from None

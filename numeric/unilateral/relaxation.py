@@ -83,7 +83,7 @@ def settle(problem: Problem, realisation: int, work: Work) -> Settled | None:
             raise UnfinishedError(f"not at rest after effects.most_events = {most}")
         if seconds is not None and process_time() - begin > seconds:
             raise UnfinishedError(
-                f"not at rest after effects.most_seconds = {short(seconds)}, in {events} events"
+                f"not at rest after effects.most_seconds = {short(seconds)}; events: {events}"
             )
 
     if supports is not None and not overlaps:

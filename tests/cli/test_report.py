@@ -3,6 +3,8 @@
 import json
 import os
 import sys
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +25,9 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, Any]:
     monkeypatch.setattr("force_diffusion.derivations.api.derived.load", table.__getitem__)
     monkeypatch.setattr("force_diffusion.derivations.commands.report.modules", lambda: table)
     monkeypatch.setattr(sections, "figures_part", lambda notice: PART)
-    monkeypatch.setattr(sections, "measured_parts", list)
+    for name in ("cost", "stability"):
+        stand_in = partial(replace, PART, id=name)
+        monkeypatch.setattr(sections, f"{name}_part", stand_in)
     monkeypatch.setattr(processes, "cores", lambda: 1)  # what stands for them is not beside
     return table
 

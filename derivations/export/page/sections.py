@@ -67,7 +67,7 @@ def figures_part(notice: Notice) -> Part:
     )
 
 
-def cost_part(notice: Notice) -> Part:
+def cost_part(notice: Notice = lambda _: None) -> Part:
     """Every way to answer the small scene, its error beside its time."""
     from force_diffusion.numeric.figures import style
     from force_diffusion.numeric.run import read_scene
@@ -133,7 +133,7 @@ def _decimal(shown: str | None) -> Decimal | None:
     return None if shown is None else Decimal(shown)
 
 
-def stability_part(notice: Notice) -> Part:
+def stability_part(notice: Notice = lambda _: None) -> Part:
     """How accurate the engine is where it is hard to be, and what that costs."""
     from force_diffusion.numeric.figures import style
     from force_diffusion.numeric.studies.stability.study import (
@@ -233,8 +233,3 @@ def _largest(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
         if key not in found or row["relative_error"] > found[key]["relative_error"]:
             found[key] = row
     return list(found.values())
-
-
-def measured_parts(notice: Notice = lambda _: None) -> list[Part]:
-    """All that is measured by the clock, in the order of the page."""
-    return [cost_part(notice), stability_part(notice)]

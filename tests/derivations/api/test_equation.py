@@ -241,6 +241,36 @@ def test_a_missing_name_is_named() -> None:
     assert str(refused.value).startswith("r missing: Eq. 13 takes M, ")
 
 
+@pytest.mark.parametrize(
+    ("number", "arguments", "message"),
+    [
+        ("B19", {"j": 3, "q": 1, "l": 6, "phi": -0.4}, "−1/3 < φ < 1/2 is allowed"),
+        ("B11", {"M": 9, "z": 0.5, "d": 1, "kappa": 2}, "d = 1: a whole number from 2 on"),
+        ("B20", {"M": 9, "z": 0.5, "d": 0, "kappa": 2}, "d = 0: a whole number from 2 on"),
+    ],
+)
+def test_what_is_allowed_goes_with_the_dimension(number, arguments, message) -> None:
+    with pytest.raises(fd.ForceDiffusionError, match=message):
+        fd.equation(number).at(sigma=1, r=1, **arguments)
+
+
+@pytest.mark.parametrize("number", ["B13", "B14"])
+def test_exact_forms_of_spheres_know_their_range_of_phi(number) -> None:
+    for phi in (-0.4, Fraction(-1, 3)):
+        with pytest.raises(fd.ForceDiffusionError, match="−1/3 < φ < 1/2 is allowed"):
+            fd.equation(number).exact().at(M=9, j=4, phi=phi, sigma=1, r=1)
+
+
+@pytest.mark.parametrize(("j", "q", "l"), [(3, 1, 6), (3, 2, 6), (3, 3, 7), (5, 1, 9)])
+def test_the_printed_forms_of_spheres_below_a_load_hold_where_they_are_given(j, q, l) -> None:  # noqa: E741
+    at = {"j": j, "q": q, "l": l, "phi": Fraction(1, 10), "sigma": 1, "r": 1}
+    contact, bead, leg = fd.equation("B19").at(**at)
+    assert contact == fd.equation("B19").exact("contact").at(**at)
+    assert bead == fd.equation("B19").exact("bead").at(**at)
+    del at["q"]
+    assert leg == fd.equation("B19").exact("leg").at(**at)
+
+
 @pytest.mark.parametrize("eq", ALL[:12], ids=lambda eq: f"eq{eq.number:02}")
 def test_formulas_of_single_beads_are_no_numbers(eq: fd.Equation) -> None:
     with pytest.raises(ArgumentError, match="single beads"):

@@ -97,6 +97,13 @@ def test_where_none_comes_to_rest_it_says_why() -> None:
         fd.ensemble(strip(protocol="event-driven", std=0.15), 2)
 
 
+def test_where_none_comes_to_rest_within_the_limits_the_status_is_3() -> None:
+    limited = strip(std=0.06, effects={"contacts": "unilateral", "most_events": 1})
+    with pytest.raises(RealisationError, match=r"2 of 2 packings are left out.*most_events") as e:
+        fd.ensemble(limited, 2)
+    assert e.value.exit_status == 3
+
+
 def test_a_histogram_counts_every_force() -> None:
     found = fd.ensemble(strip("histogram", bins=10), 4)
     assert found.bins is not None

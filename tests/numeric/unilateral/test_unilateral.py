@@ -2,6 +2,7 @@
 
 import copy
 import json
+import re
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
@@ -150,8 +151,9 @@ def test_the_checker_refuses(
 def test_a_file_that_is_none_is_refused_in_words(tmp_path: Path, text: str) -> None:
     path = tmp_path / "packings.json"
     path.write_text(text, errors="surrogatepass")
-    with pytest.raises(fd.ForceDiffusionError, match=r"packings\.json"):
+    with pytest.raises(fd.ForceDiffusionError, match=r"packings\.json") as raised:
         fd.check_packings(path)
+    assert not re.search(r"_File|: :|Input", str(raised.value))
 
 
 @pytest.mark.parametrize("seed", [0, 2])
