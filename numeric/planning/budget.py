@@ -13,6 +13,10 @@ COMPILER, COMPILED = 100_000_000, 50_000_000
 LONGEST = 24 * 3600.0
 
 
+class TooLargeError(SceneError):
+    """A scene needs more memory or time than there is."""
+
+
 def memory(*, beads: int, rows: int, layers: int, system: NumberSystem, file: bool) -> int:
     """Estimate the bytes at the peak.
 
@@ -31,12 +35,12 @@ def memory(*, beads: int, rows: int, layers: int, system: NumberSystem, file: bo
 
 
 def refuse_memory(scene: Scene, needed: int, limit: int) -> None:
-    """Raise ``SceneError`` with the size where a scene needs more than ``limit`` bytes."""
+    """Raise ``TooLargeError`` with the size where a scene needs more than ``limit`` bytes."""
     if needed > limit:
         less = "less"
         if scene.ask.quantity == "response" and scene.ask.layers is None:
             less = "some layers of the response, as with ask.layers = [0]"
-        raise SceneError(
+        raise TooLargeError(
             "packing.height",
             scene.packing.height,
             f"this scene would need about {size(needed)} of memory and {size(limit)} may be "
@@ -45,12 +49,12 @@ def refuse_memory(scene: Scene, needed: int, limit: int) -> None:
 
 
 def refuse_seconds(scene: Scene, realisations: int, seconds: float) -> None:
-    """Raise ``SceneError`` where a scene would take more than a day."""
+    """Raise ``TooLargeError`` where a scene would take more than a day."""
     if seconds > LONGEST:
         key, value = ("packing.height", scene.packing.height)
         if realisations > 1:
             key, value = ("ask.realisations", realisations)
-        raise SceneError(
+        raise TooLargeError(
             key,
             value,
             f"this scene would take about {seconds / 86400:.3g} days, and one is allowed: "

@@ -60,7 +60,9 @@ class Outline:
         visited = max((step.beads for step in steps), default=0)
         memory = self._memory(method, together, visited)
         seconds = predicted(self.quantity, problem, method, together)
-        cut = segments.cut(problem, method, scene) if memory > self.limit else None
+        cut = None
+        if memory > self.limit:
+            cut = segments.cut(problem, method, scene, self.tolerance)
         if cut is not None:
             steps = segments.steps(steps, cut, self.quantity, memory, self.limit)
             memory = segments.memory(cut, self.quantity)
@@ -129,7 +131,7 @@ def outline(
     first_order = scene.effects.geometry == "first-order"
     has_line_sums = quantity.single and (scene.contact is not None or scene.site is not None)
     closed = ordered or (line_sums and first_order and has_line_sums)
-    _refuse_beads(scene, quantity, limit, ordered=ordered, closed=closed)
+    _refuse_beads(scene, quantity, limit, tolerance, ordered=ordered, closed=closed)
     skipped: list[Skipped] = []
     load = load_of(scene)
     if not quantity.needs_forces:
@@ -175,7 +177,13 @@ def _ordered(scene: Scene) -> bool:
 
 
 def _refuse_beads(
-    scene: Scene, quantity: Quantity, limit: int, *, ordered: bool, closed: bool
+    scene: Scene,
+    quantity: Quantity,
+    limit: int,
+    tolerance: Fraction | None,
+    *,
+    ordered: bool,
+    closed: bool,
 ) -> None:
     """Refuse what surely takes too much memory."""
     beads = quantity.most_beads()
@@ -186,7 +194,7 @@ def _refuse_beads(
     layers = 0 if quantity.single and not beads else scene.packing.height + 1
     nothing = Region(scene.packing.width, ())
     needed = _memory(scene, quantity, nothing, beads, 1, FLOAT64)
-    if segments.suits(scene):
+    if segments.suits(scene, tolerance):
         height = scene.packing.height
         widest = min(scene.packing.width or 2 * height + 2, -(-2 * beads // (height + 1)))
         needed = min(needed, segments.beads_bytes(widest, height))

@@ -7,12 +7,14 @@ and adds nothing but the measured cost.
 from collections.abc import Sequence
 from fractions import Fraction
 
+from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.machine import memory_limit as free_memory
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..mechanics.problem import Route
 from ..quantities import quantity_of
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
+from . import budget
 from .choice import choose
 from .expected_error import initial_bits
 from .outline import Outline, outline
@@ -44,6 +46,29 @@ def plan(
     if certified and tolerance is None:
         raise SceneError("ask.certified", True, "needs a tolerance, as tolerance = 1e-30")
     limit = free_memory() if memory_limit is None else memory_limit
+    try:
+        return _plan(scene, tolerance, limit, system, certified=certified)
+    except budget.TooLargeError as refused:
+        if tolerance is None or certified:
+            raise
+        try:
+            free = _plan(scene, None, limit, system, certified=False)
+        except ForceDiffusionError:
+            raise refused from None
+        takes = f"about {free.estimated_seconds:.2g} s and {budget.size(free.memory)}"
+        said = f"{refused.allowed}; without the tolerance it would take {takes}"
+        raise budget.TooLargeError(refused.key, refused.value, said) from None
+
+
+def _plan(
+    scene: Scene,
+    tolerance: Fraction | None,
+    limit: int,
+    system: NumberSystem,
+    *,
+    certified: bool,
+) -> Plan:
+    """Plan a scene with this very tolerance."""
     outlines = _outlines(scene, limit, tolerance)
     first = outlines[0].problem
     if first.route == Route.ORDERED:  # exactly known, whatever is asked

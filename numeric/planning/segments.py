@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from fractions import Fraction
 from importlib.util import find_spec
 
 from ..arithmetic.systems import FLOAT64
@@ -25,14 +26,17 @@ _BESIDE = 5
 _SECONDS, _SECONDS_OF_CONE = 8e-8, 1.6e-7
 
 
-def suits(scene: Scene) -> bool:
-    """Say whether a scene's packing could be swept by segments, as far as is plain at once."""
+def suits(scene: Scene, tolerance: Fraction | None) -> bool:
+    """Say whether a scene's packing could be swept by segments, as far as is plain at once.
+
+    With a tolerance it is not: the error is that of a few columns, not of the answer.
+    """
     ask, disorder = scene.ask, scene.disorder
     return (
         (ask.quantity in KNOWN or ask.layers is not None)
         and scene.packing.dimension == 2
         and ask.realisations == 1
-        and ask.tolerance is None
+        and tolerance is None
         and disorder is not None
         and disorder.kind not in {"file", "given"}
         and scene.load.kind != "file"
@@ -54,9 +58,11 @@ def beads_bytes(widest: int, height: int) -> int:
     return widest * (_BEAD * (k + _BESIDE) + _KEPT * (height // k + 1))
 
 
-def cut(problem: Problem, method: Method, scene: Scene) -> Problem | None:
+def cut(
+    problem: Problem, method: Method, scene: Scene, tolerance: Fraction | None
+) -> Problem | None:
     """Give the problem swept by segments, if it can be."""
-    if not suits(scene) or method.system is not FLOAT64 or problem.route != Route.EXACT:
+    if not suits(scene, tolerance) or method.system is not FLOAT64 or problem.route != Route.EXACT:
         return None
     widest = max(row.count for row in problem.region.rows)
     return replace(problem, segment=layers(widest, problem.region.top))

@@ -2,6 +2,7 @@
 
 import os
 from dataclasses import replace
+from fractions import Fraction
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -62,7 +63,7 @@ def sections(name: str, **disorder: Any) -> dict[str, dict[str, Any]]:
 
 
 def cut(made: Plan, layers: int) -> Plan:
-    found = segments.cut(made.problem, made.method, made.scene)
+    found = segments.cut(made.problem, made.method, made.scene, None)
     assert found is not None
     return replace(made, problem=replace(found, segment=layers))
 
@@ -96,6 +97,24 @@ def test_a_plan_that_the_memory_does_not_hold_is_made_of_segments() -> None:
     assert f"{budget.size(whole.memory)} of memory would be needed and 400 MB may be used" in text
     with pytest.raises(SceneError, match="height = 1999"):
         plan(asked, memory_limit=2 * 10**8)
+
+
+@pytest.mark.parametrize("said", ["in the scene", "beside it"])
+def test_with_a_tolerance_it_is_refused_and_said_that_without_it_runs(said: str) -> None:
+    """Segments' error is that of some columns: no answer to a tolerance, wherever it stands."""
+    wanted: dict[str, dict[str, Any]] = sections("profile", relative_std="=1e-8")
+    wanted |= {"packing": {"height": 1999, "width": 2002}}
+    without = plan(scene(wanted), memory_limit=4 * 10**8)
+    inside = {"tolerance": "=1e-8"} if said == "in the scene" else {}
+    asked = scene(wanted | {"ask": {"quantity": "profile"} | inside})
+    beside = None if inside else Fraction(1, 10**8)
+    advice = f"without the tolerance it would take .* and {budget.size(without.memory)}$"
+    with pytest.raises(SceneError, match=advice):
+        plan(asked, beside, memory_limit=4 * 10**8)
+    assert not plan(asked, beside, memory_limit=4 * 10**9).problem.segment
+    for limit, certified in ((2 * 10**8, False), (4 * 10**8, True)):  # it would not run, won't do
+        with pytest.raises(SceneError, match=r"or for a smaller packing$"):
+            plan(asked, beside, memory_limit=limit, certified=certified)
 
 
 def test_without_numba_it_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
