@@ -40,10 +40,13 @@ def refuse_memory(scene: Scene, needed: int, limit: int) -> None:
         less = "less"
         if scene.ask.quantity == "response" and scene.ask.layers is None:
             less = "some layers of the response, as with ask.layers = [0]"
+        packing, more = scene.packing, ""
+        if packing.dimension == 3:
+            more = f"with a height of {packing.height} "
         raise TooLargeError(
-            "packing.height",
-            scene.packing.height,
-            f"this scene would need about {size(needed)} of memory and {size(limit)} may be "
+            "packing.width" if more else "packing.height",
+            packing.width if more else packing.height,
+            f"{more}this scene would need about {size(needed)} of memory and {size(limit)} may be "
             f"used: ask for {less}, or for a smaller packing",
         )
 

@@ -9,6 +9,8 @@ from ..quantities.base import Quantity
 from .plan import CERTIFY, ESTIMATE, Method, Step
 from .times import compiles
 
+_WHOLE = "spheres are always swept in whole layers"
+
 
 def steps_of(quantity: Quantity, problem: Problem, method: Method) -> tuple[Step, ...]:
     """List what is done for all realisations."""
@@ -74,12 +76,16 @@ def _judging(one: list[Step], problem: Problem, method: Method) -> Step:
 
 
 def _why_region(problem: Problem) -> str:
+    if problem.dimension == 3:
+        return f"{_WHOLE}, up to the highest load or bead asked for"
     if problem.region.beads == (problem.width or 0) * (problem.height + 1):
         return "the answer depends on every bead"
     return "only the beads that the answer depends on: the triangles below what is asked"
 
 
 def _why_forces(problem: Problem) -> str:
+    if problem.dimension == 3:
+        return _WHOLE
     if problem.load.loaded is not None:
         return "only beads in the downward cone of the load carry force"
     if problem.contact is not None:

@@ -273,6 +273,16 @@ def test_an_array_of_another_shape_is_refused(tmp_path: Path) -> None:
         fd.Scene(disorder=given, folder=tmp_path, **asked).run()
 
 
+def test_a_plan_says_that_spheres_are_swept_whole_and_names_the_width_that_takes_memory() -> None:
+    asked = scene("contact", height=3, width=9, at=(5, 5, 0, "1"))
+    why = {step.step: (step.reason, step.beads) for step in asked.explain().steps}
+    assert why["draw radii"][0].startswith("spheres are always swept in whole layers")
+    assert why["balance forces"] == ("spheres are always swept in whole layers", 3 * 81)
+    wide = scene("contact", height=3, width=10**6, at=(5, 5, 0, "1"))
+    with pytest.raises(fd.SceneError, match=r"packing.width = 1000000: with a height of 3 .*PB of"):
+        wide.explain()
+
+
 def test_what_no_load_reaches_is_not_solved_and_bears_nothing() -> None:
     load = fd.PointLoad(at=(1, 1, 2))
     asked = scene("contact", height=5, width=6, at=(1, 1, 3, "1"), load=load)
