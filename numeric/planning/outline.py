@@ -141,7 +141,10 @@ def outline(
         skipped.append(Skipped("load at an angle", "the load points straight down"))
     single = closed and quantity.single
     force_rows, region = ((), Region(load.width, ())) if single else quantity.beads(load)
-    radii, route = _theory(scene, region, skipped, ordered=ordered, closed=closed)
+    unloaded = not region.rows or (quantity.needs_forces and load.loaded == [])
+    radii, route = _theory(
+        scene, region, skipped, ordered=ordered, closed=closed, unloaded=unloaded
+    )
     realisations = scene.ask.realisations
     if realisations > 1 and route == Route.ORDERED:
         why = "without disorder all realisations are the same: one is solved"
@@ -202,7 +205,13 @@ def _refuse_beads(
 
 
 def _theory(
-    scene: Scene, region: Region, skipped: list[Skipped], *, ordered: bool, closed: bool
+    scene: Scene,
+    region: Region,
+    skipped: list[Skipped],
+    *,
+    ordered: bool,
+    closed: bool,
+    unloaded: bool,
 ) -> tuple[Radii, Route]:
     """Give the radii and the route, and say what that leaves out."""
 
@@ -231,9 +240,9 @@ def _theory(
     if not radii.relative_std() and not closed:
         skip("disorder", "every delta_r in the file is 0")
         return Monodisperse(), Route.ORDERED
-    if not closed and not region.rows:
+    if not closed and unloaded:
         skip("disorder", "no load reaches what is asked for: the forces are exactly zero")
-        return radii, Route.ORDERED
+        return Monodisperse(), Route.ORDERED
     if scene.effects.geometry == "exact":
         return radii, Route.EXACT
     skip("nonlinear geometry", 'geometry = "first-order" sums the radii along diagonals')

@@ -381,6 +381,27 @@ def test_a_file_of_loads_is_what_it_lists(tmp_path: Path) -> None:
     assert again.arrays["force"].tolist() == before.arrays["force"].tolist()
 
 
+@pytest.mark.parametrize(
+    ("quantity", "at"),
+    [("contact_forces", None), ("profile", None), ("histogram", None), ("base_reactions", None),
+     ("contact", (1, 1, 1, "1"))],
+)  # fmt: skip
+@pytest.mark.parametrize("geometry", ["exact", "first-order"])
+def test_a_file_without_loads_is_known_to_load_nothing(
+    quantity: str, at: Any, geometry: str, tmp_path: Path
+) -> None:
+    """As in two dimensions: certified zeros, and why."""
+    (tmp_path / "loads.csv").write_text("p,q,j,fx,fy,fz\n")
+    load = fd.Load(kind="file", file="loads.csv")
+    asked = scene(quantity, height=3, width=4, load=load, geometry=geometry, at=at)
+    found = asked.model_copy(update={"folder": tmp_path}).run()
+    reasons = [skipped.reason for skipped in found.plan.skipped]
+    assert "no load reaches what is asked for: the forces are exactly zero" in reasons
+    assert found.accuracy.certified
+    for name in ("force", "change", "mean", "std", "fz", "change_z"):
+        assert not any(float(f) for f in found.arrays.get(name, ()))
+
+
 def test_a_load_at_an_angle_comes_down_to_the_base() -> None:
     """Straight down less a push along x, in the ordered packing and in an exact one."""
     load = fd.PointLoad(at=(1, 1, 3), angle_deg=30, magnitude=2)
