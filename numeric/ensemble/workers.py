@@ -107,6 +107,8 @@ class InProcess:
             for first, stop in tasks:
                 yield first, stop, _without_unbuildable(m, first, stop)
             return
+        from threadpoolctl import threadpool_limits
+
         stopped = Event()
 
         def go_on(kind: str, beads: int) -> None:
@@ -117,20 +119,20 @@ class InProcess:
             return first, stop, _without_unbuildable(m, first, stop, go_on)
 
         pool = ThreadPoolExecutor(threads, initializer=take_one_core)
-        try:
-            pending: set[Future[tuple[int, int, AnySums]]] = set()
-            while True:
-                pending |= {
-                    pool.submit(block, *task) for task in islice(tasks, threads + 1 - len(pending))
-                }
-                if not pending:
-                    return
-                done, pending = wait(pending, return_when=FIRST_COMPLETED)
-                for future in done:
-                    yield future.result()
-        finally:
-            stopped.set()
-            pool.shutdown(cancel_futures=True)
+        with threadpool_limits(1, user_api="blas"):  # each multiplies matrices on its own core
+            try:
+                pending: set[Future[tuple[int, int, AnySums]]] = set()
+                while True:
+                    more = islice(tasks, threads + 1 - len(pending))
+                    pending |= {pool.submit(block, *task) for task in more}
+                    if not pending:
+                        return
+                    done, pending = wait(pending, return_when=FIRST_COMPLETED)
+                    for future in done:
+                        yield future.result()
+            finally:
+                stopped.set()
+                pool.shutdown(cancel_futures=True)
 
 
 _here: list[Measurement] = []  # what this process measures, if it is a worker

@@ -240,16 +240,18 @@ def _put(planes: dict[int, Array], k: int, rows: int, part: slice, plane: Array)
 
 def total_matrix(cut: Digits, size: int) -> ExactSum:
     """Sum x_a x_b over the last axis of an array (size, …), for all a ≤ b, row after row."""
-    upper = np.triu_indices(size)
-    summed = ExactSum.zero(len(upper[0]))
+    row, column = np.triu_indices(size)
+    here, there = row * size + column, column * size + row
+    summed = ExactSum.zero(len(here))
     for at in range(0, cut[0][1].shape[-1] if cut else 0, _TOGETHER):
         part = slice(at, at + _TOGETHER)
         planes = []
         for m, (k, p) in enumerate(cut):
             for other, q in cut[m:]:
-                product = (p[:, part] @ q[:, part].T).astype(np.int64)
+                product = (p[:, part] @ q[:, part].T).reshape(-1)
+                plane = product[here].astype(np.int64)
                 if q is not p:
-                    product = product + product.T
-                planes.append((k + other, product[upper]))
+                    plane += product[there].astype(np.int64)
+                planes.append((k + other, plane))
         summed = summed + ExactSum.of(planes, summed.shape)
     return summed

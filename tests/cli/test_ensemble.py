@@ -141,7 +141,7 @@ def test_scenes_without_an_ensemble(tmp_path: Path, capsys: pytest.CaptureFixtur
     path.write_text(SMALL.replace('"uniform", relative_std = 1e-4', '"normal", relative_std = 9'))
     status, _, err = call(capsys, path)
     assert status == 2
-    assert "wild.toml: 40 of 40 packings can't be built" in err
+    assert "wild.toml: 40 of 40 packings are left out" in err
     assert "realisation 0: bead (" in err
     path.write_text(SMALL.replace('"uniform", relative_std = 1e-4', '"normal", relative_std = 0.2'))
     status, out, _ = call(capsys, path)
