@@ -10,12 +10,14 @@ from concurrent.futures import (
     wait,
 )
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import reduce
 from itertools import islice
 from multiprocessing import active_children, get_context
 from operator import add
 from threading import Event
+from typing import Any, cast
 
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
 from ..arithmetic.machine import cores, memory_limit, share_cores, take_one_core
@@ -107,8 +109,6 @@ class InProcess:
             for first, stop in tasks:
                 yield first, stop, _without_unbuildable(m, first, stop)
             return
-        from threadpoolctl import threadpool_limits
-
         stopped = Event()
 
         def go_on(kind: str, beads: int) -> None:
@@ -119,7 +119,7 @@ class InProcess:
             return first, stop, _without_unbuildable(m, first, stop, go_on)
 
         pool = ThreadPoolExecutor(threads, initializer=take_one_core)
-        with threadpool_limits(1, user_api="blas"):  # each multiplies matrices on its own core
+        with _one_core_for_matrices():
             try:
                 pending: set[Future[tuple[int, int, AnySums]]] = set()
                 while True:
@@ -133,6 +133,15 @@ class InProcess:
             finally:
                 stopped.set()
                 pool.shutdown(cancel_futures=True)
+
+
+def _one_core_for_matrices() -> AbstractContextManager[Any]:
+    """Let each thread multiply matrices on its own core; BLAS takes all cores for each."""
+    try:
+        from threadpoolctl import threadpool_limits
+    except ImportError:  # numba alone, without the rest of the extra "fast": slower, no more
+        return nullcontext()
+    return cast(AbstractContextManager[Any], threadpool_limits(1, user_api="blas"))
 
 
 _here: list[Measurement] = []  # what this process measures, if it is a worker

@@ -262,13 +262,16 @@ def test_packings_that_can_not_be_built_are_left_out_and_counted() -> None:
         )
 
 
-@pytest.mark.parametrize("std", ["=1e-4", "=0.16"])
+@pytest.mark.parametrize(
+    ("std", "missing"), [("=1e-4", "nothing"), ("=0.16", "nothing"), ("=1e-4", "threadpoolctl")]
+)
 def test_threads_that_sweep_compiled_give_the_same_bytes(
-    std: str, monkeypatch: pytest.MonkeyPatch
+    std: str, missing: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Of rough packings, too, of which some can't be built: blocks come in any order."""
     pytest.importorskip("numba")
-    m = case("profile", kind="normal", relative_std=std)
+    monkeypatch.setitem(sys.modules, missing, None)
+    m = case("profile", kind="normal", relative_std=std, covariance=True)
     alone = run.run(m, 300, InProcess()).estimates.sums.to_bytes()
     names = set()
 
