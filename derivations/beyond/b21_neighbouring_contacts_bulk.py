@@ -12,11 +12,12 @@ from force_diffusion.derivations.beyond.neighbours import (
     COVARIANCES,
     FAR,
     OF_MEAN,
+    correlated,
     decided,
     far_is_zero,
+    hold_everywhere,
     near,
     none_far,
-    same_at,
     searched,
     spread,
     told,
@@ -24,11 +25,10 @@ from force_diffusion.derivations.beyond.neighbours import (
 )
 from force_diffusion.derivations.framework.follows import identity
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step
-from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
+from force_diffusion.symbolic.algebra.exact import RationalFunction
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, from_test
-from force_diffusion.symbolic.symbols import M, N, j, phi, q, r, sigma, z
-from force_diffusion.symbolic.variances.variance import leading
+from force_diffusion.symbolic.symbols import M, N, j, phi, r, sigma, z
 
 _RADII = power(times(sigma, 1 / r), 2)
 
@@ -100,23 +100,11 @@ def _uncorrelated() -> Ruling:
 
 
 def _everywhere() -> Ruling:
-    inside = ({M: j + q}, {j: 4, q: 3})
-    return from_test(
-        all(same_at(_form(), value, places, inside) for places, value in enumerate(covariances())),
-        "the three covariances hold for all j ≥ 4 and M ≥ j + 3",
-    )
+    return hold_everywhere(_form(), covariances(), 4, 3)
 
 
 def _leading() -> Ruling:
-    printed = leading(FIELD.from_sympy(eq14.PRINTED.rhs.doit().xreplace({z: j / M})))
-    shares = (sympy.Integer(1), -sympy.Rational(2, 3), sympy.Rational(1, 6))
-    return from_test(
-        all(
-            (leading(value) - printed * FIELD.from_sympy(share)).is_zero()
-            for value, share in zip(covariances(), shares, strict=True)
-        ),
-        "to leading order the correlations are −2/3 and 1/6: 2/(3N²) of Eq. 14 is left for N ≥ 2",
-    )
+    return correlated(covariances(), eq14.PRINTED.rhs.doit().xreplace({z: j / M}), 14)
 
 
 def _spread() -> Ruling:

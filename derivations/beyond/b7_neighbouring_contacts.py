@@ -11,11 +11,12 @@ from force_diffusion.derivations.beyond.neighbours import (
     FAR,
     OF_MEAN,
     Split,
+    correlated,
     decided,
     far_is_zero,
+    hold_everywhere,
     near,
     none_far,
-    same_at,
     searched,
     spread,
     told,
@@ -30,7 +31,6 @@ from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import M, N, j, k, p, phi, q, r, sigma, z
 from force_diffusion.symbolic.variances.orders import UNIT
-from force_diffusion.symbolic.variances.variance import leading
 
 MEAN_OF_N = Symbol(
     "mean_of_N_variance",
@@ -123,24 +123,11 @@ def _uncorrelated() -> Ruling:
 
 
 def _everywhere() -> Ruling:
-    """C_0, C_1, C_2 are those of the interior for all j ≥ 4, M ≥ j + 3."""
-    form, inside = eq11.in_radii(FORCE), ({M: j + q}, {j: 4, q: 3})
-    return from_test(
-        all(same_at(form, value, places, inside) for places, value in enumerate(covariances())),
-        "the three covariances hold for all j ≥ 4 and M ≥ j + 3",
-    )
+    return hold_everywhere(eq11.in_radii(FORCE), covariances(), 4, 3)
 
 
 def _leading() -> Ruling:
-    own, first, second = covariances()
-    printed = FIELD.from_sympy(eq13.PRINTED.rhs.xreplace({z: j / M}))
-    thirds = FIELD.from_sympy(-sympy.Rational(2, 3)), FIELD.from_sympy(sympy.Rational(1, 6))
-    return from_test(
-        (leading(own) - leading(printed)).is_zero()
-        and (leading(first) - leading(printed) * thirds[0]).is_zero()
-        and (leading(second) - leading(printed) * thirds[1]).is_zero(),
-        "to leading order the correlations are −2/3 and 1/6: 2/(3N²) of Eq. 13 is left for N ≥ 2",
-    )
+    return correlated(covariances(), eq13.PRINTED.rhs.xreplace({z: j / M}), 13)
 
 
 def _momentum() -> Ruling:

@@ -13,9 +13,9 @@ from force_diffusion.derivations.beyond.neighbours import (
     Split,
     decided,
     far_is_zero,
+    hold_everywhere,
     near,
     none_far,
-    same_at,
     searched,
     told,
     witnessed,
@@ -43,7 +43,6 @@ from force_diffusion.symbolic.symbols import (
     n_plus,
     p,
     phi,
-    q,
     r,
     sigma,
     z,
@@ -150,11 +149,7 @@ def _uncorrelated() -> Ruling:
 
 
 def _everywhere() -> Ruling:
-    inside = ({M: j + q}, {j: 5, q: 5})
-    return from_test(
-        all(same_at(_form(), value, places, inside) for places, value in enumerate(covariances())),
-        "the three covariances hold for all j ≥ 5 and M ≥ j + 5",
-    )
+    return hold_everywhere(_form(), covariances(), 5, 5)
 
 
 def _leading() -> Ruling:

@@ -1,4 +1,4 @@
-"""What Eqs. B7 and B8 have in common: the mean of N neighbours, from the covariances of two."""
+"""What Eqs. B7, B8 and B21 have in common: means of N neighbours, from covariances of two."""
 
 from collections.abc import Callable
 from fractions import Fraction
@@ -21,8 +21,9 @@ from force_diffusion.symbolic.kernel.decisions import (
 )
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.symbols import M, N, i, j, k, phi, r, sigma
+from force_diffusion.symbolic.symbols import M, N, i, j, k, phi, q, r, sigma
 from force_diffusion.symbolic.variances.means import covariance, covariances_by_case
+from force_diffusion.symbolic.variances.variance import leading
 
 FARTHEST = 2
 """Neighbours that are farther apart than this many places are uncorrelated."""
@@ -109,6 +110,36 @@ def same_at(form: sympy.Expr, general: RationalFunction, places: int, split: Spl
     return all(
         (case.value - case.put_in(stated)).is_zero()
         for case in covariances_by_case(left, right, lower, generic=3)
+    )
+
+
+def hold_everywhere(
+    form: sympy.Expr, covariances: tuple[RationalFunction, ...], layer: int, above: int
+) -> Ruling:
+    """C_0, C_1, C_2 are those of the interior for all j ≥ ``layer``, M ≥ j + ``above``."""
+    inside = ({M: j + q}, {j: layer, q: above})
+    return from_test(
+        all(same_at(form, value, places, inside) for places, value in enumerate(covariances)),
+        f"the three covariances hold for all j ≥ {layer} and M ≥ j + {above}",
+    )
+
+
+CORRELATIONS = (sympy.Integer(1), -sympy.Rational(2, 3), sympy.Rational(1, 6))
+"""Of a contact with itself and its first two neighbours, to leading order."""
+
+
+def correlated(
+    covariances: tuple[RationalFunction, ...], variance: sympy.Expr, number: int
+) -> Ruling:
+    """To leading order they are the shares ``CORRELATIONS`` of the variance of Eq. ``number``."""
+    printed = leading(FIELD.from_sympy(variance))
+    return from_test(
+        all(
+            (leading(value) - printed * FIELD.from_sympy(share)).is_zero()
+            for value, share in zip(covariances, CORRELATIONS, strict=True)
+        ),
+        f"to leading order the correlations are −2/3 and 1/6: 2/(3N²) of Eq. {number} is left "
+        "for N ≥ 2",
     )
 
 
