@@ -13,13 +13,12 @@ from ..arithmetic.systems import (
     BigFloat,
     NumberSystem,
 )
-from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii
+from ..disorder.radii import ArrayRadii, MeasuredRadii
 from ..mechanics.problem import Problem
-from ..quantities.base import Quantity, wide
+from ..quantities.base import Quantity, has_theory
 from ..scene.scene import Scene
 from ..theory.critical_height import critical_height
 from ..theory.expected import ExpectedTension, expected_tension, expected_tension_of_spheres
-from ..theory.tension import LOADS
 
 ESTIMATE, CERTIFY = "estimate the error", "certify"
 # What errors of float64 are estimated with: an own long double, where the platform has one.
@@ -153,14 +152,10 @@ class Plan:
         surface and bulk loads, of spheres straight down, whose contacts may pull.
         """
         load, problem = self.scene.load, self.problem
-        drawn = isinstance(problem.radii, DrawnRadii)
-        stays = self.scene.effects.contacts == "bilateral"
-        known = drawn and stays and load.kind in LOADS and self.quantity.needs_forces
-        if not known or problem.width is None or not wide(problem):
+        known = self.scene.effects.contacts == "bilateral" and self.quantity.needs_forces
+        if not known or problem.width is None or not has_theory(problem):
             return None
         phi, std = float(1 - 2 * problem.n_x**2), float(problem.radii.relative_std())
-        if problem.dimension == 3 and load.angle_deg:
-            return None
         if problem.dimension == 3:
             return expected_tension_of_spheres(problem.height, problem.width, phi, std, load.kind)
         plus, minus = map(float, problem.load.strength(problem.n_x, FLOAT64).unit)

@@ -329,10 +329,17 @@ def column(values: Sequence[Any], system: NumberSystem) -> Array:
     return filled
 
 
-def wide(problem: Problem) -> bool:
-    """Say whether first-order forces see no images."""
+def has_theory(problem: Problem) -> bool:
+    """Say whether the closed forms of variances hold: Eqs. 13, 14, B2, B3, B13 and B14.
+
+    They are those of drawn radii under loads on whole layers, of spheres straight down, where
+    first-order forces see no images.
+    """
+    load, drawn = problem.load, isinstance(problem.radii, DrawnRadii)
+    if not drawn or load.loaded is not None:
+        return False
     if problem.dimension == 3:
-        return side(problem) > problem.height + 1
+        return not load.angle_deg and side(problem) > problem.height + 1
     return problem.width is None or problem.width > problem.height
 
 
@@ -349,17 +356,11 @@ def first_order_std(problem: Problem) -> PerBranch[list[Fraction]] | None:
     None where they don't apply. Each is a float64 times the exact σ/r, in units of the load.
     """
     load, radii = problem.load, problem.radii
-    if (
-        problem.route == Route.ORDERED
-        or not isinstance(radii, DrawnRadii)
-        or load.loaded is not None
-        or not wide(problem)
-    ):
+    if problem.route == Route.ORDERED or not has_theory(problem):
         return None
+    assert isinstance(radii, DrawnRadii)
     phi = float(1 - 2 * problem.n_x**2)
     over = [problem.height - j if load.kind == "bulk" else 1 for j in range(problem.height)]
-    if problem.dimension == 3 and load.angle_deg:
-        return None
     if problem.dimension == 3:
         root = math.sqrt(3 * (1 + 2 * phi))
         found = [
