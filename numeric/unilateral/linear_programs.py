@@ -26,7 +26,7 @@ CLOSE = 0.8
 # Where fewer contacts than this are new, the simplex method goes on from the last vertex: it costs
 # what has changed. Before, interior points are faster.
 FEW = 200
-# Forces below this share of the largest one are none.
+# Forces below this share of the largest one are none: what float64 and the programs leave.
 NO_FORCE = 1e-7
 # Coordinates from which on HiGHS's newer interior points, if installed, are faster.
 LARGE = 8000

@@ -22,10 +22,9 @@ from ..mechanics.work import Work
 from . import event_driven, linear_programs
 from .certificate import Certificate, certify
 from .grains import Grains, Pairs
+from .linear_programs import NO_FORCE
 from .network import Frame, Network, Relaxed, UnfinishedError
 
-# Forces below this share of the largest one are none: what float64 and the programs leave.
-NO_FORCE = 1e-7
 # Gaps up to this, in units of r, may be contacts after the linear programs.
 NEARLY = 1e-5
 
