@@ -208,9 +208,9 @@ def _compiled(
 
     Gives also the a, b of packings, and realisations that are out of the ordinary.
     """
-    sweeps, loads = engine.ready(problem, FLOAT64)
-    if sweeps is None or loads is None:
+    if not engine.compiles(problem, FLOAT64):
         return none(m), [], realisations
+    sweeps, loads = engine.ready(problem, FLOAT64)
     descent = sweeps.descent(problem.force_rows, loads)
     tally, packings, left = _tally(m, descent), list[Array](), list[int]()
     beads, step = problem.region.beads, engine.at_once(problem)

@@ -177,12 +177,9 @@ def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
         return _Part(physical, {}, {"change": np.array([min(lows), max(highs)])})
     if isinstance(quantity, Response):
         table = quantity.rows_of(problem, solved, layers)
-        rows_there = table.rows
-        return _Part(
-            physical,
-            {k: v.tolist() for k, v in table.index.items()} if rows_there else {},
-            table.numbers if rows_there else {},
-        )
+        if not table.rows:
+            return _Part(physical, {}, {})
+        return _Part(physical, {k: v.tolist() for k, v in table.index.items()}, table.numbers)
     contact = problem.contact
     wanted = 1 if contact is None else contact.j + 1  # the layer whose forces are the answer
     if wanted not in layers:
