@@ -25,8 +25,8 @@ from force_diffusion.symbolic.printing.text import text
 Mapped = Mapping[sympy.Basic, sympy.Expr]
 """What is put in for symbols."""
 
-LATTICE = {sy.i: sy.j, sy.k: sy.l, sy.site_r: sy.site_s}
-"""Indices of beads: of each pair the sum is even."""
+LATTICE = ((sy.i, sy.j), (sy.k, sy.l), (sy.site_r, sy.site_s))
+"""Indices of beads, across and up: their sum is even."""
 
 _SIGNS = {sympy.Eq: "=", sympy.Le: "≤", sympy.Lt: "<", sympy.Ge: "≥", sympy.Gt: ">"}
 _MANY = 4000  # rows of an elimination; beyond that nothing is decided
@@ -74,12 +74,14 @@ class Where:
         indices: whole numbers that it speaks of, every one of the domain.
         relations: between whole numbers; all of them hold.
         loading: what is known of loads and forces; None for a statement about geometry alone.
+        even: sums of indices that are even, since beads are there: i + j of a bead (i, j).
         dimension: of the packing: −1/dimension < φ < ½.
     """
 
     indices: tuple[sympy.Symbol, ...] = ()
     relations: tuple[sympy.Basic, ...] = ()
     loading: Loading | None = None
+    even: tuple[sympy.Expr, ...] = ()
     dimension: int = 2
     _rows: frozenset[Affine] = field(init=False, repr=False)
 
@@ -96,13 +98,15 @@ class Where:
     ) -> "Where":
         """The domain of all indices that the relations and the load speak of, and further ones.
 
-        With the layer of a bead its other index is one of them.
+        With one index of a bead the other is one of them.
         """
         held = {*indices}.union(*(one.free_symbols for one in relations))
         if loading:
             held |= set().union(*(one.free_symbols for one in loading.place))
-        held |= {across for across, layer in LATTICE.items() if layer in held}
-        return cls(tuple(s for s in sy.INDICES if s in held), relations, loading)
+        beads = [bead for bead in LATTICE if held & set(bead)]
+        held = held.union(*beads)
+        ordered = tuple(symbol for symbol in sy.INDICES if symbol in held)
+        return cls(ordered, relations, loading, tuple(across + layer for across, layer in beads))
 
     def also(self, *relations: sympy.Basic, indices: Iterable[sympy.Symbol] = ()) -> "Where":
         """The part of it where further relations hold, in further indices."""
@@ -112,14 +116,23 @@ class Where:
             self, indices=held, relations=(*self.relations, *more)
         )  # fmt: skip
 
+    def within(self, index: sympy.Symbol, low: sympy.Expr, high: sympy.Expr) -> "Where":
+        """The domain of the terms of a sum."""
+        return self.also(sympy.Ge(index, low), sympy.Le(index, high), indices=(index,))
+
     def put_in(self, image: Mapped, indices: Iterable[sympy.Symbol]) -> "Where":
         """The domain of other indices, in terms of which these are given."""
         relations = tuple(
             one.func(*(side.xreplace(image) for side in one.args), evaluate=False)
             for one in self.relations
         )
-        loading = self.loading and self.loading.put_in(image)
-        return replace(self, indices=tuple(indices), relations=relations, loading=loading)
+        return replace(
+            self,
+            indices=tuple(indices),
+            relations=relations,
+            loading=self.loading and self.loading.put_in(image),
+            even=tuple(sympy.expand(one.xreplace(image)) for one in self.even),
+        )
 
     # what follows
 
@@ -197,13 +210,26 @@ class Where:
                 found *= one ** (power % 2) if one else 0
         return found
 
+    def is_even(self, value: Affine) -> bool:
+        """Whether an affine expression is even at every point with beads at their places."""
+        equations = [one.lhs - one.rhs for one in self.relations if isinstance(one, sympy.Eq)]
+        known: list[Affine] = []
+        for one in (*map(affine.from_sympy, map(sympy.expand, (*self.even, *equations))), value):
+            rest = tuple(c % 2 for c in one)
+            for row in known:
+                if rest[row.index(1)]:
+                    rest = tuple((a + b) % 2 for a, b in zip(rest, row, strict=True))
+            if any(rest):
+                known.append(rest)
+            last = not any(rest)
+        return last
+
     def on_lattice(self, across: sympy.Expr, layer: sympy.Expr) -> bool:
         """Whether (across, layer) is a bead: the sum is even, and the layer not below the base."""
-        value = affine.add(affine.from_sympy(across), affine.from_sympy(layer))
-        for one, other in LATTICE.items():
-            value = affine.from_sympy(affine.to_sympy(value).xreplace({one: other}))
-        even = not any(coefficient % 2 for coefficient in value)
-        return even and self.nonnegative(affine.from_sympy(layer))
+        height = affine.from_sympy(layer)
+        return self.is_even(affine.add(affine.from_sympy(across), height)) and self.nonnegative(
+            height
+        )
 
     # how it is shown, and its points
 
@@ -233,9 +259,7 @@ class Where:
             at = dict(zip(free, values, strict=True))
             for symbol, value in self.solved.items():
                 at[symbol] = int(value.xreplace(at))
-            if self.holds(at) and not any(
-                (at[a] + at[b]) % 2 for a, b in LATTICE.items() if a in at and b in at
-            ):
+            if self.holds(at) and not any(one.xreplace(at) % 2 for one in self.even):
                 yield at
 
     def holds(self, at: Mapping[sympy.Symbol, int]) -> bool:
