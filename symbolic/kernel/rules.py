@@ -173,6 +173,37 @@ def solve(
     return rule
 
 
+def below(balance: Theorem, *facts: Theorem | tuple[Theorem, ...]) -> Rule:
+    """A contact's force, by ``solve`` from the balance of the bead above it."""
+
+    def rule(formula: sympy.Eq, where: Where) -> Theorem:
+        check(formula, where)
+        about, value = isolated(formula, where)
+        branch = _BRANCHES.get(type(about))
+        if branch is None:
+            raise NotProvedError(f"{text(about)} is no contact force")
+        across, layer = about.args[0] + branch, about.args[1] + 1
+        bead = dict(zip((sy.site_r, sy.site_s), map(sympy.expand, (across, layer)), strict=True))
+        row = instance(balance, bead, where)
+        unknowns = [force(*_from(bead, one)) for force, one in _BRANCHES.items()]
+        own = next(one for one in unknowns if type(one) is type(about))
+        if not holds(equation(own, about), where):
+            raise NotProvedError(f"{text(about)} is not below {text(own)}")
+        solve([row], unknowns, *facts)(equation(own, value), where)
+        return made(formula, where, "balance of the bead above", (balance, *flat(facts)))
+
+    return rule
+
+
+_BRANCHES = {sy.ForcePlus: 1, sy.ForceMinus: -1}
+
+
+def _from(bead: Mapping[sympy.Symbol, sympy.Expr], branch: int) -> tuple[sympy.Expr, sympy.Expr]:
+    """The support of a bead from which a branch leads to it."""
+    across, layer = bead.values()
+    return sympy.expand(across - branch), sympy.expand(layer - 1)
+
+
 def _named(
     unknowns: Sequence[sympy.Expr], components: Basis
 ) -> tuple[dict[sympy.Expr, sympy.Expr], dict[sympy.Expr, tuple[sympy.Symbol, ...]]]:

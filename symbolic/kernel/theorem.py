@@ -375,8 +375,8 @@ def place(
     for symbol, name in names.items():
         for number, row in enumerate(rows):
             c = row.coeff(name)
-            if c in (1, -1):
-                value = sympy.expand(-(row - c * name) / c)
+            value = sympy.expand(-(row - c * name) / c) if c else None
+            if value is not None and all(one.is_Integer for one in value.as_coefficients_dict().values()):
                 rows = [sympy.expand(other.xreplace({name: value})) for other in rows]
                 rows[number] = sympy.S.Zero
                 image = {s: sympy.expand(e.xreplace({name: value})) for s, e in image.items()}
