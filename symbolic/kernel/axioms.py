@@ -58,15 +58,17 @@ def contact(branch: int) -> Theorem:
 
 @cache
 def direction(branch: int) -> Theorem:
-    """What δn^± is: the separation of two touching beads over the sum of their radii, n^± + δn^±.
+    """What δn^± is: n^± + εδn^± is the separation of two touching beads over their radii.
 
-    To first order (n^± + δn^±)(2r + δr_ij + δr_above) = 2r n^± + δx_above − δx_ij.
+    At every strength ε, with bead (i, j) below: (n^± + εδn^±)(2r + ε(δr_ij + δr_above)) =
+    2r n^± + ε(δx_above − δx_ij).
     """
     above = (i + branch, j + 1)
     unit, change = (n_plus, sy.DeltaNPlus(i, j)) if branch == 1 else (n_minus, sy.DeltaNMinus(i, j))
     radii = sy.DeltaR(i, j) + sy.DeltaR(*above)
     moved = sy.DeltaX(*above) - sy.DeltaX(i, j)
-    return _axiom(2 * r * change, moved - radii * unit, _ANY_BEAD)
+    left = (unit + sy.epsilon * change) * (2 * r + sy.epsilon * radii)
+    return _axiom(left, 2 * r * unit + sy.epsilon * moved, _ANY_BEAD)
 
 
 @cache

@@ -6,7 +6,6 @@ What finds a proof (places, factors, unknowns) is not trusted; that it is one is
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
 from itertools import permutations
 
 import sympy
@@ -29,7 +28,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     made,
     put_in,
 )
-from force_diffusion.symbolic.kernel.where import LATTICE, Loading, Where
+from force_diffusion.symbolic.kernel.where import LATTICE, Where
 from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.mechanics.contacts import E_X
 from force_diffusion.symbolic.printing.text import text
@@ -101,6 +100,14 @@ def _factor(new: Sequence[LinearForm], old: Sequence[LinearForm]) -> RationalFun
 
 def _are_equal(left: Iterable[LinearForm], right: Iterable[LinearForm]) -> bool:
     return all((a - b).is_zero() for a, b in zip(left, right, strict=True))
+
+
+def along(theorem: Theorem, vector: sympy.Symbol) -> Theorem:
+    """The component of an equation between vectors along a base vector."""
+    formula = equation(*(sy.Dot(vector, side) for side in theorem.formula.args))
+    if vector not in sy.VECTORS:
+        raise NotProvedError(f"{text(vector)} is no base vector")
+    return made(formula, theorem.where, "component", (theorem,))
 
 
 def order(theorem: Theorem, power: int) -> Rule:
@@ -318,13 +325,10 @@ def mirror(theorem: Theorem) -> Theorem:
     """
     if _ACROSS & {one.index for one in theorem.supposed}:
         raise NotProvedError("it is supposed for one place across the packing")
-    own, formula = theorem.where, lattice.mirror(theorem.formula)
+    formula = lattice.mirror(theorem.formula)
     if any(map(_across_by_itself, formula.args)):
         raise NotProvedError("it holds an index across the packing beside its places")
-    relations = tuple(map(lattice.mirrored_relation, own.relations))
-    loading = own.loading and _mirrored_loading(own.loading)
-    where = replace(own, relations=relations, loading=loading)
-    return made(formula, where, "mirror", (theorem,))
+    return made(formula, theorem.where.mirrored(), "mirror", (theorem,))
 
 
 def _across_by_itself(node: sympy.Basic) -> bool:
@@ -334,24 +338,6 @@ def _across_by_itself(node: sympy.Basic) -> bool:
     if isinstance(node, sy.MatrixTimes) or node in _ACROSS:
         return True
     return any(map(_across_by_itself, node.args))
-
-
-def _mirrored_loading(loading: Loading) -> Loading:
-    """The mirror image of a loading; one that is its own stays the same object."""
-    given = tuple(map(lattice.mirror, loading.given))
-    everywhere = tuple(
-        (lattice.mirror(one), tuple(map(lattice.mirrored_relation, when)))
-        for one, when in loading.everywhere
-    )
-    if set(given) == set(loading.given) and set(everywhere) == set(loading.everywhere):
-        return loading
-    return replace(
-        loading,
-        name=f"{loading.name}, mirrored",
-        words=f"the mirror image of: {loading.words}",
-        given=given,
-        everywhere=everywhere,
-    )
 
 
 def suppose(formula: sympy.Eq, where: Where, supposition: Supposition, before: int) -> Theorem:
@@ -436,6 +422,34 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
             if not holds(equation(*sides), one.where):
                 raise NotProvedError(f"it does not obey {text(one.formula.lhs)}")
         return made(formula, where, "reach", (origin, *up))
+
+    return rule
+
+
+def walk(
+    start: Mapping[sympy.Symbol, sympy.Expr],
+    following: Mapping[sympy.Symbol, sympy.Expr],
+    count: sympy.Symbol,
+) -> Rule:
+    """The site that a number of steps leads to, from ``start``; ``following`` is one step.
+
+    The theorem holds for that site alone, which its domain says.
+    """
+
+    def rule(formula: sympy.Eq, where: Where) -> Theorem:
+        check(formula, where)
+        index, value = formula.args
+        if index not in start or index not in following:
+            raise NotProvedError(f"{text(index)} is no index of the site")
+        if value.free_symbols & set(start):
+            raise NotProvedError("the site is not given by the number of steps alone")
+        first = equation(value.xreplace({count: _NOTHING}), start[index])
+        after = following[index].xreplace({index: value})
+        if not (
+            holds(first, where) and holds(equation(value.xreplace({count: count + 1}), after), where)
+        ):
+            raise NotProvedError("the steps do not lead there")
+        return made(formula, where.also(formula), "walk")
 
     return rule
 

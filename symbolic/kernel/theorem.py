@@ -80,7 +80,7 @@ class Theorem:
         return tuple(symbol for symbol in self.where.indices if symbol not in stay)
 
     @cached_property
-    def solved(self) -> tuple[sy.SiteFunction, sympy.Expr]:
+    def solved(self) -> tuple[sympy.Expr, sympy.Expr]:
         """What it is about, alone, and what that equals.
 
         Raises:
@@ -266,13 +266,16 @@ def holds(formula: sympy.Eq, where: Where) -> bool:
 # one quantity of an equation alone
 
 
-def subject(side: sympy.Expr) -> sy.SiteFunction | None:
-    """The quantity that a side is about: a factor of it, to the first power."""
+def subject(side: sympy.Expr) -> sympy.Expr | None:
+    """What a side is about: a quantity that is a factor of it, or an unknown number alone."""
     found = [one for one in sympy.Mul.make_args(side) if isinstance(one, sy.SiteFunction)]
-    return found[0] if len(found) == 1 else None
+    if len(found) == 1:
+        return found[0]
+    known = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
+    return side if isinstance(side, sympy.Symbol) and side not in known else None
 
 
-def isolated(formula: sympy.Eq, where: Where) -> tuple[sy.SiteFunction, sympy.Expr]:
+def isolated(formula: sympy.Eq, where: Where) -> tuple[sympy.Expr, sympy.Expr]:
     """What an equation is about, and what that equals.
 
     Raises:

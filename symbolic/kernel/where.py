@@ -18,6 +18,7 @@ from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.affine import Affine
 from force_diffusion.symbolic.algebra.exact import Domain, NotExactError
 from force_diffusion.symbolic.algebra.signs import sign
+from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.text import text
@@ -64,6 +65,22 @@ class Loading:
             given=tuple(map(at, self.given)),
             everywhere=tuple((at(one), tuple(map(at, when))) for one, when in self.everywhere),
         )
+
+
+    def mirrored(self) -> "Loading":
+        """The mirror image; one that is its own stays the same."""
+        given = tuple(map(lattice.mirror, self.given))
+        everywhere = tuple(
+            (lattice.mirror(one), tuple(map(lattice.mirrored_relation, when)))
+            for one, when in self.everywhere
+        )
+        if set(given) == set(self.given) and set(everywhere) == set(self.everywhere):
+            return self
+        end = ", mirrored"
+        name = self.name.removesuffix(end) if self.name.endswith(end) else self.name + end
+        before = "the mirror image of: "
+        words = before + self.words if name.endswith(end) else self.words.removeprefix(before)
+        return replace(self, name=name, words=words, given=given, everywhere=everywhere)
 
 
 @dataclass(frozen=True)
@@ -133,6 +150,12 @@ class Where:
             loading=self.loading and self.loading.put_in(image),
             even=tuple(sympy.expand(one.xreplace(image)) for one in self.even),
         )
+
+    def mirrored(self) -> "Where":
+        """The domain of the mirror image of a statement."""
+        relations = tuple(map(lattice.mirrored_relation, self.relations))
+        loading = self.loading and self.loading.mirrored()
+        return replace(self, relations=relations, loading=loading)
 
     # what follows
 
@@ -239,7 +262,9 @@ class Where:
         image: dict[sympy.Symbol, sympy.Expr] = {}
         for one in self.relations:
             if isinstance(one, sympy.Eq):
-                value = affine.from_sympy(sympy.expand((one.lhs - one.rhs).xreplace(image)))
+                value = _tightened(
+                    affine.from_sympy(sympy.expand((one.lhs - one.rhs).xreplace(image)))
+                )
                 for symbol in self.indices:
                     c = affine.coefficient(value, symbol)
                     if abs(c) == 1:
