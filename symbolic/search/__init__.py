@@ -1,0 +1,1 @@
+"""Counterexamples on explicit small packings: knows nothing of how the kernel decides."""

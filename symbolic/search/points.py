@@ -1,0 +1,110 @@
+"""Integer points of a domain at which to try a statement: generic ones first, then small ones.
+
+A statement may be wrong in one layer, at one height, or where two indices coincide; all small
+combinations of layers, heights and counts are tried. Along a layer the packing is the same
+everywhere, so that of the places there a few, ever others, are enough.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
+from itertools import product
+from random import Random
+
+import sympy
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra import affine
+from force_diffusion.symbolic.kernel.where import LATTICE, Where
+
+Point = dict[sympy.Symbol, int]
+
+GENERIC, SMALL, LARGE = 4, 150, 2
+"""How many of each kind are tried, at most."""
+
+_REACH = {1: 12, 2: 7, 3: 6, 4: 5}  # of small points, by how many indices are free
+_TRIES = 400
+_ACROSS = (0, 1, -1, 2, -3, 4, -2, 3, 5, -4, 6, -5)
+
+
+def points(where: Where) -> Iterator[Point]:
+    """Yield points of a domain in the order in which they are to be tried."""
+    yield from generic(where)
+    yield from small(where)
+
+
+@lru_cache(maxsize=512)
+def generic(where: Where) -> tuple[Point, ...]:
+    """Points in the middle of a domain, drawn with a fixed seed."""
+    return tuple(_first(GENERIC, _drawn(where, 2, 9), ()))
+
+
+@lru_cache(maxsize=512)
+def small(where: Where) -> tuple[Point, ...]:
+    """Small points, then a few larger ones."""
+    found = _first(SMALL, _smallest(where), generic(where))
+    found += _first(LARGE, _drawn(where, 5, 14), (*generic(where), *found))
+    return tuple(found)
+
+
+def _first(count: int, source: Iterable[Point], known: Iterable[Point]) -> list[Point]:
+    """The first points that are not known yet, each once."""
+    seen = {tuple(at.items()) for at in known}
+    found: list[Point] = []
+    for at in source:
+        key = tuple(at.items())
+        if key not in seen:
+            seen.add(key)
+            found.append(at)
+            if len(found) == count:
+                break
+    return found
+
+
+class _Domain:
+    """The indices of a domain that are free, and a point of it from their values."""
+
+    def __init__(self, where: Where) -> None:
+        self.where = where
+        free = [one for one in where.indices if one not in where.solved]
+        across = [one for one in free if one in LATTICE]
+        self.along = across[:1]  # one place along a layer is as good as another
+        self.others = across[1:] + [one for one in free if one not in LATTICE]
+        self._positive = [one for one in where.indices if one.is_positive]
+        self._solved = [(one, affine.from_sympy(value)) for one, value in where.solved.items()]
+
+    def point(self, values: Iterable[int], along: Sequence[int]) -> Point | None:
+        """The point with these values, with the first place along the layers at which it is one."""
+        at = dict(zip(self.others, values, strict=True))
+        for place in along if self.along else (0,):
+            at.update(dict.fromkeys(self.along, place))
+            for symbol, value in self._solved:
+                terms = zip(sy.INDICES, value, strict=False)
+                at[symbol] = value[-1] + sum(c * at[one] for one, c in terms if c)
+            even = not any((at[a] + at[b]) % 2 for a, b in LATTICE.items() if a in at and b in at)
+            if even and all(at[one] > 0 for one in self._positive) and self.where.holds(at):
+                return {symbol: at[symbol] for symbol in self.where.indices}
+        return None
+
+
+def _drawn(where: Where, low: int, high: int) -> Iterator[Point]:
+    domain, random = _Domain(where), Random(2 * high + low)
+    for _ in range(_TRIES):
+        values = [random.randint(low, high) for _ in domain.others]
+        start = random.randint(-high, high)
+        at = domain.point(values, (start, start + 1))
+        if at is not None:
+            yield at
+
+
+def _smallest(where: Where) -> Iterator[Point]:
+    domain = _Domain(where)
+    reach = _REACH.get(len(domain.others), 2)
+    ranges = [
+        range(0 if where.implies(symbol >= 0) else -reach, reach + 1) for symbol in domain.others
+    ]
+    combinations = sorted(product(*ranges), key=lambda values: sum(map(abs, values)))
+    for turn in range(len(_ACROSS)):
+        for count, values in enumerate(combinations):
+            start = (turn + count) % len(_ACROSS)
+            at = domain.point(values, _ACROSS[start:] + _ACROSS[:start])
+            if at is not None:
+                yield at
