@@ -5,7 +5,7 @@ uses. The kernel proves what is shown; anything else said in its place goes the 
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
 
@@ -13,7 +13,14 @@ import sympy
 from force_diffusion.derivations.framework.follows import put_in
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel import rules
-from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, proved
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    Verdict,
+    all_of,
+    proved,
+    refuted,
+    undecided,
+)
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import (
     NotProvedError,
@@ -23,7 +30,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     subject,
 )
 from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.search.counterexample import refuted_or_undecided
+from force_diffusion.symbolic.search.counterexample import counterexample
 
 Meaning = Mapping[Any, Any]
 """What a line writes in short: for a symbol, or for a function of its arguments."""
@@ -208,9 +215,7 @@ def in_terms_of(
     by: By,
 ) -> By:
     """A statement in other indices."""
-    return By(
-        lambda supposed: rules.in_terms_of(image, back, other, by.rule(supposed)), (by,)
-    )
+    return By(lambda supposed: rules.in_terms_of(image, back, other, by.rule(supposed)), (by,))
 
 
 def mirror_of(source: Source) -> By:
@@ -274,7 +279,7 @@ class Line:
     formula: sympy.Basic
     by: By | tuple[By, ...]
     where: Where | tuple[Where, ...]
-    meaning: Meaning | tuple[Meaning, ...] = field(default_factory=dict)
+    meaning: Meaning | tuple[Meaning, ...] | None = None
     after: tuple[Proved, ...] = ()
     number: int = 0
     relation: str = "="
@@ -312,13 +317,15 @@ class Line:
         try:
             theorem = self.prove(part, candidate)
         except NotProvedError as reason:
-            meant = self._meant(part, candidate)
-            return refuted_or_undecided(meant, _at(part, self.where), str(reason))
+            found = counterexample(self._meant(part, candidate), _at(part, self.where))
+            return refuted(found) if found else undecided(str(reason))
         return proved(f"by the rule: {theorem.rule}")
 
     def _meant(self, part: int, candidate: sympy.Eq) -> sympy.Eq:
         meaning = _at(part, self.meaning)
-        return equation(*(put_in(side, meaning) for side in candidate.args)) if meaning else candidate
+        return (
+            equation(*(put_in(side, meaning) for side in candidate.args)) if meaning else candidate
+        )
 
     @cached_property
     def theorems(self) -> tuple[Theorem, ...]:
@@ -367,7 +374,7 @@ class Lines(list[Line]):
         by: By | tuple[By, ...],
         *,
         where: Where | tuple[Where, ...] | None = None,
-        meaning: Meaning | tuple[Meaning, ...] = {},
+        meaning: Meaning | tuple[Meaning, ...] | None = None,
         after: tuple[Proved, ...] = (),
     ) -> Line:
         """Add a line and return it."""

@@ -12,7 +12,6 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.theorem import Theorem, made
 from force_diffusion.symbolic.kernel.where import Loading, Where
-from force_diffusion.symbolic.mechanics.contacts import E_X
 from force_diffusion.symbolic.symbols import i, j, n_minus, n_plus, r, site_r, site_s
 
 _ANY_BEAD = Where.of(j >= 0)
@@ -50,7 +49,7 @@ def contact(branch: int) -> Theorem:
     apart = (n_plus if branch == 1 else n_minus) * 2 * r
     moved = sy.DeltaX(i, j) - sy.DeltaX(*support)
     radii = sy.DeltaR(i, j) + sy.DeltaR(*support)
-    separation = [sy.Dot(e, apart) + sy.epsilon * sy.Dot(e, moved) for e in (E_X, sy.e_y)]
+    separation = [sy.Dot(e, apart) + sy.epsilon * sy.Dot(e, moved) for e in (sy.e_x, sy.e_y)]
     return _axiom(
         separation[0] ** 2 + separation[1] ** 2, (2 * r + sy.epsilon * radii) ** 2, Where.of(j >= 1)
     )

@@ -30,7 +30,6 @@ from force_diffusion.symbolic.kernel.theorem import (
 )
 from force_diffusion.symbolic.kernel.where import LATTICE, Where
 from force_diffusion.symbolic.mechanics import lattice
-from force_diffusion.symbolic.mechanics.contacts import E_X
 from force_diffusion.symbolic.printing.text import text
 
 Rule = Callable[[sympy.Eq, Where], Theorem]
@@ -216,7 +215,7 @@ def _named(
 ) -> tuple[dict[sympy.Expr, sympy.Expr], dict[sympy.Expr, tuple[sympy.Symbol, ...]]]:
     """Names for unknown numbers; two for a vector, its components in a basis."""
     image, names, spare = {}, {}, list(reversed(UNKNOWNS[1]))
-    first, second = (sy.b_plus, sy.b_minus) if components is LINE_SUM else (E_X, sy.e_y)
+    first, second = (sy.b_plus, sy.b_minus) if components is LINE_SUM else (sy.e_x, sy.e_y)
     for one in unknowns:
         if getattr(one, "is_vector", False):
             names[one] = (spare.pop(), spare.pop())
@@ -446,7 +445,8 @@ def walk(
         first = equation(value.xreplace({count: _NOTHING}), start[index])
         after = following[index].xreplace({index: value})
         if not (
-            holds(first, where) and holds(equation(value.xreplace({count: count + 1}), after), where)
+            holds(first, where)
+            and holds(equation(value.xreplace({count: count + 1}), after), where)
         ):
             raise NotProvedError("the steps do not lead there")
         return made(formula, where.also(formula), "walk")

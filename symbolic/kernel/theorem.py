@@ -379,7 +379,9 @@ def place(
         for number, row in enumerate(rows):
             c = row.coeff(name)
             value = sympy.expand(-(row - c * name) / c) if c else None
-            if value is not None and all(one.is_Integer for one in value.as_coefficients_dict().values()):
+            if value is not None and all(
+                one.is_Integer for one in value.as_coefficients_dict().values()
+            ):
                 rows = [sympy.expand(other.xreplace({name: value})) for other in rows]
                 rows[number] = sympy.S.Zero
                 image = {s: sympy.expand(e.xreplace({name: value})) for s, e in image.items()}

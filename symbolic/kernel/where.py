@@ -66,7 +66,6 @@ class Loading:
             everywhere=tuple((at(one), tuple(map(at, when))) for one, when in self.everywhere),
         )
 
-
     def mirrored(self) -> "Loading":
         """The mirror image; one that is its own stays the same."""
         given = tuple(map(lattice.mirror, self.given))
