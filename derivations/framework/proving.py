@@ -346,6 +346,10 @@ class Line:
         """``proved``, ``refuted`` or ``undecided``."""
         return self.ruling.verdict
 
+    def decide(self) -> Ruling:
+        """The same as ``ruling``, for what asks a function."""
+        return self.ruling
+
 
 def _at(part: int, one: Any) -> Any:
     return one[part] if isinstance(one, tuple) else one
@@ -366,6 +370,14 @@ class Lines(list[Line]):
     def __init__(self, where: Where):
         super().__init__()
         self._where = where
+        self.claims: list[Line] = []
+
+    def claim(
+        self, name: str, formula: sympy.Basic, by: By | tuple[By, ...], **options: Any
+    ) -> None:
+        """Add a further statement that the lines prove; it is not one of them."""
+        domain = options.pop("where", self._where)
+        self.claims.append(Line(name, formula, by, domain, **options))
 
     def show(
         self,

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
@@ -206,8 +207,14 @@ class Derivation:
         )
 
     @cached_property
-    def _lines(self) -> tuple[Line, ...]:
-        return tuple(self.steps())
+    def _lines(self) -> Sequence[Any]:
+        return self.steps()
+
+    @property
+    def all_claims(self) -> tuple[Claim, ...]:
+        """What else is claimed of it, by the kernel's lines and by procedures of its own."""
+        further = getattr(self._lines, "claims", ())
+        return (*(Claim(one.reason, one.decide) for one in further), *self.claims)
 
     def _line(self, printed: sympy.Eq) -> Line:
         return next(line for line in self._lines if printed in line.equations)

@@ -72,7 +72,7 @@ def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
     watch(derivation, "steps")
     for place, step in enumerate(derivation.steps(), start=1):
         yield _timed("step", f"step {place}", lambda s=step: _ruling(s, found))  # type: ignore[misc]
-    for claim in derivation.claims:
+    for claim in derivation.all_claims:
         watch(derivation, claim.name)
         yield _timed("proof", claim.name, claim.decide)
 

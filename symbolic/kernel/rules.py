@@ -5,7 +5,7 @@ user says take the same way: ``rule(formula, where)`` is a theorem, or raises ``
 What finds a proof (places, factors, unknowns) is not trusted; that it is one is checked.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import permutations
 
 import sympy
@@ -74,27 +74,23 @@ def follows(theorem: Theorem, *facts: Theorem | tuple[Theorem, ...]) -> Rule:
         ]
         normal = Normal(where, *sides[0], *sides[1])
         new, old = (normal.difference(equation(*pair)) for pair in sides)
-        factor = _factor(new, old)
-        if not where.never_zero(factor.to_sympy()):
-            raise NotProvedError("it is no multiple of what it is to follow from")
-        if not _are_equal(new, tuple(one.scaled(factor) for one in old)):
-            raise NotProvedError("it is not what it is to follow from")
-        return made(formula, where, "follows", (theorem, *flat(facts)))
+        for factor in _factors(new, old):
+            same = _are_equal(new, tuple(one.scaled(factor) for one in old))
+            if same and where.never_zero(factor.to_sympy()):
+                return made(formula, where, "follows", (theorem, *flat(facts)))
+        raise NotProvedError("it is no multiple of what it is to follow from")
 
     return rule
 
 
-def _factor(new: Sequence[LinearForm], old: Sequence[LinearForm]) -> RationalFunction:
-    """What one form is of the other, if it is a multiple of it: found, and checked elsewhere."""
+def _factors(new: Sequence[LinearForm], old: Sequence[LinearForm]) -> Iterator[RationalFunction]:
+    """What one form may be of the other, by the weight of any place: found, and then checked."""
     if len(new) != len(old):
         raise NotProvedError("one is a number, the other a vector")
     for one, other in zip(new, old, strict=True):
-        for kept in ("sites", "rays"):
-            weights = getattr(other, kept)
-            for place in weights:
-                if place in getattr(one, kept):
-                    return getattr(one, kept)[place] / weights[place]
-    raise NotProvedError("the two speak of different quantities")
+        pairs = ((one.sites, other.sites), (one.rays, other.rays))
+        for ours, theirs in pairs:
+            yield from (ours[place] / weight for place, weight in theirs.items() if place in ours)
 
 
 def _are_equal(left: Iterable[LinearForm], right: Iterable[LinearForm]) -> bool:
@@ -469,8 +465,13 @@ def differentiate(root: sympy.Symbol, square: sympy.Expr) -> Rule:
     """SymPy differentiates; ``root`` is positive, and stands for the root of what is positive."""
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        taken = {sympy.sqrt(square): root, 1 / sympy.sqrt(square): 1 / root}
-        sides = [side.doit().xreplace(taken) for side in formula.args]
+        def is_taken(node: sympy.Basic) -> bool:
+            return isinstance(node, sympy.Pow) and node.base == square
+
+        sides = [
+            side.doit().replace(is_taken, lambda node: root ** (2 * node.exp))
+            for side in formula.args
+        ]
         check(equation(*sides), where)
         apart = sympy.together(sides[0] - sides[1])
         left = sympy.expand(sympy.fraction(apart)[0]).subs(root**2, square)

@@ -179,8 +179,7 @@ def _check_power(power: sympy.Pow, where: Where) -> None:
         return  # a force that others are compared with is one that acts
     if base.atoms(sy.SiteFunction):
         raise NotAStatementError(f"the divisor {text(base)} holds a quantity of the lattice")
-    # of first order: what is divided by has its value at ε = 0
-    if not where.never_zero(sympy.expand(base.xreplace({sy.epsilon: sympy.S.Zero}))):
+    if not where.never_zero(base):
         raise NotAStatementError(f"the divisor {text(base)} is not shown to differ from zero")
 
 
@@ -339,7 +338,7 @@ def _instance_of(
     about, value = theorem.solved
     if type(about) is not type(atom):
         return None
-    image = place(theorem, about.args, atom.args)
+    image = _place(theorem, about.args, atom.args, where)
     if image is None or not applies(theorem, image, where, background):
         return None
     wanted = [affine.from_sympy(sympy.expand(_on(a - b.xreplace(image), where)))
@@ -362,8 +361,8 @@ def _renamed(value: sympy.Expr, image: Mapped) -> sympy.Expr:
     return value
 
 
-def place(
-    theorem: Theorem, at: tuple[sympy.Expr, ...], wanted: tuple[sympy.Expr, ...]
+def _place(
+    theorem: Theorem, at: tuple[sympy.Expr, ...], wanted: tuple[sympy.Expr, ...], where: Where
 ) -> dict[sympy.Symbol, sympy.Expr] | None:
     """The indices for which a theorem speaks of the wanted place: found by elimination.
 

@@ -127,7 +127,8 @@ class Where:
     def also(self, *relations: sympy.Basic, indices: Iterable[sympy.Symbol] = ()) -> "Where":
         """The part of it where further relations hold, in further indices."""
         more = tuple(one for one in relations if one not in self.relations)
-        held = tuple(dict.fromkeys((*self.indices, *indices)))
+        named = {*self.indices, *indices}
+        held = tuple(symbol for symbol in sy.INDICES if symbol in named)
         return self if not more and held == self.indices else replace(
             self, indices=held, relations=(*self.relations, *more)
         )  # fmt: skip
@@ -193,7 +194,12 @@ class Where:
         return not left
 
     def never_zero(self, expression: sympy.Expr) -> bool:
-        """Whether an expression without lattice quantities is shown to vanish nowhere."""
+        """Whether an expression without lattice quantities is shown to vanish nowhere.
+
+        Disorder is as weak as one likes: what differs from zero at ε = 0 does.
+        """
+        if expression.has(sy.epsilon):
+            expression = sympy.expand(expression.xreplace({sy.epsilon: sympy.S.Zero}))
         return self.sign(expression) != 0
 
     def sign(self, expression: sympy.Expr) -> int:

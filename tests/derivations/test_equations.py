@@ -30,7 +30,7 @@ def test_proved(derivation: Derivation) -> None:
     for part, equation in enumerate(derivation.printed):
         ruling = derivation.rule_on(part, equation)
         assert ruling.verdict is Verdict.PROVED, ruling.note
-    for claim in derivation.claims:
+    for claim in derivation.all_claims:
         ruling = claim.decide()
         assert ruling.verdict is Verdict.PROVED, (claim.name, ruling.note)
 
