@@ -89,9 +89,6 @@ def loads(loading: Loading) -> tuple[Theorem, ...]:
     """What a loading says of the loads and of the forces above them."""
     at_place = Where(loading=loading)
     given = [made(one, at_place, "loading") for one in loading.given]
-    beads = (site_r, site_s)
-    everywhere = [
-        made(one, Where(beads, when, loading, (site_r + site_s,)), "loading")
-        for one, when in loading.everywhere
-    ]
+    beads = Where.of(indices=(site_r, site_s), loading=loading)
+    everywhere = [made(one, beads.also(*when), "loading") for one, when in loading.everywhere]
     return (*given, *everywhere)

@@ -70,14 +70,9 @@ class Theorem:
 
     @cached_property
     def indices(self) -> tuple[sympy.Symbol, ...]:
-        """The indices for which others may be put in.
-
-        Those of a supposition stay as they are, and those of a loading of all beads.
-        """
-        loading, stay = self.where.loading, {one.index for one in self.supposed}
-        if loading and loading.everywhere:
-            stay |= set().union(*(one.free_symbols for one in loading.place))
-        return tuple(symbol for symbol in self.where.indices if symbol not in stay)
+        """The indices for which others may be put in: all but those of a supposition."""
+        fixed = {one.index for one in self.supposed}
+        return tuple(symbol for symbol in self.where.indices if symbol not in fixed)
 
     @cached_property
     def solved(self) -> tuple[sympy.Expr, sympy.Expr]:
@@ -345,7 +340,8 @@ def _instance_of(
               for a, b in zip(atom.args, about.args, strict=True)]  # fmt: skip
     if any(any(one) for one in wanted):
         return None
-    return _renamed(value, image).xreplace(image)
+    found = _renamed(value, image).xreplace(image)
+    return None if found.has(atom) else found  # the same quantity again says nothing
 
 
 def _renamed(value: sympy.Expr, image: Mapped) -> sympy.Expr:
@@ -368,12 +364,16 @@ def _place(
 
     It is not trusted: that the place is the wanted one is checked where it is used.
     """
-    unknown = [s for s in theorem.indices if any(one.has(s) for one in at)]
+    image: dict[sympy.Symbol, sympy.Expr] = {}
+    own, here = theorem.where.loading, where.loading
+    if own and here and own.everywhere and own.name == here.name:
+        image = {s: e for s, e in zip(own.place, here.place, strict=True) if s in theorem.indices}
+    unknown = [s for s in theorem.indices if s not in image and any(one.has(s) for one in at)]
     names = {s: sympy.Dummy(s.name) for s in unknown}
     rows = [
-        sympy.expand(one.xreplace(names) - other) for one, other in zip(at, wanted, strict=True)
+        sympy.expand(_on(one.xreplace({**names, **image}) - other, where))
+        for one, other in zip(at, wanted, strict=True)
     ]
-    image: dict[sympy.Symbol, sympy.Expr] = {}
     for symbol, name in names.items():
         for number, row in enumerate(rows):
             c = row.coeff(name)
@@ -410,7 +410,7 @@ def applies(theorem: Theorem, image: Mapped, where: Where, background: Facts) ->
     if own.loading is None:
         return True
     if own.loading.everywhere:
-        return own.loading == where.loading
+        return own.loading.put_in(image) == where.loading
     return all(_given(one, where, background) for one in own.loading.put_in(image).given)
 
 

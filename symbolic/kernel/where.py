@@ -53,6 +53,8 @@ class Loading:
 
     def put_in(self, image: Mapped) -> "Loading":
         """The same at another place."""
+        named = set().union(*(one.free_symbols for one in self.place))
+        image = {symbol: one for symbol, one in image.items() if symbol in named}
         if self.everywhere and any(one.has(sy.site_r, sy.site_s) for one in image.values()):
             raise NotExactError("the indices r and s stand for any bead of this loading")
 
@@ -132,6 +134,10 @@ class Where:
         return self if not more and held == self.indices else replace(
             self, indices=held, relations=(*self.relations, *more)
         )  # fmt: skip
+
+    def loaded(self, loading: Loading | None) -> "Where":
+        """The same indices under another load."""
+        return replace(self, loading=loading)
 
     def within(self, index: sympy.Symbol, low: sympy.Expr, high: sympy.Expr) -> "Where":
         """The domain of the terms of a sum."""
