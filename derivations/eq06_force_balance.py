@@ -126,17 +126,24 @@ def solved(carried: sympy.Expr, across: sympy.Expr, layer: sympy.Expr) -> Solved
 
 
 def solving(
-    lines: Lines, system: Solved, dotted: str, balance: Source, unit: Meaning, *facts: Source
+    lines: Lines,
+    system: Solved,
+    dotted: str,
+    balance: Source,
+    unit: Meaning,
+    *facts: Source,
+    after: tuple[Derivation, ...] = (),
 ) -> Line:
     """Three lines: the balance dotted with n⁺ and n⁻, solved, and expanded in ε.
 
-    ``unit`` says what the forces F^± of the system are.
+    ``unit`` says what the forces F^± of the system are; ``after`` names what the text refers to.
     """
     rows = lines.show(
         dotted,
         sympy.Tuple(*system.rows),
         (along(balance, n_plus, *facts), along(balance, n_minus, *facts)),
         meaning={**unit, **system.meaning, epsilon: sympy.Integer(1)},
+        after=after,
     )
     obeyed = Loading("system", "F⁺ and F⁻ obey the two equations", given=system.rows)
     solution = lines.show(

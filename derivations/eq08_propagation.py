@@ -80,6 +80,7 @@ def steps() -> Lines:
         axioms.balance(),
         dict(zip(balance.FORCES, (one / ForcePlus(*HERE) for one in FORCES), strict=True)),
         loads,
+        after=(eq06.DERIVATION,),
     )
     printed = lines.show(
         "The direction of the other support drops out, since nothing leaves along it at order 0.",

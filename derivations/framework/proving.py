@@ -316,9 +316,9 @@ class Line:
         """Rule on a candidate: proved by the rule, or searched for explicit values against it."""
         try:
             theorem = self.prove(part, candidate)
-        except NotProvedError as reason:
+        except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
             found = counterexample(self._meant(part, candidate), _at(part, self.where))
-            return refuted(found) if found else undecided(str(reason))
+            return refuted(found) if found else undecided(str(reason) or type(reason).__name__)
         return proved(f"by the rule: {theorem.rule}")
 
     def _meant(self, part: int, candidate: sympy.Eq) -> sympy.Eq:
