@@ -241,6 +241,8 @@ def compare(exact: RationalFunction, candidate: sympy.Expr) -> Ruling:
     names = [text(symbol) for symbol in FIELD.generators if _is_strange(difference, symbol)]
     if names:
         return refuted(f"exact − candidate depends on {', '.join(names)}")
+    if difference.is_zero():
+        return proved("equal at every order")
     size = order(difference, *cone.SIZES)
     shown = text(in_layers(leading(difference, *cone.SIZES)).to_sympy())
     if size < order(exact, *cone.SIZES):

@@ -256,7 +256,7 @@ COSINE = Fraction(1, 5)
 def search(candidate: sympy.Eq) -> str | None:
     """Squared weights of a small pyramid, by the recursion from bead to bead."""
     for layer, first, second in ((3, 2, 2), (3, 2, 3), (4, 3, 2)):
-        other = 0 if candidate.lhs == ON_LEG else second
+        other = 0 if candidate.lhs in (ON_LEG, LEG_MAGNITUDE) else second
         level = layer + first + other
         at: explicit.Values = {j: layer, p: first, q: other, l: level, phi: COSINE, sigma: 1, r: 1}
         true = _exact(candidate.lhs, level, first, other, COSINE)

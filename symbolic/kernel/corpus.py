@@ -417,14 +417,16 @@ TRUE: dict[str, tuple[Rule, ...]] = {
 """Rules of what is true, by kind."""
 
 
-def statements(printed: sympy.Eq, relation: str, turn: int | None = None) -> Iterator[Statement]:
+def statements(
+    printed: sympy.Eq, relation: str, turn: int | None = None, dimension: int = 2
+) -> Iterator[Statement]:
     """Yield all statements, or, for a turn, one of each rule: another one for another turn."""
     source = Source(printed, relation)
     for holds, kinds in ((False, FALSE), (True, TRUE)):
         for kind, rules in kinds.items():
             for rule in rules:
                 made = list(rule(source))
-                if sy.d in source.free:  # n_x and n_y are of the plane
+                if sy.d in source.free or dimension != 2:  # n_x and n_y are of the plane
                     made = [one for one in made if not (holds and one[1].has(sy.n_x, sy.n_y))]
                 if turn is not None and made:
                     made = [made[turn % len(made)]]

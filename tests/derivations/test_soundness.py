@@ -207,7 +207,7 @@ def test_the_whole_corpus(number: int | str) -> None:
     """Nothing false is proved; all that is true is."""
     derivation, found = load(number), Counter()
     for part, printed in enumerate(derivation.printed):
-        for one in statements(printed, derivation.relation):
+        for one in statements(printed, derivation.relation, dimension=derivation.dimension):
             verdict = derivation.rule_on(part, one.equation).verdict
             assert (verdict is Verdict.PROVED) is one.holds, one
             found[one.holds, verdict] += 1
