@@ -73,7 +73,7 @@ PRINTED = equation(
     ),
 )
 
-KAPPA = (1 + (d - 2) * phi) / ((1 - phi) * (1 + (d - 1) * phi))
+KAPPA: sympy.Expr = (1 + (d - 2) * phi) / ((1 - phi) * (1 + (d - 1) * phi))
 """b^a·b^a of the reciprocal vectors of d base vectors with the mutual dot product φ."""
 CROSSED = -phi / ((1 - phi) * (1 + (d - 1) * phi))
 """b^a·b^c of two of them."""
