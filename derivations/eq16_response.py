@@ -380,7 +380,8 @@ DERIVATION = Derivation(
         (LEG_MAGNITUDE, "variance of its magnitude over the squared mean"),
         (f_load, "the load on bead (k, l), downwards"),
         (l, "layer of the loaded bead, j that of the one looked at"),
-        (p, "steps along n⁺ from (k, l) down to (i, j); q along n⁻ (p is no force there)"),
+        (p, "steps along n⁺ from (k, l) down to (i, j) (p is no force there)"),
+        (q, "steps along n⁻"),
         *usual(sigma, r, phi),
     ),
     assumptions=(
