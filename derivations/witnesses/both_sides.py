@@ -293,7 +293,7 @@ def _compare(
         except NoSiteError:
             raise
         except explicit.ReversedError:
-            continue
+            continue  # the equation has no one meaning there
         except AbsentError:
             if where_it_is:
                 continue
