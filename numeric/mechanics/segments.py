@@ -23,6 +23,7 @@ from .compiled import Drawing
 from .compiled_forces import Descent
 from .compiled_packing import Deposition
 from .forces import Forces, Loads
+from .gaps import ABOVE
 from .loads import on_rows
 from .packing import CompiledPacking, SolvedPacking
 from .problem import Problem, Solved
@@ -30,7 +31,7 @@ from .work import Work
 
 T = TypeVar("T", Drawing, Deposition, Descent)
 # Layers above a segment that are deposited, too: beads look for gaps so far up.
-OVER = 3
+OVER = ABOVE
 
 
 class Kept(Protocol):

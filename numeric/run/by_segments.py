@@ -17,6 +17,7 @@ from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import Branch, Contact
 from ..lattice.layers import full_layer
+from ..mechanics.pairs import Extent
 from ..mechanics.physicality import PHYSICAL, Physicality
 from ..mechanics.work import Work
 from ..planning import planner, segments
@@ -61,6 +62,8 @@ class _Part:
             return None
         physical, index, names = json.loads(words.astype(np.uint8).tobytes())
         found = Physicality(**physical)
+        if found.extent is not None:
+            found.extent = Extent(**physical["extent"])
         if found.between is not None:
             lower, upper = found.between
             found.between = (lower[0], lower[1]), (upper[0], upper[1])
@@ -95,7 +98,7 @@ def _answer(plan: Plan, work: Work, opened: Checkpoint | None) -> Answer:
     for number in reversed(range(way.count)):
         part = _Part.of(kept, number)
         if part is None:
-            part = _part(plan, way.down(number), work)
+            part = _part(plan, way.down(number), work, parts[0].physical if parts else None)
             part.keep(kept, number)
         parts.insert(0, part)
     bins = None
@@ -147,14 +150,17 @@ def _key(plan: Plan) -> dict[str, Any]:
     return {"scene": scene, "layers": plan.problem.segment, "version": program_version()}
 
 
-def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
+def _part(plan: Plan, segment: "Segment", work: Work, above: Physicality | None) -> _Part:
+    """Give what a segment adds; ``above``: what was found in the segment above it."""
     problem, quantity, layers = plan.problem, plan.quantity, segment.layers
     forces, packing = segment.solved.forces, segment.packing
     assert forces is not None
     physical = Physicality()
     with work.timed(PHYSICAL):
         low = packing.region.rows[0].j
-        physical.look_at_gaps(packing, range(layers.start - low, layers.stop - low))
+        missing = packing.region.rows[-1].j < problem.region.top
+        own = range(layers.start - low, layers.stop - low)
+        physical.look_at_gaps(packing, own, above if missing else None)
         physical.look_at_forces(forces, layers)
     rows = problem.region.rows[layers.start : layers.stop]
     work.did_rows("checked", rows, sum(row.count for row in rows))
