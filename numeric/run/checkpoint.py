@@ -10,6 +10,7 @@ computes marks anew it is no safeguard.
 
 import json
 from collections.abc import Collection, Mapping
+from contextlib import suppress
 from hashlib import sha256
 from math import prod
 from pathlib import Path
@@ -172,7 +173,8 @@ class Checkpoint:
         trace: TracebackType | None,
     ) -> None:
         """Close it; who interrupts is told that nothing is lost."""
-        self._file.close()
+        with suppress(OSError):  # what a full disk did not take was said before
+            self._file.close()
         if isinstance(error, KeyboardInterrupt):
             error.add_note(f"{self.path} holds what is done; the same command goes on from there.")
 

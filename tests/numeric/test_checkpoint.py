@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from force_diffusion.numeric.arithmetic.errors import NotReachedError
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.run import checkpoint as module
 from force_diffusion.numeric.run.checkpoint import Checkpoint, CheckpointError
@@ -168,6 +169,22 @@ def test_what_changes_while_it_is_used_is_refused(tmp_path: Path) -> None:
             file.write(b"\1")
         with pytest.raises(CheckpointError, match=f"{path} is damaged"):
             kept.get("a")
+
+
+@pytest.mark.parametrize("room", [500, 3000, 5001])
+def test_a_full_disk_is_said_and_gone_on_from(room: int, tmp_path: Path) -> None:
+    """A limit of the file's size stands for the full disk: writing fails in the middle."""
+    resource = pytest.importorskip("resource")
+    plan, path = small(), tmp_path / "kept"
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    try:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (room, limits[1]))
+        with pytest.raises(NotReachedError, match="the same command goes on from there"):
+            run(plan, checkpoint=path)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert path.stat().st_size == room
+    same(run(small()), run(plan, checkpoint=path))
 
 
 def test_one_of_an_older_format_is_named_so(
