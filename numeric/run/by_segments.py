@@ -78,8 +78,12 @@ def by_segments(plan: Plan, work: Work, checkpoint: Path | None = None) -> tuple
 
     Raises ``CheckpointError``, and what the sweeps raise for a packing that can't be built.
     """
+    from ..mechanics.segments import KEPT, count
+
     work.uses(FLOAT64.name)
-    opened = None if checkpoint is None else Checkpoint(checkpoint, _key(plan))
+    numbers = range(count(plan.problem, plan.problem.segment))
+    names = {f"{kind}{n}" for kind in (*KEPT, "numbers", "words", "counts") for n in numbers}
+    opened = None if checkpoint is None else Checkpoint(checkpoint, _key(plan), names)
     with FLOAT64.active(), opened or nullcontext():
         return _answer(plan, work, opened), _accuracy(plan, work)
 
