@@ -195,6 +195,22 @@ def test_the_other_branch_is_uncorrelated_where_B12_says() -> None:
     assert met_at_base  # what the claim used to call uncorrelated
 
 
+@pytest.mark.parametrize("phi", PHIS)
+def test_under_a_bulk_load_forces_are_correlated_where_diagonals_cross_above_both(
+    phi: Fraction,
+) -> None:
+    """What the documentation called zero without naming a load; other crossings are as above."""
+    size = 12
+    found = weights(size, phi, "bulk")
+    for lower, upper, above in crossings(size):
+        layer = lower + above
+        value = covariance(found["+"][lower], found["-"][upper], 2 * above - (upper - lower))
+        if layer > upper:
+            assert value != 0, (lower, upper, above)
+        elif min(abs(above), abs(layer - upper), layer, size - layer) >= 4:
+            assert value == 0, (lower, upper, above)
+
+
 # --- second order: Eqs. B5, B6 and B9 -----------------------------------------------------------
 
 DIRECTIONS = {
