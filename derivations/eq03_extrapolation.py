@@ -104,6 +104,14 @@ def steps() -> Lines:
         induct(j, 1, rewrite(resting, axioms.base()), rewrite(resting, SUPPOSED)),
         after=(first, step),
     )
+    zero = sympy.Integer(0)
+    read_as_empty = PRINTED.rhs.replace(sympy.Sum, lambda *_: zero).xreplace({j: zero})
+    lines.claim(
+        "at j = 0 the printed sums, read as empty, would leave 2δr_(i,0)(b⁺ + b⁻), not 0",
+        equation(read_as_empty, 2 * DeltaR(i, 0) * (b_plus + b_minus)),
+        rewrite(),
+        where=Where.of(j >= 0).put_in({j: zero}, (i,)),
+    )
     return lines
 
 

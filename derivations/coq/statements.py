@@ -34,7 +34,7 @@ _RELATIONS = {"≤": "<=", "<": "<", "≥": ">=", ">": ">", "=": "="}
 
 
 def ranges(derivation: Derivation) -> Iterator[str]:
-    """What the domain says of the indices; where there is none yet, the assumptions' inequalities."""
+    """What the domain says of the indices, or the assumptions' inequalities where it has none."""
     if derivation.where is not None:
         for relation in derivation.where.relations:
             left, right = map(index, relation.args)
