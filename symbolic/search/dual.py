@@ -63,6 +63,9 @@ class Dual:
     def __bool__(self) -> bool:
         return bool(self.value or self.slope)
 
+    def __repr__(self) -> str:
+        return f"{self.value} + ({self.slope})ε"
+
 
 def _short(number: Number, times: int = 1) -> Number:
     if (number.numerator.bit_length() + number.denominator.bit_length()) * times > _LONGEST:

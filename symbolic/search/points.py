@@ -5,9 +5,10 @@ combinations of layers, heights and counts are tried. Along a layer the packing 
 everywhere, so that of the places there a few, ever others, are enough.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from itertools import product
+from math import prod
 from random import Random
 
 import sympy
@@ -20,7 +21,8 @@ Point = dict[sympy.Symbol, int]
 GENERIC, SMALL, LARGE = 4, 150, 2
 """How many of each kind are tried, at most."""
 
-_REACH = {1: 12, 2: 7, 3: 6, 4: 5}  # of small points, by how many indices are free
+_MOST = 3000  # combinations of indices that are looked at
+_FARTHEST = 12  # of small points, in each index
 _TRIES = 400
 _ACROSS = (0, 1, -1, 2, -3, 4, -2, 3, 5, -4, 6, -5)
 
@@ -69,26 +71,41 @@ class _Domain:
         across = [one for one in free if one in places]
         self.along = across[:1]  # one place along a layer is as good as another
         self.others = across[1:] + [one for one in free if one not in places]
-        self._positive = [one for one in where.indices if one.is_positive]
         self._even = [affine.from_sympy(one) for one in where.even]
         self._solved = [(one, affine.from_sympy(value)) for one, value in where.solved.items()]
+        self._positive = [one for one in where.indices if one.is_positive]
+        self._held_anywhere = not any(
+            sympy.expand((one.lhs - one.rhs).xreplace(where.solved)).has(*self.along)
+            for one in where.relations
+        )
 
-    def point(self, values: Iterable[int], along: Sequence[int]) -> Point | None:
+    def point(self, values: Iterable[int], along: Iterable[int]) -> Point | None:
         """The point with these values, with the first place along the layers at which it is one."""
         at = dict(zip(self.others, values, strict=True))
         for place in along if self.along else (0,):
             at.update(dict.fromkeys(self.along, place))
             for symbol, value in self._solved:
                 at[symbol] = self._sum(value, at)
-            even = not any(self._sum(one, at) % 2 for one in self._even)
-            if even and all(at[one] > 0 for one in self._positive) and self.where.holds(at):
-                return {symbol: at[symbol] for symbol in self.where.indices}
+            if all(at[one] > 0 for one in self._positive) and self.where.holds(at):
+                if not any(self._sum(one, at) % 2 for one in self._even):
+                    return {symbol: at[symbol] for symbol in self.where.indices}
+            elif self._held_anywhere:
+                return None
         return None
 
     @staticmethod
     def _sum(value: affine.Affine, at: Point) -> int:
         terms = zip(sy.INDICES, value, strict=False)
         return value[-1] + sum(c * at[one] for one, c in terms if c)
+
+    def combinations(self) -> list[tuple[int, ...]]:
+        """Values of the other indices, small ones first; as large as it leaves them few enough."""
+        signed = [not self.where.implies(symbol >= 0) for symbol in self.others]
+        for reach in range(_FARTHEST, -1, -1):
+            ranges = [range(-reach if sign else 0, reach + 1) for sign in signed]
+            if prod(map(len, ranges)) <= _MOST:
+                break
+        return sorted(product(*ranges), key=lambda values: sum(map(abs, values)))
 
 
 def _drawn(where: Where, low: int, high: int) -> Iterator[Point]:
@@ -102,15 +119,15 @@ def _drawn(where: Where, low: int, high: int) -> Iterator[Point]:
 
 
 def _smallest(where: Where) -> Iterator[Point]:
+    """Yield each combination at one place along the layers, then all at another, and so on."""
     domain = _Domain(where)
-    reach = _REACH.get(len(domain.others), 2)
-    ranges = [
-        range(0 if where.implies(symbol >= 0) else -reach, reach + 1) for symbol in domain.others
-    ]
-    combinations = sorted(product(*ranges), key=lambda values: sum(map(abs, values)))
+    combinations = domain.combinations()
     for turn in range(len(_ACROSS)):
+        held = []
         for count, values in enumerate(combinations):
             start = (turn + count) % len(_ACROSS)
             at = domain.point(values, _ACROSS[start:] + _ACROSS[:start])
             if at is not None:
+                held.append(values)
                 yield at
+        combinations = held

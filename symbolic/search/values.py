@@ -107,15 +107,7 @@ class Evaluator:
         raise UnreadableError(f"{type(node).__name__} is not evaluated")
 
     def whole(self, node: sympy.Basic) -> int:
-        """Value of a whole number; sums of symbols and integers, the usual case, stay integers."""
-        if isinstance(node, sympy.Symbol):
-            found = self.numbers.get(node)
-            if isinstance(found, int):
-                return found
-        if isinstance(node, sympy.Integer):
-            return int(node)
-        if isinstance(node, sympy.Add):
-            return sum(map(self.whole, node.args))
+        """Value of a whole number."""
         value = self._plain(node)
         if value.denominator != 1:
             raise NotWholeError(f"{value} is no whole number")
@@ -125,7 +117,7 @@ class Evaluator:
         try:
             return self.whole(node)
         except NotWholeError as reason:
-            raise AbsentError(f"there is no bead with the index {reason.args[0]}") from None
+            raise AbsentError(f"there is no such bead: {reason}") from None
 
     def _symbol(self, symbol: sympy.Symbol) -> Dual | Vector:
         if symbol in self.numbers:
@@ -149,6 +141,13 @@ class Evaluator:
         return NOWHERE
 
     def _plain(self, node: sympy.Basic) -> Number:
+        """Value of what does not depend on the disorder; sums of indices, the usual case, first."""
+        if isinstance(node, sympy.Integer):
+            return int(node)
+        if isinstance(node, sympy.Symbol) and node in self.numbers:
+            return self.numbers[node]
+        if isinstance(node, sympy.Add):
+            return sum(map(self._plain, node.args))
         value = self._number(node)
         if value.slope:
             raise UnreadableError("a bound or an index depends on the disorder")
@@ -170,10 +169,8 @@ class Evaluator:
     def _limits(self, body: sympy.Basic, limits: list[sympy.Tuple]) -> Dual | Vector:
         if not limits:
             return self.value(body)
-        *inner, limit = limits
-        if len(limit) != 3:
-            raise UnreadableError("a sum without bounds")
-        index, first, last = limit[0], self.whole(limit[1]), self.whole(limit[2])
+        *inner, (index, low, high) = limits
+        first, last = self.whole(low), self.whole(high)
         if last < first - 1:
             raise NoSumError(f"a sum from {first} to {last} has no agreed value")
         if last - first >= MOST_TERMS:
