@@ -1,5 +1,6 @@
 """Eqs. 12–14: weights and variances, from one radius at a time."""
 
+from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
 
@@ -23,7 +24,7 @@ from tests.properties.orders import ROUNDING, STRENGTHS, falls, holds_to_first_o
 from tests.properties.packing import Number, Packing, mp
 from tests.properties.reading import Plane
 
-LOADS = {12: "surface", 13: "surface", 14: "bulk"}
+LOADS = {13: "surface", 14: "bulk"}
 Geometry = tuple[Fraction, Fraction]
 geometries = st.tuples(cosines, lengths)
 """φ and r."""
@@ -86,7 +87,7 @@ def test_each_radius_has_the_weight_that_the_exact_form_is_made_of(
     number: int, data: st.DataObject
 ) -> None:
     """The step that says "every radius once, with its weight", for 2 ≤ j ≤ M − 2."""
-    drawn = data.draw(packings(LOADS[number], least_height=4))
+    drawn = data.draw(packings(LOADS[number], height=4))
     (step,) = (one for one in fd.equation(number).steps() if "every radius once" in one.reason)
     packing = solved(drawn, mp.mpf(0)).packing
     means = [one for one in step.formula.free_symbols if one.name == "mean_force"]
@@ -119,8 +120,8 @@ def test_the_exact_variance_is_the_sum_of_squared_weights(
 ) -> None:
     """In every layer and of both contacts.
 
-    Times M − j the interior form is a polynomial of degree four at most, which its 15 values at
-    4 ≤ M ≤ 8, 2 ≤ j ≤ M − 2 determine: so these packings speak for any height.
+    Times M − j the sum is, in the interior, a polynomial in M and j of degree four at most, as the
+    weights are such of lower degree; its 15 values at 4 ≤ M ≤ 8, 2 ≤ j ≤ M − 2 determine it.
     """
     for layer in range(height):
         for name in ("ForcePlus", "ForceMinus"):
@@ -147,9 +148,10 @@ deep = st.tuples(
 """φ and r, σ, and z = j/M."""
 
 
-def is_the_leading_order(number: int):
+def is_the_leading_order(number: int) -> Callable[[sympy.Eq, Deep], None]:
+    """What is left beside the exact variance is smaller by 1/M."""
+
     def check(equation: sympy.Eq, drawn: Deep) -> None:
-        """What is left beside the exact variance is smaller by 1/M."""
         (cosine, r), sd, height = drawn
         plane = Plane(Packing(exactly(cosine), 1, 1, exactly(r)))
         sizes = []
