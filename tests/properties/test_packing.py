@@ -14,6 +14,7 @@ from tests.properties.packing import (
     Packing,
     Site,
     Vector,
+    determinant,
     dot,
     minus,
     mp,
@@ -68,8 +69,9 @@ def test_beads_lie_on_top_of_those_that_they_touch(packing: Packing) -> None:
             assert abs(dot(apart, apart) - reach**2) < ROUNDING
             turned = minus(times(reach, packing.direction((below, c))), apart)
             assert max(map(abs, turned)) < ROUNDING
-        supports = [packing.centre(step(site, c, -1)) for c in range(packing.d)]
-        assert packing.centre(site)[-1] > max(one[-1] for one in supports)
+        # the lower of the two meeting points would be the mirror image
+        contacts = [packing.direction((step(site, c, -1), c)) for c in range(packing.d)]
+        assert determinant(contacts) * determinant(packing.base) > 0
 
 
 @given(with_loads())
