@@ -89,15 +89,22 @@ def solved(drawn: Drawn, epsilon: Number) -> Plane:
 
 
 @st.composite
-def packings(draw: st.DrawFn, *loads: str, cone: bool = False, least_height: int = 2) -> Drawn:
+def packings(
+    draw: st.DrawFn, *loads: str, cone: bool = False, height: int = 2, level: int = 1
+) -> Drawn:
     """A packing of up to ``HIGHEST`` layers under one of these loads, down to one bead wide.
 
-    ``cone``: so wide that the cone below the loaded bead does not meet its own images.
+    Args:
+        draw: Hypothesis' own.
+        loads: as ``Drawn.load``; where none is given, only positions matter.
+        cone: so wide that the cone below the loaded bead does not meet its own images.
+        height: the least one.
+        level: the least layer of a bead that alone is loaded.
     """
-    height = draw(st.integers(least_height, HIGHEST))
+    height = draw(st.integers(height, HIGHEST))
     load = draw(st.sampled_from(loads or ("surface",)))
     alone = load in ("point", "contact")
-    l = draw(st.integers(1, height)) if alone else height  # noqa: E741
+    l = draw(st.integers(level, height)) if alone else height  # noqa: E741
     width = draw(st.integers(l if cone else 1, height + 1))
     k = 2 * draw(st.integers(-width, width)) + l % 2
     beads = width * (height + 1)

@@ -1,7 +1,7 @@
 """One radius at a time: how a single larger bead changes contact forces, and so their variance.
 
-The radii are independent, so that σ_f² is the sum over beads of their squared weights times σ². Beads of one
-layer are alike: one bead a layer is enough, seen from all contacts.
+The radii are independent, so that σ_f² is the sum over beads of their squared weights times σ².
+Beads of one layer are alike: one bead a layer is enough, seen from all contacts.
 """
 
 from collections.abc import Iterator, Mapping
@@ -13,7 +13,7 @@ from force_diffusion.symbolic.symbols import i, j
 
 from tests.properties.drawn import exactly
 from tests.properties.orders import ROUNDING, STRENGTHS
-from tests.properties.packing import Number, Packing, Site, mp
+from tests.properties.packing import Number, Packing, Site
 from tests.properties.reading import Plane, Value, place
 
 QUOTIENT_ROUNDING = ROUNDING / min(STRENGTHS)

@@ -13,12 +13,12 @@ from tests.properties.reading import Value
 At = Mapping[sympy.Symbol, Value]
 
 STRENGTHS = mp.mpf("1e-20"), mp.mpf("1e-22")
-"""So small that ε² is all that matters beside ε, a share of 10⁻²⁰ apart, and so large that ε² = 10⁻⁴⁴ of
-the smaller one stands 16 digits above ``ROUNDING``."""
+"""So small that what is left is ε² times a number up to a share of about 10⁻²⁰, and large enough:
+ε² = 10⁻⁴⁴ stands 36 digits above ``ROUNDING``."""
 
-ROUNDING = mp.mpf("1e-60")
-"""Of 80 digits: packings of seven layers lose fewer than ten (``test_packing.py`` measures them), and what is
-compared is below 10⁶."""
+ROUNDING = mp.mpf("1e-80")
+"""Of 100 digits, 20 are for what a few layers lose (``test_packing.py`` measures it), and for
+numbers above one."""
 
 
 def printed(number: int) -> tuple[sympy.Eq, ...]:

@@ -1,13 +1,13 @@
-"""The reference: a packing of discs or spheres, bead by bead from first principles, nothing linearised.
+"""The reference: packings of discs or spheres from first principles, nothing linearised.
 
-A bead is laid where it touches the d beads below it: d circles, or spheres, meet in a point. The d forces
-below it balance its load and what comes in from above: d linear equations. Numbers are mpmath's, with
-``DIGITS`` digits. This shares nothing with the package.
+A bead is laid where it touches the d beads below it: d circles, or spheres, meet in a point. The d
+forces below it balance its load and what comes in from above: d linear equations. Numbers are
+mpmath's, with ``DIGITS`` digits. This shares nothing with the package.
 
-A bead is named by its whole steps a = (a₁, …, a_d) along the d base vectors and rests on the beads a − e_c.
-Its layer is the sum of the steps; layer 0 is the base, which is held. The packing repeats: W steps along one
-base vector and W back along the last lead to an image. In the plane the base vectors are n⁺ and n⁻, and the
-paper's (i, j) is (a₁ − a₂, a₁ + a₂).
+A bead is named by its whole steps a = (a₁, …, a_d) along the d base vectors; it rests on the beads
+a − e_c. Its layer is the sum of the steps; layer 0 is the base, which is held. The packing repeats:
+W steps along one base vector and W back along the last lead to an image. In the plane the base
+vectors are n⁺ and n⁻, and the paper's (i, j) is (a₁ − a₂, a₁ + a₂).
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -19,7 +19,7 @@ from typing import Any
 
 from mpmath import MPContext
 
-DIGITS = 80
+DIGITS = 100
 
 mp = MPContext()  # of its own: nobody else changes its precision
 mp.dps = DIGITS
@@ -55,6 +55,9 @@ def determinant(rows: Sequence[Vector]) -> Number:
     """By the first column, whose minors alternate in sign."""
     if len(rows) == 1:
         return rows[0][0]
+    if len(rows) == 2:  # the usual case, spared the recursion
+        (a, b), (c, d) = rows
+        return a * d - b * c
     minors = (
         determinant([row[1:] for row in (*rows[:c], *rows[c + 1 :])]) for c in range(len(rows))
     )
@@ -72,7 +75,7 @@ def solve(columns: Sequence[Vector], right: Vector) -> Vector:
 
 
 def base_vectors(d: int, cosine: Number) -> tuple[Vector, ...]:
-    """d unit vectors with the same mutual cosine and the same rise; n⁺ and n⁻ of the paper for d = 2.
+    """d unit vectors with one mutual cosine and the same rise; n⁺ and n⁻ for d = 2.
 
     Their horizontal parts are the corners of a regular simplex, made one dimension at a time.
     """
@@ -151,8 +154,13 @@ class Packing:
         return total
 
     def centre(self, site: Site) -> Vector:
+        return self._image(self._centres, site)
+
+    def _image(self, laid: Mapping[Site, Vector], site: Site) -> Vector:
         home = self.home(site)
-        return plus(self._centres[home], self.ordered(minus(site, home)))
+        if home == site:
+            return laid[site]
+        return plus(laid[home], self.ordered(minus(site, home)))
 
     @cached_property
     def _centres(self) -> dict[Site, Vector]:
@@ -160,11 +168,7 @@ class Packing:
         for layer in range(1, self.height + 1):
             for site in self.sites(layer):
                 below = [step(site, c, -1) for c in range(self.d)]
-                homes = map(self.home, below)
-                centres = [
-                    plus(found[home], self.ordered(minus(one, home)))
-                    for one, home in zip(below, homes, strict=True)
-                ]
+                centres = [self._image(found, one) for one in below]
                 reaches = [self.radius(site) + self.radius(one) for one in below]
                 found[site] = upper_meeting_point(centres, reaches)
         return found

@@ -1,7 +1,7 @@
 """Printed equations read on a solved packing: every symbol is replaced by its number.
 
-Sums are loops, braces are looked up, vectors are Cartesian. Of the package this takes only what the nodes
-of an expression are called.
+Sums are loops, braces are looked up, vectors are Cartesian. Of the package this takes only what the
+nodes of an expression are called.
 """
 
 from collections.abc import Mapping

@@ -8,7 +8,7 @@ from tests.properties.drawn import Drawn, packings
 from tests.properties.orders import holds_to_first_order, is_identity, printed
 
 LOADED = packings("point", "surface", "bulk")
-"""The loaded bead carries nothing but its load: anywhere for a point load, else in the top layer."""
+"""The loaded bead carries nothing else: anywhere for a point load, otherwise in the top layer."""
 
 
 def balanced(equation: sympy.Eq, drawn: Drawn) -> None:

@@ -10,10 +10,10 @@ from tests.properties.drawn import Drawn, packings, solved
 from tests.properties.orders import STRENGTHS, At, falls, holds_to_first_order, printed
 from tests.properties.reading import steps_to
 
-ENTERING = packings("contact")
+ENTERING = packings("contact", level=2)
 """One force f⁺ enters a bead, and nothing else."""
 
-BELOW_ONE_LOAD = packings("contact", "point", cone=True)
+BELOW_ONE_LOAD = packings("contact", "point", cone=True, level=2)
 """The force f⁺ below the bead (k, l) alone, or the load on that bead; no image of it is met."""
 
 
@@ -35,8 +35,7 @@ def after_one_branch(drawn: Drawn) -> Iterator[At]:
 
 def through_a_bead(equation: sympy.Eq, drawn: Drawn) -> None:
     across, layer = drawn.at
-    if layer > 1:  # (r, s) stands above the base
-        holds_to_first_order(equation, drawn, [{site_r: across - 1, site_s: layer - 1}])
+    holds_to_first_order(equation, drawn, [{site_r: across - 1, site_s: layer - 1}])
 
 
 def down_a_line(equation: sympy.Eq, drawn: Drawn) -> None:
@@ -73,7 +72,7 @@ def test_eq_10_with_one_branch_the_branch_alone_contributes(drawn: Drawn) -> Non
         round_a_corner(line, drawn)
 
 
-@given(packings("contact", cone=True))
+@given(packings("contact", cone=True, level=2))
 def test_all_other_contacts_receive_zero_contribution(drawn: Drawn) -> None:
     """Of f⁺_(k−1,l−1), to first order: what takes two branches is of second order."""
     planes = [solved(drawn, epsilon) for epsilon in STRENGTHS]

@@ -32,9 +32,7 @@ def test_eq_1_beads_of_equal_radii_lie_on_the_lattice(drawn: Drawn) -> None:
 
 @given(packings())
 def test_eq_2_a_bead_rests_on_two_and_moves_with_them(drawn: Drawn) -> None:
-    """The distance to both supporting beads is equal to the sum of the radii; to first order in the δr
-    this gives the displacement.
-    """
+    """The distance to both supporting beads is the sum of the radii, to first order in the δr."""
     for line in printed(2):
         of_each_bead(line, drawn)
 

@@ -1,16 +1,17 @@
 """Eqs. 12–14: weights and variances, from one radius at a time."""
 
+from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
 
-import force_diffusion as fd
 import pytest
 import sympy
 from force_diffusion.symbolic.symbols import M, f_load, i, j, sigma, z
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.properties.drawn import Drawn, cosines, exactly, lengths, packings, solved
+import force_diffusion as fd
+from tests.properties.drawn import cosines, exactly, lengths, packings, solved
 from tests.properties.one_radius import (
     QUOTIENT_ROUNDING,
     left_out,
@@ -23,7 +24,7 @@ from tests.properties.orders import ROUNDING, STRENGTHS, falls, holds_to_first_o
 from tests.properties.packing import Number, Packing, mp
 from tests.properties.reading import Plane
 
-LOADS = {12: "surface", 13: "surface", 14: "bulk"}
+LOADS = {13: "surface", 14: "bulk"}
 Geometry = tuple[Fraction, Fraction]
 geometries = st.tuples(cosines, lengths)
 """φ and r."""
@@ -43,13 +44,13 @@ def larger(
 Line = tuple[Geometry, Fraction, tuple[tuple[int, int], ...]]
 """φ and r, the load on a bead, and four contacts (M, j) at equal distances, 2 ≤ j ≤ M − 2."""
 
-STARTS = {(7, 2): (0, 1), (8, 3): (0, 1), (4, 2): (1, 0), (5, 2): (1, 1), (5, 3): (1, 1)}
+LINES = (((7, 2), (0, 1)), ((4, 2), (1, 0)), ((4, 2), (1, 1)))
+"""Along each coordinate, and along both at once."""
 
 
 @st.composite
 def lines(draw: st.DrawFn) -> Line:
-    start = draw(st.sampled_from(list(STARTS)))
-    (height, layer), (up, along) = start, STARTS[start]
+    (height, layer), (up, along) = draw(st.sampled_from(LINES))
     contacts = tuple((height + t * up, layer + t * along) for t in range(4))
     return draw(geometries), draw(lengths), contacts
 
@@ -57,8 +58,8 @@ def lines(draw: st.DrawFn) -> Line:
 def leaves_out_order_two(equation: sympy.Eq, line: Line) -> None:
     """The mean is the same, and of the variance an order of M is left out.
 
-    The variance of what is left out is a polynomial in M and j of degree two, while that of the force
-    is one of degree three: along a line its third difference vanishes.
+    The variance of what is left out is a polynomial in M and j of degree two, while that of the
+    force is one of degree three: along a line its third difference vanishes.
     """
     geometry, weight, contacts = line
 
@@ -85,8 +86,8 @@ def test_eq_12_leaves_out_one_order_of_the_height(line: Line) -> None:
 def test_each_radius_has_the_weight_that_the_exact_form_is_made_of(
     number: int, data: st.DataObject
 ) -> None:
-    """The step of Eqs. 13 and 14 that says \"every radius once, with its weight\", 2 ≤ j ≤ M − 2."""
-    drawn = data.draw(packings(LOADS[number], least_height=4))
+    """The step that says "every radius once, with its weight", for 2 ≤ j ≤ M − 2."""
+    drawn = data.draw(packings(LOADS[number], height=4))
     (step,) = (one for one in fd.equation(number).steps() if "every radius once" in one.reason)
     packing = solved(drawn, mp.mpf(0)).packing
     means = [one for one in step.formula.free_symbols if one.name == "mean_force"]
@@ -119,8 +120,8 @@ def test_the_exact_variance_is_the_sum_of_squared_weights(
 ) -> None:
     """In every layer and of both contacts.
 
-    Times M − j the interior form is a polynomial of degree four at most, which its 15 values at
-    4 ≤ M ≤ 8, 2 ≤ j ≤ M − 2 determine: so these packings speak for any height.
+    Times M − j the sum is, in the interior, a polynomial in M and j of degree four at most, as the
+    weights are such of lower degree; its 15 values at 4 ≤ M ≤ 8, 2 ≤ j ≤ M − 2 determine it.
     """
     for layer in range(height):
         for name in ("ForcePlus", "ForceMinus"):
@@ -147,9 +148,10 @@ deep = st.tuples(
 """φ and r, σ, and z = j/M."""
 
 
-def is_the_leading_order(number: int):
+def is_the_leading_order(number: int) -> Callable[[sympy.Eq, Deep], None]:
+    """What is left beside the exact variance is smaller by 1/M."""
+
     def check(equation: sympy.Eq, drawn: Deep) -> None:
-        """What is left beside the exact variance is smaller by 1/M."""
         (cosine, r), sd, height = drawn
         plane = Plane(Packing(exactly(cosine), 1, 1, exactly(r)))
         sizes = []
