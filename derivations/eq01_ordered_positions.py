@@ -164,6 +164,7 @@ DERIVATION = Derivation(
         "all radii equal r",
         "bead (i, j) touches the beads (i±1, j±1)",
         "i + j is even; the base is j = 0",
+        *WHERE.in_words(),
     ),
     premises=(),
     printed=(PRINTED,),

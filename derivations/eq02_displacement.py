@@ -161,8 +161,9 @@ DERIVATION = Derivation(
     ),
     assumptions=(
         "first order in δr",
-        "the bead rests on (i−1, j−1) and (i+1, j−1), j ≥ 1",
+        "the bead rests on (i−1, j−1) and (i+1, j−1)",
         "the contacts are those of the ordered packing",
+        *WHERE.in_words(),
     ),
     premises=(eq01.DERIVATION,),
     printed=(PRINTED,),

@@ -129,7 +129,8 @@ DERIVATION = Derivation(
     assumptions=(
         "first order in δr",
         "the centres of the base beads are fixed: δx_(i,0) = 0",
-        "j ≥ 1; no horizontal boundary is met",
+        "no horizontal boundary is met",
+        *WHERE.in_words(),
     ),
     premises=(eq02.DERIVATION,),
     printed=(PRINTED,),

@@ -124,7 +124,7 @@ DERIVATION = Derivation(
         (b_minus, "reciprocal vector: n⁻·b⁻ = 1, n⁺·b⁻ = 0"),
         (m, "layer of a bead on a diagonal down to the base"),
     ),
-    assumptions=("first order in δr", "fixed base; j ≥ 0"),
+    assumptions=("first order in δr", "fixed base", *WHERE.in_words()),
     premises=(eq01.DERIVATION, eq03.DERIVATION),
     printed=(PRINTED,),
     steps=steps,

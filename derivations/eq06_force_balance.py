@@ -177,7 +177,7 @@ DERIVATION = Derivation(
     ),
     assumptions=(
         "no friction; contacts push along the line of centres",
-        "bead (k, l) carries nothing but its load",
+        *WHERE.in_words(),
     ),
     premises=(eq04.DERIVATION, eq05.DERIVATION),
     printed=(PRINTED,),

@@ -115,7 +115,7 @@ DERIVATION = Derivation(
         (ForcePlus(*LEFT), "force of the contact from (k−1, l−1)"),
         (ForceMinus(*RIGHT), "force of the contact from (k+1, l−1)"),
     ),
-    assumptions=("first order in δn^±", "the load is vertical"),
+    assumptions=("first order in δn^±", *WHERE.in_words()),
     premises=(eq06.DERIVATION,),
     printed=PRINTED,
     loads=("single",),

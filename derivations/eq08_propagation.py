@@ -109,7 +109,7 @@ DERIVATION = Derivation(
         (ForceMinus(*RIGHT), "force leaving it along n⁻: the branch"),
         (phi, "n⁺·n⁻"),
     ),
-    assumptions=("first order in δn^±", "bead (r, s) carries no load of its own"),
+    assumptions=("first order in δn^±", *WHERE.in_words()),
     premises=(eq06.DERIVATION,),
     printed=PRINTED,
     loads=("any",),

@@ -165,7 +165,7 @@ DERIVATION = Derivation(
         (phi, "n⁺·n⁻"),
         (q, "number of beads passed"),
     ),
-    assumptions=("first order in δn^±", "k − i = l − j ≥ 1", "the beads passed carry no load"),
+    assumptions=("first order in δn^±", *WHERE.in_words()),
     premises=(eq08.DERIVATION,),
     printed=(PRINTED,),
     loads=("single",),

@@ -197,7 +197,7 @@ DERIVATION = Derivation(
         (n, "steps from the branch down to (i, j): n = ½[(l − j) − (k − i)]"),
         (p, "straight steps before the branch"),
     ),
-    assumptions=("first order in δn^±", "n is whole and 1 ≤ n < l − j; zero otherwise"),
+    assumptions=("first order in δn^±", "n is whole", *WHERE.in_words()),
     premises=(eq08.DERIVATION, eq09.DERIVATION),
     printed=(PRINTED,),
     loads=("single",),

@@ -241,8 +241,7 @@ DERIVATION = Derivation(
     ),
     assumptions=(
         "first order in δr",
-        "0 ≤ j < M",
-        "only the surface beads are loaded",
+        *WHERE.in_words(),
         "no horizontal boundary is met (W > M)",
     ),
     premises=(eq04.DERIVATION, eq05.DERIVATION, eq07.DERIVATION, eq09.DERIVATION, eq10.DERIVATION),
