@@ -9,13 +9,12 @@ from force_diffusion.derivations.framework.vocabulary import (
     Lines,
     Part,
     Where,
-    Witness,
     axioms,
-    compare,
     equation,
     follows,
     inverse,
     minus,
+    on_packings,
     order,
     solve,
     terms,
@@ -169,12 +168,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     where=WHERE,
-    witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "none", each_bead),
-        ),
-    ),
+    witnesses=(on_packings(PRINTED, "none", each_bead),),
 )
 
 if __name__ == "__main__":

@@ -10,12 +10,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
     Where,
-    Witness,
     axioms,
-    compare,
     equation,
     minus,
     mirror_of,
+    on_packings,
     order,
     rewrite,
     terms,
@@ -128,12 +127,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     where=WHERE,
-    witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "none", each_contact),
-        ),
-    ),
+    witnesses=(on_packings(PRINTED, "none", each_contact),),
 )
 
 if __name__ == "__main__":

@@ -9,12 +9,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     Lines,
     Part,
     Where,
-    Witness,
     axioms,
-    compare,
     equation,
     minus,
     mirror_of,
+    on_packings,
     solve,
     terms,
     times,
@@ -122,14 +121,8 @@ DERIVATION = Derivation(
     steps=steps,
     where=WHERE,
     witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: first part",
-            lambda packing: compare(PRINTED[0], packing, "single", loaded_bead),
-        ),
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: second part",
-            lambda packing: compare(PRINTED[1], packing, "single", loaded_bead),
-        ),
+        on_packings(PRINTED[0], "single", loaded_bead, "first part"),
+        on_packings(PRINTED[1], "single", loaded_bead, "second part"),
     ),
 )
 

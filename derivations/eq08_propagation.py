@@ -9,12 +9,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     Lines,
     Part,
     Where,
-    Witness,
     axioms,
-    compare,
     equation,
     minus,
     mirror_of,
+    on_packings,
     solve,
     terms,
     times,
@@ -116,14 +115,8 @@ DERIVATION = Derivation(
     steps=steps,
     where=WHERE,
     witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: first part",
-            lambda packing: compare(PRINTED[0], packing, "single", left_edge),
-        ),
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: second part",
-            lambda packing: compare(PRINTED[1], packing, "single", left_edge),
-        ),
+        on_packings(PRINTED[0], "single", left_edge, "first part"),
+        on_packings(PRINTED[1], "single", left_edge, "second part"),
     ),
     remarks=("The paper leaves the incoming force along n⁻ to symmetry; it is solved for here.",),
 )

@@ -10,14 +10,13 @@ from force_diffusion.derivations.framework.vocabulary import (
     Lines,
     Part,
     Where,
-    Witness,
     axioms,
     below,
-    compare,
     equation,
     in_terms_of,
     induct,
     minus,
+    on_packings,
     rewrite,
     terms,
     times,
@@ -171,12 +170,7 @@ DERIVATION = Derivation(
     loads=("single",),
     steps=steps,
     where=WHERE,
-    witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "single", straight_below),
-        ),
-    ),
+    witnesses=(on_packings(PRINTED, "single", straight_below),),
 )
 
 if __name__ == "__main__":

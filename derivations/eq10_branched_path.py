@@ -17,12 +17,12 @@ from force_diffusion.derivations.framework.vocabulary import (
     Witness,
     axioms,
     below,
-    compare,
     equation,
     in_cases,
     in_terms_of,
     induct,
     minus,
+    on_packings,
     rewrite,
     terms,
     times,
@@ -210,10 +210,7 @@ DERIVATION = Derivation(
         ),
     ),
     witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "single", inside_cone),
-        ),
+        on_packings(PRINTED, "single", inside_cone),
         Witness("no force of first order left of the cone", witnesses.zero_outside),
     ),
 )
