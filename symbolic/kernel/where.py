@@ -289,17 +289,6 @@ class Where:
                         break
         return image
 
-    def points(self, reach: int = 6) -> Iterator[dict[sympy.Symbol, int]]:
-        """Integer points with beads at their places: small ones first, each index within reach."""
-        free = [symbol for symbol in self.indices if symbol not in self.solved]
-        ranges = sorted(range(-reach, reach + 1), key=abs)
-        for values in sorted(product(ranges, repeat=len(free)), key=lambda v: sum(map(abs, v))):
-            at = dict(zip(free, values, strict=True))
-            for symbol, value in self.solved.items():
-                at[symbol] = int(value.xreplace(at))
-            if self.holds(at) and not any(one.xreplace(at) % 2 for one in self.even):
-                yield at
-
     def holds(self, at: Mapping[sympy.Symbol, int]) -> bool:
         """Whether a point is in it."""
         numbers = [at.get(symbol, 0) for symbol in sy.INDICES]

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, lru_cache
-from itertools import product
-from time import process_time
+from itertools import islice, product
+from time import monotonic
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
@@ -91,24 +91,26 @@ def _packing(world: World, name: str | None, place: tuple[int, ...]) -> Packing:
     return Packing(world.geometry, given(name, place, f_load, m_g))
 
 
-def counterexample(statement: sympy.Eq, where: Where) -> str | None:
+def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = None) -> str | None:
     """Words for values at which a statement is false or has no value; None where none is found.
+
+    All points of ``points`` are tried, or ``at_most`` so many of them.
 
     What can't be evaluated is not refuted: unknown symbols, floats and roots, a number beside a
     vector, a sum whose upper bound is below its lower one by more than one, what is too large.
     """
     try:
-        return _search(statement, where)
+        return _search(statement, where, at_most)
     except Exception:  # whatever the tree, also one that is too deep for Python: nothing is found
         return None
 
 
-def _search(statement: sympy.Eq, where: Where) -> str | None:
+def _search(statement: sympy.Eq, where: Where, at_most: int | None) -> str | None:
     if not isinstance(statement, sympy.Eq) or where.dimension != 2:
         return None
     free = _free_symbols(statement)
-    until = process_time() + SECONDS
-    for at, world in _drawn(_with_all_indices(where, free)):
+    until = monotonic() + SECONDS
+    for at, world in islice(_drawn(_with_all_indices(where, free)), at_most):
         values = _values(at, world)
         try:
             found = _at(statement, where.loading, world, values, until)

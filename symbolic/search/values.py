@@ -6,7 +6,7 @@ Nothing is rearranged first, and nothing is shared with normal forms but SymPy's
 
 from collections.abc import Mapping
 from fractions import Fraction
-from time import process_time
+from time import monotonic
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
@@ -77,7 +77,7 @@ class Evaluator:
             AbsentError: it speaks of a bead or a contact that is not there.
         """
         self._read += 1
-        if self._read % _LOOK == 0 and process_time() > self.until:
+        if self._read % _LOOK == 0 and monotonic() > self.until:
             raise UnreadableError("it takes too long")
         if isinstance(node, sympy.Rational):
             return Dual(int(node) if node.q == 1 else Fraction(int(node.p), int(node.q)))
