@@ -105,7 +105,7 @@ def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = N
         return None
 
 
-def _search(statement: sympy.Eq, where: Where, at_most: int | None) -> str | None:
+def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> str | None:
     if not isinstance(statement, sympy.Eq) or where.dimension != 2:
         return None
     free = _free_symbols(statement)
