@@ -375,4 +375,4 @@ def test_no_tree_makes_it_fail(left: sympy.Expr, right: sympy.Expr, where: Where
 @given(trees, st.sampled_from(list(DOMAINS.values())))
 def test_nothing_differs_from_itself(side: sympy.Expr, where: Where) -> None:
     found = counterexample(equal(side, side), where)
-    assert found is None or "there is no bead" in found or "divides by" in found
+    assert found is None or "bead" in found or "divides by" in found
