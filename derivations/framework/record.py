@@ -1,11 +1,13 @@
 """The shape of a derivation: what every ``eqNN_…`` module states, and what running it yields."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
+from force_diffusion.derivations.framework.proving import Line, fixes_it
 from force_diffusion.derivations.witnesses.both_sides import AbsentError
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
@@ -26,7 +28,10 @@ from force_diffusion.symbolic.kernel.language import (
     usual_form,
     without_value,
 )
+from force_diffusion.symbolic.kernel.theorem import Theorem
+from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search.counterexample import counterexample
 
 
 class KernelError(ForceDiffusionError, RuntimeError):
@@ -124,9 +129,9 @@ def usual(*symbols: sympy.Symbol) -> tuple[tuple[sympy.Symbol, str], ...]:
 class Derivation:
     """One numbered equation: what is printed, why it holds, and how it is checked.
 
-    ``steps`` and ``decide`` are functions so that importing a derivation proves nothing and
-    costs nothing. ``decide`` rules on a candidate for the printed equations, one by one in
-    ``printed``; it is the same procedure for the true equation and for its mutants.
+    ``steps`` is a function so that importing a derivation proves nothing and costs nothing. One
+    of its lines is the printed equation: anything said in its place is proved by the same rule, or
+    not. Where the kernel does not prove it yet, ``decide`` rules on a candidate.
     """
 
     number: Number
@@ -136,12 +141,13 @@ class Derivation:
     assumptions: tuple[str, ...]
     premises: tuple["Derivation", ...]
     printed: tuple[sympy.Eq, ...]
-    steps: Callable[[], Iterable[Step]]
-    decide: Callable[[int, sympy.Eq], Ruling]
+    steps: Callable[[], Sequence[Step] | Sequence[Line]]
+    decide: Callable[[int, sympy.Eq], Ruling] | None = None  # none where the kernel proves it
     claims: tuple[Claim, ...] = ()
     witnesses: tuple[Witness, ...] = ()
     remarks: tuple[str, ...] = ()
     domain: tuple[sympy.Basic, ...] = ()  # relations of whole numbers, where the printed form holds
+    where: Where | None = None  # the same, with the load, of what the kernel proves
     dimension: int = 2  # of the packing: −1/d < φ < 1/2
     loads: tuple[str, ...] = ()  # "single", "surface", "bulk", or "any" but on the bead passed
     relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
@@ -150,7 +156,7 @@ class Derivation:
     # mechanical changes that say the same at the order decided, each with the reason why
     equivalent: Mapping[str, str] = field(default_factory=dict)
     # false statements, and true ones in another form, that the procedure is tried on
-    tries: Callable[[sympy.Eq, str, int], Iterable[Statement]] = statements
+    tries: Callable[[sympy.Eq, str, int | None, int], Iterable[Statement]] = statements
 
     def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
         """Rule on a candidate for one of ``printed``: decided, in the language, and searched.
@@ -158,9 +164,12 @@ class Derivation:
         Raises:
             KernelError: it was proved, and explicit values refute it.
         """
-        if reason := unreadable(candidate, self.printed, [symbol for symbol, _ in self.symbols]):
+        named = [symbol for symbol, _ in self.symbols]
+        if reason := unreadable(candidate, self.printed, named, self.dimension):
             return undecided(reason)
         candidate = usual_form(candidate, self.printed)
+        if self.decide is None:
+            return self._by_the_kernel(part, candidate)
         try:
             ruling = self.decide(part, candidate)
         except (NotExactError, AmbiguousError, RecursionError) as failure:
@@ -183,6 +192,45 @@ class Derivation:
             return refuted(found)
         if ruling.verdict is Verdict.REFUTED:
             return undecided("it differs from what is derived, yet no exact packing refutes it")
+        return ruling
+
+    @property
+    def words(self) -> str:
+        """How a line that rests on it names it."""
+        return f"Eq. {self.number}"
+
+    @property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """What the kernel proves of it, one theorem for each printed equation."""
+        return tuple(
+            line.theorems[line.equations.index(one)]
+            for one, line in ((one, self._line(one)) for one in self.printed)
+        )
+
+    @cached_property
+    def _lines(self) -> Sequence[Any]:
+        return self.steps()
+
+    @property
+    def all_claims(self) -> tuple[Claim, ...]:
+        """What else is claimed of it, by the kernel's lines and by procedures of its own."""
+        further = getattr(self._lines, "claims", ())
+        return (*(Claim(one.reason, one.decide) for one in further), *self.claims)
+
+    def _line(self, printed: sympy.Eq) -> Line:
+        return next(line for line in self._lines if printed in line.equations)
+
+    def _by_the_kernel(self, part: int, candidate: sympy.Eq) -> Ruling:
+        printed = self.printed[part]
+        line = self._line(printed)
+        ruling = line.rule_on(line.equations.index(printed), candidate)
+        if ruling.verdict is not Verdict.PROVED:
+            return ruling
+        assert self.where is not None
+        if less := fixes_it(candidate, printed, self.where):
+            return undecided(less)
+        if candidate != printed and (found := counterexample(candidate, self.where)):
+            raise self.fault(candidate, f"proved, yet false: {found}")
         return ruling
 
     def _needs_packings(self, part: int, candidate: sympy.Eq) -> bool:

@@ -72,7 +72,7 @@ def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
     watch(derivation, "steps")
     for place, step in enumerate(derivation.steps(), start=1):
         yield _timed("step", f"step {place}", lambda s=step: _ruling(s, found))  # type: ignore[misc]
-    for claim in derivation.claims:
+    for claim in derivation.all_claims:
         watch(derivation, claim.name)
         yield _timed("proof", claim.name, claim.decide)
 
@@ -138,7 +138,9 @@ def tried(derivation: Derivation, watch: Watch = _silent, rule: Rule = _rule) ->
     watch(derivation, "false and true statements")
     turn = sum(map(ord, str(derivation.number)))
     for place, equation in enumerate(derivation.printed):
-        for statement in derivation.tries(equation, derivation.relation, turn):
+        for statement in derivation.tries(
+            equation, derivation.relation, turn, derivation.dimension
+        ):
             ruling = rule(derivation, place, statement.reason, statement.equation)
             wrong = Verdict.REFUTED if statement.holds else Verdict.PROVED
             if ruling.verdict is wrong:

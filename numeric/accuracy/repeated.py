@@ -34,6 +34,8 @@ from ..quantities.answer import Answer, answer
 from ..quantities.base import Table
 from .accuracy import Accuracy
 
+ESTIMATED = "estimated, not certified"
+
 
 def repeated(plan: Plan, work: Work) -> tuple[Answer, Accuracy]:
     """Answer, and solve the first realisations again with a longer significand to compare."""
@@ -69,24 +71,36 @@ def of_floats(table: Table, longer: Table, whole: Table, system: Hardware) -> Ac
 
     ``table`` and ``longer`` are the two solutions of some realisations out of ``whole``.
     """
-    largest, error = 0.0, 0.0
-    for name in table.small:
-        a, b = table.numbers[name], longer.numbers[name]
-        if not len(a):
-            continue
-        largest = max(largest, float(np.abs(a).max()))
-        error = max(error, float(np.abs(as_floats(b - a)).max()))
-    unit = 4 * 2.0**-system.bits  # no estimate can promise less than a few roundings
+    found = of_distances([distances(table, longer)], system)
+    if not found.error_bound and any(np.any(whole.numbers[name]) for name in whole.small):
+        # what was compared is exactly zero, the rest of the answer is not
+        return replace(found, error_bound=_unit(system))
+    return found
+
+
+def distances(table: Table, longer: Table) -> tuple[float, float]:
+    """Give the largest change of a float solution, and its largest distance from a longer one."""
+    pairs = [(table.numbers[name], longer.numbers[name]) for name in table.small]
+    largest = np.max([np.abs(a).max(initial=0) for a, _ in pairs])
+    return float(largest), float(np.max([abs(as_floats(b - a)).max(initial=0) for a, b in pairs]))
+
+
+def of_distances(parts: Sequence[tuple[float, float]], system: Hardware) -> Accuracy:
+    """Estimate the error of a float solution from the ``distances`` of its parts."""
+    largest, error = map(float, np.max(parts, axis=0))
     if not largest:
         bound = math.inf if error else 0.0
-        if not error and any(np.any(whole.numbers[name]) for name in whole.small):
-            bound = unit  # what was compared is exactly zero, the rest of the answer is not
-        return Accuracy(bound, False, system.name, 0.0, "estimated, not certified")
+        return Accuracy(bound, False, system.name, 0.0, ESTIMATED)
     if not math.isfinite(largest) or not math.isfinite(error):
         return Accuracy(math.inf, False, system.name, float(system.bits))
-    ratio = max(2 * error / largest, unit)
+    ratio = max(2 * error / largest, _unit(system))
     lost = max(system.bits + math.log2(ratio), 0.0)
-    return Accuracy(ratio, False, system.name, round(lost, 1), "estimated, not certified")
+    return Accuracy(ratio, False, system.name, round(lost, 1), ESTIMATED)
+
+
+def _unit(system: Hardware) -> float:
+    """No estimate can promise less than a few roundings."""
+    return 4 * 2.0**-system.bits
 
 
 def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
@@ -114,7 +128,7 @@ def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
     ratio = max(absolute / largest, 4 * unit) + merging(method, plan.problem.realisations) * unit
     lost = max(method.system.bits + _log2(ratio), 0.0)
     of_all = f"{method.repeated} of {plan.problem.realisations} realisations"
-    note = f"estimated, not certified, from {of_all}"
+    note = f"{ESTIMATED}, from {of_all}"
     return Accuracy(_bound(PRINTED * ratio), False, method.system.name, round(lost, 1), note)
 
 

@@ -113,8 +113,6 @@ def of_pairs(region: Region, layers: range, offsets: Sequence[tuple[int, int]]) 
     found = []
     for dj in sorted({dj for _, dj in offsets}):
         which = [k for k, offset in enumerate(offsets) if offset[1] == dj]
-        if width == 1 and not dj:
-            continue  # a bead beside its own image
         js = range(layers.start, min(layers.stop, region.top + 1 - dj))
 
         def kind(j: int, dj: int = dj) -> tuple[int, ...]:
@@ -143,11 +141,10 @@ def of_steps(width: int, layers: int, steps: Sequence[tuple[int, ...]]) -> Array
     for k, (p, q, third) in enumerate(steps):
         other = np.roll(index, (-p, -q), (0, 1)).reshape(-1)
         above = p + q + third
-        if above or other[0]:  # else a bead beside its own image
-            j = np.arange(max(layers - above, 0))
-            table = np.array([(at, other[at], n, k, 0) for at, n in _cuts(other)])
-            offset = np.stack([j * index.size, (j + above) * index.size, 0 * j, 0 * j, j], axis=-1)
-            found.append((j, table + offset[:, None]))
+        j = np.arange(max(layers - above, 0))
+        table = np.array([(at, other[at], n, k, 0) for at, n in _cuts(other)])
+        offset = np.stack([j * index.size, (j + above) * index.size, 0 * j, 0 * j, j], axis=-1)
+        found.append((j, table + offset[:, None]))
     return _ordered(found, 5, downwards=False)
 
 

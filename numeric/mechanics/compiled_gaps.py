@@ -3,6 +3,7 @@
 Those of ``gaps``, or of ``spheres.gaps``.
 """
 
+from collections.abc import Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -10,9 +11,9 @@ import numpy as np
 from ..arithmetic.compiling import borrowed, compiled
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice import runs as tables
-from .gaps import NEIGHBOURS, RESOLUTION, of_lattice
+from .gaps import RESOLUTION, of_lattice
 from .packing import CompiledPacking
-from .spheres import CompiledPlaced, metric, near_pairs
+from .spheres import CompiledPlaced, metric
 from .spheres import of_lattice as of_axes
 
 _ALL = 0x7FFF_FFFF_FFFF_FFFF  # all bits of a double but its sign
@@ -130,19 +131,21 @@ Two beads by their number in the region, and the packing.
 """
 
 
-def gaps(solved: CompiledPacking, layers: range) -> Found | None:
+def gaps(
+    solved: CompiledPacking, layers: range, offsets: Sequence[tuple[int, int]]
+) -> Found | None:
     """Give what there is of a packing of discs; None where a gap is no number."""
-    region = solved.region
-    runs = tables.of_pairs(region, layers, NEIGHBOURS)
-    kinds = [of_lattice(solved.n_x, offset) for offset in NEIGHBOURS]
+    runs = tables.of_pairs(solved.region, layers, offsets)
+    kinds = [of_lattice(solved.n_x, offset) for offset in offsets]
     lattice = np.array([kind[:4] for kind in kinds])
     phi = kinds[0][4], kinds[0][5]
     return _found(solved.flat, solved.block, runs, lattice, phi)
 
 
-def gaps_of_spheres(placed: CompiledPlaced, phi: Fraction) -> Found | None:
+def gaps_of_spheres(
+    placed: CompiledPlaced, phi: Fraction, pairs: Sequence[tuple[int, ...]]
+) -> Found | None:
     """Give what there is of a packing of spheres; None where a gap is no number."""
-    pairs = near_pairs(3)
     runs = tables.of_steps(placed.rho[0].shape[-1], len(placed.rho), pairs)
     m = metric(3, phi, FLOAT64)
     lattice = np.array([of_axes(phi, steps) for steps in pairs])

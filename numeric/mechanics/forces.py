@@ -49,7 +49,8 @@ class Forces:
 
     ``ordered``: F^±, ``change``: g^± = f^± − F^±; per layer arrays of shape (count,), changes of a
     batch of packings (…, count). ``stopped`` names the first tensile contact where a sweep was
-    asked to stop at one: the layers below it are then empty.
+    asked to stop at one: the layers below it are then empty. ``lost``: what the sums of the lowest
+    row that was balanced have lost (see ``added``), for a sweep that goes on from there.
     """
 
     system: NumberSystem
@@ -57,6 +58,7 @@ class Forces:
     ordered: PerBranch[Sequence[Array]]
     change: PerBranch[Sequence[Array]]
     stopped: Contact | None = None
+    lost: tuple[Any, Any] = (0, 0)
 
     def below(self, j: int) -> Iterator[tuple[Direction, Array, Array]]:
         """Give (branch, F, g) of the contacts below row j."""
@@ -66,6 +68,10 @@ class Forces:
     def contact(self, layer: Layer, branch: Direction, column: int) -> Contact | AxisContact:
         """Name the contact below a bead of a row."""
         return Contact(layer.first + 2 * column - branch.side, layer.j - 1, Branch(branch))
+
+
+Above = tuple[tuple[Array, Array], tuple[Array, Array], tuple[Any, Any]]
+"""Forces of a row that is balanced already: F^±, g^±, and what the sums of g^± have lost."""
 
 
 @dataclass(frozen=True)
@@ -102,6 +108,7 @@ def sweep_down(
     linear: bool = False,
     stop_at_tension: bool = False,
     work: Work | None = None,
+    above: Above | None = None,
 ) -> Forces:
     """Carry loads down from the highest of ``rows`` through the beads of ``rows``.
 
@@ -110,8 +117,9 @@ def sweep_down(
 
     ``rows[j]`` for j = 0 … top lie within the packing's region; ``loads`` belong to them. Beads
     above or beside the rows pass no force on to them. The caller activates the number system.
-    ``stop_at_tension`` ends the sweep below the first layer with a tensile contact. Raises
-    ``NotStandingError`` where two contacts are parallel within the arithmetic.
+    ``stop_at_tension`` ends the sweep below the first layer with a tensile contact. ``above``: the
+    forces of the highest row, where that is balanced already. Raises ``NotStandingError`` where two
+    contacts are parallel within the arithmetic.
     """
     top = len(rows) - 1
     system, width = packing.system, packing.region.width
@@ -120,7 +128,9 @@ def sweep_down(
     nothing = (zeros(system, 0), zeros(system, 0))
     ordered: list[tuple[Array, Array]] = [nothing] * (top + 1)
     change: list[tuple[Array, Array]] = [nothing] * (top + 1)
-    for j in range(top, 0, -1):
+    if above is not None:
+        ordered[top], change[top], lost = above
+    for j in range(top if above is None else top - 1, 0, -1):
         layer = rows[j]
         if not layer.count:
             break
@@ -163,6 +173,7 @@ def sweep_down(
         PerBranch(tuple(f[0] for f in ordered), tuple(f[1] for f in ordered)),
         PerBranch(tuple(g[0] for g in change), tuple(g[1] for g in change)),
         stopped,
+        lost,
     )
 
 

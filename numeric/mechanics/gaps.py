@@ -12,6 +12,8 @@ from ..arithmetic.systems import Array
 
 # Neighbours that don't touch in the ordered packing, to the right or above, nearest first.
 NEIGHBOURS = ((2, 0), (0, 2), (3, 1), (-3, 1), (1, 3), (-1, 3))
+# Beads this many layers above others are among them.
+ABOVE = max(dj for _, dj in NEIGHBOURS)
 # Gaps smaller than this, in units of r, are below the rounding of float64.
 RESOLUTION = 1e-14
 

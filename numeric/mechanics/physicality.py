@@ -4,7 +4,8 @@ Signs of forces are those of the arithmetic that solved them: with balls they ar
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cache, reduce
 
 import numpy as np
 
@@ -13,8 +14,10 @@ from ..lattice.branch import AxisContact, Contact, Site
 from .forces import Forces, pulling
 from .gaps import NEIGHBOURS, RESOLUTION, gaps
 from .packing import CompiledPacking, SolvedPacking
+from .pairs import Extent, Steps, extent, further, may_meet
 
 PHYSICAL = "check that it is physical"
+_NEAR = frozenset(((di + dj) // 2, (dj - di) // 2) for di, dj in NEIGHBOURS)
 
 
 @dataclass
@@ -35,6 +38,8 @@ class Physicality:
     first_tensile_in: int = 0
     """Realisations, or packings of a batch, that the two were found in."""
     looks_at: Sequence[int] = (0,)
+    extent: Extent | None = field(default=None, compare=False)
+    """Of the beads of the last packing whose gaps were measured, that of layers above included."""
 
     @property
     def sound(self) -> bool:
@@ -61,13 +66,68 @@ class Physicality:
         lower, upper = self.between
         return self.smallest_gap, upper[-1] - lower[-1], lower[-1]
 
-    def look_at_gaps(self, packing: SolvedPacking, layers: range | None = None) -> None:
-        """Measure the gaps of every pair of near neighbours within the region.
+    def look_at_gaps(
+        self,
+        packing: SolvedPacking,
+        layers: range | None = None,
+        above: "Physicality | None" = None,
+    ) -> None:
+        """Measure the gaps of every pair of near neighbours, and of all others that may overlap.
 
-        Of the lower bead's ``layers`` only, if some are given.
+        Of the lower bead's ``layers`` only, if some are given. ``above``: what was found of layers
+        above the packing's, if there are any; pairs with those that may overlap stay undecided.
         """
         top = packing.region.top
         layers = range(top + 1) if layers is None else layers
+
+        @cache
+        def rows(j: int) -> tuple[Array, Array, Array]:
+            of = packing.c.plus[j], packing.c.minus[j], packing.rho[j]
+            return as_floats(of[0]), as_floats(of[1]), as_floats(of[2])
+
+        def bounds(j: int) -> Extent:
+            return extent(rows(j)[:2], rows(j)[2])
+
+        if isinstance(packing, CompiledPacking):
+            block = packing.block[..., : packing.region.beads]
+            here = extent((block[:, 0], block[:, 1]), packing.flat)
+        else:
+            here = reduce(Extent.joined, map(bounds, range(layers.start, top + 1)))
+        self._look(packing, layers, NEIGHBOURS, rows)
+        phi = float(1 - 2 * packing.n_x**2)
+        others = self.further(phi, _NEAR, here, bounds, layers, top)
+        if others:
+            self._look(packing, layers, [(p - q, p + q) for p, q in others], rows)
+        self.extent = here
+        if above is not None and above.extent is not None:
+            own = reduce(Extent.joined, map(bounds, layers))
+            self.extent = here.joined(above.extent)
+            self.undecided_gaps += may_meet(phi, own, above.extent, top + 1 - layers[-1])
+
+    def further(
+        self,
+        phi: float,
+        known: frozenset[Steps],
+        all_beads: Extent,
+        bounds: Callable[[int], Extent],
+        layers: range,
+        top: int,
+    ) -> list[Steps]:
+        """Give what else may overlap, or be nearer than what was found (see ``pairs``)."""
+        try:
+            return further(phi, known, self.smallest_gap, all_beads, bounds, layers, top)
+        except OverflowError:
+            self.undecided_gaps += 1
+            return []
+
+    def _look(
+        self,
+        packing: SolvedPacking,
+        layers: range,
+        offsets: Sequence[tuple[int, int]],
+        rows: Callable[[int], tuple[Array, Array, Array]],
+    ) -> None:
+        """Measure the gaps of pairs at some lattice distances."""
         if isinstance(packing, CompiledPacking):
             from . import compiled_gaps
 
@@ -78,17 +138,13 @@ class Physicality:
                 i, j = region.site(bead)
                 return _home(i, period), j
 
-            if self.took(compiled_gaps.gaps(packing, layers), named):
+            if self.took(compiled_gaps.gaps(packing, layers, offsets), named):
                 return
-        rows = range(layers.start, min(layers.stop + 3, top + 1))
-        c_plus = {j: as_floats(packing.c.plus[j]) for j in rows}
-        c_minus = {j: as_floats(packing.c.minus[j]) for j in rows}
-        rho = {j: as_floats(packing.rho[j]) for j in rows}
-        for dj in (0, 1, 2, 3):
-            for j in range(layers.start, min(layers.stop, top + 1 - dj)):
-                for di, dj_of in NEIGHBOURS:
+        for dj in sorted({dj for _, dj in offsets}):
+            for j in range(layers.start, min(layers.stop, packing.region.top + 1 - dj)):
+                for di, dj_of in offsets:
                     if dj_of == dj:
-                        self._pairs(packing, (c_plus, c_minus, rho), j, (di, dj))
+                        self._pairs(packing, (rows(j), rows(j + dj)), j, (di, dj))
 
     def took(
         self,
@@ -109,7 +165,7 @@ class Physicality:
     def _pairs(
         self,
         packing: SolvedPacking,
-        values: tuple[dict[int, Array], dict[int, Array], dict[int, Array]],
+        values: tuple[tuple[Array, Array, Array], tuple[Array, Array, Array]],
         j: int,
         offset: tuple[int, int],
     ) -> None:
@@ -120,15 +176,13 @@ class Physicality:
         if width is not None:
             index %= width
         inside = (index >= 0) & (index < there.count)
-        if width == 1 and dj == 0:
-            return  # a bead beside its own image
         if not inside.any():
             return
-        c_plus, c_minus, rho = values
+        (c_plus, c_minus, rho), upper = values
         other = index[inside]
-        up = c_plus[j + dj][..., other] - c_plus[j][..., inside]
-        um = c_minus[j + dj][..., other] - c_minus[j][..., inside]
-        both = rho[j][..., inside] + rho[j + dj][..., other]
+        up = upper[0][..., other] - c_plus[..., inside]
+        um = upper[1][..., other] - c_minus[..., inside]
+        both = rho[..., inside] + upper[2][..., other]
         period = 2 * width if width is not None else None
 
         def pair(bead: int) -> tuple[Site, Site]:

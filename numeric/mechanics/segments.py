@@ -2,7 +2,8 @@
 
 On the way up only the positions of every k-th layer are kept. On the way down the layers between
 are drawn and deposited again, so that a segment at a time is there, as if all had been solved
-together: no bit differs. With k near the root of the height that takes half as long again.
+together: no bit differs. With k near the root of the height that takes half as long again. float64
+is compiled; other arithmetics, which repeat a packing to estimate its error, are swept by NumPy.
 """
 
 from collections.abc import Sequence
@@ -12,14 +13,17 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from ..arithmetic.errors import NotReachedError
-from ..arithmetic.systems import FLOAT64, Array
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem, zeros
+from ..disorder.radii import rows_of
 from ..lattice.branch import PerBranch
 from ..lattice.layers import Layer, LazyRows, Region, pick
+from ..lattice.regions import Rows
 from . import forces, packing
 from .compiled import Drawing
 from .compiled_forces import Descent
 from .compiled_packing import Deposition
 from .forces import Forces, Loads
+from .gaps import ABOVE
 from .loads import on_rows
 from .packing import CompiledPacking, SolvedPacking
 from .problem import Problem, Solved
@@ -27,7 +31,14 @@ from .work import Work
 
 T = TypeVar("T", Drawing, Deposition, Descent)
 # Layers above a segment that are deposited, too: beads look for gaps so far up.
-OVER = 3
+OVER = ABOVE
+# Names under which a segment's number follows: positions below it, and forces on its lowest layer.
+KEPT = ("c", "g", "F")
+
+
+def count(problem: Problem, layers: int) -> int:
+    """Give how many segments of so many layers a problem has."""
+    return max(1, -(-problem.region.top // layers))
 
 
 class Kept(Protocol):
@@ -78,6 +89,11 @@ class Segment:
     solved: Solved
     packing: SolvedPacking
 
+    @property
+    def layers(self) -> range:
+        """Its layers, ``first`` … ``last``."""
+        return range(self.first, self.last + 1)
+
 
 class Segments:
     """Solves one realisation of a problem, ``layers`` at a time (an even number)."""
@@ -91,14 +107,18 @@ class Segments:
         kept: Kept,
         *,
         again: bool = False,
+        system: NumberSystem = FLOAT64,
     ) -> None:
-        """``kept`` may hold what an earlier run has kept; ``again``: all will go down once more."""
+        """``kept`` may hold what an earlier run has kept; ``again``: all will go down once more.
+
+        The caller activates ``system``; files keep float64 alone.
+        """
         self.problem, self.realisation, self.work, self.kept = problem, realisation, work, kept
-        self.again = again
+        self.again, self.system = again, system
         self.layers, self.top = layers, problem.region.top
-        self.count = max(1, -(-self.top // layers))
+        self.count = count(problem, layers)
         self._parts: dict[type, Any] = {}
-        self._strength = problem.load.strength(problem.n_x, FLOAT64)
+        self._strength = problem.load.strength(problem.n_x, system)
 
     def up(self, highest: int) -> None:
         """Deposit all segments below the ``highest``; keep the layer below each.
@@ -131,16 +151,22 @@ class Segments:
     def _deposited(self, number: int) -> SolvedPacking:
         problem, work, low = self.problem, self.work, number * self.layers
         region = Region(problem.width, problem.region.rows[low : low + self.layers + OVER + 1])
+        base = self.kept.get(f"c{number}") if number else None
+        on = None if base is None else (base[0], base[1])
+        if self.system is not FLOAT64:
+            with work.timed("radii"):
+                drawn = rows_of(problem.radii, region.rows, [self.realisation], self.system)
+            work.did_rows("radii", region.rows, region.beads)
+            with work.timed("deposit"):
+                return packing.deposit(problem.n_x, region, drawn, self.system, work, on=on)
         with work.timed("radii"):
             draw = self._ready(Drawing(problem.radii, region), "rho")
             rho, rows = draw([self.realisation])
         work.did_rows("radii", region.rows, region.beads)
         with work.timed("deposit"):
             deposit = self._ready(Deposition(problem.n_x, region), "block")
-            base = self.kept.get(f"c{number}") if number else None
             solved = deposit(rho, rows, base)
             if solved is None:  # then this names the bead
-                on = None if base is None else (base[0], base[1])
                 return packing.deposit(problem.n_x, region, rows, FLOAT64, work, on=on)
         work.did_rows("deposited", region.rows, region.beads)
         return solved
@@ -157,17 +183,45 @@ class Segments:
             if ordered is not None:
                 loads[-1] = (ordered[0], ordered[1])
             plus, minus = zip(*loads, strict=True)
-            descent = self._ready(Descent(solved.region, rows, Loads(plus, minus)), "g", "lost")
-            found = descent(solved, above) if isinstance(solved, CompiledPacking) else None
-            if found is None:
-                raise _not_balanced(solved, rows)
+            sweep = self._compiled if self.system is FLOAT64 else self._swept
+            found, lowest = sweep(solved, rows, Loads(plus, minus), above)
             if number and rows[1].count:
-                self.kept.put(f"g{number}", descent.row(1))
+                self.kept.put(f"g{number}", lowest)
                 self.kept.put(
                     f"F{number}", np.stack([found.ordered.plus[1], found.ordered.minus[1]])
                 )
-        self.work.did_rows("balanced", rows[:0:-1], descent.beads)
         return found
+
+    def _compiled(
+        self, solved: SolvedPacking, rows: Rows, loads: Loads, above: Array | None
+    ) -> tuple[Forces, Array]:
+        """Balance the forces by compiled sweeps; give also what the segment below takes along.
+
+        That, as ``above`` of this one: g^± and what their sums have lost, (2, 2, beads).
+        """
+        descent = self._ready(Descent(solved.region, rows, loads), "g", "lost")
+        found = descent(solved, above) if isinstance(solved, CompiledPacking) else None
+        if found is None:
+            raise _not_balanced(solved, rows)
+        self.work.did_rows("balanced", rows[:0:-1], descent.beads)
+        return found, descent.row(1)
+
+    def _swept(
+        self, solved: SolvedPacking, rows: Rows, loads: Loads, above: Array | None
+    ) -> tuple[Forces, Array]:
+        """Do the same in any arithmetic."""
+        known = None
+        if above is not None:
+            plus, minus = loads.plus[-1], loads.minus[-1]
+            assert plus is not None
+            assert minus is not None
+            known = (plus, minus), (above[0, 0], above[0, 1]), (above[1, 0], above[1, 1])
+        found = forces.sweep_down(solved, rows, loads, work=self.work, above=known)
+        if not rows[1].count:
+            return found, zeros(self.system, 2, 2, 0)
+        g = found.change.plus[1], found.change.minus[1]
+        lost = g if self.system.dtype is object else found.lost  # not looked at there
+        return found, np.array([g, lost])
 
     def _loads(self, row: Layer) -> tuple[Array | None, Array | None]:
         load = self.problem.load
@@ -175,11 +229,12 @@ class Segments:
             if load.kind == "surface" and row.j < load.height:
                 return None, None
             plus, minus = self._strength.unit
-            return np.zeros(row.count) + plus, np.zeros(row.count) + minus
+            nothing = zeros(self.system, row.count)
+            return nothing + plus, nothing + minus
         loaded = load.loaded or []
         single = self._strength.single if load.kind == "file" else {}
         here = {(i, 0): single.get((i, j), self._strength.unit) for i, j in loaded if j == row.j}
-        loads = on_rows(here, (row,), load.width, FLOAT64)
+        loads = on_rows(here, (row,), load.width, self.system)
         return loads.plus[0], loads.minus[0]
 
     def _ready(self, part: T, *memory: str) -> T:
@@ -193,7 +248,7 @@ class Segments:
 
     def _whole(self, solved: SolvedPacking, found: Forces | None, low: int) -> Solved:
         """Number rows as in the whole packing; those that are not there are empty."""
-        nothing = np.empty(0)
+        nothing = zeros(self.system, 0)
 
         def placed(rows: Sequence[Any], count: int, empty: Any = nothing) -> LazyRows[Any]:
             def row(j: int) -> Any:
@@ -204,7 +259,7 @@ class Segments:
         layers, pair = self.top + 1, (nothing, nothing)
         whole = SolvedPacking(
             solved.n_x,
-            FLOAT64,
+            self.system,
             self.problem.region,
             placed(solved.rho, layers),
             PerBranch(placed(solved.c.plus, layers), placed(solved.c.minus, layers)),
@@ -219,7 +274,7 @@ class Segments:
             PerBranch[Sequence[Array]](placed(plus, len(rows)), placed(minus, len(rows)))
             for plus, minus in there
         )
-        return Solved(FLOAT64, whole, Forces(FLOAT64, rows, ordered, change), None)
+        return Solved(self.system, whole, Forces(self.system, rows, ordered, change), None)
 
 
 def _not_balanced(solved: SolvedPacking, rows: Sequence[Layer]) -> Exception:

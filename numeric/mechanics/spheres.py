@@ -272,12 +272,11 @@ def of_lattice(phi: Fraction, steps: tuple[int, ...]) -> tuple[float, ...]:
 def gaps(placed: Placed, phi: Fraction, j: int, steps: tuple[int, ...]) -> Array | None:
     """Give the gaps of the beads of layer j with those at lattice distance ``steps``, units of r.
 
-    In float64, without cancelling; None where no bead is there but the bead itself.
+    In float64, without cancelling, own images included; None above the highest layer.
     """
     d = len(steps)
-    top, width = len(placed.rho) - 1, placed.rho[0].shape[-1]
     other = j + sum(steps)
-    if other > top or (other == j and not any(s % width for s in steps[:-1])):
+    if other >= len(placed.rho):
         return None
 
     def there(values: Array) -> Array:

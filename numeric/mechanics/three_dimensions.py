@@ -7,17 +7,19 @@ a layer as one row, column p W + q, so that radii, plans, memory and statistics 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import reduce
 from math import isqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..arithmetic.systems import Array, NumberSystem, zeros
+from ..arithmetic.systems import Array, NumberSystem, as_floats, zeros
 from ..disorder.radii import Monodisperse, RadiusError, rows_of
 from ..lattice.branch import Axis, AxisContact, Direction, PerAxis
 from ..lattice.layers import Bead, Layer, LazyRows, bead_of, bead_of_number
 from .forces import Forces
 from .loads import LoadSpec
+from .pairs import Extent, extent
 from .physicality import Physicality
 from .problem import Problem, Route, Solved
 from .spheres import (
@@ -82,18 +84,36 @@ class Spheres(Solved):
     phi: Fraction
 
     def look_at_gaps(self, physical: Physicality) -> None:
-        """Measure the gaps of near pairs, from the base up."""
+        """Measure the gaps of near pairs, and of all others that may overlap, from the base up."""
+        placed, near, top = self.placed, near_pairs(3), len(self.placed.rho) - 1
+
+        def bounds(j: int) -> Extent:
+            return extent([as_floats(c) for c in placed.c[j]], as_floats(placed.rho[j]))
+
+        if isinstance(placed, CompiledPlaced):
+            block = placed.block[..., : placed.flat.shape[-1]]
+            here = extent([block[:, a] for a in range(3)], placed.flat)
+        else:
+            here = reduce(Extent.joined, map(bounds, range(top + 1)))
+        self._look(physical, near)
+        phi, layers = float(self.phi), range(top + 1)
+        others = physical.further(phi, frozenset(near), here, bounds, layers, top)
+        if others:
+            self._look(physical, others)
+
+    def _look(self, physical: Physicality, pairs: Sequence[tuple[int, ...]]) -> None:
+        """Measure the gaps of pairs so many steps apart."""
         placed = self.placed
         if isinstance(placed, CompiledPlaced):
             from . import compiled_gaps
 
             W = placed.rho[0].shape[-1]
-            all_gaps = compiled_gaps.gaps_of_spheres(placed, self.phi)
+            all_gaps = compiled_gaps.gaps_of_spheres(placed, self.phi, pairs)
             if physical.took(all_gaps, lambda bead: bead_of_number(bead, W)):
                 return
         for j, row in enumerate(self.placed.rho):
             width = row.shape[-1]
-            for steps in near_pairs(3):
+            for steps in pairs:
                 found = gaps(self.placed, self.phi, j, steps)
                 if found is None:
                     continue

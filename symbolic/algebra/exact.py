@@ -208,7 +208,8 @@ class RationalFunction:
     def holds(self, symbol: sympy.Expr) -> bool:
         """Whether a generator occurs."""
         place = self.domain.position[symbol]
-        return bool(self.numerator.degrees()[place] or self.denominator.degrees()[place])
+        # of the zero polynomial every degree is −1
+        return any(side.degrees()[place] > 0 for side in (self.numerator, self.denominator))
 
     def degree(self, symbol: sympy.Expr) -> int:
         """Degree in ``symbol``, which the denominator must not hold."""
@@ -342,5 +343,11 @@ def _ratio(value: int | Fraction | sympy.Rational) -> tuple[int, int]:
     return int(value.numerator), int(value.denominator)
 
 
-FIELD = Domain((LAYER, *INDICES, *PARAMETERS))
-"""The field of all the paper's symbols, used by linear forms."""
+UNKNOWNS = (
+    tuple(sympy.Dummy(f"positive_{place}", positive=True) for place in range(6)),
+    tuple(sympy.Dummy(f"real_{place}", real=True) for place in range(10)),
+)
+"""What stands for unknown numbers while two sides are compared: positive ones, and any."""
+
+FIELD = Domain((LAYER, *INDICES, *PARAMETERS, *UNKNOWNS[0], *UNKNOWNS[1]))
+"""The field of all the paper's symbols, and of some unknown numbers, used by linear forms."""

@@ -12,6 +12,7 @@ normal forms are (what is normal in them is unique). Sums follow Karr's conventi
 Σ_{n=a}^{b} + Σ_{n=b+1}^{c} = Σ_{n=a}^{c}; :mod:`symbolic.algebra.reading` asserts the bounds.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import sympy
@@ -123,6 +124,25 @@ class LinearForm:
 
     def __sub__(self, other: "LinearForm") -> "LinearForm":
         return self + (-other)
+
+    @property
+    def at_zero(self) -> RationalFunction:
+        """The constant term: the form's value at order 0 in the deviations of the radii."""
+        return self.sites.get(NO_SITE, FIELD.zero)
+
+    def times(self, other: "LinearForm") -> "LinearForm":
+        """The product to first order: what is of first order in both is dropped."""
+        both = self.scaled(other.at_zero) + other.scaled(self.at_zero)
+        return both + LinearForm.constant(-(self.at_zero * other.at_zero))
+
+    def mapped(self, change: Callable[[RationalFunction], RationalFunction]) -> "LinearForm":
+        """The form with every weight changed."""
+        result = LinearForm()
+        for site, weight in self.sites.items():
+            result.add_site(site, change(weight))
+        for ray, weight in self.rays.items():
+            result.add_ray(ray, change(weight))
+        return result
 
     def is_zero(self) -> bool:
         """Decide whether the form vanishes for all values of the indices."""

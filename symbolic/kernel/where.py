@@ -18,6 +18,7 @@ from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.affine import Affine
 from force_diffusion.symbolic.algebra.exact import Domain, NotExactError
 from force_diffusion.symbolic.algebra.signs import sign
+from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.text import text
@@ -25,8 +26,8 @@ from force_diffusion.symbolic.printing.text import text
 Mapped = Mapping[sympy.Basic, sympy.Expr]
 """What is put in for symbols."""
 
-LATTICE = {sy.i: sy.j, sy.k: sy.l, sy.site_r: sy.site_s}
-"""Indices of beads: of each pair the sum is even."""
+LATTICE = ((sy.i, sy.j), (sy.k, sy.l), (sy.site_r, sy.site_s))
+"""Indices of beads, across and up: their sum is even."""
 
 _SIGNS = {sympy.Eq: "=", sympy.Le: "≤", sympy.Lt: "<", sympy.Ge: "≥", sympy.Gt: ">"}
 _MANY = 4000  # rows of an elimination; beyond that nothing is decided
@@ -52,6 +53,8 @@ class Loading:
 
     def put_in(self, image: Mapped) -> "Loading":
         """The same at another place."""
+        named = set().union(*(one.free_symbols for one in self.place))
+        image = {symbol: one for symbol, one in image.items() if symbol in named}
         if self.everywhere and any(one.has(sy.site_r, sy.site_s) for one in image.values()):
             raise NotExactError("the indices r and s stand for any bead of this loading")
 
@@ -65,6 +68,21 @@ class Loading:
             everywhere=tuple((at(one), tuple(map(at, when))) for one, when in self.everywhere),
         )
 
+    def mirrored(self) -> "Loading":
+        """The mirror image; one that is its own stays the same."""
+        given = tuple(map(lattice.mirror, self.given))
+        everywhere = tuple(
+            (lattice.mirror(one), tuple(map(lattice.mirrored_relation, when)))
+            for one, when in self.everywhere
+        )
+        if set(given) == set(self.given) and set(everywhere) == set(self.everywhere):
+            return self
+        end = ", mirrored"
+        name = self.name.removesuffix(end) if self.name.endswith(end) else self.name + end
+        before = "the mirror image of: "
+        words = before + self.words if name.endswith(end) else self.words.removeprefix(before)
+        return replace(self, name=name, words=words, given=given, everywhere=everywhere)
+
 
 @dataclass(frozen=True)
 class Where:
@@ -74,12 +92,14 @@ class Where:
         indices: whole numbers that it speaks of, every one of the domain.
         relations: between whole numbers; all of them hold.
         loading: what is known of loads and forces; None for a statement about geometry alone.
+        even: sums of indices that are even, since beads are there: i + j of a bead (i, j).
         dimension: of the packing: −1/dimension < φ < ½.
     """
 
     indices: tuple[sympy.Symbol, ...] = ()
     relations: tuple[sympy.Basic, ...] = ()
     loading: Loading | None = None
+    even: tuple[sympy.Expr, ...] = ()
     dimension: int = 2
     _rows: frozenset[Affine] = field(init=False, repr=False)
 
@@ -96,21 +116,32 @@ class Where:
     ) -> "Where":
         """The domain of all indices that the relations and the load speak of, and further ones.
 
-        With the layer of a bead its other index is one of them.
+        With one index of a bead the other is one of them.
         """
         held = {*indices}.union(*(one.free_symbols for one in relations))
         if loading:
             held |= set().union(*(one.free_symbols for one in loading.place))
-        held |= {across for across, layer in LATTICE.items() if layer in held}
-        return cls(tuple(s for s in sy.INDICES if s in held), relations, loading)
+        beads = [bead for bead in LATTICE if held & set(bead)]
+        held = held.union(*beads)
+        ordered = tuple(symbol for symbol in sy.INDICES if symbol in held)
+        return cls(ordered, relations, loading, tuple(across + layer for across, layer in beads))
 
     def also(self, *relations: sympy.Basic, indices: Iterable[sympy.Symbol] = ()) -> "Where":
         """The part of it where further relations hold, in further indices."""
         more = tuple(one for one in relations if one not in self.relations)
-        held = tuple(dict.fromkeys((*self.indices, *indices)))
+        named = {*self.indices, *indices}
+        held = tuple(symbol for symbol in sy.INDICES if symbol in named)
         return self if not more and held == self.indices else replace(
             self, indices=held, relations=(*self.relations, *more)
         )  # fmt: skip
+
+    def loaded(self, loading: Loading | None) -> "Where":
+        """The same indices under another load."""
+        return replace(self, loading=loading)
+
+    def within(self, index: sympy.Symbol, low: sympy.Expr, high: sympy.Expr) -> "Where":
+        """The domain of the terms of a sum."""
+        return self.also(sympy.Ge(index, low), sympy.Le(index, high), indices=(index,))
 
     def put_in(self, image: Mapped, indices: Iterable[sympy.Symbol]) -> "Where":
         """The domain of other indices, in terms of which these are given."""
@@ -118,8 +149,19 @@ class Where:
             one.func(*(side.xreplace(image) for side in one.args), evaluate=False)
             for one in self.relations
         )
-        loading = self.loading and self.loading.put_in(image)
-        return replace(self, indices=tuple(indices), relations=relations, loading=loading)
+        return replace(
+            self,
+            indices=tuple(indices),
+            relations=relations,
+            loading=self.loading and self.loading.put_in(image),
+            even=tuple(sympy.expand(one.xreplace(image)) for one in self.even),
+        )
+
+    def mirrored(self) -> "Where":
+        """The domain of the mirror image of a statement."""
+        relations = tuple(map(lattice.mirrored_relation, self.relations))
+        loading = self.loading and self.loading.mirrored()
+        return replace(self, relations=relations, loading=loading)
 
     # what follows
 
@@ -158,7 +200,12 @@ class Where:
         return not left
 
     def never_zero(self, expression: sympy.Expr) -> bool:
-        """Whether an expression without lattice quantities is shown to vanish nowhere."""
+        """Whether an expression without lattice quantities is shown to vanish nowhere.
+
+        Disorder is as weak as one likes: what differs from zero at ε = 0 does.
+        """
+        if expression.has(sy.epsilon):
+            expression = sympy.expand(expression.xreplace({sy.epsilon: sympy.S.Zero}))
         return self.sign(expression) != 0
 
     def sign(self, expression: sympy.Expr) -> int:
@@ -197,13 +244,26 @@ class Where:
                 found *= one ** (power % 2) if one else 0
         return found
 
+    def is_even(self, value: Affine) -> bool:
+        """Whether an affine expression is even at every point with beads at their places."""
+        equations = [one.lhs - one.rhs for one in self.relations if isinstance(one, sympy.Eq)]
+        known: list[Affine] = []
+        for one in (*map(affine.from_sympy, map(sympy.expand, (*self.even, *equations))), value):
+            rest = tuple(c % 2 for c in one)
+            for row in known:
+                if rest[row.index(1)]:
+                    rest = tuple((a + b) % 2 for a, b in zip(rest, row, strict=True))
+            if any(rest):
+                known.append(rest)
+            last = not any(rest)
+        return last
+
     def on_lattice(self, across: sympy.Expr, layer: sympy.Expr) -> bool:
         """Whether (across, layer) is a bead: the sum is even, and the layer not below the base."""
-        value = affine.add(affine.from_sympy(across), affine.from_sympy(layer))
-        for one, other in LATTICE.items():
-            value = affine.from_sympy(affine.to_sympy(value).xreplace({one: other}))
-        even = not any(coefficient % 2 for coefficient in value)
-        return even and self.nonnegative(affine.from_sympy(layer))
+        height = affine.from_sympy(layer)
+        return self.is_even(affine.add(affine.from_sympy(across), height)) and self.nonnegative(
+            height
+        )
 
     # how it is shown, and its points
 
@@ -213,7 +273,9 @@ class Where:
         image: dict[sympy.Symbol, sympy.Expr] = {}
         for one in self.relations:
             if isinstance(one, sympy.Eq):
-                value = affine.from_sympy(sympy.expand((one.lhs - one.rhs).xreplace(image)))
+                value = _tightened(
+                    affine.from_sympy(sympy.expand((one.lhs - one.rhs).xreplace(image)))
+                )
                 for symbol in self.indices:
                     c = affine.coefficient(value, symbol)
                     if abs(c) == 1:
@@ -233,9 +295,7 @@ class Where:
             at = dict(zip(free, values, strict=True))
             for symbol, value in self.solved.items():
                 at[symbol] = int(value.xreplace(at))
-            if self.holds(at) and not any(
-                (at[a] + at[b]) % 2 for a, b in LATTICE.items() if a in at and b in at
-            ):
+            if self.holds(at) and not any(one.xreplace(at) % 2 for one in self.even):
                 yield at
 
     def holds(self, at: Mapping[sympy.Symbol, int]) -> bool:

@@ -41,3 +41,9 @@ def mirror(expression: sympy.Basic) -> sympy.Basic:
     if isinstance(expression, sympy.Add | sympy.Mul | sympy.Eq):
         return expression.func(*arguments, evaluate=False)
     return expression.func(*arguments)
+
+
+def mirrored_relation(relation: sympy.Basic) -> sympy.Basic:
+    """The same of a relation between indices, whose places across the packing change their sign."""
+    turned = {symbol: -symbol for symbol in _HORIZONTAL}
+    return relation.func(*(side.xreplace(turned) for side in relation.args), evaluate=False)

@@ -1,7 +1,7 @@
 """Explicit values at which a statement is false, drawn for all that it leaves free."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, lru_cache
 from itertools import product
@@ -198,8 +198,11 @@ def _with_all_indices(where: Where, free: set[sympy.Symbol]) -> Where:
     more = [one for one in sy.INDICES if one in free and one not in where.indices]
     if not more:
         return where
-    layers = [one >= 0 for one in more if one in LATTICE.values()]
-    return where.also(*layers, indices=more)
+    beads = [bead for bead in LATTICE if set(bead) & set(more)]
+    layers = [layer >= 0 for _, layer in beads if layer in more]
+    even = tuple(across + layer for across, layer in beads)
+    wider = where.also(*layers, indices=[*more, *(one for bead in beads for one in bead)])
+    return replace(wider, even=(*where.even, *even))
 
 
 def _unequal(left: Dual | Vector, right: Dual | Vector) -> str:

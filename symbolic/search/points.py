@@ -67,9 +67,11 @@ class _Domain:
     def __init__(self, where: Where) -> None:
         self.where = where
         free = [one for one in where.indices if one not in where.solved]
-        across = [one for one in free if one in LATTICE]
+        places = [across for across, _ in LATTICE]
+        across = [one for one in free if one in places]
         self.along = across[:1]  # one place along a layer is as good as another
-        self.others = across[1:] + [one for one in free if one not in LATTICE]
+        self.others = across[1:] + [one for one in free if one not in places]
+        self._even = [affine.from_sympy(one) for one in where.even]
         self._solved = [(one, affine.from_sympy(value)) for one, value in where.solved.items()]
         self._positive = [one for one in where.indices if one.is_positive]
         self._held_anywhere = not any(
@@ -83,14 +85,18 @@ class _Domain:
         for place in along if self.along else (0,):
             at.update(dict.fromkeys(self.along, place))
             for symbol, value in self._solved:
-                terms = zip(sy.INDICES, value, strict=False)
-                at[symbol] = value[-1] + sum(c * at[one] for one, c in terms if c)
+                at[symbol] = self._sum(value, at)
             if all(at[one] > 0 for one in self._positive) and self.where.holds(at):
-                if not any((at[a] + at[b]) % 2 for a, b in LATTICE.items() if a in at and b in at):
+                if not any(self._sum(one, at) % 2 for one in self._even):
                     return {symbol: at[symbol] for symbol in self.where.indices}
             elif self._held_anywhere:
                 return None
         return None
+
+    @staticmethod
+    def _sum(value: affine.Affine, at: Point) -> int:
+        terms = zip(sy.INDICES, value, strict=False)
+        return value[-1] + sum(c * at[one] for one, c in terms if c)
 
     def combinations(self) -> list[tuple[int, ...]]:
         """Values of the other indices, small ones first; as large as it leaves them few enough."""
