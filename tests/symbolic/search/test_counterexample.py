@@ -194,7 +194,7 @@ MOVED += [PASSING.put_in({site_r: k + 1, site_s: l + 1})]
 @pytest.mark.parametrize("loading", [*LOADINGS, *MIRRORED, *MOVED, *(o.mirrored() for o in MOVED)])
 def test_what_a_loading_says_has_none_and_other_places_have(loading: Loading) -> None:
     """The packings know a loading by its name alone."""
-    relations = [0 <= j, j < M] if loading.place[-1] == M else [loading.place[-1] >= 1]
+    relations = [j >= 0, j < M] if loading.place[-1] == M else [loading.place[-1] >= 1]
     above = Where.of(*relations, loading=loading)
     given_there = [(one, ()) for one in loading.given]
     for equation, when in chain(given_there, loading.everywhere):
