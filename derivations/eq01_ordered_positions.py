@@ -7,11 +7,10 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
     Where,
-    Witness,
     axioms,
-    compare,
     equation,
     follows,
+    on_packings,
     reach,
     rewrite,
     terms,
@@ -164,17 +163,13 @@ DERIVATION = Derivation(
         "all radii equal r",
         "bead (i, j) touches the beads (i±1, j±1)",
         "i + j is even; the base is j = 0",
+        *WHERE.in_words(),
     ),
     premises=(),
     printed=(PRINTED,),
     steps=steps,
     where=WHERE,
-    witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "none", each_contact),
-        ),
-    ),
+    witnesses=(on_packings(PRINTED, "none", each_contact),),
 )
 
 if __name__ == "__main__":

@@ -9,13 +9,12 @@ from force_diffusion.derivations.framework.vocabulary import (
     Lines,
     Part,
     Where,
-    Witness,
     axioms,
-    compare,
     equation,
     follows,
     inverse,
     minus,
+    on_packings,
     order,
     solve,
     terms,
@@ -161,19 +160,15 @@ DERIVATION = Derivation(
     ),
     assumptions=(
         "first order in δr",
-        "the bead rests on (i−1, j−1) and (i+1, j−1), j ≥ 1",
+        "the bead rests on (i−1, j−1) and (i+1, j−1)",
         "the contacts are those of the ordered packing",
+        *WHERE.in_words(),
     ),
     premises=(eq01.DERIVATION,),
     printed=(PRINTED,),
     steps=steps,
     where=WHERE,
-    witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "none", each_bead),
-        ),
-    ),
+    witnesses=(on_packings(PRINTED, "none", each_bead),),
 )
 
 if __name__ == "__main__":

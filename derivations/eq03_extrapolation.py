@@ -1,6 +1,6 @@
 """Eq. 3: the displacement in terms of the radii alone, by induction from the base."""
 
-from functools import cache
+from functools import cache, partial
 
 import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
@@ -11,9 +11,9 @@ from force_diffusion.derivations.framework.vocabulary import (
     Where,
     Witness,
     axioms,
-    compare,
     equation,
     induct,
+    on_packings,
     rewrite,
     supposing,
     terms,
@@ -105,10 +105,12 @@ def steps() -> Lines:
         after=(first, step),
     )
     zero = sympy.Integer(0)
-    read_as_empty = PRINTED.rhs.replace(sympy.Sum, lambda *_: zero).xreplace({j: zero})
+    empty = dict.fromkeys(PRINTED.rhs.atoms(sympy.Sum), zero)
     lines.claim(
         "at j = 0 the printed sums, read as empty, would leave 2δr_(i,0)(b⁺ + b⁻), not 0",
-        equation(read_as_empty, 2 * DeltaR(i, 0) * (b_plus + b_minus)),
+        equation(
+            PRINTED.rhs.xreplace(empty).xreplace({j: zero}), 2 * DeltaR(i, 0) * (b_plus + b_minus)
+        ),
         rewrite(),
         where=Where.of(j >= 0).put_in({j: zero}, (i,)),
     )
@@ -129,20 +131,18 @@ DERIVATION = Derivation(
     assumptions=(
         "first order in δr",
         "the centres of the base beads are fixed: δx_(i,0) = 0",
-        "j ≥ 1; no horizontal boundary is met",
+        "no horizontal boundary is met",
+        *WHERE.in_words(),
     ),
     premises=(eq02.DERIVATION,),
     printed=(PRINTED,),
     steps=steps,
     where=WHERE,
     witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "none", each_bead),
-        ),
+        on_packings(PRINTED, "none", each_bead),
         Witness(
             "exact positions at 80 digits differ from it by a remainder of order ε²",
-            lambda packing: remainders.positions(PRINTED.rhs, packing),
+            partial(remainders.positions, PRINTED.rhs),
         ),
     ),
     remarks=(

@@ -10,12 +10,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
     Where,
-    Witness,
     axioms,
     cases,
-    compare,
     equation,
     minus,
+    on_packings,
     order,
     rewrite,
     terms,
@@ -124,17 +123,12 @@ DERIVATION = Derivation(
         (b_minus, "reciprocal vector: n⁻·b⁻ = 1, n⁺·b⁻ = 0"),
         (m, "layer of a bead on a diagonal down to the base"),
     ),
-    assumptions=("first order in δr", "fixed base; j ≥ 0"),
+    assumptions=("first order in δr", "fixed base", *WHERE.in_words()),
     premises=(eq01.DERIVATION, eq03.DERIVATION),
     printed=(PRINTED,),
     steps=steps,
     where=WHERE,
-    witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "none", each_contact),
-        ),
-    ),
+    witnesses=(on_packings(PRINTED, "none", each_contact),),
 )
 
 if __name__ == "__main__":

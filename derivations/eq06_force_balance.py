@@ -10,13 +10,12 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
     Where,
-    Witness,
     along,
     axioms,
-    compare,
     differentiate,
     equation,
     follows,
+    on_packings,
     rewrite,
     solve,
     terms,
@@ -177,19 +176,14 @@ DERIVATION = Derivation(
     ),
     assumptions=(
         "no friction; contacts push along the line of centres",
-        "bead (k, l) carries nothing but its load",
+        *WHERE.in_words(),
     ),
     premises=(eq04.DERIVATION, eq05.DERIVATION),
     printed=(PRINTED,),
     loads=("single",),
     steps=steps,
     where=WHERE,
-    witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "single", loaded_bead),
-        ),
-    ),
+    witnesses=(on_packings(PRINTED, "single", loaded_bead),),
 )
 
 if __name__ == "__main__":

@@ -9,12 +9,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     Lines,
     Part,
     Where,
-    Witness,
     axioms,
-    compare,
     equation,
     minus,
     mirror_of,
+    on_packings,
     solve,
     terms,
     times,
@@ -115,21 +114,15 @@ DERIVATION = Derivation(
         (ForcePlus(*LEFT), "force of the contact from (k−1, l−1)"),
         (ForceMinus(*RIGHT), "force of the contact from (k+1, l−1)"),
     ),
-    assumptions=("first order in δn^±", "the load is vertical"),
+    assumptions=("first order in δn^±", *WHERE.in_words()),
     premises=(eq06.DERIVATION,),
     printed=PRINTED,
     loads=("single",),
     steps=steps,
     where=WHERE,
     witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: first part",
-            lambda packing: compare(PRINTED[0], packing, "single", loaded_bead),
-        ),
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: second part",
-            lambda packing: compare(PRINTED[1], packing, "single", loaded_bead),
-        ),
+        on_packings(PRINTED[0], "single", loaded_bead, "first part"),
+        on_packings(PRINTED[1], "single", loaded_bead, "second part"),
     ),
 )
 

@@ -10,14 +10,13 @@ from force_diffusion.derivations.framework.vocabulary import (
     Lines,
     Part,
     Where,
-    Witness,
     axioms,
     below,
-    compare,
     equation,
     in_terms_of,
     induct,
     minus,
+    on_packings,
     rewrite,
     terms,
     times,
@@ -165,18 +164,13 @@ DERIVATION = Derivation(
         (phi, "n⁺·n⁻"),
         (q, "number of beads passed"),
     ),
-    assumptions=("first order in δn^±", "k − i = l − j ≥ 1", "the beads passed carry no load"),
+    assumptions=("first order in δn^±", *WHERE.in_words()),
     premises=(eq08.DERIVATION,),
     printed=(PRINTED,),
     loads=("single",),
     steps=steps,
     where=WHERE,
-    witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "single", straight_below),
-        ),
-    ),
+    witnesses=(on_packings(PRINTED, "single", straight_below),),
 )
 
 if __name__ == "__main__":

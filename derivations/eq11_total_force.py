@@ -1,6 +1,6 @@
 """Eq. 11: the contact force under a surface load, as the sum over all loads and paths."""
 
-from functools import cache
+from functools import cache, partial
 
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
@@ -10,7 +10,6 @@ from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework.vocabulary import (
     SUPPOSED,
-    Claim,
     Derivation,
     Lines,
     Part,
@@ -18,11 +17,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     Witness,
     axioms,
     below,
-    compare,
     equation,
     induct,
     minus,
     mirror_of,
+    on_packings,
     rewrite,
     terms,
     times,
@@ -30,10 +29,6 @@ from force_diffusion.derivations.framework.vocabulary import (
 from force_diffusion.derivations.witnesses import remainders
 from force_diffusion.derivations.witnesses.both_sides import each_contact
 from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.algebra.linear_forms import CONSTANT
-from force_diffusion.symbolic.algebra.reading import Reader
-from force_diffusion.symbolic.kernel.decisions import Ruling, from_test
 from force_diffusion.symbolic.kernel.where import ENTERING, LOADED_VERTICALLY, SURFACE
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.symbols import (
@@ -222,13 +217,6 @@ def steps() -> Lines:
     return lines
 
 
-def _mean() -> Ruling:
-    form = Reader(INTERIOR).scalar(in_radii(PRINTED.rhs))
-    constants = [weight for site, weight in form.sites.items() if site.family == CONSTANT]
-    is_one = len(constants) == 1 and (constants[0] - FIELD.one).is_zero()
-    return from_test(is_one, "the constant part is 1, all else is linear in radii of zero mean")
-
-
 DERIVATION = Derivation(
     number=11,
     name="total_force",
@@ -241,8 +229,7 @@ DERIVATION = Derivation(
     ),
     assumptions=(
         "first order in δr",
-        "0 ≤ j < M",
-        "only the surface beads are loaded",
+        *WHERE.in_words(),
         "no horizontal boundary is met (W > M)",
     ),
     premises=(eq04.DERIVATION, eq05.DERIVATION, eq07.DERIVATION, eq09.DERIVATION, eq10.DERIVATION),
@@ -250,17 +237,11 @@ DERIVATION = Derivation(
     loads=("surface",),
     steps=steps,
     where=WHERE,
-    claims=(Claim("the mean force is f_load/2n_y at every height", _mean),),
     witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(
-                equation(PRINTED.lhs, in_radii(PRINTED.rhs)), packing, "surface", each_contact
-            ),
-        ),
+        on_packings(equation(PRINTED.lhs, in_radii(PRINTED.rhs)), "surface", each_contact),
         Witness(
             "exact forces at 80 digits differ from it by a remainder of order ε²",
-            lambda packing: remainders.forces(in_radii(PRINTED.rhs), packing),
+            partial(remainders.forces, in_radii(PRINTED.rhs)),
         ),
     ),
 )

@@ -2,13 +2,13 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.proving import Line, fixes_it
-from force_diffusion.derivations.witnesses.both_sides import AbsentError
+from force_diffusion.derivations.witnesses.both_sides import AbsentError, Points, compare
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
@@ -109,6 +109,12 @@ class Witness:
 
     name: str
     run: Callable[[SmallPacking], Ruling]
+
+
+def on_packings(equation: sympy.Eq, load: str, points: Points, part: str = "") -> Witness:
+    """Compare both sides of an equation on exact packings, as fractions."""
+    name = "an exact packing obeys it, both sides at orders ε⁰ and ε¹" + (part and f": {part}")
+    return Witness(name, partial(compare, equation, load=load, points=points))
 
 
 _MEANINGS = {

@@ -25,8 +25,12 @@ from force_diffusion.derivations.framework.proving import (
     supposing,
     walk,
 )
-from force_diffusion.derivations.framework.record import Claim, Derivation, Witness
-from force_diffusion.derivations.witnesses.both_sides import compare
+from force_diffusion.derivations.framework.record import (
+    Claim,
+    Derivation,
+    Witness,
+    on_packings,
+)
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.where import Where
@@ -44,7 +48,6 @@ __all__ = [
     "axioms",
     "below",
     "cases",
-    "compare",
     "differentiate",
     "equation",
     "follows",
@@ -54,6 +57,7 @@ __all__ = [
     "inverse",
     "minus",
     "mirror_of",
+    "on_packings",
     "order",
     "reach",
     "rewrite",

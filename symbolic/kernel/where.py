@@ -6,7 +6,7 @@ every integer point; what needs the integers more than that is not found, and no
 from it.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from itertools import product
@@ -30,6 +30,8 @@ LATTICE = ((sy.i, sy.j), (sy.k, sy.l), (sy.site_r, sy.site_s))
 """Indices of beads, across and up: their sum is even."""
 
 _SIGNS = {sympy.Eq: "=", sympy.Le: "≤", sympy.Lt: "<", sympy.Ge: "≥", sympy.Gt: ">"}
+_IN_LATEX = {sympy.Eq: "=", sympy.Le: r"\leq", sympy.Lt: "<", sympy.Ge: r"\geq", sympy.Gt: ">"}
+_TURNED = {sympy.Ge: sympy.Le, sympy.Gt: sympy.Lt}
 _MANY = 4000  # rows of an elimination; beyond that nothing is decided
 
 
@@ -311,17 +313,42 @@ class Where:
             for row in self._rows
         )
 
-    def words(self) -> str:
-        """Its relations and its load in plain text: "2 ≤ j ≤ M − 2"."""
-        shown = [f"{text(one.lhs)} {_SIGNS[one.func]} {text(one.rhs)}" for one in self.relations]
-        return ", ".join([*shown, *([self.loading.words] if self.loading else [])])
+    def in_words(self) -> tuple[str, ...]:
+        """Its relations in plain text, such as "0 ≤ j < M", and its load."""
+        shown = [" ".join(_told(chain, text, _SIGNS)) for chain in self._chains()]
+        return (*shown, *([self.loading.words] if self.loading else []))
 
     def latex(self) -> str:
-        """Its relations in LaTeX."""
-        return r",\ ".join(latex(one) for one in self.relations)
+        r"""Its relations in LaTeX, such as "0 \leq j < M"."""
+        return r",\ ".join(" ".join(_told(chain, latex, _IN_LATEX)) for chain in self._chains())
+
+    def _chains(self) -> Iterator[list[sympy.Basic | type]]:
+        """Relations that go on where the one before ends, as sides and kinds in turn."""
+        chain: list[sympy.Basic | type] = []
+        for one, following in zip(self.relations, (*self.relations[1:], None), strict=True):
+            left, right, kind = one.lhs, one.rhs, one.func
+            if following is not None and following.lhs == left and kind in _TURNED:
+                left, right, kind = right, left, _TURNED[kind]
+            if chain and chain[-1] == left:
+                chain += [kind, right]
+                continue
+            if chain:
+                yield chain
+            chain = [left, kind, right]
+        if chain:
+            yield chain
 
     def __str__(self) -> str:
-        return self.words()
+        return ", ".join(self.in_words())
+
+
+def _told(
+    chain: Iterable[sympy.Basic | type],
+    side: Callable[[sympy.Basic], str],
+    signs: Mapping[type, str],
+) -> Iterator[str]:
+    for one in chain:
+        yield signs[one] if isinstance(one, type) else side(one)
 
 
 @lru_cache(maxsize=4096)
