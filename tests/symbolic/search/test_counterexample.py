@@ -7,9 +7,6 @@ import pytest
 import sympy
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.corpus import TRUE
-from force_diffusion.symbolic.kernel.mutants import mutants
-from force_diffusion.symbolic.kernel.sources import Source
 from force_diffusion.symbolic.kernel.where import (
     ENTERING,
     LOADED,
@@ -20,7 +17,10 @@ from force_diffusion.symbolic.kernel.where import (
     Where,
 )
 from force_diffusion.symbolic.search import counterexample as module
+from force_diffusion.symbolic.search.corpus import TRUE
 from force_diffusion.symbolic.search.counterexample import counterexample
+from force_diffusion.symbolic.search.mutants import mutants
+from force_diffusion.symbolic.search.sources import Source
 from force_diffusion.symbolic.symbols import (
     Braces,
     DeltaNMinus,
