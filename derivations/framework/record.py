@@ -14,7 +14,6 @@ from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.algebra.explicit import AmbiguousError
-from force_diffusion.symbolic.kernel.corpus import Statement, statements
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
@@ -31,6 +30,7 @@ from force_diffusion.symbolic.kernel.language import (
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search.corpus import Statement, statements
 from force_diffusion.symbolic.search.counterexample import counterexample
 
 

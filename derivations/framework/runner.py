@@ -113,7 +113,7 @@ def judged_mutants(
     Raises:
         KernelError: one is proved that is not listed as an equivalent rewriting.
     """
-    from force_diffusion.symbolic.kernel.mutants import mutants
+    from force_diffusion.symbolic.search.mutants import mutants
 
     watch(derivation, "mutants")
     for place, equation in enumerate(derivation.printed):

@@ -83,7 +83,12 @@ class Loading:
         name = self.name.removesuffix(end) if self.name.endswith(end) else self.name + end
         before = "the mirror image of: "
         words = before + self.words if name.endswith(end) else self.words.removeprefix(before)
-        return replace(self, name=name, words=words, given=given, everywhere=everywhere)
+        place = self.place
+        if len(place) == 2:  # that of a bead; a height is its own mirror image
+            place = lattice.mirrored_place(*place)
+        return replace(
+            self, name=name, words=words, place=place, given=given, everywhere=everywhere
+        )
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ a loading leaves open, loads and forces from above alike, is drawn, so that noth
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache
 
@@ -20,6 +20,10 @@ HIGHEST = 48
 """The highest layer whose positions are computed, and most layers that a force is followed."""
 
 _DIAGONALS, _LAYERS = 67, 31  # sites that are told apart by their radii
+
+
+MIRRORED = ", mirrored"
+"""How the name of a loading ends that is the mirror image of another."""
 
 
 class AbsentError(ValueError):
@@ -149,6 +153,9 @@ def given(name: str | None, place: tuple[int, ...], f_load: Fraction, m_g: Fract
     Raises:
         UnknownLoadingError: there is no such loading.
     """
+    if name is not None and name.endswith(MIRRORED) and len(place) == 2:
+        straight = given(name.removesuffix(MIRRORED), (-place[0], place[1]), f_load, m_g)
+        return _mirrored(straight)
     weightless = {"loaded": None, "loaded vertically": f_load}
     if name is None:
         return Given(0, _any_force, _any_load)
@@ -189,6 +196,19 @@ def given(name: str | None, place: tuple[int, ...], f_load: Fraction, m_g: Fract
                 lambda *_: NOWHERE,
             )
     raise UnknownLoadingError(f"no packing is known for the loading {name!r}")
+
+
+def _mirrored(made: Given) -> Given:
+    """The mirror image at the line i = 0."""
+
+    def force(branch: Branch, across: int, layer: int) -> Dual:
+        return made.force("-" if branch == "+" else "+", -across, layer)
+
+    def load(across: int, layer: int) -> Vector:
+        straight = made.load(-across, layer)
+        return Vector(-straight.x, straight.y)
+
+    return replace(made, force=force, load=load)
 
 
 @dataclass(frozen=True)

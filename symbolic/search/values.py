@@ -53,7 +53,7 @@ class Evaluator:
         until: float = float("inf"),
     ) -> None:
         self.packing = packing
-        self.numbers = dict(numbers)
+        self.numbers: dict[sympy.Symbol, Number] = dict(numbers)
         self.until = until
         self._read = 0
         x, y = packing.geometry.n

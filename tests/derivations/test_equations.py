@@ -12,7 +12,7 @@ from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.derivations.witnesses.draws import SmallPacking, draw
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Verdict
-from force_diffusion.symbolic.kernel.mutants import mutants
+from force_diffusion.symbolic.search.mutants import mutants
 from hypothesis import given
 
 from tests.derivations.strategies import small_packings

@@ -13,7 +13,7 @@ from force_diffusion.derivations.framework.runner import proofs, run
 from force_diffusion.derivations.parts.tensile import HEIGHT
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Verdict
-from force_diffusion.symbolic.kernel.mutants import mutants
+from force_diffusion.symbolic.search.mutants import mutants
 
 ALL = [load(number) for number in modules()]
 every_equation = pytest.mark.parametrize("derivation", ALL, ids=lambda d: f"eq{d.number}")

@@ -6,7 +6,7 @@ import pytest
 import sympy
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic.kernel.decisions import Verdict
-from force_diffusion.symbolic.kernel.mutants import mutants
+from force_diffusion.symbolic.search.mutants import mutants
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 

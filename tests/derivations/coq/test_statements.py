@@ -14,7 +14,7 @@ from force_diffusion.derivations.witnesses.draws import draw
 from force_diffusion.numeric.mechanics import taylor
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.kernel.mutants import mutants
+from force_diffusion.symbolic.search.mutants import mutants
 
 i, j, m = sy.i, sy.j, sy.m
 

@@ -60,7 +60,7 @@ def value(expression: sympy.Basic) -> Dual | Vector:
         (Sum(m, (m, j, j - 1)), 0),
         (Sum(m * n, (m, 1, n), (n, 1, j)), 25),  # the last limit is the outer one
         (Sum(Sum(m, (m, 1, m)), (m, 1, 3)), 10),  # bounds are read outside of their own sum
-        (Sum(j, (j, 1, 2)) + j, 6),
+        (sympy.Add(Sum(j, (j, 1, 2)), j, evaluate=False), 6),
         (Braces(7, 1 / (j - 3), j, 3), 7),
         (Braces(1 / (j - 3), 8, j, 2), 8),
         (Dot(sy.n_plus, sy.n_minus), y**2 - x**2),
