@@ -138,9 +138,15 @@ class Where:
         more = tuple(one for one in relations if one not in self.relations)
         named = {*self.indices, *indices}
         held = tuple(symbol for symbol in sy.INDICES if symbol in named)
-        return self if not more and held == self.indices else replace(
-            self, indices=held, relations=(*self.relations, *more)
-        )  # fmt: skip
+        if not more and held == self.indices:
+            return self
+        beads = (bead for bead in LATTICE if {*bead} <= named and not {*bead} <= {*self.indices})
+        return replace(
+            self,
+            indices=held,
+            relations=(*self.relations, *more),
+            even=(*self.even, *(across + layer for across, layer in beads)),
+        )
 
     def loaded(self, loading: Loading | None) -> "Where":
         """The same indices under another load."""
