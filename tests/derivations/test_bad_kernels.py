@@ -93,8 +93,14 @@ def test_all_of_overlooks_what_is_undecided(derive: Callable[..., Any], monkeypa
     assert said.startswith(FAULT)
 
 
-@pytest.mark.parametrize("number", [1, 2, 3, 4, 5])
-@pytest.mark.parametrize("fault", ["any for all", "a component skipped"])
+# Eq. 2 is solved for, and Eq. 3 read in Cartesian components, of which a change changes both.
+@pytest.mark.parametrize(
+    ("fault", "number"),
+    [
+        *(("any for all", number) for number in (1, 4, 5)),
+        *(("a component skipped", number) for number in (1, 2, 4, 5)),
+    ],
+)
 def test_vectors_are_compared_in_part(
     derive: Callable[..., Any], monkeypatch: Plant, number: int, fault: str
 ) -> None:
