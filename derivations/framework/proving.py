@@ -23,6 +23,7 @@ from force_diffusion.symbolic.kernel.decisions import (
 )
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import (
+    NotAStatementError,
     NotProvedError,
     Supposition,
     Theorem,
@@ -50,6 +51,8 @@ class Proved(Protocol):
 
 Source = Any
 """A line, an equation, a theorem of the kernel, several of these, or what is supposed."""
+
+_FEW = 12  # points at which such a statement is looked at
 
 SUPPOSED = object()
 """What an induction supposes."""
@@ -317,7 +320,10 @@ class Line:
         try:
             theorem = self.prove(part, candidate)
         except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
-            found = counterexample(self._meant(part, candidate), _at(part, self.where))
+            # what has no value somewhere is mostly without one at a place that no packing shows
+            at_most = _FEW if isinstance(reason, NotAStatementError) else None
+            meant, where = self._meant(part, candidate), _at(part, self.where)
+            found = counterexample(meant, where, at_most=at_most)
             return refuted(found) if found else undecided(str(reason) or type(reason).__name__)
         return proved(f"by the rule: {theorem.rule}")
 

@@ -310,20 +310,24 @@ def put_in(expression: sympy.Expr, facts: Facts, where: Where, background: Facts
 def _put_in(
     node: sympy.Expr, together: tuple[Theorem, ...], where: Where, background: Facts
 ) -> sympy.Expr:
-    if isinstance(node, sy.SiteFunction):
-        for theorem in together:
-            image = _instance_of(theorem, node, where, background)
-            if image is not None:
-                return image
-        return node
-    if not node.has(sy.SiteFunction):
-        return node
-    if isinstance(node, sympy.Sum):
+    image: dict[sympy.Basic, sympy.Expr] = {}
+    bound: set[sympy.Basic] = set()
+    for series in node.atoms(sympy.Sum):
         inner = where
-        for index, low, high in reversed(node.limits):
+        for index, low, high in reversed(series.limits):
             inner = inner.within(index, low, high)
-        return sympy.Sum(_put_in(node.function, together, inner, background), *node.limits)
-    return node.func(*(_put_in(one, together, where, background) for one in node.args))
+            bound.add(index)
+        summed = _put_in(series.function, together, inner, background)
+        image[series] = sympy.Sum(summed, *series.limits)
+    for atom in node.atoms(sy.SiteFunction):
+        if bound and atom.free_symbols & bound:
+            continue  # it stands in a sum
+        for theorem in together:
+            found = _instance_of(theorem, atom, where, background)
+            if found is not None:
+                image[atom] = found
+                break
+    return node.xreplace(image) if image else node
 
 
 def _instance_of(

@@ -138,9 +138,15 @@ class Where:
         more = tuple(one for one in relations if one not in self.relations)
         named = {*self.indices, *indices}
         held = tuple(symbol for symbol in sy.INDICES if symbol in named)
-        return self if not more and held == self.indices else replace(
-            self, indices=held, relations=(*self.relations, *more)
-        )  # fmt: skip
+        if not more and held == self.indices:
+            return self
+        beads = (bead for bead in LATTICE if {*bead} <= named and not {*bead} <= {*self.indices})
+        return replace(
+            self,
+            indices=held,
+            relations=(*self.relations, *more),
+            even=(*self.even, *(across + layer for across, layer in beads)),
+        )
 
     def loaded(self, loading: Loading | None) -> "Where":
         """The same indices under another load."""
@@ -293,17 +299,6 @@ class Where:
                         image[symbol] = rest
                         break
         return image
-
-    def points(self, reach: int = 6) -> Iterator[dict[sympy.Symbol, int]]:
-        """Integer points with beads at their places: small ones first, each index within reach."""
-        free = [symbol for symbol in self.indices if symbol not in self.solved]
-        ranges = sorted(range(-reach, reach + 1), key=abs)
-        for values in sorted(product(ranges, repeat=len(free)), key=lambda v: sum(map(abs, v))):
-            at = dict(zip(free, values, strict=True))
-            for symbol, value in self.solved.items():
-                at[symbol] = int(value.xreplace(at))
-            if self.holds(at) and not any(one.xreplace(at) % 2 for one in self.even):
-                yield at
 
     def holds(self, at: Mapping[sympy.Symbol, int]) -> bool:
         """Whether a point is in it."""

@@ -1,11 +1,10 @@
 """Explicit values at which a statement is false, drawn for all that it leaves free."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, lru_cache
-from itertools import product
-from time import process_time
+from itertools import islice, product
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
@@ -15,14 +14,15 @@ from force_diffusion.symbolic.search.dual import NOWHERE, Dual, Number, TooLarge
 from force_diffusion.symbolic.search.packing import AbsentError, Geometry, Packing, given
 from force_diffusion.symbolic.search.points import Point, points
 from force_diffusion.symbolic.search.values import (
+    Budget,
     Evaluator,
     NoSumError,
     NoValueError,
     UnreadableError,
 )
 
-SECONDS = 1.0
-"""Processor time after which nothing more is tried; a usual statement needs a fifth of it."""
+READS = 300_000
+"""Expressions that are read of one statement at most; a usual one needs a tenth of it."""
 
 _MOST_NODES = 5000
 
@@ -91,27 +91,29 @@ def _packing(world: World, name: str | None, place: tuple[int, ...]) -> Packing:
     return Packing(world.geometry, given(name, place, f_load, m_g))
 
 
-def counterexample(statement: sympy.Eq, where: Where) -> str | None:
+def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = None) -> str | None:
     """Words for values at which a statement is false or has no value; None where none is found.
+
+    All points of ``points`` are tried, or ``at_most`` so many of them.
 
     What can't be evaluated is not refuted: unknown symbols, floats and roots, a number beside a
     vector, a sum whose upper bound is below its lower one by more than one, what is too large.
     """
     try:
-        return _search(statement, where)
+        return _search(statement, where, at_most)
     except Exception:  # whatever the tree, also one that is too deep for Python: nothing is found
         return None
 
 
-def _search(statement: sympy.Eq, where: Where) -> str | None:
+def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> str | None:
     if not isinstance(statement, sympy.Eq) or where.dimension != 2:
         return None
     free = _free_symbols(statement)
-    until = process_time() + SECONDS
-    for at, world in _drawn(_with_all_indices(where, free)):
+    budget = Budget(READS)
+    for at, world in islice(_drawn(_with_all_indices(where, free)), at_most):
         values = _values(at, world)
         try:
-            found = _at(statement, where.loading, world, values, until)
+            found = _at(statement, where.loading, world, values, budget)
         except (NoSumError, TooLargeError):
             continue
         if found:
@@ -144,10 +146,10 @@ def _at(
     loading: Loading | None,
     world: World,
     values: Mapping[sympy.Symbol, Number],
-    until: float,
+    budget: Budget,
 ) -> str | None:
     """What is wrong with a statement at explicit values, in words."""
-    evaluator = Evaluator(_packing(world, None, ()), values, until)
+    evaluator = Evaluator(_packing(world, None, ()), values, budget)
     if loading:
         place = tuple(map(evaluator.whole, loading.place))
         evaluator.packing = _packing(world, loading.name, place)
@@ -200,9 +202,7 @@ def _with_all_indices(where: Where, free: set[sympy.Symbol]) -> Where:
         return where
     beads = [bead for bead in LATTICE if set(bead) & set(more)]
     layers = [layer >= 0 for _, layer in beads if layer in more]
-    even = tuple(across + layer for across, layer in beads)
-    wider = where.also(*layers, indices=[*more, *(one for bead in beads for one in bead)])
-    return replace(wider, even=(*where.even, *even))
+    return where.also(*layers, indices=[*more, *(one for bead in beads for one in bead)])
 
 
 def _unequal(left: Dual | Vector, right: Dual | Vector) -> str:

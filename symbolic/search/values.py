@@ -5,8 +5,8 @@ Nothing is rearranged first, and nothing is shared with normal forms but SymPy's
 """
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from fractions import Fraction
-from time import process_time
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
@@ -18,7 +18,12 @@ HIGHEST_POWER = 64
 MOST_TERMS = 1000
 """Of one sum."""
 
-_LOOK = 64  # expressions read between two looks at the clock
+
+@dataclass
+class Budget:
+    """How many expressions may still be read: the same on every machine."""
+
+    left: float = float("inf")
 
 
 class UnreadableError(ValueError):
@@ -43,19 +48,18 @@ class Evaluator:
     Args:
         packing: what site functions are taken from.
         numbers: values of symbols, whole ones for indices.
-        until: processor time at which it gives up.
+        budget: expressions that may be read; shared by all that one statement asks for.
     """
 
     def __init__(
         self,
         packing: Packing,
         numbers: Mapping[sympy.Symbol, Number],
-        until: float = float("inf"),
+        budget: Budget | None = None,
     ) -> None:
         self.packing = packing
         self.numbers: dict[sympy.Symbol, Number] = dict(numbers)
-        self.until = until
-        self._read = 0
+        self.budget = budget or Budget()
         x, y = packing.geometry.n
         across, up = Fraction(1, 2 * x), Fraction(1, 2 * y)
         self._vectors = {
@@ -76,8 +80,8 @@ class Evaluator:
             NoSumError: it holds a sum without an agreed value.
             AbsentError: it speaks of a bead or a contact that is not there.
         """
-        self._read += 1
-        if self._read % _LOOK == 0 and process_time() > self.until:
+        self.budget.left -= 1
+        if self.budget.left < 0:
             raise UnreadableError("it takes too long")
         if isinstance(node, sympy.Rational):
             return Dual(int(node) if node.q == 1 else Fraction(int(node.p), int(node.q)))

@@ -65,7 +65,8 @@ def test_beads_lie_on_top_of_those_that_they_touch(packing: Packing) -> None:
         for c in range(packing.d):
             below = step(site, c, -1)
             apart = minus(packing.centre(site), packing.centre(below))
-            reach = packing.radius(site) + packing.radius(below)
+            deltas = (packing.change[packing.home(one)] for one in (site, below))
+            reach = 2 * packing.r + sum(deltas)
             assert abs(dot(apart, apart) - reach**2) < ROUNDING
             turned = minus(times(reach, packing.direction((below, c))), apart)
             assert max(map(abs, turned)) < ROUNDING

@@ -10,6 +10,7 @@ from force_diffusion.symbolic.search.dual import Dual, TooLargeError, Vector
 from force_diffusion.symbolic.search.packing import AbsentError, Packing, given
 from force_diffusion.symbolic.search.values import (
     MOST_TERMS,
+    Budget,
     Evaluator,
     NoSumError,
     NotWholeError,
@@ -191,4 +192,4 @@ def test_numbers_do_not_grow_for_ever() -> None:
 
 def test_a_clock_that_has_run_out_ends_it() -> None:
     with pytest.raises(UnreadableError, match="too long"):
-        Evaluator(PACKING, NUMBERS, until=0).value(Sum(m, (m, 1, 900)))
+        Evaluator(PACKING, NUMBERS, Budget(100)).value(Sum(m, (m, 1, 900)))
