@@ -184,6 +184,23 @@ def test_nothing_free_has_one_value(quantity: sympy.Expr) -> None:
     assert counterexample(equal(quantity, Rational(value.numerator, value.denominator)), where)
 
 
+def test_a_domain_of_one_point_is_tried_with_every_cosine() -> None:
+    for world in module.WORLDS:
+        cosine = world.values()[phi]
+        assert counterexample(equal(phi, Rational(cosine.numerator, cosine.denominator)), Where())
+    cosines = Mul(*(phi - Rational(*w.values()[phi].as_integer_ratio()) for w in module.WORLDS[:3]))
+    assert counterexample(equal(cosines, 0), Where())
+
+
+@pytest.mark.parametrize("false", [Sum(1, (m, 1, 3 - j)), Dot(e_y, DeltaX(i, 13 * j))])
+def test_places_where_nothing_can_be_said_are_passed_over(false: sympy.Expr) -> None:
+    """At j = 4, which comes first, the sum has no agreed value, and layer 52 is too high."""
+    assert next(module.points(DOMAINS[1]))[j] == 4
+    found = counterexample(equal(false, 0), DOMAINS[1])
+    assert found
+    assert "j = 4" not in found
+
+
 LOADINGS = [LOADED, LOADED_VERTICALLY, PASSING, ENTERING, SURFACE]
 MIRRORED = [PASSING.mirrored(), ENTERING.mirrored()]
 # "r" and "s" stand for any bead of a loading that says something of all
@@ -223,6 +240,7 @@ def test_any_bead_is_balanced(loading: Loading | None) -> None:
 def test_an_index_that_the_domain_does_not_name_is_drawn_too() -> None:
     found = counterexample(equal(DeltaR(i, j), DeltaR(k, l)), DOMAINS[1])
     assert "k = " in found
+    assert counterexample(equal(DeltaR(k, l), DeltaR(k, l)), DOMAINS[1]) is None
 
 
 # words
@@ -252,6 +270,16 @@ def test_words() -> None:
 def test_what_is_not_there_and_what_has_no_value(quantity: sympy.Expr, words: str) -> None:
     where = DOMAINS[11] if quantity.has(M) else DOMAINS[1]
     assert words in counterexample(equal(quantity, quantity), where)
+
+
+def test_sides_that_look_the_same_are_told_apart() -> None:
+    found = counterexample(equal(1 + Rational(1, 10**9), 1 - Rational(1, 10**9)), Where())
+    assert found.endswith(": 1 on the left and 1 on the right, apart by 1/500000000")
+
+
+def test_what_is_summed_over_is_not_named() -> None:
+    found = counterexample(equal(Sum(m, (m, 1, j)), 0), DOMAINS[1])
+    assert found.startswith("at i = 0, j = 4, φ = ")
 
 
 def test_long_fractions_are_cut() -> None:

@@ -73,3 +73,5 @@ def test_places_bound_by_a_relation_are_looked_for() -> None:
     found = small(where)
     assert len(found) > 60
     assert all(at[k] > at[i] >= at[j] for at in found)
+    narrow = list(points(Where.of(j >= 0, i >= 5, i <= 6)))
+    assert {at[j] for at in narrow} >= set(range(10))
