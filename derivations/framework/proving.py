@@ -37,6 +37,41 @@ Meaning = Mapping[Any, Any]
 """What a line writes in short: for a symbol, or for a function of its arguments."""
 
 
+class Shown(Protocol):
+    """What every shown step has, a line of the kernel's or one with a procedure of its own."""
+
+    @property
+    def reason(self) -> str:
+        """Why it holds, in plain words."""
+
+    @property
+    def formula(self) -> sympy.Basic:
+        """An equation, or a Tuple of equations."""
+
+    @property
+    def relation(self) -> str:
+        """How the equation relates its sides."""
+
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """What it follows from, in words."""
+
+    @property
+    def equations(self) -> tuple[sympy.Eq, ...]:
+        """Its equations, one by one."""
+
+    @property
+    def ruling(self) -> Ruling:
+        """What is decided of it as it is shown."""
+
+    @property
+    def verdict(self) -> Verdict:
+        """``proved``, ``refuted`` or ``undecided``."""
+
+    def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
+        """Rule on a candidate for one of its equations."""
+
+
 class Proved(Protocol):
     """A line, or an equation, whose theorems may be used."""
 
@@ -88,8 +123,6 @@ def known(source: Source, supposed: tuple[Theorem, ...]) -> tuple[Theorem, ...]:
         return (source,)
     if isinstance(source, tuple):
         return tuple(theorem for one in source for theorem in known(one, supposed))
-    if isinstance(source, Part):
-        return (source.of.theorems[source.number],)
     found: tuple[Theorem, ...] = source.theorems
     return found
 
@@ -313,7 +346,8 @@ class Line:
             NotProvedError: the rule does not prove it.
         """
         by, where = (_at(part, one) for one in (self.by, self.where))
-        return by.rule(())(self._meant(part, candidate), where)
+        rule: Rule = by.rule(())
+        return rule(self._meant(part, candidate), where)
 
     def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
         """Rule on a candidate: proved by the rule, or searched for explicit values against it."""

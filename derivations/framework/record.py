@@ -1,13 +1,12 @@
 """The shape of a derivation: what every ``eqNN_…`` module states, and what running it yields."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from typing import Any
 
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import Line, fixes_it
+from force_diffusion.derivations.framework.proving import Line, Lines, Shown, fixes_it
 from force_diffusion.derivations.witnesses.both_sides import AbsentError, Points, compare
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
@@ -147,7 +146,7 @@ class Derivation:
     assumptions: tuple[str, ...]
     premises: tuple["Derivation", ...]
     printed: tuple[sympy.Eq, ...]
-    steps: Callable[[], Sequence[Step] | Sequence[Line]]
+    steps: Callable[[], Iterable[Shown]]
     decide: Callable[[int, sympy.Eq], Ruling] | None = None  # none where the kernel proves it
     claims: tuple[Claim, ...] = ()
     witnesses: tuple[Witness, ...] = ()
@@ -214,13 +213,15 @@ class Derivation:
         )
 
     @cached_property
-    def _lines(self) -> Sequence[Any]:
-        return self.steps()
+    def _lines(self) -> Lines:
+        lines = self.steps()
+        assert isinstance(lines, Lines)
+        return lines
 
     @property
     def all_claims(self) -> tuple[Claim, ...]:
         """What else is claimed of it, by the kernel's lines and by procedures of its own."""
-        further = getattr(self._lines, "claims", ())
+        further = self._lines.claims if self.decide is None else ()
         return (*(Claim(one.reason, one.decide) for one in further), *self.claims)
 
     def _line(self, printed: sympy.Eq) -> Line:

@@ -10,13 +10,13 @@ from time import perf_counter
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.proving import Shown
 from force_diffusion.derivations.framework.record import (
     Check,
     Derivation,
     KernelError,
     Mutant,
     Outcome,
-    Step,
     Tried,
     Witness,
 )
@@ -77,7 +77,7 @@ def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
         yield _timed("proof", claim.name, claim.decide)
 
 
-def _ruling(step: Step, found: Mapping[sympy.Eq, Check]) -> Ruling:
+def _ruling(step: Shown, found: Mapping[sympy.Eq, Check]) -> Ruling:
     """What is decided of a step; a printed equation is ruled on once."""
     known = [found[one] for one in step.equations if one in found]
     if len(known) < len(step.equations):

@@ -102,9 +102,8 @@ def _factors(new: Sequence[LinearForm], old: Sequence[LinearForm]) -> Iterator[R
     if len(new) != len(old):
         raise NotProvedError("one is a number, the other a vector")
     for one, other in zip(new, old, strict=True):
-        pairs = ((one.sites, other.sites), (one.rays, other.rays))
-        for ours, theirs in pairs:
-            yield from (ours[place] / weight for place, weight in theirs.items() if place in ours)
+        yield from (one.sites[at] / w for at, w in other.sites.items() if at in one.sites)
+        yield from (one.rays[at] / w for at, w in other.rays.items() if at in one.rays)
 
 
 def _are_equal(left: Iterable[LinearForm], right: Iterable[LinearForm]) -> bool:
@@ -227,7 +226,9 @@ def _named(
     unknowns: Sequence[sympy.Expr], components: Basis
 ) -> tuple[dict[sympy.Expr, sympy.Expr], dict[sympy.Expr, tuple[sympy.Symbol, ...]]]:
     """Names for unknown numbers; two for a vector, its components in a basis."""
-    image, names, spare = {}, {}, list(reversed(UNKNOWNS[1]))
+    image: dict[sympy.Expr, sympy.Expr] = {}
+    names: dict[sympy.Expr, tuple[sympy.Symbol, ...]] = {}
+    spare = list(reversed(UNKNOWNS[1]))
     first, second = (sy.b_plus, sy.b_minus) if components is LINE_SUM else (sy.e_x, sy.e_y)
     for one in unknowns:
         if getattr(one, "is_vector", False):
