@@ -68,7 +68,7 @@ class Proof:
     >>> [(outcome.derivation.number, str(outcome.verdict)) for outcome in proof.outcomes]
     [(1, 'proved'), (2, 'proved')]
     >>> proof.checks[0].name, proof.checks[0].note
-    ('printed equation', 'the normal forms are equal')
+    ('printed equation', 'by the rule: solve')
     >>> sum(mutant.verdict == "refuted" for mutant in proof.mutants), len(proof.mutants)
     (64, 64)
 
