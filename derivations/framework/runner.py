@@ -190,6 +190,21 @@ def _read(known: Iterable[tuple[int, str, Ruling]]) -> Rule:
     return rule
 
 
+def attacked() -> None:
+    """Try to prove by the rules of the kernel what is false.
+
+    Raises:
+        KernelError: one of the attacks is not refused.
+    """
+    from force_diffusion.symbolic.kernel.attacks import succeeded
+
+    for one in succeeded():
+        raise KernelError(
+            "the checker is at fault, and its verdicts count for nothing. It does not refuse an "
+            f"attack on {one.rule}: {one.tried} ({one.false})"
+        )
+
+
 def overall(
     checks: Iterable[Check], mutants: Iterable[Mutant] = (), on: Iterable[Tried] = ()
 ) -> Verdict:
@@ -254,12 +269,18 @@ def run_all(
     """Run derivations in their order, premises first, each with the verdicts found before.
 
     ``start`` calls functions in another process: of many derivations mutants and statements are
-    ruled on there, while proofs and witnesses are run here.
+    ruled on there, while proofs and witnesses are run here. Where the kernel proves one of them, it
+    is attacked first.
+
+    Raises:
+        KernelError: the checker is at fault.
     """
     wanted = list(derivations)
     known: dict[Number, Verdict] = {}
     ruled = [start(rulings, one.number) if start else Ruled for one in wanted]
     with _rarely_collected():
+        if any(one.decide is None for one in wanted):
+            attacked()
         for derivation, found in zip(wanted, ruled, strict=True):
             outcome = run(derivation, watch, known, found)
             known[derivation.number] = outcome.verdict

@@ -30,6 +30,9 @@ from force_diffusion.symbolic.algebra.exact import (
 CONSTANT = ""
 """Family of the terms that hold no lattice quantity."""
 
+ORDERED = ("Position", "Load")
+"""Families of quantities that are no deviations: their products are not of second order."""
+
 
 @dataclass(frozen=True)
 class Site:
@@ -131,7 +134,16 @@ class LinearForm:
         return self.sites.get(NO_SITE, FIELD.zero)
 
     def times(self, other: "LinearForm") -> "LinearForm":
-        """The product to first order: what is of first order in both is dropped."""
+        """The product to first order: what is of first order in both is dropped.
+
+        Raises:
+            NotExactError: a quantity of order 0 is multiplied by one of the lattice.
+        """
+        for one, factor in ((self, other), (other, self)):
+            if factor.constant_part() is None and any(
+                place.family.startswith(ORDERED) for place in (*one.sites, *one.rays)
+            ):
+                raise NotExactError("a product of a quantity of order 0 is not read")
         both = self.scaled(other.at_zero) + other.scaled(self.at_zero)
         return both + LinearForm.constant(-(self.at_zero * other.at_zero))
 

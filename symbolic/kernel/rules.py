@@ -10,6 +10,7 @@ from itertools import permutations
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.bases import LINE_SUM, Basis
 from force_diffusion.symbolic.algebra.exact import FIELD, UNKNOWNS, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
@@ -22,6 +23,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     applies,
     basis,
     check,
+    divisors,
     flat,
     holds,
     isolated,
@@ -40,12 +42,21 @@ Raises:
 """
 
 _NOTHING = sympy.S.Zero
+_PARAMETERS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
 _ACROSS = {across for across, _ in LATTICE}
 
 
 def at(formula: sympy.Eq, image: Mapping[sympy.Symbol, sympy.Expr]) -> sympy.Eq:
     """An equation with other indices."""
     return equation(*(side.xreplace(dict(image)) for side in formula.args))
+
+
+def proved_by(rule: Rule, formula: sympy.Eq, where: Where) -> Theorem:
+    """What a rule proves, if it is just this statement on just this domain."""
+    theorem = rule(formula, where)
+    if theorem.formula != formula or theorem.where != where:
+        raise NotProvedError("the rule proved another statement")
+    return theorem
 
 
 def rewrite(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
@@ -74,9 +85,12 @@ def follows(theorem: Theorem, *facts: Theorem | tuple[Theorem, ...]) -> Rule:
         ]
         normal = Normal(where, *sides[0], *sides[1])
         new, old = (normal.difference(equation(*pair)) for pair in sides)
+        spared, given = (divisors(one, where) for one in (formula, theorem.formula))
+        if given - spared:
+            raise NotProvedError("it does not divide by the forces that what it follows from does")
         for factor in _factors(new, old):
             same = _are_equal(new, tuple(one.scaled(factor) for one in old))
-            if same and where.never_zero(factor.to_sympy()):
+            if same and normal.never_zero(factor, spared - given):
                 return made(formula, where, "follows", (theorem, *flat(facts)))
         raise NotProvedError("it is no multiple of what it is to follow from")
 
@@ -115,7 +129,8 @@ def order(theorem: Theorem, power: int) -> Rule:
         normal = Normal(where, *formula.args, *theorem.formula.args)
         new, old = normal.difference(formula), normal.difference(theorem.formula)
         wanted = tuple(one.mapped(lambda weight: _coefficient(weight, power)) for one in old)
-        if not _are_equal(new, wanted):
+        same = divisors(formula, where) == divisors(theorem.formula, where)
+        if not (same and _are_equal(new, wanted)):
             raise NotProvedError(f"it is not the order {power} in ε")
         return made(formula, where, f"order {power} in ε", (theorem,))
 
@@ -143,22 +158,24 @@ def solve(
         if about not in unknowns:
             raise NotProvedError(f"{text(about)} is not what is solved for")
         value = put_in(value, facts, where, facts)
-        image, names = _named(unknowns, basis(value))
-        sides = []
+        known = []
         for row in rows:
             if not applies(row, _itself(row), where, facts):
                 raise NotProvedError("an equation to be solved does not hold on all of the domain")
-            known = (put_in(side, facts, where, facts) for side in row.formula.args)
-            sides.append(equation(*(side.xreplace(image) for side in known)))
+            if divisors(row.formula, where):
+                raise NotProvedError("an equation to be solved divides by a force")
+            known.append([put_in(side, facts, where, facts) for side in row.formula.args])
+        image, names = _named(unknowns, basis(value, *(side for one in known for side in one)))
+        sides = [equation(*(side.xreplace(image) for side in one)) for one in known]
         normal = Normal(where, value, *(side for one in sides for side in one.args))
         system = [part for one in sides for part in normal.difference(one)]
         held = [name for one in unknowns for name in names[one]]
         if not held or len(system) != len(held):
             raise NotProvedError(f"{len(system)} equations for {len(held)} unknown numbers")
-        matrix = [[_slope(row, name) for name in held] for row in system]
+        matrix = [[_slope(row, name, held) for name in held] for row in system]
         rest = [row.mapped(lambda w: _without(w, held)) for row in system]
         determinant = _determinant(matrix)
-        if not where.never_zero(determinant.at_zero.to_sympy()):
+        if not normal.never_zero(determinant.at_zero):
             raise NotProvedError("the determinant is not shown to vanish nowhere")
         claimed = normal(value)
         if len(claimed) != len(names[about]):
@@ -222,12 +239,12 @@ def _named(
     return image, names
 
 
-def _slope(row: LinearForm, name: sympy.Symbol) -> LinearForm:
+def _slope(row: LinearForm, name: sympy.Symbol, names: Sequence[sympy.Symbol]) -> LinearForm:
     """The factor of an unknown number, of which a row is a linear function."""
 
     def one(weight: RationalFunction) -> RationalFunction:
         found = weight.coefficients(name)
-        if len(found) > 2:
+        if len(found) > 2 or any(found[-1].holds(other) for other in names if len(found) == 2):
             raise NotProvedError("an equation to be solved is not linear")
         return found[1] if len(found) == 2 else FIELD.zero
 
@@ -265,7 +282,7 @@ def cases(rule: Rule, *parts: Iterable[sympy.Basic]) -> Rule:
 
 def _on_part(rule: Rule, formula: sympy.Eq, where: Where) -> Theorem:
     """On a part where equations fix indices these are put in, so that a sum may be empty there."""
-    return rule(at(formula, where.solved), where)
+    return proved_by(rule, at(formula, where.solved), where)
 
 
 def instance(theorem: Theorem, image: Mapping[sympy.Symbol, sympy.Expr], where: Where) -> Theorem:
@@ -279,6 +296,11 @@ def instance(theorem: Theorem, image: Mapping[sympy.Symbol, sympy.Expr], where: 
         raise NotProvedError("the theorem does not hold there")
     formula = at(theorem.formula, whole)
     check(formula, where)
+    held = set().union(*(one.free_symbols for one in image.values())) & set(sy.INDICES)
+    if not held <= set(where.indices):
+        raise NotProvedError("an index that is put in is none of the domain")
+    if divisors(formula, where) != divisors(theorem.formula, where, whole):
+        raise NotProvedError("a force that it divides by is lost")
     return made(formula, where, "instance", (theorem,))
 
 
@@ -296,18 +318,26 @@ def in_terms_of(
 
     def moved(formula: sympy.Eq, where: Where) -> Theorem:
         check(formula, where)
-        if other.loading != where.loading or other.dimension != where.dimension:
+        loading = other.loading and other.loading.put_in(back)
+        if loading != where.loading or other.dimension != where.dimension:
             raise NotProvedError("the packings differ")
+        if not set(image) <= set(where.indices):
+            raise NotProvedError("what is put in is no index of the domain")
+        own = {symbol: image.get(symbol, symbol) for symbol in where.indices}
         whole = [
             *(at(one, back) if isinstance(one, sympy.Eq) else
               one.func(*(side.xreplace(dict(back)) for side in one.args), evaluate=False)
               for one in other.relations),
-            *(equation(value.xreplace(dict(back)), symbol) for symbol, value in image.items()),
+            *(equation(value.xreplace(dict(back)), symbol) for symbol, value in own.items()),
         ]  # fmt: skip
         kept = set(other.indices) - set(back) - set(where.indices)
-        if kept or not all(map(where.implies, whole)):
+        even = (affine.from_sympy(sympy.expand(one.xreplace(dict(back)))) for one in other.even)
+        if kept or not (all(map(where.implies, whole)) and all(map(where.is_even, even))):
             raise NotProvedError("the other indices do not reach all of the domain")
-        return made(formula, where, "in other indices", (rule(at(formula, image), other),))
+        theorem = proved_by(rule, at(formula, image), other)
+        if theorem.fixed & {*image, *back}:
+            raise NotProvedError("it is supposed for one value of an index that is put elsewhere")
+        return made(formula, where, "in other indices", (theorem,))
 
     return moved
 
@@ -318,7 +348,7 @@ def mirror(theorem: Theorem) -> Theorem:
     Raises:
         NotProvedError: it holds an index across the packing beside its places.
     """
-    if _ACROSS & {one.index for one in theorem.supposed}:
+    if _ACROSS & theorem.fixed:
         raise NotProvedError("it is supposed for one place across the packing")
     formula = lattice.mirror(theorem.formula)
     if any(map(_across_by_itself, formula.args)):
@@ -370,7 +400,7 @@ def induct(
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
         members = [(formula, where), *family]
         one = -1 if down else 1
-        supposition = Supposition(over)
+        supposition = Supposition(over, start)
         supposed = []
         for claim, domain in members:
             first, later = (over, start) if not down else (start, over)
@@ -384,10 +414,12 @@ def induct(
             left = [symbol for symbol in domain.indices if symbol != over]
             first_where = domain.put_in({over: start}, left)
             if not first_where.is_empty:
-                premises.append(base(at(claim, {over: start}), first_where))
+                premises.append(proved_by(base, at(claim, {over: start}), first_where))
             rest = sympy.Le(over, start - 1) if down else sympy.Ge(over, start + 1)
             if not domain.also(rest).is_empty:
-                premises.append(step(tuple(supposed))(claim, domain.also(rest)))
+                premises.append(proved_by(step(tuple(supposed)), claim, domain.also(rest)))
+        if any(one.supposed - {supposition} for one in premises):
+            raise NotProvedError("an induction within another one is not read")
         return made(formula, where, "induction", premises, ended=(supposition,))
 
     return rule
@@ -410,7 +442,13 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
             return value.xreplace({sy.i: across, sy.j: layer})
 
         gained = {type(about)(sy.i + one, sy.j + 1) - about for one in (1, -1)}
-        if origin.formula.lhs != about.func(0, 0) or {one.formula.lhs for one in up} != gained:
+        steps = {one.formula.lhs for one in up}
+        whole = [(origin, Where()), *((one, Where.of(sy.j >= 0)) for one in up)]
+        if (
+            origin.formula.lhs != about.func(0, 0)
+            or steps != gained
+            or not all(applies(one, _itself(one), beads, ()) for one, beads in whole)
+        ):
             raise NotProvedError("the steps do not reach every bead")
         for one in (origin, *up):
             sides = (side.replace(type(about), known) for side in one.formula.args)
@@ -453,8 +491,10 @@ def walk(
 def inverse(formula: sympy.Eq, where: Where) -> Theorem:
     """The right-hand side is the inverse matrix: their product is 1, entry by entry."""
     matrix, exponent = formula.lhs.as_base_exp()
-    if exponent != -1 or not isinstance(matrix, sympy.MatrixBase):
+    if exponent != -1 or not isinstance(matrix, sympy.MatrixBase) or matrix.rows != matrix.cols:
         raise NotProvedError("the left-hand side is no inverse matrix")
+    for one in (*matrix, *formula.rhs):
+        check(equation(one, _NOTHING), where)
     product = matrix * formula.rhs
     for entry, one in zip(product, sympy.eye(matrix.rows), strict=True):
         rewrite()(equation(entry, one), where)
@@ -465,17 +505,24 @@ def differentiate(root: sympy.Symbol, square: sympy.Expr) -> Rule:
     """SymPy differentiates; ``root`` is positive, and stands for the root of what is positive."""
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        def is_taken(node: sympy.Basic) -> bool:
-            return isinstance(node, sympy.Pow) and node.base == square
+        if formula.has(root) or not root.is_positive or square.free_symbols & _PARAMETERS:
+            raise NotProvedError(f"{text(root)} is not the root of what is positive")
 
-        sides = [
-            side.doit().replace(is_taken, lambda node: root ** (2 * node.exp))
-            for side in formula.args
-        ]
+        def read(node: sympy.Basic) -> sympy.Basic:
+            """The same, differentiated, and nothing else of it carried out."""
+            if isinstance(node, sympy.Derivative):
+                node = node.doit()
+            if isinstance(node, sympy.Pow) and node.base == square:
+                return root ** (2 * node.exp)
+            if not isinstance(node, sympy.Add | sympy.Mul | sympy.Pow):
+                return node
+            return node.func(*map(read, node.args), evaluate=False)
+
+        sides = [read(side) for side in formula.args]
         check(equation(*sides), where)
         apart = sympy.together(sides[0] - sides[1])
-        left = sympy.expand(sympy.fraction(apart)[0]).subs(root**2, square)
-        if left.has(root) or not holds(equation(sympy.expand(left), _NOTHING), where):
+        left = sympy.rem(sympy.fraction(apart)[0], root**2 - square, root)
+        if not holds(equation(sympy.expand(left), _NOTHING), where):
             raise NotProvedError("the derivatives differ")
         return made(formula, where, "differentiate")
 

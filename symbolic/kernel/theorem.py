@@ -6,15 +6,16 @@ deviations of the radii; products of two changes are dropped. So an equation hol
 when both of its sides are the same dual number, which one normal form decides.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import InitVar, dataclass
 from functools import cached_property
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.bases import CARTESIAN, LINE_SUM, Basis
-from force_diffusion.symbolic.algebra.exact import UNKNOWNS, NotExactError
+from force_diffusion.symbolic.algebra.exact import UNKNOWNS, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
 from force_diffusion.symbolic.algebra.reading import Reader
 from force_diffusion.symbolic.as_printed import equation
@@ -40,9 +41,19 @@ class NotAStatementError(NotProvedError):
 
 @dataclass(frozen=True, eq=False)
 class Supposition:
-    """That a statement holds for one value of an index, until an induction ends it."""
+    """That a statement holds for one value of an index, until an induction ends it.
+
+    Nor is anything put in for the symbols of the value from which that induction starts: steps are
+    counted from there.
+    """
 
     index: sympy.Symbol
+    start: sympy.Expr = sympy.S.Zero
+
+    @property
+    def fixed(self) -> set[sympy.Basic]:
+        """The symbols for which nothing else may be put in."""
+        return {self.index, *self.start.free_symbols}
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,17 +73,21 @@ class Theorem:
     rule: str
     premises: tuple["Theorem", ...] = ()
     supposed: frozenset[Supposition] = frozenset()
-    _made: object = None
+    made_by: InitVar[object] = None
 
-    def __post_init__(self) -> None:
-        if self._made is not _MADE_HERE:
+    def __post_init__(self, made_by: object) -> None:
+        if made_by is not _MADE_HERE:
             raise TypeError("a theorem is made by the rules of the kernel alone")
 
     @cached_property
     def indices(self) -> tuple[sympy.Symbol, ...]:
         """The indices for which others may be put in: all but those of a supposition."""
-        fixed = {one.index for one in self.supposed}
-        return tuple(symbol for symbol in self.where.indices if symbol not in fixed)
+        return tuple(symbol for symbol in self.where.indices if symbol not in self.fixed)
+
+    @cached_property
+    def fixed(self) -> set[sympy.Basic]:
+        """The symbols of its suppositions."""
+        return set().union(*(one.fixed for one in self.supposed))
 
     @cached_property
     def solved(self) -> tuple[sympy.Expr, sympy.Expr]:
@@ -116,13 +131,19 @@ def check(formula: sympy.Eq, where: Where) -> None:
     if where.is_empty:
         raise NotAStatementError(f"nothing is in its domain: {where}")
     known = set(where.indices)
-    bound = {limit[0] for one in formula.atoms(sympy.Sum) for limit in one.limits}
+    if undeclared := by_name(set().union(*(one.free_symbols for one in where.relations)) - known):
+        raise NotAStatementError(f"its domain does not say what {text(undeclared[0])} is")
+    bound = _summed(formula)
     free = set().union(*(side.free_symbols for side in formula.args))
     for symbol in by_name(free & set(sy.INDICES)):
         if symbol not in known:
             raise NotAStatementError(f"its domain does not say what {text(symbol)} is")
         if symbol in bound:
             raise NotAStatementError(f"{text(symbol)} is summed over and stands for itself as well")
+    if reserved := by_name(free & {*UNKNOWNS[0], *UNKNOWNS[1]}):
+        raise NotAStatementError(f"{text(reserved[0])} is a name of the kernel's own")
+    if where.dimension < 2:
+        raise NotAStatementError("a packing has two dimensions or more")
     if where.dimension != 2 and (found := by_name(free & _PLANE)):
         raise NotAStatementError(f"{text(found[0])} belongs to the plane")
     for side in formula.args:
@@ -147,6 +168,8 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
         _check(node.function, where, outer)
         return
     if isinstance(node, sy.SiteFunction):
+        if type(node) not in _QUANTITIES:
+            raise NotAStatementError(f"{type(node).__name__} is no quantity of a packing")
         try:
             if not where.on_lattice(*node.args):
                 raise NotAStatementError(f"{text(node)} is not shown to be at a bead")
@@ -155,13 +178,19 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
         return
     if isinstance(node, sympy.Pow):
         _check_power(node, where)
-    elif not isinstance(node, _READ) and not (node.is_Symbol or isinstance(node, sympy.Rational)):
+    elif not (isinstance(node, (*_READ, sympy.Rational)) or node.is_Symbol) or (
+        not node.is_commutative
+    ):
         raise NotAStatementError(f"{type(node).__name__} is not in the language of statements")
     for argument in node.args:
         _check(argument, where, outer)
 
 
 _READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces)
+_QUANTITIES = {
+    *FORCES, sy.DeltaNMinus, sy.DeltaNPlus, sy.DeltaR, sy.DeltaX, sy.Load, sy.Position,
+    sy.SecondDifference,
+}  # fmt: skip
 
 
 def _check_power(power: sympy.Pow, where: Where) -> None:
@@ -181,6 +210,8 @@ def _check_power(power: sympy.Pow, where: Where) -> None:
 # normal forms
 
 Forms = tuple[LinearForm, ...]
+Place = tuple[object, ...]
+"""A quantity and its site, as far as the domain tells them apart."""
 
 
 def basis(*together: sympy.Expr) -> Basis:
@@ -199,6 +230,9 @@ class Normal:
     def __init__(self, where: Where, *together: sympy.Expr):
         self.where = where
         held = set().union(*(one.atoms(*FORCES, sympy.Symbol) for one in together))
+        bound = {index for one in together for index in _summed(one)}
+        if any(isinstance(one, FORCES) and bound & one.free_symbols for one in held):
+            raise NotProvedError("a force is summed over, which is not one unknown number")
         known = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS, *UNKNOWNS[0], *UNKNOWNS[1]}
         left = [list(reversed(UNKNOWNS[0])), list(reversed(UNKNOWNS[1]))]
         for used in held & {*UNKNOWNS[0], *UNKNOWNS[1]}:
@@ -206,7 +240,7 @@ class Normal:
                 if used in one:
                     one.remove(used)
         self._image: dict[sympy.Basic, sympy.Expr] = {}
-        sites: dict[tuple[object, ...], sympy.Expr] = {}
+        sites = self._sites = dict[Place, sympy.Expr]()
         for one in by_name(held - known):
             is_force = isinstance(one, FORCES)
             key = _site(one, where) if is_force else (one,)
@@ -231,6 +265,19 @@ class Normal:
             raise NotProvedError(str(reason)) from None
         return read if isinstance(read, tuple) else (read,)
 
+    def never_zero(
+        self, value: RationalFunction, spared: Mapping[Place, int] | None = None
+    ) -> bool:
+        """Whether a number is shown to vanish nowhere; a force may, or powers of it ``spared``."""
+        forces = {self._sites[place]: place for place in self._sites if place[0] in FORCES}
+        plain = []
+        for one in sympy.Mul.make_args(value.to_sympy()):
+            base, exponent = one.as_base_exp()
+            if not (base in forces and 0 < -exponent <= (spared or {}).get(forces[base], 0)):
+                plain.append(one)
+        rest = sympy.Mul(*plain)
+        return not rest.has(*forces) and self.where.never_zero(rest)
+
     def difference(self, formula: sympy.Eq) -> Forms:
         """Left less right side; the number 0 beside a vector is the zero vector."""
         left, right = map(self, formula.args)
@@ -242,7 +289,12 @@ class Normal:
         return tuple(a - b for a, b in zip(left, right, strict=True))
 
 
-def _site(atom: sy.SiteFunction, where: Where) -> tuple[object, ...]:
+def _summed(expression: sympy.Basic) -> set[sympy.Basic]:
+    """The indices of its sums."""
+    return {limit[0] for one in expression.atoms(sympy.Sum) for limit in one.limits}
+
+
+def _site(atom: sy.SiteFunction, where: Where) -> Place:
     inside = (_on(one, where) for one in atom.args)
     return (type(atom), *(affine.from_sympy(sympy.expand(one)) for one in inside))
 
@@ -276,8 +328,11 @@ def isolated(formula: sympy.Eq, where: Where) -> tuple[sympy.Expr, sympy.Expr]:
         NotProvedError: the equation does not fix it everywhere.
     """
     about = subject(formula.lhs)
+    if divisors(formula.rhs, where):
+        raise NotProvedError(f"{text(formula.rhs)} divides by a force, which may vanish")
     if about is not None and not formula.rhs.has(about):
-        others = sympy.Mul(*(one for one in sympy.Mul.make_args(formula.lhs) if one != about))
+        factors = [one for one in sympy.Mul.make_args(formula.lhs) if one != about]
+        others = sympy.Mul(*factors, evaluate=False)  # a force over itself is not one
         if others == 1:
             return about, formula.rhs
         if not fixes(others, where):
@@ -287,10 +342,30 @@ def isolated(formula: sympy.Eq, where: Where) -> tuple[sympy.Expr, sympy.Expr]:
 
 
 def fixes(factor: sympy.Expr, where: Where) -> bool:
-    """Whether a factor of a quantity vanishes nowhere; a force that acts does not."""
-    acting = dict.fromkeys(factor.atoms(*FORCES), UNKNOWNS[0][0])
-    plain = factor.xreplace(acting)
+    """Whether a factor of a quantity vanishes nowhere; a force that it is divided by does not."""
+    held = (one for one in sympy.Mul.make_args(factor) if not _divides(one))
+    plain = sympy.Mul(*held, evaluate=False)
     return not plain.atoms(sy.SiteFunction) and where.never_zero(plain)
+
+
+def _divides(power: sympy.Basic) -> bool:
+    """Whether it is the inverse of a force, or of a power of it."""
+    return isinstance(power, sympy.Pow) and isinstance(power.base, FORCES) and power.exp.is_negative
+
+
+def divisors(node: sympy.Basic, where: Where, image: Mapped | None = None) -> Counter[Place]:
+    """The forces that an equation divides by, with their powers; at another place by an image.
+
+    An equation so divided says no more than the same multiplied by them, as they may vanish.
+    """
+    if _divides(node):
+        return Counter({_site(node.base.xreplace(dict(image or {})), where): -int(node.exp)})
+    total: Counter[Place] = Counter()
+    for one in node.args:
+        part = divisors(one, where, image)
+        total = total | part if isinstance(node, sympy.Add | sympy.Eq) else total + part
+    times = int(node.exp) if isinstance(node, sympy.Pow) and node.exp.is_positive else 1
+    return Counter({place: times * power for place, power in total.items()})
 
 
 # what is known, put in
@@ -344,13 +419,13 @@ def _instance_of(
               for a, b in zip(atom.args, about.args, strict=True)]  # fmt: skip
     if any(any(one) for one in wanted):
         return None
-    found = _renamed(value, image).xreplace(image)
+    found = _renamed(value, image, where).xreplace(image)
     return None if found.has(atom) else found  # the same quantity again says nothing
 
 
-def _renamed(value: sympy.Expr, image: Mapped) -> sympy.Expr:
-    """A value whose sums are over other indices than those put in stand for."""
-    taken = set().union(*(one.free_symbols for one in image.values())) & set(SUMMATION)
+def _renamed(value: sympy.Expr, image: Mapped, where: Where) -> sympy.Expr:
+    """A value whose sums are over other indices than those of the domain and those put in."""
+    taken = {*where.indices}.union(*(one.free_symbols for one in image.values()))
     for series in value.atoms(sympy.Sum):
         if taken & {limit[0] for limit in series.limits}:
             (index,) = {limit[0] for limit in series.limits}

@@ -248,6 +248,8 @@ class Where:
             value = domain.from_sympy(expression)
         except NotExactError:
             return 0
+        if value.numerator == 0:
+            return 0
         found = 1
         for polynomial in (value.numerator, value.denominator):
             number, powers = value.factors(polynomial)
@@ -320,7 +322,7 @@ class Where:
     def _chains(self) -> Iterator[list[sympy.Basic | type]]:
         """Relations that go on where the one before ends, as sides and kinds in turn."""
         chain: list[sympy.Basic | type] = []
-        for one, following in zip(self.relations, (*self.relations[1:], None), strict=True):
+        for one, following in zip(self.relations, (*self.relations[1:], None), strict=False):
             left, right, kind = one.lhs, one.rhs, one.func
             if following is not None and following.lhs == left and kind in _TURNED:
                 left, right, kind = right, left, _TURNED[kind]

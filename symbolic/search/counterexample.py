@@ -11,7 +11,13 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.where import LATTICE, Loading, Where
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.dual import NOWHERE, Dual, Number, TooLargeError, Vector
-from force_diffusion.symbolic.search.packing import AbsentError, Geometry, Packing, given
+from force_diffusion.symbolic.search.packing import (
+    AbsentError,
+    BelowError,
+    Geometry,
+    Packing,
+    given,
+)
 from force_diffusion.symbolic.search.points import Point, points
 from force_diffusion.symbolic.search.values import (
     Budget,
@@ -94,7 +100,8 @@ def _packing(world: World, name: str | None, place: tuple[int, ...]) -> Packing:
 def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = None) -> str | None:
     """Words for values at which a statement is false or has no value; None where none is found.
 
-    All points of ``points`` are tried, or ``at_most`` so many of them.
+    All points of ``points`` are tried, or ``at_most`` so many of them. Points at which it speaks of
+    a bead below the base say nothing, unless all do.
 
     What can't be evaluated is not refuted: unknown symbols, floats and roots, a number beside a
     vector, a sum whose upper bound is below its lower one by more than one, what is too large.
@@ -109,18 +116,28 @@ def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> st
     if not isinstance(statement, sympy.Eq) or where.dimension != 2:
         return None
     free = _free_symbols(statement)
-    budget = Budget(READS)
+    budget, below, compared = Budget(READS), None, False
     for at, world in islice(_drawn(_with_all_indices(where, free)), at_most):
         values = _values(at, world)
         try:
             found = _at(statement, where.loading, world, values, budget)
         except (NoSumError, TooLargeError):
             continue
+        except BelowError as reason:
+            below = below or (at, values, str(reason))
+            continue
+        compared = True
         if found:
-            named = [one for one in values if one in at or one in free or one == sy.phi]
-            shown = (f"{text(one)} = {_exact(values[one])}" for one in named)
-            return f"at {', '.join(shown)}: {found}"
-    return None
+            return _words(at, values, free, found)
+    return _words(below[0], below[1], free, below[2]) if below and not compared else None
+
+
+def _words(
+    at: Point, values: Mapping[sympy.Symbol, Number], free: set[sympy.Symbol], found: str
+) -> str:
+    named = [one for one in values if one in at or one in free or one == sy.phi]
+    shown = (f"{text(one)} = {_exact(values[one])}" for one in named)
+    return f"at {', '.join(shown)}: {found}"
 
 
 def _drawn(where: Where) -> Iterator[tuple[Point, World]]:
@@ -155,6 +172,8 @@ def _at(
         evaluator.packing = _packing(world, loading.name, place)
     try:
         left, right = map(evaluator.value, statement.args)
+    except BelowError:
+        raise
     except (AbsentError, NoValueError) as reason:
         return str(reason)
     left, right = _beside(left, right), _beside(right, left)

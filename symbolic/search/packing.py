@@ -30,6 +30,10 @@ class AbsentError(ValueError):
     """No such bead or contact is in the packing."""
 
 
+class BelowError(AbsentError):
+    """It is on the lattice, and below the base."""
+
+
 class UnknownLoadingError(ValueError):
     """No packing is known for a loading of this name."""
 
@@ -300,7 +304,7 @@ class Packing:
         if (across + layer) % 2:
             raise AbsentError(f"{bead}: the sum of its indices is odd")
         if layer < 0:
-            raise AbsentError(f"{bead}: it would be below the base")
+            raise BelowError(f"{bead}: it would be below the base")
         if self.given.surface is not None and layer > self.given.surface:
             raise AbsentError(f"{bead}: it would be above the surface")
 
