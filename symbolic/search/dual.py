@@ -63,12 +63,27 @@ class Dual:
     def __bool__(self) -> bool:
         return bool(self.value or self.slope)
 
+    def thousands_of_bits(self) -> int:
+        """How long it is, in full thousands of bits.
+
+        Raises:
+            TooLargeError: too long to go on with.
+        """
+        bits = max(_bits(self.value), _bits(self.slope) if self.slope else 0)
+        if bits > _LONGEST:
+            raise TooLargeError(f"a number has more than {_LONGEST} bits")
+        return bits // 1000
+
     def __repr__(self) -> str:
         return f"{self.value} + ({self.slope})ε"
 
 
+def _bits(number: Number) -> int:
+    return number.numerator.bit_length() + number.denominator.bit_length()
+
+
 def _short(number: Number, times: int = 1) -> Number:
-    if (number.numerator.bit_length() + number.denominator.bit_length()) * times > _LONGEST:
+    if _bits(number) * times > _LONGEST:
         raise TooLargeError(f"a number has more than {_LONGEST} bits")
     return number
 

@@ -223,6 +223,10 @@ class Packing:
     given: Given
     _below: dict[Site, tuple[Dual, Dual]] = field(default_factory=dict, repr=False, compare=False)
 
+    def beads(self) -> int:
+        """How many beads have been laid or balanced so far."""
+        return len(self.geometry._positions) + len(self._below)
+
     def force(self, branch: Branch, across: int, layer: int) -> Dual:
         """Force of the contact above a bead."""
         if layer >= self.given.top:

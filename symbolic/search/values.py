@@ -18,10 +18,13 @@ HIGHEST_POWER = 64
 MOST_TERMS = 1000
 """Of one sum."""
 
+A_BEAD = 20
+"""Laying or balancing a bead takes as long as so many reads."""
+
 
 @dataclass
 class Budget:
-    """How many expressions may still be read: the same on every machine."""
+    """How many expressions may still be read, a bead or a long number counting as several."""
 
     left: float = float("inf")
 
@@ -80,22 +83,23 @@ class Evaluator:
             NoSumError: it holds a sum without an agreed value.
             AbsentError: it speaks of a bead or a contact that is not there.
         """
-        self.budget.left -= 1
-        if self.budget.left < 0:
-            raise UnreadableError("it takes too long")
+        self._spend(1)
         if isinstance(node, sympy.Rational):
             return Dual(int(node) if node.q == 1 else Fraction(int(node.p), int(node.q)))
         if isinstance(node, sympy.Symbol):
             return self._symbol(node)
         if isinstance(node, sympy.Add):
-            return _total([self.value(term) for term in node.args])
+            return self._total([self.value(term) for term in node.args])
         if isinstance(node, sympy.Mul):
-            return _product([self.value(factor) for factor in node.args])
+            return self._product([self.value(factor) for factor in node.args])
         if isinstance(node, sympy.Pow):
             return self._power(node)
         if isinstance(node, sy.SiteFunction):
             across, layer = map(self._index, node.args)
-            return self.packing.quantity(type(node).__name__, across, layer)
+            known = self.packing.beads()
+            found = self.packing.quantity(type(node).__name__, across, layer)
+            self._spend(A_BEAD * (self.packing.beads() - known))
+            return found
         if isinstance(node, sy.Dot):
             u, v = map(self._vector, node.args)
             return u.dot(v)
@@ -109,6 +113,11 @@ class Evaluator:
             v = self._vector(node.args[4])
             return Vector(a * v.x + b * v.y, c * v.x + d * v.y)
         raise UnreadableError(f"{type(node).__name__} is not evaluated")
+
+    def _spend(self, reads: int) -> None:
+        self.budget.left -= reads
+        if self.budget.left < 0:
+            raise UnreadableError("it takes too long")
 
     def whole(self, node: sympy.Basic) -> int:
         """Value of a whole number."""
@@ -151,6 +160,7 @@ class Evaluator:
         if isinstance(node, sympy.Symbol) and node in self.numbers:
             return self.numbers[node]
         if isinstance(node, sympy.Add):
+            self._spend(1)
             return sum(map(self._plain, node.args))
         value = self._number(node)
         if value.slope:
@@ -190,29 +200,38 @@ class Evaluator:
                 self.numbers.pop(index, None)
             else:
                 self.numbers[index] = outside
-        return _total(parts)
+        return self._total(parts)
 
+    def _total(self, parts: list[Dual | Vector]) -> Dual | Vector:
+        total, vector = ZERO, None
+        for part in parts:
+            if isinstance(part, Dual):
+                total = self._paid(total + part)
+            else:
+                vector = part if vector is None else vector + part
+                self._paid(vector.x), self._paid(vector.y)
+        if vector is None:
+            return total
+        if total:
+            raise UnreadableError("a number is added to a vector")
+        return vector
 
-def _total(parts: list[Dual | Vector]) -> Dual | Vector:
-    numbers = [part for part in parts if isinstance(part, Dual)]
-    total = sum(numbers, ZERO)
-    if len(numbers) == len(parts):
-        return total
-    if total:
-        raise UnreadableError("a number is added to a vector")
-    return sum((part for part in parts if isinstance(part, Vector)), NOWHERE)
+    def _product(self, parts: list[Dual | Vector]) -> Dual | Vector:
+        scale, vector = Dual(1), None
+        for part in parts:
+            if isinstance(part, Dual):
+                scale = self._paid(scale * part)
+            elif vector is None:
+                vector = part
+            else:
+                raise UnreadableError("a product of two vectors")
+        return scale if vector is None else vector.times(scale)
 
-
-def _product(parts: list[Dual | Vector]) -> Dual | Vector:
-    scale, vector = Dual(1), None
-    for part in parts:
-        if isinstance(part, Dual):
-            scale = scale * part
-        elif vector is None:
-            vector = part
-        else:
-            raise UnreadableError("a product of two vectors")
-    return scale if vector is None else vector.times(scale)
+    def _paid(self, number: Dual) -> Dual:
+        """Long numbers take as long as many reads."""
+        if thousands := number.thousands_of_bits():
+            self._spend(thousands**2)
+        return number
 
 
 def _brief(node: sympy.Basic) -> str:
