@@ -140,9 +140,8 @@ class LinearForm:
             NotExactError: a quantity of order 0 is multiplied by one of the lattice.
         """
         for one, factor in ((self, other), (other, self)):
-            if factor.constant_part() is None and any(
-                place.family.startswith(ORDERED) for place in (*one.sites, *one.rays)
-            ):
+            families = {*(site.family for site in one.sites), *(ray.family for ray in one.rays)}
+            if factor.constant_part() is None and any(f.startswith(ORDERED) for f in families):
                 raise NotExactError("a product of a quantity of order 0 is not read")
         both = self.scaled(other.at_zero) + other.scaled(self.at_zero)
         return both + LinearForm.constant(-(self.at_zero * other.at_zero))

@@ -32,8 +32,8 @@ from force_diffusion.symbolic.symbols import (
 )
 from sympy import Eq, Integer, Pow, Sum
 
-REFUSALS = (NotProvedError, NotExactError, TypeError)
-"""How the kernel refuses: a TypeError for theorems that are not made by it."""
+REFUSALS = (NotProvedError, NotExactError)
+"""How the kernel refuses."""
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.attacks.attack import (
     ABOVE,
@@ -101,28 +100,24 @@ attack("cases", "by a rule that adds to the domain", "i is any place", "another 
 # instance
 
 
-def _moved(theorem: Theorem, where: Where, **image: sympy.Expr) -> Theorem:
-    return rules.instance(theorem, {getattr(sy, name): to for name, to in image.items()}, where)
-
-
-for name, theorem, image, where, false, refused in (
-    ("out of its domain", axioms.contact(1), {"j": Integer(0)}, Where((i,), even=(i,)),
+for name, theorem, places, where, false, refused in (
+    ("out of its domain", axioms.contact(1), {j: Integer(0)}, Where((i,), even=(i,)),
      "beads of the base touch none below", "does not hold there"),
-    ("off the lattice", axioms.contact(1), {"i": i + 1}, Where.of(j >= 1), "no bead is there",
+    ("off the lattice", axioms.contact(1), {i: i + 1}, Where.of(j >= 1), "no bead is there",
      "does not hold there"),
-    ("where it has no value", told(rules.rewrite(), p, p, Where((p,))), {"p": 1 / phi}, Where(),
+    ("where it has no value", told(rules.rewrite(), p, p, Where((p,))), {p: 1 / phi}, Where(),
      "φ may be 0", "not shown to differ"),
-    ("what is no index", axioms.contact(1), {"phi": ONE}, Where.of(j >= 1), "φ is below ½",
+    ("what is no index", axioms.contact(1), {phi: ONE}, Where.of(j >= 1), "φ is below ½",
      "does not hold there"),
     ("an index that is summed over", told(rules.rewrite(), Sum(i, (n, 1, 2)), Sum(i, (n, 0, 1)),
-     Where((i,))), {"i": n}, Where((i,)), "1 + 2 is not 0 + 1", "none of the domain"),
+     Where((i,))), {i: n}, Where((i,)), "1 + 2 is not 0 + 1", "none of the domain"),
     ("under another loading", ON_SURFACE[0], {}, Where.of(site_s >= 0, site_s <= M - 1),
      "it may be loaded", "does not hold there"),
-    ("with another load's place", ON_LOADED[0], {"k": k + 1, "l": l + 1}, AT_LOAD,
+    ("with another load's place", ON_LOADED[0], {k: k + 1, l: l + 1}, AT_LOAD,
      "that bead has forces above it", "does not hold there"),
 ):  # fmt: skip
     attack("instance", name, false, refused)(
-        lambda t=theorem, to=image, w=where: _moved(t, w, **to)  # type: ignore[misc]
+        lambda t=theorem, to=places, w=where: rules.instance(t, to, w)  # type: ignore[misc]
     )
 
 

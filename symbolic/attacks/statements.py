@@ -1,5 +1,6 @@
 """What is no statement, and theorems of one's own."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import sympy
@@ -8,7 +9,7 @@ from force_diffusion.symbolic.algebra.exact import UNKNOWNS
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.attacks.attack import BEADS, HERE, ONE, attack, checked, displaced
 from force_diffusion.symbolic.kernel import axioms
-from force_diffusion.symbolic.kernel.theorem import Theorem, check
+from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem, check
 from force_diffusion.symbolic.kernel.where import ENTERING, Where
 from force_diffusion.symbolic.symbols import (
     DeltaR,
@@ -78,11 +79,21 @@ for name, side, where, false, refused in (
 attack("statement", "no equation", "it says nothing", "no equation")(
     lambda: check(sympy.Ge(j, 0), BEADS)
 )
+
+
+def _forged(theorem: Callable[[], Theorem]) -> Theorem:
+    """A theorem not made by a rule, which is no way to call it."""
+    try:
+        return theorem()
+    except TypeError as reason:
+        raise NotProvedError(str(reason)) from None
+
+
 attack("statement", "a theorem of one's own", "nobody has proved it", "made by the rules")(
-    lambda: Theorem(displaced(ONE), Where(), "of course")
+    lambda: _forged(lambda: Theorem(displaced(ONE), Where(), "of course"))
 )
 attack("statement", "a theorem changed", "nobody has proved it", "made by the rules")(
-    lambda: replace(axioms.base(), formula=equation(DeltaX(i, 0), e_y))
+    lambda: _forged(lambda: replace(axioms.base(), formula=equation(DeltaX(i, 0), e_y)))
 )
 attack("statement", "another kind of relation", "j ≠ 3 does not order layers", "no relation")(
     lambda: Where.of(sympy.Ne(j, 3))

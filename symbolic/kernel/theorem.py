@@ -486,21 +486,11 @@ def _given(one: sympy.Eq, where: Where, background: Facts) -> bool:
     """Whether a theorem's condition on loads and forces holds by the loading, or by theorems."""
     if where.loading and one in where.loading.given:
         return True
-    plain = [
-        tuple(t for t in (facts if isinstance(facts, tuple) else (facts,)) if _is_plain(t))
-        for facts in background
-    ]
-    known = put_in(one.lhs, plain, where, ())
+    known = put_in(one.lhs, background, where, ())
     try:
         return holds(equation(known, one.rhs), where)
     except (NotProvedError, NotExactError):
         return False
-
-
-def _is_plain(theorem: Theorem) -> bool:
-    """Whether a theorem holds without conditions of its own on forces."""
-    loading = theorem.where.loading
-    return loading is None or bool(loading.everywhere) or theorem.rule == "loading"
 
 
 def flat(facts: Facts) -> Iterator[Theorem]:
