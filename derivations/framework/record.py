@@ -234,6 +234,8 @@ class Derivation:
         if ruling.verdict is not Verdict.PROVED:
             return ruling
         assert self.where is not None
+        if any(one.supposed for one in self.theorems):
+            return undecided("it rests on what is only supposed")
         if less := fixes_it(candidate, printed, self.where):
             return undecided(less)
         if candidate != printed and (found := counterexample(candidate, self.where)):

@@ -196,7 +196,7 @@ def attacked() -> None:
     Raises:
         KernelError: one of the attacks is not refused.
     """
-    from force_diffusion.symbolic.kernel.attacks import succeeded
+    from force_diffusion.symbolic.attacks.every import succeeded
 
     for one in succeeded():
         raise KernelError(

@@ -140,7 +140,7 @@ class LinearForm:
             NotExactError: a quantity of order 0 is multiplied by one of the lattice.
         """
         for one, factor in ((self, other), (other, self)):
-            families = [*(site.family for site in one.sites), *(ray.family for ray in one.rays)]
+            families = {*(site.family for site in one.sites), *(ray.family for ray in one.rays)}
             if factor.constant_part() is None and any(f.startswith(ORDERED) for f in families):
                 raise NotExactError("a product of a quantity of order 0 is not read")
         both = self.scaled(other.at_zero) + other.scaled(self.at_zero)

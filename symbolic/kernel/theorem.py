@@ -133,13 +133,10 @@ def check(formula: sympy.Eq, where: Where) -> None:
     known = set(where.indices)
     if undeclared := by_name(set().union(*(one.free_symbols for one in where.relations)) - known):
         raise NotAStatementError(f"its domain does not say what {text(undeclared[0])} is")
-    bound = _summed(formula)
     free = set().union(*(side.free_symbols for side in formula.args))
     for symbol in by_name(free & set(sy.INDICES)):
         if symbol not in known:
             raise NotAStatementError(f"its domain does not say what {text(symbol)} is")
-        if symbol in bound:
-            raise NotAStatementError(f"{text(symbol)} is summed over and stands for itself as well")
     if reserved := by_name(free & {*UNKNOWNS[0], *UNKNOWNS[1]}):
         raise NotAStatementError(f"{text(reserved[0])} is a name of the kernel's own")
     if where.dimension < 2:
@@ -201,8 +198,6 @@ def _check_power(power: sympy.Pow, where: Where) -> None:
         return
     if isinstance(base, FORCES) or (isinstance(base, sympy.Symbol) and base.is_positive):
         return  # a force that others are compared with is one that acts
-    if base.atoms(sy.SiteFunction):
-        raise NotAStatementError(f"the divisor {text(base)} holds a quantity of the lattice")
     if not where.never_zero(base):
         raise NotAStatementError(f"the divisor {text(base)} is not shown to differ from zero")
 
@@ -344,8 +339,7 @@ def isolated(formula: sympy.Eq, where: Where) -> tuple[sympy.Expr, sympy.Expr]:
 def fixes(factor: sympy.Expr, where: Where) -> bool:
     """Whether a factor of a quantity vanishes nowhere; a force that it is divided by does not."""
     held = (one for one in sympy.Mul.make_args(factor) if not _divides(one))
-    plain = sympy.Mul(*held, evaluate=False)
-    return not plain.atoms(sy.SiteFunction) and where.never_zero(plain)
+    return where.never_zero(sympy.Mul(*held, evaluate=False))
 
 
 def _divides(power: sympy.Basic) -> bool:
@@ -471,13 +465,12 @@ def _place(
 
 
 def applies(theorem: Theorem, image: Mapped, where: Where, background: Facts) -> bool:
-    """Whether a theorem, at another place, holds on all of a domain and under its loads."""
+    """Whether a theorem, at another place, holds on all of a domain and under its loads.
+
+    Indices of which the image does not speak stand for themselves.
+    """
     own = theorem.where
-    spoken_of = set().union(*(one.free_symbols for one in (*own.relations, *theorem.formula.args)))
-    if own.loading:
-        spoken_of |= set().union(*(one.free_symbols for one in own.loading.place))
-    missing = [s for s in theorem.indices if s in spoken_of and s not in image]
-    if missing or own.dimension != where.dimension:
+    if own.dimension != where.dimension:
         return False
     for one in own.relations:
         moved = one.func(*(side.xreplace(image) for side in one.args), evaluate=False)
@@ -497,21 +490,11 @@ def _given(one: sympy.Eq, where: Where, background: Facts) -> bool:
     """Whether a theorem's condition on loads and forces holds by the loading, or by theorems."""
     if where.loading and one in where.loading.given:
         return True
-    plain = [
-        tuple(t for t in (facts if isinstance(facts, tuple) else (facts,)) if _is_plain(t))
-        for facts in background
-    ]
-    known = put_in(one.lhs, plain, where, ())
+    known = put_in(one.lhs, background, where, ())
     try:
-        return known != one.lhs and holds(equation(known, one.rhs), where)
+        return holds(equation(known, one.rhs), where)
     except (NotProvedError, NotExactError):
         return False
-
-
-def _is_plain(theorem: Theorem) -> bool:
-    """Whether a theorem holds without conditions of its own on forces."""
-    loading = theorem.where.loading
-    return loading is None or bool(loading.everywhere) or theorem.rule == "loading"
 
 
 def flat(facts: Facts) -> Iterator[Theorem]:

@@ -217,6 +217,8 @@ class Where:
 
         Disorder is as weak as one likes: what differs from zero at ε = 0 does.
         """
+        if expression.has(sy.SiteFunction):
+            return False
         if expression.has(sy.epsilon):
             expression = sympy.expand(expression.xreplace({sy.epsilon: sympy.S.Zero}))
         return self.sign(expression) != 0
