@@ -44,7 +44,8 @@ for name, value, axiom, false, refused in (
     ("one step alone", r * (j + i) * n_plus, ORDERED[:2], "(−1, 1) is never reached", "not reach"),
     ("no origin", EQ_1 + n_plus, (told(rules.rewrite(), Integer(1), 1, Where()), *ORDERED[1:]),
      "it is anywhere", "not reach every"),
-    ("one step for the origin", EQ_1 + n_plus, (ORDERED[1], *ORDERED[1:]), "it is anywhere", "not reach every"),
+    ("one step for the origin", EQ_1 + n_plus, (ORDERED[1], *ORDERED[1:]), "it is anywhere",
+     "not reach every"),
     ("steps from one layer", EQ_1 + j * (j - 11) * r * n_plus, (ORDERED[0], *_on_layer_5()),
      "others are never reached", "not reach every"),
 ):  # fmt: skip
