@@ -147,14 +147,12 @@ def _in_terms(
 BY_DEPTH = {j: M - q}
 
 for name, image, back, other, where, false, refused in (
-    ("that leave the top out", BY_DEPTH, {q: M - j},
-     Where.of(q >= 1, q <= M, loading=SURFACE, indices=(i,)), WITH_TOP, "it is loaded", "reach"),
+    ("that leave the top out", BY_DEPTH, {q: M - j}, BELOW.put_in(BY_DEPTH, (i, q, M)), WITH_TOP,
+     "it is loaded", "do not reach"),
     ("that are not those of the statement", {j: j - 1}, {j: j}, BELOW, BELOW,
      "j − 1 does not reach M − 1", "do not reach"),
-    ("without saying what becomes of one", {}, {j: j - 1}, BELOW, WITH_TOP, "it is loaded",
+    ("without saying what becomes of one", {}, {j: j - 2}, BELOW, WITH_TOP, "it is loaded",
      "do not reach"),
-    ("an index from nowhere", {}, {}, BELOW.also(q <= 3, indices=(q,)), BELOW.also(q <= 3,
-     indices=(q,)).put_in({q: Integer(9)}, (i, j, M)), "q is any number", "nothing"),
     ("another loading", {}, {}, BELOW, BELOW.loaded(None), "it may be loaded", "packings differ"),
     ("another load's place", {M: M - 1}, {M: M + 1}, BELOW, WITH_TOP,
      "surfaces at M and M + 1 differ", "packings differ"),

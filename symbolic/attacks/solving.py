@@ -19,6 +19,8 @@ from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import SURFACE, Where
 from force_diffusion.symbolic.symbols import (
+    DeltaNMinus,
+    DeltaNPlus,
     DeltaR,
     DeltaX,
     Dot,
@@ -38,6 +40,7 @@ from force_diffusion.symbolic.symbols import (
     n_minus,
     n_plus,
     n_y,
+    phi,
     r,
     site_r,
     site_s,
@@ -47,6 +50,7 @@ from sympy import Eq
 # solve
 
 SUPPORT, WEIGHT = Position(i, j), 2 * r * n_plus
+BALANCE = axioms.balance()
 ANY_LOAD = Load(site_r, site_s)
 STEP_UP = axioms.ordered()[1]
 NEXT = Position(i + 1, j + 1)
@@ -123,6 +127,18 @@ def _() -> object:
     return told(rules.solve([row], [ForcePlus(k, l)]), ForcePlus(k, l), 0, AT_LOAD)
 
 
+@attack("solve", "a square beside another unknown", "f⁺ is 0 on the surface", "not linear")
+def _() -> object:
+    where = Where.of(j >= 0, Eq(j, M - 1), loading=SURFACE)
+    tilt = (phi * Dot(n_minus, DeltaNPlus(i, j)) - Dot(n_plus, DeltaNMinus(i + 2, j))) / (
+        1 - phi**2
+    )
+    value, force, above = f_load / (2 * n_y) * (1 + tilt), ForcePlus(i, j), ForcePlus(i + 1, M)
+    known = told(rules.below(BALANCE, ON_SURFACE), force, value, where)
+    squared = told(rules.rewrite(known, ON_SURFACE), force**2 + above, value**2, where)
+    return told(rules.solve([squared, known], [force, above]), above, value**2, where)
+
+
 @attack("solve", "a product of unknowns", "two rows fix more than one pair", "not linear")
 def _() -> object:
     where = Where.of(Eq(l, M), l >= 0, loading=SURFACE)
@@ -135,8 +151,6 @@ def _() -> object:
 
 
 # below
-
-BALANCE = axioms.balance()
 
 attack("below", "no contact force", "a balance fixes two forces", "no contact force")(
     lambda: told(rules.below(BALANCE), HERE, 0)

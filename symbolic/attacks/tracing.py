@@ -42,7 +42,10 @@ for name, value, axiom, false, refused in (
     ("other steps", 2 * EQ_1, ORDERED, "they are twice as long", "does not obey"),
     ("another origin", EQ_1 + n_plus, ORDERED, "(0, 0) is the origin", "does not obey"),
     ("one step alone", r * (j + i) * n_plus, ORDERED[:2], "(−1, 1) is never reached", "not reach"),
-    ("no origin", EQ_1 + n_plus, (ORDERED[1], *ORDERED[1:]), "it is anywhere", "not reach every"),
+    ("no origin", EQ_1 + n_plus, (told(rules.rewrite(), Integer(1), 1, Where()), *ORDERED[1:]),
+     "it is anywhere", "not reach every"),
+    ("one step for the origin", EQ_1 + n_plus, (ORDERED[1], *ORDERED[1:]), "it is anywhere",
+     "not reach every"),
     ("steps from one layer", EQ_1 + j * (j - 11) * r * n_plus, (ORDERED[0], *_on_layer_5()),
      "others are never reached", "not reach every"),
 ):  # fmt: skip
@@ -52,7 +55,7 @@ for name, value, axiom, false, refused in (
 attack("reach", "no statement", "no bead is there", "not shown to be at a bead")(
     lambda: _reached(terms(EQ_1, e_y * NO_SITE, minus(e_y * NO_SITE)), *ORDERED)
 )
-attack("reach", "of one bead", "it says nothing of others", "not about")(
+attack("reach", "of one bead", "it says nothing of others", "do not reach")(
     lambda: told(rules.reach(ORDERED[0], ORDERED[1:]), Position(i + 2, j), EQ_1)
 )
 
@@ -62,6 +65,7 @@ for name, value, start, step, where, false, refused in (
      "nobody says what k is", "does not say what k is"),
     ("another start", k - 1 - q, {i: k}, {i: i - 1}, COUNTED, "it starts at k", "not lead there"),
     ("another index", k - q, {j: k}, {j: j - 1}, COUNTED, "nothing is said of i", "no index of"),
+    ("without a start for it", k - q, {}, {i: i - 1}, COUNTED, "it is anywhere", "no index of"),
     ("without a step for it", k - q, {i: k}, {}, COUNTED, "nothing is said of i", "no index of"),
     ("a site by itself", i, {i: i}, {i: i}, COUNTED, "it says nothing", "by the number of steps"),
 ):  # fmt: skip
@@ -82,7 +86,10 @@ attack("inverse", "no inverse", "a matrix is not its own", "no inverse matrix")(
     lambda: rules.inverse(equation(sympy.eye(2), sympy.eye(2)), Where())
 )
 attack("inverse", "of a number", "it is no matrix", "no inverse matrix")(
-    lambda: rules.inverse(equation(1 / (2 * r), 1 / (2 * r)), Where())
+    lambda: rules.inverse(equation(1 / r, 1 / r), Where())
+)
+attack("inverse", "of what is no square", "it has one on one side alone", "no inverse matrix")(
+    lambda: _inverse([[ONE, ONE - ONE]], [[ONE], [ONE - ONE]])
 )
 attack("inverse", "where it has none", "φ vanishes somewhere", "not shown to differ")(
     lambda: _inverse([[phi]], [[1 / phi]])
@@ -96,8 +103,6 @@ for name, left, right, root, square, where, false, refused in (
      SQUARE, Where(), "it is x over the root", "derivatives differ"),
     ("a root of one's own", sympy.sqrt(2), r, r, Integer(2), Where(), "r is any radius",
      "not the root"),
-    ("a root that may be negative", sympy.sqrt(SQUARE), -sympy.sqrt(SQUARE),
-     sympy.Symbol("root"), SQUARE, Where(), "roots are positive", "not the root"),
     ("the root of what may be negative", sympy.sqrt(phi) / phi, phi ** sympy.Rational(-1, 2),
      ROOT, phi, Where(), "φ may vanish", "not the root"),
     ("what SymPy cancels", times(phi, Pow(phi, -1)), ONE, ROOT, SQUARE, Where(),

@@ -7,8 +7,8 @@ import sympy
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.theorem import Supposition, Theorem
-from force_diffusion.symbolic.kernel.where import SURFACE, Where
+from force_diffusion.symbolic.kernel.theorem import NotProvedError, Supposition, Theorem
+from force_diffusion.symbolic.kernel.where import LOADED_VERTICALLY, SURFACE, Where
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
@@ -26,6 +26,7 @@ from force_diffusion.symbolic.symbols import (
     i,
     j,
     k,
+    l,
     n,
     n_minus,
     n_plus,
@@ -101,14 +102,6 @@ def test_it_is_proved(name: str) -> None:
     assert theorem.where == (where.also(formula) if name == "walk" else where)
 
 
-def test_forces_below_a_bead_are_proved() -> None:
-    """In the ordered packing of a surface load each contact carries f_load/2n_y: without tilts."""
-    tilt_plus, tilt_minus = Dot(n_minus, DeltaNPlus(i, j)), Dot(n_plus, DeltaNMinus(i + 2, j))
-    value = f_load / (2 * n_y) * (1 + (phi * tilt_plus - tilt_minus) / (1 - phi**2))
-    where = Where.of(j >= 0, Eq(j, M - 1), loading=SURFACE)
-    assert rules.below(axioms.balance(), ON_SURFACE)(equation(ForcePlus(i, j), value), where)
-
-
 def test_an_instance_is_proved() -> None:
     theorem = rules.instance(axioms.contact(1), {i: i + 1, j: j + 1}, BEADS)
     assert theorem.where == BEADS
@@ -141,3 +134,27 @@ def test_a_ratio_of_forces_is_proved_and_used() -> None:
     both = rules.rewrite(ON_SURFACE)(equation(plus, 3 * minus), where)
     ratio = rules.follows(both)(equation(plus / minus, Integer(3)), where)
     assert rules.rewrite(ratio)(equation(plus * e_y, 3 * minus * e_y), where)
+
+
+def split(across: sympy.Expr, layer: sympy.Expr) -> sympy.Eq:
+    """f⁺ below a bead that carries f_load alone, straight down (Eq. 7)."""
+    left, right = (across - 1, layer - 1), (across + 1, layer - 1)
+    tilt = phi * Dot(n_minus, DeltaNPlus(*left)) - Dot(n_plus, DeltaNMinus(*right))
+    return equation(ForcePlus(*left), f_load / (2 * n_y) * (1 + tilt / (1 - phi**2)))
+
+
+def test_forces_below_a_bead_are_proved() -> None:
+    top = Where.of(Eq(l, M), l >= 1, loading=SURFACE)
+    assert rules.below(axioms.balance(), ON_SURFACE)(split(k, l), top)
+
+
+def test_a_condition_is_discharged_by_what_is_known() -> None:
+    """What holds of a loaded bead holds of the surface's beads: nothing presses them from above."""
+    loads = axioms.loads(LOADED_VERTICALLY)
+    loaded = Where.of(l >= 1, loading=LOADED_VERTICALLY)
+    known = rules.below(axioms.balance(), loads)(split(k, l), loaded)
+    top = Where.of(Eq(j, M - 1), j >= 0, loading=SURFACE)
+    claimed = split(i + 1, j + 1)
+    assert rules.rewrite(known, ON_SURFACE)(claimed, top)
+    with pytest.raises(NotProvedError, match="normal forms"):
+        rules.rewrite(known)(claimed, top)
