@@ -215,15 +215,14 @@ class Derivation:
         )
 
     @cached_property
-    def _lines(self) -> Lines:
-        lines = self.steps()
-        assert isinstance(lines, Lines)
-        return lines
+    def _lines(self) -> list[Line]:
+        return [line for line in self.steps() if isinstance(line, Line)]
 
     @property
     def all_claims(self) -> tuple[Claim, ...]:
         """What else is claimed of it, by the kernel's lines and by procedures of its own."""
-        further = self._lines.claims if self.decide is None else ()
+        lines = self.steps() if self.decide is None else ()
+        further = lines.claims if isinstance(lines, Lines) else ()
         return (*(Claim(one.reason, one.decide) for one in further), *self.claims)
 
     def _line(self, printed: sympy.Eq) -> Line:
