@@ -26,7 +26,6 @@ from force_diffusion.symbolic.symbols import (
     Dot,
     ForceMinus,
     ForcePlus,
-    Load,
     M,
     MatrixTimes,
     Position,
@@ -51,7 +50,7 @@ from sympy import Eq
 
 SUPPORT, WEIGHT = Position(i, j), 2 * r * n_plus
 BALANCE = axioms.balance()
-ANY_LOAD = Load(site_r, site_s)
+ANY_FORCE = ForcePlus(site_r, site_s)
 STEP_UP = axioms.ordered()[1]
 NEXT = Position(i + 1, j + 1)
 
@@ -74,8 +73,8 @@ for name, rows, unknowns, left, right, where, false, refused in (
      "one part of it is not fixed", "1 equations for 2"),
     ("one row twice", (ALONG_X, ALONG_X), (NEXT,), NEXT, SUPPORT + WEIGHT, BEADS,
      "one part of it is not fixed", "vanish nowhere"),
-    ("a row that does not hold", (ON_SURFACE[0],), (ANY_LOAD,), ANY_LOAD, 0,
-     Where.of(Eq(site_s, M), site_s >= 0, loading=SURFACE), "the surface is loaded",
+    ("a row that does not hold", (ON_SURFACE[2],), (ANY_FORCE,), ANY_FORCE, 0,
+     Where.of(site_s >= 0, site_s <= M - 1, loading=SURFACE), "the load is carried there",
      "does not hold on all"),
     ("a row of another layer", (axioms.base(),), (DeltaX(i, j),), DeltaX(i, j), 0, BEADS,
      "only the base stays", "does not hold on all"),
