@@ -6,7 +6,7 @@ every integer point; what needs the integers more than that is not found, and no
 from it.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from itertools import product
@@ -20,7 +20,6 @@ from force_diffusion.symbolic.algebra.exact import Domain, NotExactError
 from force_diffusion.symbolic.algebra.signs import sign
 from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.text import text
 
 Mapped = Mapping[sympy.Basic, sympy.Expr]
@@ -30,7 +29,6 @@ LATTICE = ((sy.i, sy.j), (sy.k, sy.l), (sy.site_r, sy.site_s))
 """Indices of beads, across and up: their sum is even."""
 
 _SIGNS = {sympy.Eq: "=", sympy.Le: "≤", sympy.Lt: "<", sympy.Ge: "≥", sympy.Gt: ">"}
-_IN_LATEX = {sympy.Eq: "=", sympy.Le: r"\leq", sympy.Lt: "<", sympy.Ge: r"\geq", sympy.Gt: ">"}
 _TURNED = {sympy.Ge: sympy.Le, sympy.Gt: sympy.Lt}
 _MANY = 4000  # rows of an elimination; beyond that nothing is decided
 
@@ -314,12 +312,11 @@ class Where:
 
     def in_words(self) -> tuple[str, ...]:
         """Its relations in plain text, such as "0 ≤ j < M", and its load."""
-        shown = [" ".join(_told(chain, text, _SIGNS)) for chain in self._chains()]
+        shown = [
+            " ".join(_SIGNS[one] if isinstance(one, type) else text(one) for one in chain)
+            for chain in self._chains()
+        ]
         return (*shown, *([self.loading.words] if self.loading else []))
-
-    def latex(self) -> str:
-        r"""Its relations in LaTeX, such as "0 \leq j < M"."""
-        return r",\ ".join(" ".join(_told(chain, latex, _IN_LATEX)) for chain in self._chains())
 
     def _chains(self) -> Iterator[list[sympy.Basic | type]]:
         """Relations that go on where the one before ends, as sides and kinds in turn."""
@@ -339,15 +336,6 @@ class Where:
 
     def __str__(self) -> str:
         return ", ".join(self.in_words())
-
-
-def _told(
-    chain: Iterable[sympy.Basic | type],
-    side: Callable[[sympy.Basic], str],
-    signs: Mapping[type, str],
-) -> Iterator[str]:
-    for one in chain:
-        yield signs[one] if isinstance(one, type) else side(one)
 
 
 @lru_cache(maxsize=4096)
