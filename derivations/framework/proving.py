@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import sympy
 from force_diffusion.derivations.framework.follows import put_in
 from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel import rules
+from force_diffusion.symbolic.kernel import limits, moments, rules
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
@@ -155,6 +155,16 @@ def _facts(sources: Sequence[Source], supposed: tuple[Theorem, ...]) -> list[tup
 def rewrite(*facts: Source) -> By:
     """Both sides are the same once facts are put in, one after the other."""
     return By(lambda supposed: rules.rewrite(*_facts(facts, supposed)), facts)
+
+
+def moment(*facts: Source) -> By:
+    """Both sides are the same once facts are put in and means and variances are worked out."""
+    return By(lambda supposed: moments.moment(*_facts(facts, supposed)), facts)
+
+
+def asymptotic(*facts: Source) -> By:
+    """Both sides are of the same leading order, moments worked out at finite size."""
+    return By(lambda supposed: limits.asymptotic(*_facts(facts, supposed)), facts)
 
 
 def follows(source: Source, *facts: Source) -> By:

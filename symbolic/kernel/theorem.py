@@ -120,12 +120,17 @@ def made(
 # what is a statement
 
 
-def check(formula: sympy.Eq, where: Where) -> None:
+def check(formula: sympy.Eq, where: Where, *, in_a_limit: bool = False) -> None:
     """Refuse what has no value, or no single one, somewhere on the domain.
 
     Raises:
         NotAStatementError: with the reason.
+        NotProvedError: it is a statement in a limit, which this rule does not prove.
     """
+    if (where.limit is not None) != in_a_limit:
+        raise NotProvedError(
+            f"this rule proves what holds {'' if in_a_limit else 'not '}in a limit"
+        )
     if not isinstance(formula, sympy.Eq):
         raise NotAStatementError("it is no equation")
     if where.is_empty:
@@ -173,6 +178,8 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
         except NotExactError as reason:
             raise NotAStatementError(str(reason)) from None
         return
+    if isinstance(node, sy.Moment) and any(one.has(sy.Moment) for one in node.args):
+        raise NotAStatementError("a moment of a moment")
     if isinstance(node, sympy.Pow):
         _check_power(node, where)
     elif not (isinstance(node, (*_READ, sympy.Rational)) or node.is_Symbol) or (
@@ -183,7 +190,7 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
         _check(argument, where, outer)
 
 
-_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces)
+_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, sy.Moment)
 _QUANTITIES = {
     *FORCES, sy.DeltaNMinus, sy.DeltaNPlus, sy.DeltaR, sy.DeltaX, sy.Load, sy.Position,
     sy.SecondDifference,
@@ -470,7 +477,7 @@ def applies(theorem: Theorem, image: Mapped, where: Where, background: Facts) ->
     Indices of which the image does not speak stand for themselves.
     """
     own = theorem.where
-    if own.dimension != where.dimension:
+    if own.dimension != where.dimension or own.limit is not None:
         return False
     for one in own.relations:
         moved = one.func(*(side.xreplace(image) for side in one.args), evaluate=False)
