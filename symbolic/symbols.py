@@ -208,6 +208,28 @@ class Covariance(Moment):
         return f"cov({', '.join(map(printer._print, self.args))})"
 
 
+class UnitHeight(Function):  # type: ignore[misc]
+    """The height M at which the leading order of X(M) is 1, as M → ∞; X keeps its symbol M."""
+
+    nargs = 1
+
+    def _text(self, printer: Any) -> str:
+        return f"M({printer._print(self.args[0])} ∼ 1)"
+
+    _latex = _text
+
+
+class Tensile(Function):  # type: ignore[misc]
+    """P(X < 0): the probability that a force over its mean is tensile."""
+
+    nargs = 1
+
+    def _text(self, printer: Any) -> str:
+        return f"P({printer._print(self.args[0])} < 0)"
+
+    _latex = _text
+
+
 class MatrixTimes(Function):  # type: ignore[misc]
     """((a, b), (c, d)) v in Cartesian components, kept whole: arguments a, b, c, d, v."""
 

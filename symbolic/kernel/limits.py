@@ -31,7 +31,8 @@ from force_diffusion.symbolic.kernel.where import Limit, Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
-_FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
+FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
+"""What stays as it is in every limit."""
 
 
 def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
@@ -42,10 +43,10 @@ def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
     """
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = _limit(formula, where, "∼")
+        limit = limit_of(formula, where, "∼")
         left, right = read(formula, facts, where)
         low, high = order(left - right, limit), order(right, limit)
-        if not low < high:
+        if not low <= high - limit.orders:
             raise NotProvedError(
                 f"left less right is of order {low}, the right-hand side of order {high}"
             )
@@ -58,7 +59,7 @@ def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
     return rule
 
 
-def _limit(formula: sympy.Eq, where: Where, relation: str) -> Limit:
+def limit_of(formula: sympy.Eq, where: Where, relation: str) -> Limit:
     """The limit of a statement, if its domain holds all but the first of what grows so.
 
     Raises:
@@ -102,7 +103,7 @@ def read(formula: sympy.Eq, facts: Facts, where: Where) -> tuple[RationalFunctio
     assert limit is not None
     finite = without_moments(formula, facts, where.in_the_limit(None))
     sides = [side.xreplace({sy.z: sy.j / sy.M}) for side in finite.args]
-    known = {*_FIXED, *limit.growing}
+    known = {*FIXED, *limit.growing}
     if strange := by_name(set().union(*(side.free_symbols for side in sides)) - known):
         raise NotProvedError(f"{text(strange[0])} neither grows nor is fixed")
     try:

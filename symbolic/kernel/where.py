@@ -100,18 +100,30 @@ class Limit:
         growing: the indices that grow.
         positive: as many sums of them, which all grow in fixed positive ratios; uniformly so while
             the ratios, and φ, stay within closed parts of their ranges.
+        orders: of what is related by "∼", how many leading orders are the same: left over right is
+            1 up to what vanishes faster than size^(1−orders).
     """
 
     relation: str
     words: str
     growing: tuple[sympy.Symbol, ...]
     positive: tuple[sympy.Expr, ...]
+    orders: int = 1
 
 
 def at_fixed_height(relation: str) -> Limit:
     """The limit M → ∞ at a fixed relative height z = j/M between base and surface."""
     words = "M → ∞ at fixed z = j/M, 0 < z < 1"
     return Limit(relation, words, (sy.M, sy.j), (sy.j, sy.M - sy.j))
+
+
+def at_large_height(relation: str, orders: int = 1) -> Limit:
+    """The limit M → ∞ of what belongs to no layer."""
+    return Limit(relation, "M → ∞", (sy.M,), (sy.M,), orders)
+
+
+AT_FIXED_RATIO = Limit("∼", "M → ∞ at fixed M/M*, as σ decreases", (sy.M,), (sy.M,))
+"""The limit in which variances over squared means stay, as M* grows with M."""
 
 
 @dataclass(frozen=True)
