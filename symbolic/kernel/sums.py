@@ -36,7 +36,7 @@ class Sums:
 
     def __init__(self, where: Where, known: Mapping[sympy.Basic, RationalFunction] | None = None):
         self.where = where
-        self.known = dict(known or {})
+        self.known: dict[sympy.Basic, RationalFunction] = dict(known or {})
         self.lengths: dict[sympy.Symbol, RationalFunction] = {}
         self._names: dict[Ends, sympy.Symbol] = {}
 

@@ -95,7 +95,8 @@ class Limit:
 
     Attributes:
         relation: "∼": left over right goes to 1; "≈": the variance of left less right is of a lower
-            order than that of the force it is about; "∝": left over right goes to a function of φ.
+            order than that of the force it is about; "∝": left over right goes to a function of φ,
+            which is positive; "=": both sides go to the same.
         words: the same in plain words, such as "M → ∞ at fixed z = j/M, 0 < z < 1".
         growing: the indices that grow.
         positive: as many sums of them, which all grow in fixed positive ratios; uniformly so while
@@ -122,7 +123,7 @@ def at_large_height(relation: str, orders: int = 1) -> Limit:
     return Limit(relation, "M → ∞", (sy.M,), (sy.M,), orders)
 
 
-AT_FIXED_RATIO = Limit("∼", "M → ∞ at fixed M/M*, as σ decreases", (sy.M,), (sy.M,))
+AT_FIXED_RATIO = Limit("=", "M → ∞ at fixed M/M*, as σ decreases", (sy.M,), (sy.M,))
 """The limit in which variances over squared means stay, as M* grows with M."""
 
 
