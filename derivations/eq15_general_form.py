@@ -17,7 +17,8 @@ from force_diffusion.derivations.framework.averaging import (
     total,
     unit_height,
 )
-from force_diffusion.derivations.framework.proving import Alike, Line
+from force_diffusion.derivations.framework.layered import EveryLayer
+from force_diffusion.derivations.framework.proving import Line, in_place
 from force_diffusion.derivations.framework.record import ExactCase, Missed, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
@@ -133,19 +134,25 @@ def critical_height(load: str) -> sympy.Expr:
 
 def force(load: str) -> sympy.Expr:
     """The force of contact (i, j) over its mean."""
-    found: sympy.Expr = LOADS[load].VARIANCE.force
+    of = LOADS[load].VARIANCE
+    (found,) = in_place(of.moment, of.meaning).args
     return found
 
 
-def mean(load: str, kind: type, exponent: sympy.Rational = sympy.S.One) -> sympy.Expr:
-    """The mean over the layers of what depends on a force over its mean."""
-    each = power(kind(force(load).xreplace({i: m, j: m})), exponent)
-    return sympy.Sum(each, (m, 0, M - 1)) / M
+def mean(load: str, kind: type, *, of_roots: bool = False) -> sympy.Expr:
+    """The mean over the layers of what depends on a force over its mean, or of its root."""
+    each = kind(force(load).xreplace({i: m, j: m}))
+    return sympy.Sum(sympy.sqrt(each) if of_roots else each, (m, 0, M - 1)) / M
 
 
 def heights(load: str, *relations: sympy.Basic) -> Where:
     """Packings of these heights under a load."""
     return Where((M,), relations or (M >= 3,), LOADS[load].VARIANCE.loading)
+
+
+def every_layer(load: str) -> EveryLayer:
+    """What is proved of the variance in every layer."""
+    return EveryLayer(LOADS[load].VARIANCE, LOADS[load].DERIVATION)
 
 
 LARGE = at_large_height
@@ -160,7 +167,7 @@ def steps() -> Lines:
     square = {load: mean(load, Variance) for load in LOADS}
     meant = {load: {MEAN_SQUARE: square[load], k: n} for load in LOADS}
     for load, average in averages().items():
-        layers = LOADS[load].EVERY_LAYER
+        layers = every_layer(load)
         exact[load] = lines.show(
             "The same number of contacts starts in every layer 0 ≤ j < M: the mean over all "
             f"contacts is the mean over the layers. Exact under a {load} load, M ≥ 3, those at the "
@@ -212,8 +219,14 @@ def steps() -> Lines:
         proportional(order["surface"], exact["surface"]),
         where=in_proportion["surface"],
         meaning=root["surface"],
-        alike=Alike(
-            proportional(order["bulk"], exact["bulk"]), in_proportion["bulk"], root["bulk"]
+        alike=(
+            Line(
+                "",
+                PRINTED,
+                proportional(order["bulk"], exact["bulk"]),
+                in_proportion["bulk"],
+                root["bulk"],
+            ),
         ),
     )
     for load, (_, base, q) in ROOTS.items():
@@ -239,10 +252,14 @@ def steps() -> Lines:
         proportional(order["surface"], exact["surface"], of_height["surface"]),
         where=in_proportion["surface"],
         meaning=unit["surface"],
-        alike=Alike(
-            proportional(order["bulk"], exact["bulk"], of_height["bulk"]),
-            in_proportion["bulk"],
-            unit["bulk"],
+        alike=(
+            Line(
+                "",
+                PRINTED_HEIGHT,
+                proportional(order["bulk"], exact["bulk"], of_height["bulk"]),
+                in_proportion["bulk"],
+                unit["bulk"],
+            ),
         ),
     )
     for load in LOADS:
@@ -274,7 +291,7 @@ def steps() -> Lines:
             "needs. Averaged over the layers as M → ∞ at fixed M/M*, the expected fraction under a "
             f"{load} load is",
             equation(TENSILE, tensile_fraction(load)),
-            tensile(module.EVERY_LAYER, of_height[load], gaussian, ones),
+            tensile(every_layer(load), of_height[load], gaussian, ones),
             where=heights(load).in_the_limit(AT_FIXED_RATIO),
             meaning={TENSILE: mean(load, Tensile), **unit[load]},
         )
@@ -298,9 +315,9 @@ def claims(lines: Lines, exact: dict[str, Line], of_height: dict[str, Line]) -> 
             "the mean of σ_f/⟨f⟩ itself is that of the root of the printed variance, to leading "
             f"order in M, {load} load",
             equation(DEVIATION, sympy.Integral(power(module.PRINTED.rhs, sympy.S.Half), (z, 0, 1))),
-            mean_of_roots(module.EVERY_LAYER),
+            mean_of_roots(every_layer(load)),
             where=heights(load).in_the_limit(LARGE("∼")),
-            meaning={DEVIATION: mean(load, Variance, sympy.S.Half)},
+            meaning={DEVIATION: mean(load, Variance, of_roots=True)},
         )
         lines.claim(
             f"at leading order σ_f²/⟨f⟩² is (M/M*)³ times a profile, {load} load",

@@ -114,7 +114,8 @@ def _bound(value: RationalFunction, limit: Limit, sums: Sums) -> int:
         max(sum(map(mul, grows, map(int, powers))) for powers in side.to_dict())
         for side in (value.numerator, value.denominator)
     )
-    return above - below
+    power: int = above - below
+    return power
 
 
 # powers of what is positive

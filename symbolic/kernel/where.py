@@ -94,9 +94,10 @@ class Limit:
     """How indices grow together, and how a statement relates its sides then.
 
     Attributes:
-        relation: "∼": left over right goes to 1; "≈": the variance of left less right is of a lower
-            order than that of the force it is about; "∝": left over right goes to a function of φ,
-            which is positive; "=": both sides go to the same.
+        relation: "∼": left over right goes to 1; "O": left over right stays bounded; "≈": the
+            variance of left less right is of a lower order than that of the force it is about; "∝":
+            left over right goes to a function of φ, which is positive; "=": both sides go to the
+            same.
         words: the same in plain words, such as "M → ∞ at fixed z = j/M, 0 < z < 1".
         growing: the indices that grow.
         positive: as many sums of them, which all grow in fixed positive ratios; uniformly so while
@@ -121,6 +122,11 @@ def at_fixed_height(relation: str) -> Limit:
 def at_large_height(relation: str, orders: int = 1) -> Limit:
     """The limit M → ∞ of what belongs to no layer."""
     return Limit(relation, "M → ∞", (sy.M,), (sy.M,), orders)
+
+
+def in_a_layer(relation: str) -> Limit:
+    """The limit M → ∞ of a layer at a fixed distance from base or surface."""
+    return Limit(relation, "M → ∞ in a fixed layer", (sy.M,), (sy.M,))
 
 
 AT_FIXED_RATIO = Limit("=", "M → ∞ at fixed M/M*, as σ decreases", (sy.M,), (sy.M,))
