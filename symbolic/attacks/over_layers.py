@@ -1,6 +1,7 @@
 """Attacks on averages over the layers, on what they go to, and on heights and integrals."""
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import sympy
@@ -62,6 +63,7 @@ def layer(weight: Expr, where: Where = LAYERS) -> Theorem:
     return told(moments.moment(), Variance(weight * HERE), weight**2 * VARIANCE, where)
 
 
+@cache
 def _every() -> Theorem:
     """Variances (M − j)² σ²."""
     return layer(M - j)
@@ -71,10 +73,12 @@ OVER = over_layers(Variance((M - m) * AT_M))
 """Their mean over the layers, (M + 1)(2M + 1) σ²/6."""
 
 
+@cache
 def _exact() -> Theorem:
     return told(averages.total(_every()), OVER, (M + 1) * (2 * M + 1) * VARIANCE / 6, HEIGHTS)
 
 
+@cache
 def _leading() -> Theorem:
     return told(averages.expansion(_exact()), OVER, M**2 * VARIANCE / 3, LARGE)
 
@@ -212,6 +216,7 @@ IS_ONE = sqrt(3) / sigma
 """The height at which M² σ²/3 is one."""
 
 
+@cache
 def _height() -> Theorem:
     return told(averages.unit_height(_leading()), UNIT, IS_ONE, AS_IT_IS)
 
@@ -230,6 +235,7 @@ def _of_proportion() -> Theorem:
     return told(averages.proportional(_leading()), OVER, 2 * M**2 * VARIANCE, IN_PROPORTION)
 
 
+@cache
 def _constant() -> Theorem:
     return told(averages.expansion(), S.One, 1 + 1 / M, LARGE)
 
@@ -298,6 +304,7 @@ def _mean(inside: Expr) -> Integral:
     return Integral(inside, (z, 0, 1))
 
 
+@cache
 def _slope() -> Theorem:
     """d/dz (2/3)(1 + z)^(3/2) = √(1 + z)."""
     return told(rules.differentiate(ROOT, 1 + z), Derivative(
@@ -373,7 +380,7 @@ def _inside(value: Expr) -> tuple[Theorem, ...]:
     return base, _supposed(Variance((M - j) * HERE), value * VARIANCE, where)
 
 
-for tried, layers, left, right, where, false, refused in (
+for tried, several, left, right, where, false, refused in (
     ("another factor", _every, ROOTS, _of_profile(2 * PROFILE), LARGE, "it is √2 times that",
      "the rest is of order 2"),
     ("another profile", _every, ROOTS, _of_profile(M**2 * (1 - z**2) * VARIANCE), LARGE,
@@ -410,7 +417,7 @@ for tried, layers, left, right, where, false, refused in (
 
     @attack("mean_of_roots", tried, false, refused)
     def _(
-        layers: Premises = layers, left: Expr = left, right: Expr = right, where: Where = where
+        layers: Premises = several, left: Expr = left, right: Expr = right, where: Where = where
     ) -> object:
         found = layers()
         every = found if isinstance(found, tuple) else (found,)
@@ -432,14 +439,17 @@ FORCE_VARIANCE = over_layers(Variance(1 + m * AT_M))
 RATIO = M / UnitHeight(FORCE_VARIANCE)
 
 
+@cache
 def _forces() -> Theorem:
     return told(moments.moment(), Variance(1 + j * HERE), j**2 * VARIANCE, LAYERS)
 
 
+@cache
 def _ones(mean: int = 1) -> Theorem:
     return told(moments.moment(), Mean(mean + j * HERE), mean, LAYERS)
 
 
+@cache
 def _force_height(where: Where = AS_IT_IS) -> Theorem:
     exact = told(
         averages.total(_forces()), FORCE_VARIANCE, (M - 1) * (2 * M - 1) * VARIANCE / 6, HEIGHTS
@@ -448,6 +458,7 @@ def _force_height(where: Where = AS_IT_IS) -> Theorem:
     return told(averages.unit_height(order), UnitHeight(FORCE_VARIANCE), IS_ONE, where)
 
 
+@cache
 def _below() -> Theorem:
     return averages.density(GAUSSIAN_BELOW, Where())
 
@@ -500,7 +511,7 @@ for tried, how, false, refused in (
     ("σ in the argument", {"right": _half(_error(1 / (sqrt(2) * M * sigma * z)))},
      "it is not about M/M*", "more than M/M*"),
     ("a variance of two orders", {"right": _half(_error(1 / sqrt(
-        2 * (3 * z**2 * RATIO**2 + RATIO))))}, "it is less", "no power of M"),
+        2 * (3 * z**2 * RATIO**2 + 1))))}, "it is less", "no power of M"),
     ("the height of another packing", {"height": "other"}, "another M*", "of another load"),
     ("another probability", {"below": "other"}, "it is not Gaussian", "not about Gaussian"),
 ):  # fmt: skip
