@@ -128,9 +128,7 @@ def check(formula: sympy.Eq, where: Where, *, in_a_limit: bool = False) -> None:
         NotProvedError: it is a statement in a limit, which this rule does not prove.
     """
     if (where.limit is not None) != in_a_limit:
-        raise NotProvedError(
-            f"this rule proves what holds {'' if in_a_limit else 'not '}in a limit"
-        )
+        raise NotProvedError("it is one in a limit" if where.limit else "it is not one in a limit")
     if not isinstance(formula, sympy.Eq):
         raise NotAStatementError("it is no equation")
     if where.is_empty:
