@@ -65,7 +65,7 @@ for tried, left, right, where, false, refused in (
         return told(moments.moment(), left, right, where)
 
 
-for tried, left, right, where, false, refused in (
+for tried, small, right, where, false, refused in (
     ("a domain at finite size", M, M + 1, HEIGHTS, "they differ", "it is not one in a limit"),
     ("the sign of another limit", M, M + 1, HEIGHTS.in_the_limit(at_fixed_height("≈")),
      "≈ says something else", "not with the sign ∼"),
