@@ -89,7 +89,9 @@ for tried, small, right, where, false, refused in (
 ):  # fmt: skip
 
     @attack("asymptotic", tried, false, refused)
-    def _(left: sympy.Expr = left, right: sympy.Expr | int = right, where: Where = where) -> object:
+    def _(
+        left: sympy.Expr = small, right: sympy.Expr | int = right, where: Where = where
+    ) -> object:
         return told(limits.asymptotic(), left, right, where)
 
 
