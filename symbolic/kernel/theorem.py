@@ -26,6 +26,9 @@ from force_diffusion.symbolic.printing.text import text
 SUMMATION = (sy.m, sy.n)
 """The indices that a statement may sum over."""
 
+_BOUND = (*SUMMATION, sy.p, sy.q)
+"""The indices over which sums are written that are put into others."""
+
 FORCES = (sy.ForcePlus, sy.ForceMinus)
 _PLANE = {sy.n_x, sy.n_y, sy.spacing, *sy.VECTORS}
 _MADE_HERE = object()
@@ -428,7 +431,7 @@ def _renamed(value: sympy.Expr, image: Mapped, where: Where) -> sympy.Expr:
     for series in value.atoms(sympy.Sum):
         if taken & {limit[0] for limit in series.limits}:
             (index,) = {limit[0] for limit in series.limits}
-            spare = [one for one in SUMMATION if one not in taken and not series.has(one)]
+            spare = [one for one in _BOUND if one not in taken and not series.has(one)]
             if not spare:
                 raise NotProvedError(f"{text(index)} would have two meanings")
             value = value.xreplace({series: series.xreplace({index: spare[0]})})
