@@ -96,7 +96,8 @@ class Limit:
     Attributes:
         relation: "∼": left over right goes to 1; "O": left over right stays bounded; "≈": the
             variance of left less right is of a lower order than that of the force it is about; "∝":
-            left over right goes to a function of φ.
+            left over right goes to a function of φ; "≈ by weight": the largest weight of left less
+            right is of a lower order than that of left.
         words: the same in plain words, such as "M → ∞ at fixed z = j/M, 0 < z < 1".
         growing: the indices that grow.
         positive: as many sums of them, which all grow in fixed positive ratios; uniformly so while
