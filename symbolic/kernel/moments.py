@@ -77,6 +77,7 @@ def value(one: sy.Moment, facts: Facts, where: Where) -> RationalFunction:
     return (both - squares[0] - squares[1]) * sigma / FIELD.constant(2)
 
 
+@lru_cache(maxsize=256)
 def in_the_radii(expression: sympy.Expr, facts: Facts, where: Where) -> LinearForm:
     """A number as a linear form in the deviations of the radii, facts put in.
 
