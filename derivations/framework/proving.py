@@ -21,6 +21,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     refuted,
     undecided,
 )
+from force_diffusion.symbolic.kernel.disproofs import Disproof, other_leading_order
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import (
     NotAStatementError,
@@ -95,10 +96,18 @@ SUPPOSED = object()
 
 @dataclass(frozen=True, eq=False)
 class By:
-    """A rule and what it rests on, resolved when something is to be proved."""
+    """A rule and what it rests on, resolved when something is to be proved.
+
+    Attributes:
+        rule: the rule, given what is supposed.
+        sources: what it rests on.
+        finite: of a statement in a limit, what it says at finite size, where explicit values are
+            looked for.
+    """
 
     rule: Callable[[tuple[Theorem, ...]], Rule]
     sources: tuple[Source, ...] = ()
+    finite: Callable[[sympy.Eq, Where], sympy.Eq] | None = None
 
     def names(self) -> tuple[str, ...]:
         """The lines and equations that it rests on."""
@@ -111,8 +120,33 @@ def _names(sources: Iterable[Source]) -> Iterable[str]:
             yield from one.names()
         elif isinstance(one, tuple):
             yield from _names(one)
-        elif hasattr(one, "theorems"):
+        elif isinstance(one, Chain) or (hasattr(one, "theorems") and hasattr(one, "words")):
             yield one.words
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Equations put in one after the other, under the name of the first; it rests on the others."""
+
+    sources: tuple[Source, ...]
+
+    @property
+    def words(self) -> str:
+        """How another line names it."""
+        words: str = self.sources[0].words
+        return words
+
+
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """Theorems that no line shows; what they follow from is named by the line that uses them."""
+
+    prove: Callable[[], tuple[Theorem, ...]]
+
+    @cached_property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """All of them."""
+        return self.prove()
 
 
 def known(source: Source, supposed: tuple[Theorem, ...]) -> tuple[Theorem, ...]:
@@ -145,8 +179,12 @@ class Part:
         return self.of.words
 
 
-def _facts(sources: Sequence[Source], supposed: tuple[Theorem, ...]) -> list[tuple[Theorem, ...]]:
-    return [known(one, supposed) for one in sources]
+def facts_of(
+    sources: Sequence[Source], supposed: tuple[Theorem, ...] = ()
+) -> tuple[tuple[Theorem, ...], ...]:
+    """The theorems of sources, to be put in one after the other; those of a source at once."""
+    parts = (one.sources if isinstance(one, Chain) else (one,) for one in sources)
+    return tuple(known(one, supposed) for part in parts for one in part)
 
 
 # the rules of the kernel, with what they rest on
@@ -154,17 +192,36 @@ def _facts(sources: Sequence[Source], supposed: tuple[Theorem, ...]) -> list[tup
 
 def rewrite(*facts: Source) -> By:
     """Both sides are the same once facts are put in, one after the other."""
-    return By(lambda supposed: rules.rewrite(*_facts(facts, supposed)), facts)
+    return By(lambda supposed: rules.rewrite(*facts_of(facts, supposed)), facts)
 
 
-def moment(*facts: Source) -> By:
+def moment(*facts: Source, **parts: Any) -> By:
     """Both sides are the same once facts are put in and means and variances are worked out."""
-    return By(lambda supposed: moments.moment(*_facts(facts, supposed)), facts)
+    return By(lambda supposed: moments.moment(*facts_of(facts, supposed), **parts), facts)
 
 
-def asymptotic(*facts: Source) -> By:
+def asymptotic(*facts: Source, late: Iterable[sympy.Basic] = ()) -> By:
     """Both sides are of the same leading order, moments worked out at finite size."""
-    return By(lambda supposed: limits.asymptotic(*_facts(facts, supposed)), facts)
+    late = tuple(late)
+    return By(
+        lambda supposed: limits.asymptotic(*facts_of(facts, supposed), late=late),
+        facts,
+        lambda formula, where: moments.without_moments(
+            formula, facts_of(facts), where, where.also(*late)
+        ),
+    )
+
+
+def exhausting(whole: Where, parts: Iterable[Where], by: By) -> By:
+    """The same rule for several statements, if their domains leave nothing of a whole one out."""
+    parts = tuple(parts)
+
+    def rule(supposed: tuple[Theorem, ...]) -> Rule:
+        if not whole.covered_by(parts):
+            raise NotProvedError("the statements leave something out")
+        return by.rule(supposed)
+
+    return By(rule, (by,))
 
 
 def follows(source: Source, *facts: Source) -> By:
@@ -172,7 +229,7 @@ def follows(source: Source, *facts: Source) -> By:
 
     def rule(supposed: tuple[Theorem, ...]) -> Rule:
         (theorem,) = known(source, supposed)
-        return rules.follows(theorem, *_facts(facts, supposed))
+        return rules.follows(theorem, *facts_of(facts, supposed))
 
     return By(rule, (source, *facts))
 
@@ -192,7 +249,7 @@ def along(source: Source, vector: sympy.Symbol, *facts: Source) -> By:
 
     def rule(supposed: tuple[Theorem, ...]) -> Rule:
         (theorem,) = known(source, supposed)
-        return rules.follows(rules.along(theorem, vector), *_facts(facts, supposed))
+        return rules.follows(rules.along(theorem, vector), *facts_of(facts, supposed))
 
     return By(rule, (source, *facts))
 
@@ -200,7 +257,7 @@ def along(source: Source, vector: sympy.Symbol, *facts: Source) -> By:
 def solve(rows: Source, unknowns: Sequence[sympy.Expr], *facts: Source) -> By:
     """What as many equations fix as there are unknowns."""
     return By(
-        lambda supposed: rules.solve(known(rows, supposed), unknowns, *_facts(facts, supposed)),
+        lambda supposed: rules.solve(known(rows, supposed), unknowns, *facts_of(facts, supposed)),
         (rows, *facts),
     )
 
@@ -210,7 +267,7 @@ def below(balance: Source, *facts: Source) -> By:
 
     def rule(supposed: tuple[Theorem, ...]) -> Rule:
         (theorem,) = known(balance, supposed)
-        return rules.below(theorem, *_facts(facts, supposed))
+        return rules.below(theorem, *facts_of(facts, supposed))
 
     return By(rule, (balance, *facts))
 
@@ -328,7 +385,12 @@ class Line:
     meaning: Meaning | tuple[Meaning, ...] | None = None
     after: tuple[Proved, ...] = ()
     number: int = 0
-    relation: str = "="
+
+    @property
+    def relation(self) -> str:
+        """How it relates its sides: "=", or as in the limit that it is about."""
+        where: Where = _at(0, self.where)
+        return where.limit.relation if where.limit else "="
 
     @property
     def words(self) -> str:
@@ -366,10 +428,19 @@ class Line:
         except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
             # what has no value somewhere is mostly without one at a place that no packing shows
             at_most = _FEW if isinstance(reason, NotAStatementError) else None
-            meant, where = self._meant(part, candidate), _at(part, self.where)
-            found = counterexample(meant, where, at_most=at_most)
+            found = self.counterexample(part, candidate, at_most)
             return refuted(found) if found else undecided(str(reason) or type(reason).__name__)
         return proved(f"by the rule: {theorem.rule}")
+
+    def counterexample(self, part: int, candidate: sympy.Eq, at_most: int | None) -> str | None:
+        """Explicit values at which a candidate is false, found without the rule; or None."""
+        by, where = (_at(part, one) for one in (self.by, self.where))
+        meant = self._meant(part, candidate)
+        try:
+            found = by.finite(meant, where.in_the_limit(None)) if by.finite else meant
+        except (ArithmeticError, RecursionError, TypeError, ValueError):
+            return None  # what it says at finite size is not known
+        return counterexample(found, where, at_most=at_most)
 
     def _meant(self, part: int, candidate: sympy.Eq) -> sympy.Eq:
         meaning = _at(part, self.meaning)
@@ -410,6 +481,48 @@ def _in_order(name: str) -> tuple[bool, int]:
     return kind == "step", int(number) if number.isdigit() else 0
 
 
+@dataclass(frozen=True)
+class Refuted:
+    """A printed statement that does not hold, which a theorem contradicts.
+
+    Attributes:
+        reading: how the words of the paper are read in it.
+        formula: the equation.
+        by: the line with the theorem.
+        where: its domain.
+        meaning: what is written in short.
+    """
+
+    reading: str
+    formula: sympy.Eq
+    by: Line
+    where: Where
+    meaning: Meaning
+
+    @property
+    def relation(self) -> str:
+        """How it relates its sides."""
+        return self.where.limit.relation if self.where.limit else "="
+
+    def disprove(self) -> Disproof:
+        """The kernel's disproof.
+
+        Raises:
+            NotProvedError: it is not shown to be false.
+        """
+        (theorem,) = self.by.theorems
+        meant = equation(*(put_in(side, self.meaning) for side in self.formula.args))
+        return other_leading_order(theorem)(meant, self.where)
+
+    @cached_property
+    def ruling(self) -> Ruling:
+        """``refuted``, with what the quantity does instead, or ``undecided``."""
+        try:
+            return refuted(self.disprove().reason)
+        except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
+            return undecided(str(reason) or type(reason).__name__)
+
+
 class Lines(list[Line]):
     """The lines of a derivation, which number themselves.
 
@@ -421,13 +534,21 @@ class Lines(list[Line]):
         super().__init__()
         self._where = where
         self.claims: list[Line] = []
+        self.refuted: list[Refuted] = []
 
     def claim(
         self, name: str, formula: sympy.Basic, by: By | tuple[By, ...], **options: Any
-    ) -> None:
-        """Add a further statement that the lines prove; it is not one of them."""
+    ) -> Line:
+        """Add a further statement that the lines prove, and return it; it is not one of them."""
         domain = options.pop("where", self._where)
         self.claims.append(Line(name, formula, by, domain, **options))
+        return self.claims[-1]
+
+    def refute(
+        self, reading: str, formula: sympy.Eq, by: Line, *, where: Where, meaning: Meaning
+    ) -> None:
+        """Add a printed statement that a line contradicts: it is expected to be refuted."""
+        self.refuted.append(Refuted(reading, formula, by, where, meaning))
 
     def show(
         self,

@@ -5,19 +5,24 @@ Symbols, what makes an expression as it is printed, the rules, the axioms, and w
 
 from force_diffusion.derivations.framework.proving import (
     SUPPOSED,
+    Beside,
     By,
+    Chain,
     Lines,
     Part,
     along,
+    asymptotic,
     below,
     cases,
     differentiate,
+    exhausting,
     follows,
     in_cases,
     in_terms_of,
     induct,
     inverse,
     mirror_of,
+    moment,
     order,
     reach,
     rewrite,
@@ -31,13 +36,15 @@ from force_diffusion.derivations.framework.record import (
     Witness,
     on_packings,
 )
-from force_diffusion.symbolic.as_printed import equation, minus, terms, times
+from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
 from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.where import Where
 
 __all__ = [
     "SUPPOSED",
+    "Beside",
     "By",
+    "Chain",
     "Claim",
     "Derivation",
     "Lines",
@@ -45,11 +52,13 @@ __all__ = [
     "Where",
     "Witness",
     "along",
+    "asymptotic",
     "axioms",
     "below",
     "cases",
     "differentiate",
     "equation",
+    "exhausting",
     "follows",
     "in_cases",
     "in_terms_of",
@@ -57,8 +66,10 @@ __all__ = [
     "inverse",
     "minus",
     "mirror_of",
+    "moment",
     "on_packings",
     "order",
+    "power",
     "reach",
     "rewrite",
     "solve",

@@ -4,7 +4,7 @@ Orders count all growing indices together, at fixed ratios. They hold uniformly 
 φ stay within closed parts of their ranges, as the leading parts of all divisors vanish nowhere.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
 import sympy
@@ -27,23 +27,31 @@ from force_diffusion.symbolic.kernel.theorem import (
     flat,
     made,
 )
-from force_diffusion.symbolic.kernel.where import Limit, Where
+from force_diffusion.symbolic.kernel.where import Limit, Mapped, Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
 _FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
 
 
-def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
+def asymptotic(
+    *facts: Theorem | tuple[Theorem, ...], late: Iterable[sympy.Basic] = ()
+) -> Rule:
     """Both sides are of the same leading order: left over right goes to 1.
 
     Facts are put in and moments worked out at finite size. What the right-hand side goes as
     vanishes nowhere, and the difference is of a lower order.
+
+    Args:
+        facts: are put in one after the other, those of a tuple at once.
+        late: relations that hold for all but the first of what grows; moments are worked out there.
     """
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = _limit(formula, where, "∼")
-        left, right = read(formula, facts, where)
+        limit = in_its_limit(formula, where, "∼")
+        part = where.also(*late)
+        in_its_limit(formula, part, "∼")
+        left, right = read(formula, facts, where, part)
         low, high = order(left - right, limit), order(right, limit)
         if not low < high:
             raise NotProvedError(
@@ -58,7 +66,7 @@ def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
     return rule
 
 
-def _limit(formula: sympy.Eq, where: Where, relation: str) -> Limit:
+def in_its_limit(formula: sympy.Eq, where: Where, relation: str) -> Limit:
     """The limit of a statement, if its domain holds all but the first of what grows so.
 
     Raises:
@@ -70,12 +78,18 @@ def _limit(formula: sympy.Eq, where: Where, relation: str) -> Limit:
         raise NotProvedError(f"it is not in a limit, or not with the sign {relation}")
     coordinates = _coordinates(limit)
     for row in where.rows:
-        at_large = affine.to_sympy((*row[:-1], 0)).xreplace(coordinates)
+        at_large = affine.to_sympy(row).xreplace(given_by_what_grows(where)).xreplace(coordinates)
         parts = sympy.expand(at_large).as_coefficients_dict()
-        inside = all(c > 0 for c in parts.values() if c) and any(parts.values())
-        if not inside or at_large.free_symbols - set(_NAMES):
+        if any(c < 0 for one, c in parts.items() if one != 1) or at_large.free_symbols - {*_NAMES}:
             raise NotProvedError(f"its domain does not hold all of {limit.words}")
     return limit
+
+
+def given_by_what_grows(where: Where) -> Mapped:
+    """The indices that equations of the domain fix, but for those that grow by themselves."""
+    limit = where.limit
+    assert limit is not None
+    return {index: one for index, one in where.solved.items() if index not in limit.growing}
 
 
 _NAMES = tuple(sympy.Dummy(f"grows_{place}", positive=True) for place in range(4))
@@ -92,16 +106,23 @@ def _coordinates(limit: Limit) -> dict[sympy.Symbol, sympy.Expr]:
     return dict(found[0])
 
 
-def read(formula: sympy.Eq, facts: Facts, where: Where) -> tuple[RationalFunction, ...]:
+def read(
+    formula: sympy.Eq, facts: Facts, where: Where, part: Where | None = None
+) -> tuple[RationalFunction, ...]:
     """Both sides as functions of what grows and of parameters, moments worked out at finite size.
+
+    Facts are put in on the whole domain, and moments worked out on a part of it.
 
     Raises:
         NotProvedError: they hold something else, or are none.
     """
     limit = where.limit
     assert limit is not None
-    finite = without_moments(formula, facts, where.in_the_limit(None))
-    sides = [side.xreplace({sy.z: sy.j / sy.M}) for side in finite.args]
+    finite = without_moments(formula, facts, *(
+        one.in_the_limit(None) for one in (where, part or where)
+    ))  # fmt: skip
+    fixed = given_by_what_grows(where)
+    sides = [side.xreplace({sy.z: sy.j / sy.M}).xreplace(fixed) for side in finite.args]
     known = {*_FIXED, *limit.growing}
     if strange := by_name(set().union(*(side.free_symbols for side in sides)) - known):
         raise NotProvedError(f"{text(strange[0])} neither grows nor is fixed")

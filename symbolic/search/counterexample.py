@@ -10,6 +10,7 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.where import LATTICE, Loading, Where
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search import limits
 from force_diffusion.symbolic.search.dual import NOWHERE, Dual, Number, TooLargeError, Vector
 from force_diffusion.symbolic.search.packing import (
     AbsentError,
@@ -100,7 +101,8 @@ def _packing(world: World, name: str | None, place: tuple[int, ...]) -> Packing:
 def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = None) -> str | None:
     """Words for values at which a statement is false or has no value; None where none is found.
 
-    All points of ``points`` are tried, or ``at_most`` so many of them. Points at which it speaks of
+    A statement in a limit is looked at where the indices are large; what it says of moments has to
+    be put in. Of others all points of ``points`` are tried, or ``at_most`` so many of them. Points at which it speaks of
     a bead below the base say nothing, unless all do.
 
     What can't be evaluated is not refuted: unknown symbols, floats and roots, a number beside a
@@ -115,6 +117,8 @@ def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = N
 def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> str | None:
     if not isinstance(statement, sympy.Eq) or where.dimension != 2:
         return None
+    if where.limit:
+        return limits.counterexample(statement, where)
     free = _free_symbols(statement)
     budget, below, compared = Budget(READS), None, False
     for at, world in islice(_drawn(_with_all_indices(where, free)), at_most):
