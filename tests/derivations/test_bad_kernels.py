@@ -14,7 +14,7 @@ from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic.algebra import affine, signs
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
 from force_diffusion.symbolic.algebra.reading import read_with
-from force_diffusion.symbolic.kernel import decisions, rules, theorem
+from force_diffusion.symbolic.kernel import decisions, moments, rules, theorem
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, proved, refuted
 from force_diffusion.symbolic.variances import orders
 
@@ -26,7 +26,7 @@ Plant = pytest.MonkeyPatch
 
 @pytest.fixture(autouse=True)
 def _nothing_is_remembered() -> Iterator[None]:
-    remembering = (signs.sign, read_with)
+    remembering = (signs.sign, read_with, moments.value, theorem._instance_of)
     for one in remembering:
         one.cache_clear()
     yield
