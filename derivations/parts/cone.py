@@ -46,9 +46,7 @@ from sympy import Eq, Rational
 ORDERED = f_load / (2 * n_y)
 """Force of the contacts of the ordered packing: those on the legs of the cone."""
 
-CONE = Where.of(
-    p >= 1, q >= 1, *(Eq(symbol, at) for symbol, at in IN_CONE.items()), loading=POINT
-)
+CONE = Where.of(p >= 1, q >= 1, *(Eq(symbol, at) for symbol, at in IN_CONE.items()), loading=POINT)
 INSIDE = CONE.also(j >= 0)
 """Beads (i, j) inside of the cone below bead (k, l)."""
 
@@ -180,9 +178,7 @@ FORCES = Beside(_forces)
 """The force of every contact below the load."""
 
 
-def closed_forms(
-    quantity: sympy.Expr, pieces: Iterable[Piece], unit: sympy.Expr
-) -> sympy.Tuple:
+def closed_forms(quantity: sympy.Expr, pieces: Iterable[Piece], unit: sympy.Expr) -> sympy.Tuple:
     """What a quantity is for each piece."""
     return sympy.Tuple(*(equation(quantity, piece.expression * unit) for piece in pieces))
 

@@ -57,8 +57,7 @@ def other_leading_order(theorem: Theorem) -> Refute:
         if theorem.where != where or theorem.formula.lhs != formula.lhs:
             raise NotProvedError("the theorem is about another quantity, domain or limit")
         true, said = (
-            read(equation(sympy.S.One, one.rhs), (), where)[1]
-            for one in (theorem.formula, formula)
+            read(equation(sympy.S.One, one.rhs), (), where)[1] for one in (theorem.formula, formula)
         )
         if said.is_zero():
             raise NotProvedError("what goes as zero has no ratio to it")

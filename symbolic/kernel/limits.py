@@ -34,9 +34,7 @@ from force_diffusion.symbolic.printing.text import text
 _FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
 
 
-def asymptotic(
-    *facts: Theorem | tuple[Theorem, ...], late: Iterable[sympy.Basic] = ()
-) -> Rule:
+def asymptotic(*facts: Theorem | tuple[Theorem, ...], late: Iterable[sympy.Basic] = ()) -> Rule:
     """Both sides are of the same leading order: left over right goes to 1.
 
     Facts are put in and moments worked out at finite size. What the right-hand side goes as
