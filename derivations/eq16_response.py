@@ -117,6 +117,10 @@ MEANING = {
 }
 """What the symbols stand for; f⁺_ij inside of the cone has no part of order 0 to be tilted."""
 
+def _of(*symbols: sympy.Symbol) -> dict[sympy.Symbol, sympy.Expr]:
+    return {symbol: MEANING[symbol] for symbol in symbols}
+
+
 OF_CONTACT = equation(ONE_CONTACT, times(Rational(3, 4), terms(l, j, k, -i), UNIT))
 """One contact to leading order: (3/2)(j + p), by the layer in which its path turns."""
 
@@ -176,7 +180,7 @@ def steps() -> Lines:
         equation(ONE_CONTACT, cone.CONTACT[-1].expression * UNIT / 4),
         of_contact,
         where=contacts[-1],
-        meaning=MEANING,
+        meaning=_of(ONE_CONTACT),
         after=(forces,),
     )
     interior = lines.show(
@@ -187,7 +191,7 @@ def steps() -> Lines:
         equation(RESPONSE, cone.BEAD[-1].expression * UNIT / 4),
         in_cone,
         where=beads[-1],
-        meaning=MEANING,
+        meaning=_of(RESPONSE),
         after=(forces,),
     )
     lines.show(
@@ -195,7 +199,7 @@ def steps() -> Lines:
         PRINTED,
         asymptotic(*facts, late=LATE),
         where=cone.INSIDE.in_the_limit(inside_cone("∼")),
-        meaning=MEANING,
+        meaning=_of(RESPONSE),
         after=(interior,),
     )
     leg = lines.show(
@@ -214,7 +218,7 @@ def steps() -> Lines:
         equation(ON_LEG, cone.LEG[-1].expression * UNIT / 4),
         in_leg,
         where=legs[-1],
-        meaning=MEANING,
+        meaning=_of(ON_LEG),
         after=(leg,),
     )
     lines.show(
@@ -222,7 +226,7 @@ def steps() -> Lines:
         equation(LEG_MAGNITUDE, cone.LEG_FORCE[-1].expression * UNIT),
         in_leg,
         where=legs[-1],
-        meaning=MEANING,
+        meaning=_of(LEG_MAGNITUDE),
         after=(leg,),
     )
     lines.claim(
@@ -230,7 +234,7 @@ def steps() -> Lines:
         cone.closed_forms(RESPONSE, cone.BEAD, UNIT / 4),
         exhausting(cone.INSIDE, beads, in_cone),
         where=beads,
-        meaning=MEANING,
+        meaning=_of(RESPONSE),
     )
     lines.claim(
         "for j ≥ 3 it does not depend on the horizontal position, exactly, but for the bead "
@@ -238,14 +242,14 @@ def steps() -> Lines:
         equation(RESPONSE, times(terms(6 * (l + j), -6, phi**2), UNIT / 4)),
         in_cone,
         where=beads[-1],
-        meaning=MEANING,
+        meaning=_of(RESPONSE),
     )
     lines.claim(
         "the exact variance of one contact's vertical force, everywhere inside of the cone",
         cone.closed_forms(ONE_CONTACT, cone.CONTACT, UNIT / 4),
         exhausting(cone.INSIDE, contacts, of_contact),
         where=contacts,
-        meaning=MEANING,
+        meaning=_of(ONE_CONTACT),
     )
     of_one = lines.claim(
         "to leading order that of one contact is 3s/2 in units of (σ/r)²/(1−φ²)², "
@@ -253,14 +257,14 @@ def steps() -> Lines:
         OF_CONTACT,
         asymptotic(*facts, late=LATE),
         where=cone.INSIDE.in_the_limit(inside_cone("∼")),
-        meaning=MEANING,
+        meaning=_of(ONE_CONTACT),
     )
     lines.refute(
         "the paper's reading is refuted: one contact alone depends on the horizontal position",
         READ_OF_ONE_CONTACT,
         of_one,
         where=cone.INSIDE.in_the_limit(inside_cone("∼")),
-        meaning=MEANING,
+        meaning=_of(ONE_CONTACT),
     )
     both = Covariance(cone.VERTICAL_PLUS, cone.VERTICAL_MINUS)
     straight = times(Rational(1, 4), (1 + phi) ** 2, UNIT / 4)
@@ -303,14 +307,14 @@ def steps() -> Lines:
         ),
         exhausting(cone.LEFT_LEG, legs, in_leg),
         where=legs * 2,
-        meaning=MEANING,
+        meaning=_of(ON_LEG, LEG_MAGNITUDE),
     )
     lines.claim(
         "on a leg the vertical force has a third of the variance, to leading order",
         equation(ON_LEG, PRINTED.rhs / 3),
         asymptotic(*facts, late=(j >= 2, p >= 2)),
         where=cone.LEFT_LEG.in_the_limit(on_leg("∼")),
-        meaning=MEANING,
+        meaning=_of(ON_LEG),
     )
     at_base = cone.INSIDE.put_in({j: Rational(0)}, (i, k, l, p, q))
     apex = MEANING[RESPONSE].xreplace({i: k, j: l - 2})

@@ -44,7 +44,7 @@ def refuted_text(derivation: Derivation) -> list[str]:
     """The printed statements that do not hold, each with how the paper's words are read in it."""
     lines = []
     for one in derivation.refuted:
-        lines += ["", _paragraph(f"Printed as well, and refuted: {one.reading}.", "")]
+        lines += ["", _paragraph(f"Printed as well; {one.reading}.", "")]
         lines += ["  " + line for line in text_lines(one.formula, one.relation, TEXT_WIDTH - 2)]
     return lines
 

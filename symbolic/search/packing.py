@@ -243,7 +243,8 @@ class Packing:
     @cached_property
     def by_radius(self) -> "Packing":
         """The same, with the weights of all radii as slopes."""
-        return Packing(replace(self.geometry, one_by_one=True), self.given)
+        geometry = self.geometry  # what is remembered of it has other slopes
+        return Packing(Geometry(geometry.n, geometry.radius, one_by_one=True), self.given)
 
     def beads(self) -> int:
         """How many beads have been laid or balanced so far."""
