@@ -117,6 +117,7 @@ MEANING = {
 }
 """What the symbols stand for; f⁺_ij inside of the cone has no part of order 0 to be tilted."""
 
+
 def _of(*symbols: sympy.Symbol) -> dict[sympy.Symbol, sympy.Expr]:
     return {symbol: MEANING[symbol] for symbol in symbols}
 

@@ -10,7 +10,6 @@ from functools import cached_property
 from typing import Any, Protocol
 
 import sympy
-from force_diffusion.derivations.framework.follows import put_in
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel import limits, moments, rules
 from force_diffusion.symbolic.kernel.decisions import (
@@ -187,6 +186,34 @@ def facts_of(
     return tuple(known(one, supposed) for part in parts for one in part)
 
 
+def in_place(node: sympy.Basic, meaning: Meaning) -> sympy.Basic:
+    """What is written in short, put in one after the other; no divisor is cancelled by it."""
+    for what, image in meaning.items():
+        node = _in_place(node, what, image)
+    return node
+
+
+def _in_place(node: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
+    if node == what:
+        result: sympy.Basic = image
+        return result
+    if not node.has(what):
+        return node
+    args = [_in_place(one, what, image) for one in node.args]
+    if isinstance(what, type) and isinstance(node, what):
+        result = image(*args)
+    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow) and _divides(node, what):
+        result = node.func(*args, evaluate=False)
+    else:
+        result = node.func(*args)
+    return result
+
+
+def _divides(node: sympy.Basic, what: Any) -> bool:
+    """Whether something is divided by it there."""
+    return any(one.exp.is_negative and one.base.has(what) for one in node.atoms(sympy.Pow))
+
+
 # the rules of the kernel, with what they rest on
 
 
@@ -222,6 +249,11 @@ def exhausting(whole: Where, parts: Iterable[Where], by: By) -> By:
         return by.rule(supposed)
 
     return By(rule, (by,))
+
+
+def bounded(*facts: Source) -> By:
+    """No radius has more than a share of some order in a variance."""
+    return By(lambda supposed: limits.bounded(*facts_of(facts, supposed)), facts)
 
 
 def follows(source: Source, *facts: Source) -> By:
@@ -361,6 +393,11 @@ def differentiate(root: sympy.Symbol, square: sympy.Expr, *sources: Source) -> B
     return By(lambda _: rules.differentiate(root, square), sources)
 
 
+def slope(*sources: Source) -> By:
+    """SymPy differentiates by z."""
+    return By(lambda _: rules.slope, sources)
+
+
 # lines
 
 
@@ -445,7 +482,9 @@ class Line:
     def _meant(self, part: int, candidate: sympy.Eq) -> sympy.Eq:
         meaning = _at(part, self.meaning)
         return (
-            equation(*(put_in(side, meaning) for side in candidate.args)) if meaning else candidate
+            equation(*(in_place(side, meaning) for side in candidate.args))
+            if meaning
+            else candidate
         )
 
     @cached_property
@@ -511,7 +550,7 @@ class Refuted:
             NotProvedError: it is not shown to be false.
         """
         (theorem,) = self.by.theorems
-        meant = equation(*(put_in(side, self.meaning) for side in self.formula.args))
+        meant = equation(*(in_place(side, self.meaning) for side in self.formula.args))
         return other_leading_order(theorem)(meant, self.where)
 
     @cached_property

@@ -3,6 +3,7 @@
 Symbols, what makes an expression as it is printed, the rules, the axioms, and what a derivation is.
 """
 
+from force_diffusion.derivations.framework.layered import UNIT, Layered
 from force_diffusion.derivations.framework.proving import (
     SUPPOSED,
     Beside,
@@ -26,6 +27,7 @@ from force_diffusion.derivations.framework.proving import (
     order,
     reach,
     rewrite,
+    slope,
     solve,
     supposing,
     walk,
@@ -42,11 +44,13 @@ from force_diffusion.symbolic.kernel.where import Where
 
 __all__ = [
     "SUPPOSED",
+    "UNIT",
     "Beside",
     "By",
     "Chain",
     "Claim",
     "Derivation",
+    "Layered",
     "Lines",
     "Part",
     "Where",
@@ -72,6 +76,7 @@ __all__ = [
     "power",
     "reach",
     "rewrite",
+    "slope",
     "solve",
     "supposing",
     "terms",

@@ -108,9 +108,9 @@ def _packing(world: World, name: str | None, place: tuple[int, ...]) -> Packing:
 def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = None) -> str | None:
     """Words for values at which a statement is false or has no value; None where none is found.
 
-    A statement in a limit is looked at where the indices are large; what it says of moments has to
-    be put in. Of others all points of ``points`` are tried, or ``at_most`` so many of them. Points
-    at which it speaks of a bead below the base say nothing, unless all do.
+    All points of ``points`` are tried, or ``at_most`` so many of them. Points at which it speaks of
+    a bead below the base say nothing, unless all do. A statement in a limit is looked at where the
+    indices are large; its moments have to be worked out before.
 
     What can't be evaluated is not refuted: unknown symbols, floats and roots, a number beside a
     vector, a sum whose upper bound is below its lower one by more than one, what is too large.
