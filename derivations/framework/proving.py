@@ -517,7 +517,8 @@ class Line:
             at_most = _FEW if isinstance(reason, NotAStatementError) else None
             found = self.counterexample(part, candidate, at_most)
             return refuted(found) if found else undecided(str(reason) or type(reason).__name__)
-        return proved(f"by the rule: {theorem.rule}")
+        assumed = "".join(f", assuming {one}" for one in sorted(theorem.assuming))
+        return proved(f"by the rule: {theorem.rule}{assumed}")
 
     def counterexample(self, part: int, candidate: sympy.Eq, at_most: int | None) -> str | None:
         """Explicit values at which a candidate is false, found without the rule; or None."""
