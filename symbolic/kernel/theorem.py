@@ -9,7 +9,7 @@ when both of its sides are the same dual number, which one normal form decides.
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import InitVar, dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
@@ -26,8 +26,8 @@ from force_diffusion.symbolic.printing.text import text
 SUMMATION = (sy.m, sy.n)
 """The indices that a statement may sum over."""
 
-_SPARE = (*SUMMATION, sy.p, sy.q)
-"""Those that a sum may be over once facts are put in."""
+_BOUND = (*SUMMATION, sy.p, sy.q)
+"""The indices over which sums are written that are put into others."""
 
 FORCES = (sy.ForcePlus, sy.ForceMinus)
 _PLANE = {sy.n_x, sy.n_y, sy.spacing, *sy.VECTORS}
@@ -131,9 +131,7 @@ def check(formula: sympy.Eq, where: Where, *, in_a_limit: bool = False) -> None:
         NotProvedError: it is a statement in a limit, which this rule does not prove.
     """
     if (where.limit is not None) != in_a_limit:
-        raise NotProvedError(
-            f"this rule proves what holds {'' if in_a_limit else 'not '}in a limit"
-        )
+        raise NotProvedError("it is one in a limit" if where.limit else "it is not one in a limit")
     if not isinstance(formula, sympy.Eq):
         raise NotAStatementError("it is no equation")
     if where.is_empty:
@@ -410,6 +408,7 @@ def _put_in(
     return node.xreplace(image) if image else node
 
 
+@lru_cache(maxsize=20_000)
 def _instance_of(
     theorem: Theorem, atom: sy.SiteFunction, where: Where, background: Facts
 ) -> sympy.Expr | None:
@@ -434,7 +433,7 @@ def _renamed(value: sympy.Expr, image: Mapped, where: Where) -> sympy.Expr:
     for series in value.atoms(sympy.Sum):
         if taken & {limit[0] for limit in series.limits}:
             (index,) = {limit[0] for limit in series.limits}
-            spare = [one for one in _SPARE if one not in taken and not series.has(one)]
+            spare = [one for one in _BOUND if one not in taken and not series.has(one)]
             if not spare:
                 raise NotProvedError(f"{text(index)} would have two meanings")
             value = value.xreplace({series: series.xreplace({index: spare[0]})})

@@ -11,7 +11,14 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.where import LATTICE, Loading, Where
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search import limits
-from force_diffusion.symbolic.search.dual import NOWHERE, Dual, Number, TooLargeError, Vector
+from force_diffusion.symbolic.search.dual import (
+    NOWHERE,
+    Dual,
+    Number,
+    TooLargeError,
+    Vector,
+    Weights,
+)
 from force_diffusion.symbolic.search.packing import (
     AbsentError,
     BelowError,
@@ -256,6 +263,7 @@ def _shown(value: Dual | Vector) -> str:
         return f"({_shown(value.x)}, {_shown(value.y)})"
     if not value.slope:
         return _exact(value.value)
+    assert not isinstance(value.slope, Weights)  # these stay within a moment
     size = _exact(-value.slope if value.slope < 0 else value.slope)
     part = f"{'' if size == '1' else f'({size})' if '/' in size else size}ε"
     sign = "−" if value.slope < 0 else "+"

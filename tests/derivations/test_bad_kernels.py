@@ -26,7 +26,10 @@ Plant = pytest.MonkeyPatch
 
 @pytest.fixture(autouse=True)
 def _nothing_is_remembered() -> Iterator[None]:
-    remembering = (signs.sign, read_with, moments.value, moments.worked_out, moments.in_the_radii)
+    remembering = (
+        signs.sign, read_with, theorem._instance_of,
+        moments.in_the_radii, moments.value, moments.worked_out,
+    )  # fmt: skip
     for one in remembering:
         one.cache_clear()
     yield
