@@ -20,6 +20,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     refuted,
     undecided,
 )
+from force_diffusion.symbolic.kernel.disproofs import Disproof, other_leading_order
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import (
     NotAStatementError,
@@ -121,7 +122,7 @@ def _names(sources: Iterable[Source]) -> Iterable[str]:
             yield from one.names()
         elif isinstance(one, tuple):
             yield from _names(one)
-        elif isinstance(one, Chain) or hasattr(one, "theorems"):
+        elif isinstance(one, Chain) or (hasattr(one, "theorems") and hasattr(one, "words")):
             yield one.words
 
 
@@ -154,6 +155,18 @@ class OfBoth:
     def words(self) -> str:
         """How another line names it."""
         return self.of.words
+
+
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """Theorems that no line shows; what they follow from is named by the line that uses them."""
+
+    prove: Callable[[], tuple[Theorem, ...]]
+
+    @cached_property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """All of them."""
+        return self.prove()
 
 
 def known(source: Source, supposed: tuple[Theorem, ...]) -> tuple[Theorem, ...]:
@@ -230,18 +243,33 @@ def rewrite(*facts: Source) -> By:
     return By(lambda supposed: rules.rewrite(*facts_of(facts, supposed)), facts)
 
 
-def moment(*facts: Source) -> By:
+def moment(*facts: Source, **parts: Any) -> By:
     """Both sides are the same once facts are put in and means and variances are worked out."""
-    return By(lambda supposed: moments.moment(*facts_of(facts, supposed)), facts)
+    return By(lambda supposed: moments.moment(*facts_of(facts, supposed), **parts), facts)
 
 
-def asymptotic(*facts: Source) -> By:
+def asymptotic(*facts: Source, late: Iterable[sympy.Basic] = ()) -> By:
     """Both sides are of the same leading order, moments worked out at finite size."""
+    late = tuple(late)
     return By(
-        lambda supposed: limits.asymptotic(*facts_of(facts, supposed)),
+        lambda supposed: limits.asymptotic(*facts_of(facts, supposed), late=late),
         facts,
-        lambda formula, where: moments.without_moments(formula, facts_of(facts), where),
+        lambda formula, where: moments.without_moments(
+            formula, facts_of(facts), where, where.also(*late)
+        ),
     )
+
+
+def exhausting(whole: Where, parts: Iterable[Where], by: By) -> By:
+    """The same rule for several statements, if their domains leave nothing of a whole one out."""
+    parts = tuple(parts)
+
+    def rule(supposed: tuple[Theorem, ...]) -> Rule:
+        if not whole.covered_by(parts):
+            raise NotProvedError("the statements leave something out")
+        return by.rule(supposed)
+
+    return By(rule, (by,))
 
 
 def bounded(*facts: Source) -> By:
@@ -430,6 +458,7 @@ class Line:
         meaning: what is written in short; one for each equation, or one for all.
         after: lines and equations that it follows in the text, beside those that its rule uses.
         number: its place among the lines, from 1.
+        alike: lines that say the same of other packings, and have to be proved as well.
     """
 
     reason: str
@@ -439,6 +468,7 @@ class Line:
     meaning: Meaning | tuple[Meaning, ...] | None = None
     after: tuple[Proved, ...] = ()
     number: int = 0
+    alike: tuple["Line", ...] = ()
 
     @property
     def relation(self) -> str:
@@ -463,6 +493,7 @@ class Line:
         rules_of = self.by if isinstance(self.by, tuple) else (self.by,)
         names = [name for one in rules_of for name in one.names()]
         names += [one.words for one in self.after]
+        names += [name for one in self.alike for name in one.uses]
         return tuple(sorted(dict.fromkeys(names), key=_in_order))
 
     def prove(self, part: int, candidate: sympy.Eq) -> Theorem:
@@ -471,6 +502,8 @@ class Line:
         Raises:
             NotProvedError: the rule does not prove it.
         """
+        for one in self.alike:
+            one.prove(part, candidate)
         by, where = (_at(part, one) for one in (self.by, self.where))
         rule: Rule = by.rule(())
         return rule(self._meant(part, candidate), where)
@@ -539,6 +572,48 @@ def _in_order(name: str) -> tuple[bool, int]:
     return kind == "step", int(number) if number.isdigit() else 0
 
 
+@dataclass(frozen=True)
+class Refuted:
+    """A printed statement that does not hold, which a theorem contradicts.
+
+    Attributes:
+        reading: how the words of the paper are read in it.
+        formula: the equation.
+        by: the line with the theorem.
+        where: its domain.
+        meaning: what is written in short.
+    """
+
+    reading: str
+    formula: sympy.Eq
+    by: Line
+    where: Where
+    meaning: Meaning
+
+    @property
+    def relation(self) -> str:
+        """How it relates its sides."""
+        return self.where.limit.relation if self.where.limit else "="
+
+    def disprove(self) -> Disproof:
+        """The kernel's disproof.
+
+        Raises:
+            NotProvedError: it is not shown to be false.
+        """
+        (theorem,) = self.by.theorems
+        meant = equation(*(in_place(side, self.meaning) for side in self.formula.args))
+        return other_leading_order(theorem)(meant, self.where)
+
+    @cached_property
+    def ruling(self) -> Ruling:
+        """``refuted``, with what the quantity does instead, or ``undecided``."""
+        try:
+            return refuted(self.disprove().reason)
+        except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
+            return undecided(str(reason) or type(reason).__name__)
+
+
 class Lines(list[Line]):
     """The lines of a derivation, which number themselves.
 
@@ -550,13 +625,21 @@ class Lines(list[Line]):
         super().__init__()
         self._where = where
         self.claims: list[Line] = []
+        self.refuted: list[Refuted] = []
 
     def claim(
         self, name: str, formula: sympy.Basic, by: By | tuple[By, ...], **options: Any
-    ) -> None:
-        """Add a further statement that the lines prove; it is not one of them."""
+    ) -> Line:
+        """Add a further statement that the lines prove, and return it; it is not one of them."""
         domain = options.pop("where", self._where)
         self.claims.append(Line(name, formula, by, domain, **options))
+        return self.claims[-1]
+
+    def refute(
+        self, reading: str, formula: sympy.Eq, by: Line, *, where: Where, meaning: Meaning
+    ) -> None:
+        """Add a printed statement that a line contradicts: it is expected to be refuted."""
+        self.refuted.append(Refuted(reading, formula, by, where, meaning))
 
     def add(self, line: Line, after: tuple[Proved, ...] = ()) -> Line:
         """Add a line that is there already, under the number that it has."""
@@ -574,10 +657,11 @@ class Lines(list[Line]):
         where: Where | tuple[Where, ...] | None = None,
         meaning: Meaning | tuple[Meaning, ...] | None = None,
         after: tuple[Proved, ...] = (),
+        alike: tuple[Line, ...] = (),
     ) -> Line:
         """Add a line and return it."""
         domain = self._where if where is None else where
-        self.append(Line(reason, formula, by, domain, meaning, after, len(self) + 1))
+        self.append(Line(reason, formula, by, domain, meaning, after, len(self) + 1, alike))
         return self[-1]
 
 

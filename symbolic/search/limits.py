@@ -106,17 +106,26 @@ def counterexample(statement: sympy.Eq, where: Where, force: sympy.Eq | None = N
     if limit and limit.relation == "≈" and force is not None:
         return varies_too_much(force.rhs, statement)
     left, right = (side.xreplace(where.solved) for side in statement.args)
+    if limit and limit.relation == "∝":
+        return not_proportional(right, left / right)
     if limit is None or limit.relation != "∼" or not _is_rational(left):
         return None
     return parts_in_the_limit(left, right, _places(limit), where.dimension)
 
 
+_RATIOS: Mapping[int, tuple[tuple[Fraction | int, ...], ...]] = {
+    1: ((1,),),
+    2: tuple((one, 1 - one) for one in HEIGHTS),
+    3: ((1, 1, 1), (2, 1, 1), (3, 1, 2), (1, 2, 3), (1, 100, 1), (1, 1, 100)),
+}
+"""How what is positive in a limit stands to each other, by how many there are."""
+
+
 @cache
 def _places(limit: Limit) -> tuple[Place, ...]:
     """How the indices grow, as multiples of one size: what is positive in some fixed ratios."""
-    ratios = [(one, 1 - one) for one in HEIGHTS] if len(limit.positive) == 2 else [(Fraction(1),)]
     found = []
-    for ratio in ratios:
+    for ratio in _RATIOS[len(limit.positive)]:
         rows = (one - sympy.Rational(c) for one, c in zip(limit.positive, ratio, strict=True))
         (at,) = sympy.linsolve(list(rows), *limit.growing)
         multiples = (Fraction(int(c.p), int(c.q)) for c in at)

@@ -27,9 +27,13 @@ Plant = pytest.MonkeyPatch
 @pytest.fixture(autouse=True)
 def _nothing_is_remembered() -> Iterator[None]:
     remembering = (
-        signs.sign, read_with, theorem._instance_of,
-        moments.in_the_radii, moments.value, moments.worked_out,
-    )  # fmt: skip
+        signs.sign,
+        read_with,
+        moments.value,
+        moments.worked_out,
+        moments.in_the_radii,
+        theorem._instance_of,
+    )
     for one in remembering:
         one.cache_clear()
     yield
