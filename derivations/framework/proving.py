@@ -282,7 +282,7 @@ def negligible(force: Proved, *facts: Source) -> By:
 
     ``force`` says what the force is, ``facts`` what stands in it and in the statement.
     """
-    whole = (OfBoth(force), *facts)
+    whole = (Chain((OfBoth(force), *facts)),)
     return By(
         lambda supposed: limits.negligible(*facts_of(whole, supposed)),
         whole,
