@@ -8,6 +8,7 @@ from force_diffusion.symbolic.attacks import (  # noqa: F401 - each adds its own
     moving,
     rewriting,
     solving,
+    splitting,
     statements,
     supposing,
     tracing,
