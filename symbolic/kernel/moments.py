@@ -63,7 +63,7 @@ def moment(
                 continue
             apart = _on_part(partial(_apart, formula, facts), where, part)
             found = {name: value(one, facts, domain, part) for one, name in names.items()}
-            if not apart.mapped(lambda weight, known=found: _put_for(known, weight)).is_zero():
+            if not apart.mapped(partial(_put_for, found)).is_zero():
                 raise NotProvedError("the moments of both sides differ")
         return made(formula, where, "moment", flat(facts))
 
