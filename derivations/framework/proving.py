@@ -5,8 +5,8 @@ uses. The kernel proves what is shown; anything else said in its place goes the 
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
 from typing import Any, Protocol
 
 import sympy
@@ -28,6 +28,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     Supposition,
     Theorem,
     isolated,
+    put_in,
     subject,
 )
 from force_diffusion.symbolic.kernel.where import Where
@@ -102,11 +103,13 @@ class By:
         sources: what it rests on.
         finite: of a statement in a limit, what it says at finite size, where explicit values are
             looked for.
+        force: where that depends on what a force is, an equation that says so.
     """
 
     rule: Callable[[tuple[Theorem, ...]], Rule]
     sources: tuple[Source, ...] = ()
     finite: Callable[[sympy.Eq, Where], sympy.Eq] | None = None
+    force: Callable[[Where], sympy.Eq] | None = None
 
     def names(self) -> tuple[str, ...]:
         """The lines and equations that it rests on."""
@@ -134,6 +137,24 @@ class Chain:
         """How another line names it."""
         words: str = self.sources[0].words
         return words
+
+
+@dataclass(frozen=True)
+class OfBoth:
+    """An equation about one branch, and its mirror image about the other."""
+
+    of: Proved
+
+    @cached_property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """Its theorem and the mirror image of that."""
+        (theorem,) = self.of.theorems
+        return theorem, rules.mirror(theorem)
+
+    @property
+    def words(self) -> str:
+        """How another line names it."""
+        return self.of.words
 
 
 @dataclass(frozen=True, eq=False)
@@ -254,6 +275,30 @@ def exhausting(whole: Where, parts: Iterable[Where], by: By) -> By:
 def bounded(*facts: Source) -> By:
     """No radius has more than a share of some order in a variance."""
     return By(lambda supposed: limits.bounded(*facts_of(facts, supposed)), facts)
+
+
+def negligible(force: Proved, *facts: Source) -> By:
+    """What a statement about one force drops varies less, by an order, than that force.
+
+    ``force`` says what the force is, ``facts`` what stands in it and in the statement.
+    """
+    whole = (OfBoth(force), *facts)
+    return By(
+        lambda supposed: limits.negligible(*facts_of(whole, supposed)),
+        whole,
+        lambda formula, where: _put_in(formula, facts, where),
+        cache(lambda where: _put_in(force.theorems[0].formula, facts, where)),
+    )
+
+
+def heaviest(*facts: Source) -> By:
+    """All weights of left less right are of a lower order than the largest of left."""
+    return By(lambda supposed: limits.heaviest(*facts_of(facts, supposed)), facts)
+
+
+def _put_in(formula: sympy.Eq, facts: tuple[Source, ...], where: Where) -> sympy.Eq:
+    told = facts_of(facts)
+    return equation(*(put_in(side, told, where, told) for side in formula.args))
 
 
 def follows(source: Source, *facts: Source) -> By:
@@ -427,7 +472,7 @@ class Line:
     def relation(self) -> str:
         """How it relates its sides: "=", or as in the limit that it is about."""
         where: Where = _at(0, self.where)
-        return where.limit.relation if where.limit else "="
+        return where.limit.relation.split()[0] if where.limit else "="
 
     @property
     def words(self) -> str:
@@ -473,11 +518,13 @@ class Line:
         """Explicit values at which a candidate is false, found without the rule; or None."""
         by, where = (_at(part, one) for one in (self.by, self.where))
         meant = self._meant(part, candidate)
+        finite = where.in_the_limit(None)
         try:
-            found = by.finite(meant, where.in_the_limit(None)) if by.finite else meant
+            found = by.finite(meant, finite) if by.finite else meant
+            force = by.force(finite) if by.force else None
         except (ArithmeticError, RecursionError, TypeError, ValueError):
             return None  # what it says at finite size is not known
-        return counterexample(found, where, at_most=at_most)
+        return counterexample(found, where, at_most=at_most, force=force)
 
     def _meant(self, part: int, candidate: sympy.Eq) -> sympy.Eq:
         meaning = _at(part, self.meaning)
@@ -588,6 +635,13 @@ class Lines(list[Line]):
     ) -> None:
         """Add a printed statement that a line contradicts: it is expected to be refuted."""
         self.refuted.append(Refuted(reading, formula, by, where, meaning))
+
+    def add(self, line: Line, after: tuple[Proved, ...] = ()) -> Line:
+        """Add a line that is there already, under the number that it has."""
+        if line.number != len(self) + 1:
+            raise ValueError(f"line {line.number} in place {len(self) + 1}")
+        self.append(line if not after else replace(line, after=after))
+        return line
 
     def show(
         self,

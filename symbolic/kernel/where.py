@@ -96,7 +96,8 @@ class Limit:
     Attributes:
         relation: "∼": left over right goes to 1; "O": left over right stays bounded; "≈": the
             variance of left less right is of a lower order than that of the force it is about; "∝":
-            left over right goes to a function of φ.
+            left over right goes to a function of φ; "≈ by weight": the largest weight of left less
+            right is of a lower order than that of left.
         words: the same in plain words, such as "M → ∞ at fixed z = j/M, 0 < z < 1".
         growing: the indices that grow.
         positive: as many sums of them, which all grow in fixed positive ratios; uniformly so while
@@ -539,6 +540,22 @@ SURFACE = Loading(
     ),
 )
 """A load on the surface of a packing of height M."""
+
+BULK = Loading(
+    "bulk",
+    "each bead above the base carries its weight mg straight down, and nothing lies above j = M",
+    (sy.M,),
+    (),
+    (
+        (
+            sympy.Eq(sy.Load(*_BEAD), -sy.m_g * sy.e_y, evaluate=False),
+            (sy.site_s >= 1, sy.site_s <= sy.M),
+        ),
+        (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.M),)),
+        (_zero(_MINUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.M),)),
+    ),
+)
+"""A weight on every bead of a packing of height M."""
 
 _LEFT_OF_IT = (sympy.Eq(sy.site_s, sy.l), sy.site_r <= sy.k - 2)
 
