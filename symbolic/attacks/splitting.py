@@ -23,10 +23,13 @@ from force_diffusion.symbolic.symbols import (
     M,
     Mean,
     Variance,
+    b_minus,
+    b_plus,
     i,
     j,
     k,
     l,
+    n_plus,
     p,
     q,
     sigma,
@@ -62,7 +65,11 @@ for tried, left, right, where, parts, false, refused in (
     ("another side than a number", Variance(HERE), SQUARE + DeltaR(i, j), BEADS, ((),),
      "radii differ", "both sides differ"),
     ("too many moments", sum(Variance(n * HERE) for n in range(1, 12)), 0, BEADS, ((),),
-     "they are positive", "too many moments"),
+     "they are positive", "not"),
+    ("a vector, along n⁺", Mean(2 + HERE) * n_plus, 2 * n_plus + b_plus, BEADS, ((),),
+     "they differ along n⁺", "no vector"),
+    ("a vector, along n⁻", Mean(2 + HERE) * n_plus, 2 * n_plus + b_minus, BEADS, ((),),
+     "they differ along n⁻", "no vector"),
 ):  # fmt: skip
 
     @attack("moment", tried, false, refused)
