@@ -10,6 +10,7 @@ from force_diffusion.symbolic.attacks import (  # noqa: F401 - each adds its own
     over_layers,
     rewriting,
     solving,
+    splitting,
     statements,
     supposing,
     tracing,

@@ -18,6 +18,7 @@ RULES = {
     "in_terms_of", "mirror", "suppose", "induct", "reach", "walk", "inverse", "differentiate",
     "moment", "asymptotic", "bounded", "negligible", "heaviest", "slope", "total", "expansion",
     "proportional", "unit_height", "restated", "integral", "mean_of_roots", "tensile", "density",
+    "disproof",
 }  # fmt: skip
 
 
