@@ -96,6 +96,13 @@ def _() -> object:
     return told(moments.moment(ON_SURFACE, whole=whole), Mean(2 + ForcePlus(i, j)), 2, below)
 
 
+@attack("moment", "of what is supposed, elsewhere", "f⁺ is anything", "does not hold there")
+def _() -> object:
+    supposed = rules.suppose(equation(ForcePlus(i, j), j), BEADS, Supposition(j), 0)
+    mean = told(moments.moment(supposed), Mean(ForcePlus(i, j)), j)
+    return rules.instance(mean, {j: j + 2}, BEADS)
+
+
 # leading orders on late parts, and with indices that equations give
 
 CONE = Where.of(Eq(k, i + p - q), Eq(l, j + p + q), j >= 0, p >= 1, q >= 1, loading=POINT)
