@@ -106,6 +106,8 @@ def counterexample(statement: sympy.Eq, where: Where, force: sympy.Eq | None = N
     if limit and limit.relation == "≈" and force is not None:
         return varies_too_much(force.rhs, statement)
     left, right = (side.xreplace(where.solved) for side in statement.args)
+    if limit and limit.relation == "∝":
+        return not_proportional(right, left / right)
     if limit is None or limit.relation != "∼" or not _is_rational(left):
         return None
     return parts_in_the_limit(left, right, _places(limit), where.dimension)
@@ -162,7 +164,7 @@ def not_proportional(side: sympy.Expr, ratio: sympy.Expr) -> str | None:
             where = ", ".join(
                 f"{text(one)} = {float(values[one]):.6g}" for one in (sy.phi, *changed)
             )
-            if value.free_symbols:
+            if value.free_symbols or share.free_symbols:
                 return None
             if value.has(sympy.zoo, sympy.nan, sympy.oo):
                 return f"it has no value at {where}"
