@@ -1,5 +1,8 @@
 """Build expressions that keep the paper's order of terms and factors."""
 
+from collections.abc import Mapping
+from typing import Any
+
 import sympy
 
 
@@ -26,3 +29,21 @@ def minus(expression: sympy.Expr) -> sympy.Mul:
 def equation(left: sympy.Expr, right: sympy.Expr) -> sympy.Eq:
     """An equation that is not evaluated to true or false."""
     return sympy.Eq(left, right, evaluate=False)
+
+
+def put_in_place(expression: sympy.Basic, image: Mapping[Any, Any]) -> sympy.Basic:
+    """The same with other parts, and nothing evaluated: a/a keeps its divisor.
+
+    ``image`` says what stands for a part, or for a kind of function, of its arguments. (SymPy's own
+    ``xreplace`` builds products anew, and cancels what their other factors share.)
+    """
+    if expression in image:
+        return image[expression]
+    if type(expression) in image:
+        return image[type(expression)](*expression.args)
+    arguments = [put_in_place(one, image) for one in expression.args]
+    if all(new is old for new, old in zip(arguments, expression.args, strict=True)):
+        return expression
+    if isinstance(expression, sympy.Add | sympy.Mul | sympy.Pow | sympy.Eq):
+        return expression.func(*arguments, evaluate=False)
+    return expression.func(*arguments)

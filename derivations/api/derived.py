@@ -41,17 +41,17 @@ class Derived:
 
     @property
     def verdicts(self) -> dict[Number, Verdict]:
-        """``proved``, ``refuted`` or ``undecided``, by the equation's number."""
+        """Proved; proved, assuming; refuted or undecided: by the equation's number."""
         return {one.derivation.number: one.verdict for one in self.outcomes}
 
     @property
     def proved(self) -> bool:
-        """Whether every one of them is proved."""
-        return set(self.verdicts.values()) == {Verdict.PROVED}
+        """Whether every one of them is proved, be it on assumptions that ``counts`` tells."""
+        return all(verdict.is_proved for verdict in self.verdicts.values())
 
     def counts(self) -> str:
         """How many equations have which verdict, in words."""
-        counts = Counter(map(str, self.verdicts.values()))
+        counts = Counter(one.words for one in self.outcomes)
         return ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
 
     def data(self) -> dict[str, Any]:
@@ -86,7 +86,7 @@ class Derived:
 
     def _repr_markdown_(self) -> str:
         rows = [
-            f"| {one.derivation.number} | {one.derivation.title} | {one.verdict} | "
+            f"| {one.derivation.number} | {one.derivation.title} | {one.words} | "
             f"{sum(c.kind == 'proof' for c in one.checks)} | "
             f"{sum(c.kind == 'witness' for c in one.checks)} | "
             f"{mutant_counts(one)['refuted']} of {len(one.mutants)} |"

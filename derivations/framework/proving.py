@@ -10,13 +10,13 @@ from functools import cached_property
 from typing import Any, Protocol
 
 import sympy
-from force_diffusion.derivations.framework.follows import put_in
-from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.as_printed import put_in_place
 from force_diffusion.symbolic.kernel import rules
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
     all_of,
+    not_a_statement,
     proved,
     refuted,
     undecided,
@@ -28,6 +28,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     Supposition,
     Theorem,
     isolated,
+    no_statement,
     subject,
 )
 from force_diffusion.symbolic.kernel.where import Where
@@ -66,7 +67,7 @@ class Shown(Protocol):
 
     @property
     def verdict(self) -> Verdict:
-        """``proved``, ``refuted`` or ``undecided``."""
+        """That of ``ruling``."""
 
     def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
         """Rule on a candidate for one of its equations."""
@@ -83,11 +84,13 @@ class Proved(Protocol):
     def words(self) -> str:
         """How another line names it: "Eq. 2" or "step 1"."""
 
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What they assume, in words, and no rule discharges."""
+
 
 Source = Any
 """A line, an equation, a theorem of the kernel, several of these, or what is supposed."""
-
-_FEW = 12  # points at which such a statement is looked at
 
 SUPPOSED = object()
 """What an induction supposes."""
@@ -104,6 +107,11 @@ class By:
         """The lines and equations that it rests on."""
         return tuple(dict.fromkeys(_names(self.sources)))
 
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What these assume, in words."""
+        return tuple(dict.fromkeys(_assumptions(self.sources)))
+
 
 def _names(sources: Iterable[Source]) -> Iterable[str]:
     for one in sources:
@@ -113,6 +121,11 @@ def _names(sources: Iterable[Source]) -> Iterable[str]:
             yield from _names(one)
         elif hasattr(one, "theorems"):
             yield one.words
+
+
+def _assumptions(sources: Iterable[Source]) -> Iterable[str]:
+    for one in sources:
+        yield from _assumptions(one) if isinstance(one, tuple) else getattr(one, "assumed", ())
 
 
 def known(source: Source, supposed: tuple[Theorem, ...]) -> tuple[Theorem, ...]:
@@ -143,6 +156,11 @@ class Part:
     def words(self) -> str:
         """How another line names it."""
         return self.of.words
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What it assumes."""
+        return self.of.assumed
 
 
 def _facts(sources: Sequence[Source], supposed: tuple[Theorem, ...]) -> list[tuple[Theorem, ...]]:
@@ -309,6 +327,9 @@ class Line:
         meaning: what is written in short; one for each equation, or one for all.
         after: lines and equations that it follows in the text, beside those that its rule uses.
         number: its place among the lines, from 1.
+        relation: how the equation relates its sides: "=", "≈" or "∼".
+        assuming: what it assumes that no rule discharges, in words that go on after "proved,
+            assuming"; all that rests on it assumes that, too.
     """
 
     reason: str
@@ -319,6 +340,7 @@ class Line:
     after: tuple[Proved, ...] = ()
     number: int = 0
     relation: str = "="
+    assuming: tuple[str, ...] = ()
 
     @property
     def words(self) -> str:
@@ -339,33 +361,47 @@ class Line:
         names += [one.words for one in self.after]
         return tuple(sorted(dict.fromkeys(names), key=_in_order))
 
+    def domain(self, part: int) -> Where:
+        """Where one of its equations holds."""
+        where: Where = _at(part, self.where)
+        return where
+
     def prove(self, part: int, candidate: sympy.Eq) -> Theorem:
         """The theorem that a candidate for one of its equations is.
 
         Raises:
             NotProvedError: the rule does not prove it.
         """
-        by, where = (_at(part, one) for one in (self.by, self.where))
-        rule: Rule = by.rule(())
-        return rule(self._meant(part, candidate), where)
+        rule: Rule = _at(part, self.by).rule(())
+        return rule(self._meant(part, candidate), self.domain(part))
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What it assumes, and what the lines and equations do that it rests on."""
+        rules_of = self.by if isinstance(self.by, tuple) else (self.by,)
+        found = (*self.assuming, *(words for one in rules_of for words in one.assumed))
+        return tuple(dict.fromkeys(found))
 
     def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
-        """Rule on a candidate: proved by the rule, or searched for explicit values against it."""
+        """Rule on a candidate: proved by the rule, or searched for explicit values against it.
+
+        What is not a statement on the line's domain is not searched: it has no value to compare.
+        """
+        meant, where = self._meant(part, candidate), self.domain(part)
         try:
             theorem = self.prove(part, candidate)
         except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
-            # what has no value somewhere is mostly without one at a place that no packing shows
-            at_most = _FEW if isinstance(reason, NotAStatementError) else None
-            meant, where = self._meant(part, candidate), _at(part, self.where)
-            found = counterexample(meant, where, at_most=at_most)
+            if isinstance(reason, NotAStatementError) and no_statement(meant, where):
+                return not_a_statement(str(reason))
+            found = counterexample(meant, where)
             return refuted(found) if found else undecided(str(reason) or type(reason).__name__)
-        return proved(f"by the rule: {theorem.rule}")
+        return proved(f"by the rule: {theorem.rule}", self.assumed)
 
     def _meant(self, part: int, candidate: sympy.Eq) -> sympy.Eq:
         meaning = _at(part, self.meaning)
-        return (
-            equation(*(put_in(side, meaning) for side in candidate.args)) if meaning else candidate
-        )
+        for what, image in (meaning or {}).items():
+            candidate = put_in_place(candidate, {what: image})
+        return candidate
 
     @cached_property
     def theorems(self) -> tuple[Theorem, ...]:
@@ -383,7 +419,7 @@ class Line:
 
     @property
     def verdict(self) -> Verdict:
-        """``proved``, ``refuted`` or ``undecided``."""
+        """That of ``ruling``."""
         return self.ruling.verdict
 
     def decide(self) -> Ruling:

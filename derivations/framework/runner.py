@@ -53,7 +53,7 @@ def _silent(_derivation: Derivation, _check: str) -> None:
 def _timed(kind: str, name: str, decide: Callable[[], Ruling]) -> Check:
     start = perf_counter()
     ruling = decide()
-    return Check(kind, name, ruling.verdict, perf_counter() - start, ruling.note)
+    return Check(kind, name, ruling.verdict, perf_counter() - start, ruling.note, ruling.assuming)
 
 
 def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
@@ -82,7 +82,7 @@ def _ruling(step: Shown, found: Mapping[sympy.Eq, Check]) -> Ruling:
     known = [found[one] for one in step.equations if one in found]
     if len(known) < len(step.equations):
         return step.ruling
-    return all_of(*(Ruling(check.verdict, check.note) for check in known))
+    return all_of(*(Ruling(one.verdict, one.note, one.assuming) for one in known))
 
 
 def witnesses(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
@@ -120,7 +120,7 @@ def judged_mutants(
         for kind, change, mutated in mutants(equation):
             ruling = rule(derivation, place, change, mutated)
             reason = derivation.equivalent.get(change, "")
-            if ruling.verdict is Verdict.PROVED and not reason:
+            if ruling.verdict.is_proved and not reason:
                 raise derivation.fault(
                     mutated, f"proved, a change that is not listed as equivalent: {change}"
                 )
@@ -142,11 +142,11 @@ def tried(derivation: Derivation, watch: Watch = _silent, rule: Rule = _rule) ->
             equation, derivation.relation, turn, derivation.dimension
         ):
             ruling = rule(derivation, place, statement.reason, statement.equation)
-            wrong = Verdict.REFUTED if statement.holds else Verdict.PROVED
-            if ruling.verdict is wrong:
+            refuted = ruling.verdict is Verdict.REFUTED
+            if refuted if statement.holds else ruling.verdict.is_proved:
                 truth = "true" if statement.holds else "false"
                 raise derivation.fault(
-                    statement.equation, f"{wrong}, yet {truth}: {statement.reason}"
+                    statement.equation, f"{ruling.words}, yet {truth}: {statement.reason}"
                 )
             yield Tried(statement, ruling)
 
@@ -210,29 +210,33 @@ def overall(
 ) -> Verdict:
     """Verdict on an equation from all that was found about it.
 
-    A mutant that is proved is a listed equivalent rewriting, and speaks for nobody.
-    One that the checker neither refutes nor proves shows that the checker can't tell, and so does
-    a true statement that it does not prove.
+    A mutant that is proved is a listed equivalent rewriting, and speaks for nobody; so does one
+    that is not a statement. One of which the checker can't tell leaves the equation undecided, and
+    so does a true statement that it does not prove.
     """
     found = {check.verdict for check in checks}
     if found & {Verdict.REFUTED, Verdict.DISAGREES}:
         return Verdict.REFUTED
-    if Verdict.UNDECIDED in found or Verdict.PROVED not in found:
+    proofs = found - {Verdict.AGREES}
+    if not proofs or not all(one.is_proved for one in proofs):
         return Verdict.UNDECIDED
     if any(mutant.ruling.verdict is Verdict.UNDECIDED for mutant in mutants):
         return Verdict.UNDECIDED
     if any(one.is_open for one in on):
         return Verdict.UNDECIDED
-    return Verdict.PROVED
+    return Verdict.ASSUMING if Verdict.ASSUMING in proofs else Verdict.PROVED
 
 
 def _open_premises(derivation: Derivation, known: Mapping[Number, Verdict]) -> Iterator[Check]:
     """What is derived from an equation is no better than that equation."""
     for premise in derivation.premises:
         verdict = known.get(premise.number, Verdict.PROVED)
-        if verdict is not Verdict.PROVED:
-            name = f"rests on Eq. {premise.number}"
-            yield Check("proof", name, Verdict.UNDECIDED, 0.0, f"Eq. {premise.number} is {verdict}")
+        name, note = f"rests on Eq. {premise.number}", f"Eq. {premise.number} is {verdict}"
+        if verdict is Verdict.ASSUMING:
+            assumed = premise.assumed or (f"what Eq. {premise.number} assumes",)
+            yield Check("proof", name, verdict, 0.0, assuming=assumed)
+        elif verdict is not Verdict.PROVED:
+            yield Check("proof", name, Verdict.UNDECIDED, 0.0, note)
 
 
 def run(
