@@ -1,7 +1,7 @@
 """The shape of a derivation: what every ``eqNN_…`` module states, and what running it yields."""
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
 import sympy
@@ -42,6 +42,7 @@ from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.corpus import Statement, statements
 from force_diffusion.symbolic.search.counterexample import counterexample
+from force_diffusion.symbolic.search.sources import Form, Source
 
 
 class KernelError(ForceDiffusionError, RuntimeError):
@@ -176,10 +177,27 @@ class Derivation:
     # mechanical changes that say the same at the order decided, each with the reason why
     equivalent: Mapping[str, str] = field(default_factory=dict)
     # false statements, and true ones in another form, that the procedure is tried on
-    tries: Callable[[sympy.Eq, str, int | None, int], Iterable[Statement]] = statements
+    tries: Callable[[Source, int | None], Iterable[Statement]] = statements
 
-    def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
+    def source(self, part: int) -> Source:
+        """One of ``printed``, as other statements are made from it."""
+        printed = self.printed[part]
+        cases = self.exact() if self.exact else {}
+        forms = (
+            Form(name, case.expression, any(isinstance(one, sympy.Eq) for one in case.domain))
+            for name, case in cases.items()
+            if case.quantity == printed.lhs
+        )
+        where = None
+        if self.decide is None:
+            line = self._line(printed)
+            where = line.domain(line.equations.index(printed))
+        return Source(printed, self.relation, tuple(forms), where, self.dimension)
+
+    def rule_on(self, part: int, candidate: sympy.Eq, where: Where | None = None) -> Ruling:
         """Rule on a candidate for one of ``printed``: decided, in the language, and searched.
+
+        The kernel rules on it on another domain, too: ``where``.
 
         Raises:
             KernelError: it was proved, and explicit values refute it.
@@ -189,7 +207,7 @@ class Derivation:
             return refusal
         candidate = usual_form(candidate, self.printed)
         if self.decide is None:
-            return self._by_the_kernel(part, candidate)
+            return self._by_the_kernel(part, candidate, where)
         if reason := without_value(candidate, in_the_limit=self.relation != "="):
             return not_a_statement(reason)
         try:
@@ -252,10 +270,12 @@ class Derivation:
     def _line(self, printed: sympy.Eq) -> Line:
         return next(line for line in self._lines if printed in line.equations)
 
-    def _by_the_kernel(self, part: int, candidate: sympy.Eq) -> Ruling:
+    def _by_the_kernel(self, part: int, candidate: sympy.Eq, where: Where | None) -> Ruling:
         printed = self.printed[part]
         line = self._line(printed)
-        ruling = proved_by_line(self, line, line.equations.index(printed), printed, candidate)
+        place = line.equations.index(printed)
+        line = line if where is None else replace(line, where=where)
+        ruling = proved_by_line(self, line, place, printed, candidate)
         if ruling.verdict.is_proved and any(one.supposed for one in self.theorems):
             return undecided("it rests on what is only supposed")
         return ruling

@@ -23,6 +23,7 @@ from force_diffusion.derivations.framework.record import (
 from force_diffusion.derivations.witnesses.draws import draw
 from force_diffusion.numeric.arithmetic.processes import Start
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of
+from force_diffusion.symbolic.kernel.where import Where
 
 SEEDS = (20021, 20022, 20023)
 """Seeds of the witnesses' draws, so that two runs check the same packings."""
@@ -31,8 +32,8 @@ Watch = Callable[[Derivation, str], None]
 """Told which check of which derivation comes next."""
 
 
-Rule = Callable[[Derivation, int, str, sympy.Eq], Ruling]
-"""Rules on a candidate for a part of an equation, described in words."""
+Rule = Callable[[Derivation, int, str, sympy.Eq, Where | None], Ruling]
+"""Rules on a candidate for a part of an equation, described in words; on another domain, too."""
 
 
 @contextmanager
@@ -101,8 +102,10 @@ def _on_all(witness: Witness) -> Ruling:
     return Ruling(Verdict.AGREES, f"{len(SEEDS)} packings; the last: {ruling.note}")
 
 
-def _rule(derivation: Derivation, place: int, _words: str, candidate: sympy.Eq) -> Ruling:
-    return derivation.rule_on(place, candidate)
+def _rule(
+    derivation: Derivation, place: int, _words: str, candidate: sympy.Eq, where: Where | None
+) -> Ruling:
+    return derivation.rule_on(place, candidate, where)
 
 
 def judged_mutants(
@@ -118,7 +121,7 @@ def judged_mutants(
     watch(derivation, "mutants")
     for place, equation in enumerate(derivation.printed):
         for kind, change, mutated in mutants(equation):
-            ruling = rule(derivation, place, change, mutated)
+            ruling = rule(derivation, place, change, mutated, None)
             reason = derivation.equivalent.get(change, "")
             if ruling.verdict.is_proved and not reason:
                 raise derivation.fault(
@@ -137,11 +140,9 @@ def tried(derivation: Derivation, watch: Watch = _silent, rule: Rule = _rule) ->
     """
     watch(derivation, "false and true statements")
     turn = sum(map(ord, str(derivation.number)))
-    for place, equation in enumerate(derivation.printed):
-        for statement in derivation.tries(
-            equation, derivation.relation, turn, derivation.dimension
-        ):
-            ruling = rule(derivation, place, statement.reason, statement.equation)
+    for place in range(len(derivation.printed)):
+        for statement in derivation.tries(derivation.source(place), turn):
+            ruling = rule(derivation, place, statement.reason, statement.equation, statement.where)
             refuted = ruling.verdict is Verdict.REFUTED
             if refuted if statement.holds else ruling.verdict.is_proved:
                 truth = "true" if statement.holds else "false"
@@ -165,8 +166,10 @@ def rulings(number: Number) -> Ruled:
     start = perf_counter()
     found = []
 
-    def keep(derivation: Derivation, place: int, words: str, candidate: sympy.Eq) -> Ruling:
-        ruling = derivation.rule_on(place, candidate)
+    def keep(
+        derivation: Derivation, place: int, words: str, candidate: sympy.Eq, where: Where | None
+    ) -> Ruling:
+        ruling = derivation.rule_on(place, candidate, where)
         found.append((place, words, ruling))
         return ruling
 
@@ -181,10 +184,12 @@ def _read(known: Iterable[tuple[int, str, Ruling]]) -> Rule:
     """Read rulings off a list; what is not next in it is ruled on here."""
     left = iter(known)
 
-    def rule(derivation: Derivation, place: int, words: str, candidate: sympy.Eq) -> Ruling:
+    def rule(
+        derivation: Derivation, place: int, words: str, candidate: sympy.Eq, where: Where | None
+    ) -> Ruling:
         *about, ruling = next(left, (None, "", None))
         if ruling is None or about != [place, words]:
-            return derivation.rule_on(place, candidate)
+            return derivation.rule_on(place, candidate, where)
         return ruling
 
     return rule
