@@ -20,6 +20,7 @@ from force_diffusion.symbolic.kernel.theorem import no_statement
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.search.counterexample import counterexample
+from force_diffusion.symbolic.search.values import WithoutValue
 
 _EVERYWHERE: tuple[Any, ...] = (
     sympy.Ge(sy.M, 1, evaluate=False),
@@ -81,6 +82,8 @@ def _compared(
             back = {dummy: series for series, dummy in sums.items()}
             asked = equation(*(side.xreplace(known).xreplace(back) for side in given.args))
             found = counterexample(asked, where)
+            if isinstance(found, WithoutValue):
+                return not_a_statement(str(found))
             return refuted(found) if found else undecided("it is not shown to be the exact form")
         rulings.append(ruling)
     return all_of(*rulings)

@@ -11,7 +11,7 @@ from typing import Any, Protocol
 
 import sympy
 from force_diffusion.symbolic.as_printed import put_in_place
-from force_diffusion.symbolic.kernel import rules
+from force_diffusion.symbolic.kernel import limits, moments, rules
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
@@ -33,6 +33,7 @@ from force_diffusion.symbolic.kernel.theorem import (
 )
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.search.counterexample import counterexample
+from force_diffusion.symbolic.search.values import WithoutValue
 
 Meaning = Mapping[Any, Any]
 """What a line writes in short: for a symbol, or for a function of its arguments."""
@@ -92,16 +93,26 @@ class Proved(Protocol):
 Source = Any
 """A line, an equation, a theorem of the kernel, several of these, or what is supposed."""
 
+_FEW = 12  # points at which what may be no statement is looked at
+
 SUPPOSED = object()
 """What an induction supposes."""
 
 
 @dataclass(frozen=True, eq=False)
 class By:
-    """A rule and what it rests on, resolved when something is to be proved."""
+    """A rule and what it rests on, resolved when something is to be proved.
+
+    Attributes:
+        rule: the rule, given what is supposed.
+        sources: what it rests on.
+        finite: of a statement in a limit, what it says at finite size, where explicit values are
+            looked for.
+    """
 
     rule: Callable[[tuple[Theorem, ...]], Rule]
     sources: tuple[Source, ...] = ()
+    finite: Callable[[sympy.Eq, Where], sympy.Eq] | None = None
 
     def names(self) -> tuple[str, ...]:
         """The lines and equations that it rests on."""
@@ -119,13 +130,31 @@ def _names(sources: Iterable[Source]) -> Iterable[str]:
             yield from one.names()
         elif isinstance(one, tuple):
             yield from _names(one)
-        elif hasattr(one, "theorems"):
+        elif isinstance(one, Chain) or hasattr(one, "theorems"):
             yield one.words
 
 
 def _assumptions(sources: Iterable[Source]) -> Iterable[str]:
     for one in sources:
         yield from _assumptions(one) if isinstance(one, tuple) else getattr(one, "assumed", ())
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Equations put in one after the other, under the name of the first; it rests on the others."""
+
+    sources: tuple[Source, ...]
+
+    @property
+    def words(self) -> str:
+        """How another line names it."""
+        words: str = self.sources[0].words
+        return words
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What they assume."""
+        return tuple(_assumptions(self.sources))
 
 
 def known(source: Source, supposed: tuple[Theorem, ...]) -> tuple[Theorem, ...]:
@@ -163,8 +192,19 @@ class Part:
         return self.of.assumed
 
 
-def _facts(sources: Sequence[Source], supposed: tuple[Theorem, ...]) -> list[tuple[Theorem, ...]]:
-    return [known(one, supposed) for one in sources]
+def facts_of(
+    sources: Sequence[Source], supposed: tuple[Theorem, ...] = ()
+) -> tuple[tuple[Theorem, ...], ...]:
+    """The theorems of sources, to be put in one after the other; those of a source at once."""
+    parts = (one.sources if isinstance(one, Chain) else (one,) for one in sources)
+    return tuple(known(one, supposed) for part in parts for one in part)
+
+
+def in_place(node: sympy.Basic, meaning: Meaning) -> sympy.Basic:
+    """What is written in short, put in one after the other; no divisor is cancelled by it."""
+    for what, image in meaning.items():
+        node = put_in_place(node, {what: image})
+    return node
 
 
 # the rules of the kernel, with what they rest on
@@ -172,7 +212,26 @@ def _facts(sources: Sequence[Source], supposed: tuple[Theorem, ...]) -> list[tup
 
 def rewrite(*facts: Source) -> By:
     """Both sides are the same once facts are put in, one after the other."""
-    return By(lambda supposed: rules.rewrite(*_facts(facts, supposed)), facts)
+    return By(lambda supposed: rules.rewrite(*facts_of(facts, supposed)), facts)
+
+
+def moment(*facts: Source) -> By:
+    """Both sides are the same once facts are put in and means and variances are worked out."""
+    return By(lambda supposed: moments.moment(*facts_of(facts, supposed)), facts)
+
+
+def asymptotic(*facts: Source) -> By:
+    """Both sides are of the same leading order, moments worked out at finite size."""
+    return By(
+        lambda supposed: limits.asymptotic(*facts_of(facts, supposed)),
+        facts,
+        lambda formula, where: moments.without_moments(formula, facts_of(facts), where),
+    )
+
+
+def bounded(*facts: Source) -> By:
+    """No radius has more than a share of some order in a variance."""
+    return By(lambda supposed: limits.bounded(*facts_of(facts, supposed)), facts)
 
 
 def follows(source: Source, *facts: Source) -> By:
@@ -180,7 +239,7 @@ def follows(source: Source, *facts: Source) -> By:
 
     def rule(supposed: tuple[Theorem, ...]) -> Rule:
         (theorem,) = known(source, supposed)
-        return rules.follows(theorem, *_facts(facts, supposed))
+        return rules.follows(theorem, *facts_of(facts, supposed))
 
     return By(rule, (source, *facts))
 
@@ -200,7 +259,7 @@ def along(source: Source, vector: sympy.Symbol, *facts: Source) -> By:
 
     def rule(supposed: tuple[Theorem, ...]) -> Rule:
         (theorem,) = known(source, supposed)
-        return rules.follows(rules.along(theorem, vector), *_facts(facts, supposed))
+        return rules.follows(rules.along(theorem, vector), *facts_of(facts, supposed))
 
     return By(rule, (source, *facts))
 
@@ -208,7 +267,7 @@ def along(source: Source, vector: sympy.Symbol, *facts: Source) -> By:
 def solve(rows: Source, unknowns: Sequence[sympy.Expr], *facts: Source) -> By:
     """What as many equations fix as there are unknowns."""
     return By(
-        lambda supposed: rules.solve(known(rows, supposed), unknowns, *_facts(facts, supposed)),
+        lambda supposed: rules.solve(known(rows, supposed), unknowns, *facts_of(facts, supposed)),
         (rows, *facts),
     )
 
@@ -218,7 +277,7 @@ def below(balance: Source, *facts: Source) -> By:
 
     def rule(supposed: tuple[Theorem, ...]) -> Rule:
         (theorem,) = known(balance, supposed)
-        return rules.below(theorem, *_facts(facts, supposed))
+        return rules.below(theorem, *facts_of(facts, supposed))
 
     return By(rule, (balance, *facts))
 
@@ -312,6 +371,11 @@ def differentiate(root: sympy.Symbol, square: sympy.Expr, *sources: Source) -> B
     return By(lambda _: rules.differentiate(root, square), sources)
 
 
+def slope(*sources: Source) -> By:
+    """SymPy differentiates by z."""
+    return By(lambda _: rules.slope, sources)
+
+
 # lines
 
 
@@ -327,7 +391,6 @@ class Line:
         meaning: what is written in short; one for each equation, or one for all.
         after: lines and equations that it follows in the text, beside those that its rule uses.
         number: its place among the lines, from 1.
-        relation: how the equation relates its sides: "=", "≈" or "∼".
         assuming: what it assumes that no rule discharges, in words that go on after "proved,
             assuming"; all that rests on it assumes that, too.
     """
@@ -339,8 +402,13 @@ class Line:
     meaning: Meaning | tuple[Meaning, ...] | None = None
     after: tuple[Proved, ...] = ()
     number: int = 0
-    relation: str = "="
     assuming: tuple[str, ...] = ()
+
+    @property
+    def relation(self) -> str:
+        """How it relates its sides: "=", or as in the limit that it is about."""
+        where: Where = _at(0, self.where)
+        return where.limit.relation if where.limit else "="
 
     @property
     def words(self) -> str:
@@ -385,23 +453,37 @@ class Line:
     def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
         """Rule on a candidate: proved by the rule, or searched for explicit values against it.
 
-        What is not a statement on the line's domain is not searched: it has no value to compare.
+        What the kernel sees no statement in is refuted only where both sides have values.
         """
         meant, where = self._meant(part, candidate), self.domain(part)
         try:
             theorem = self.prove(part, candidate)
         except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
-            if isinstance(reason, NotAStatementError) and no_statement(meant, where):
-                return not_a_statement(str(reason))
-            found = counterexample(meant, where)
-            return refuted(found) if found else undecided(str(reason) or type(reason).__name__)
+            none = isinstance(reason, NotAStatementError) and no_statement(meant, where)
+            # what has no value somewhere is mostly without one at a place that no packing shows
+            found = self.counterexample(part, candidate, _FEW if none else None)
+            if found and not isinstance(found, WithoutValue):
+                return refuted(found)
+            if none or found:
+                return not_a_statement(str(reason) if none else str(found))
+            return undecided(str(reason) or type(reason).__name__)
         return proved(f"by the rule: {theorem.rule}", self.assumed)
+
+    def counterexample(
+        self, part: int, candidate: sympy.Eq, at_most: int | None = None
+    ) -> str | None:
+        """Explicit values at which a candidate is false, found without the rule; or None."""
+        by, where = _at(part, self.by), self.domain(part)
+        meant = self._meant(part, candidate)
+        try:
+            found = by.finite(meant, where.in_the_limit(None)) if by.finite else meant
+        except (ArithmeticError, RecursionError, TypeError, ValueError):
+            return None  # what it says at finite size is not known
+        return counterexample(found, where, at_most=at_most)
 
     def _meant(self, part: int, candidate: sympy.Eq) -> sympy.Eq:
         meaning = _at(part, self.meaning)
-        for what, image in (meaning or {}).items():
-            candidate = put_in_place(candidate, {what: image})
-        return candidate
+        return in_place(candidate, meaning or {})
 
     @cached_property
     def theorems(self) -> tuple[Theorem, ...]:

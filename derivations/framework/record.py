@@ -41,8 +41,8 @@ from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem, no_
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.corpus import Statement, statements
-from force_diffusion.symbolic.search.counterexample import counterexample
 from force_diffusion.symbolic.search.sources import Form, Source
+from force_diffusion.symbolic.search.values import WithoutValue
 
 
 class KernelError(ForceDiffusionError, RuntimeError):
@@ -208,19 +208,19 @@ class Derivation:
         candidate = usual_form(candidate, self.printed)
         if self.decide is None:
             return self._by_the_kernel(part, candidate, where)
-        if reason := without_value(candidate, in_the_limit=self.relation != "="):
-            return not_a_statement(reason)
         try:
             ruling = self.decide(part, candidate)
         except NO_VALUE as failure:
-            return not_a_statement(str(failure))
+            ruling = not_a_statement(str(failure))
         except (NotExactError, AmbiguousError, RecursionError) as failure:
             ruling = undecided(str(failure))
+        if (reason := without_value(candidate, in_the_limit=self.relation != "=")) and (
+            ruling.verdict is not Verdict.REFUTED
+        ):
+            ruling = not_a_statement(reason)
         proven = ruling.verdict.is_proved
         if proven and (less := says_less(candidate, self.printed[part])):
             proven, ruling = False, undecided(less)
-        if ruling.verdict is Verdict.NOT_A_STATEMENT:
-            return ruling
         if ruling.verdict is Verdict.REFUTED and not self._needs_packings(part, candidate):
             return ruling
         try:
@@ -229,6 +229,8 @@ class Derivation:
             return not_a_statement(str(absent))
         if found and proven:
             raise self.fault(candidate, f"proved, yet false: {found}")
+        if isinstance(found, WithoutValue):
+            return not_a_statement(reason or str(found))
         if found:
             return refuted(found)
         if ruling.verdict is Verdict.REFUTED:
@@ -315,7 +317,7 @@ def proved_by_line(
             return undecided(less)
     if not ruling.verdict.is_proved or candidate == printed:
         return ruling
-    if found := counterexample(candidate, where, at_most=_ALARM):
+    if found := line.counterexample(place, candidate, _ALARM):
         raise derivation.fault(candidate, f"proved, yet false: {found}")
     return ruling
 
@@ -329,10 +331,12 @@ def _component(line: Line, place: int, candidate: sympy.Eq) -> Ruling:
         except (NotProvedError, NotExactError, ArithmeticError, RecursionError):
             continue
         return proved(f"the component along {text(vector)}, by the rule: follows", line.assumed)
-    if reason := no_statement(candidate, theorem.where):
-        return not_a_statement(reason)
-    found = counterexample(candidate, theorem.where)
-    return refuted(found) if found else undecided("it is no component of the equation")
+    found = line.counterexample(place, candidate)
+    if found and not isinstance(found, WithoutValue):
+        return refuted(found)
+    if reason := no_statement(candidate, theorem.where) or found:
+        return not_a_statement(str(reason))
+    return undecided("it is no component of the equation")
 
 
 def _shown(candidate: sympy.Eq) -> str:

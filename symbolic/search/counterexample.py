@@ -10,7 +10,15 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.where import LATTICE, Loading, Where
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search.dual import NOWHERE, Dual, Number, TooLargeError, Vector
+from force_diffusion.symbolic.search import limits
+from force_diffusion.symbolic.search.dual import (
+    NOWHERE,
+    Dual,
+    Number,
+    TooLargeError,
+    Vector,
+    Weights,
+)
 from force_diffusion.symbolic.search.packing import (
     AbsentError,
     BelowError,
@@ -25,6 +33,7 @@ from force_diffusion.symbolic.search.values import (
     NoSumError,
     NoValueError,
     UnreadableError,
+    WithoutValue,
 )
 
 READS = 300_000
@@ -98,10 +107,13 @@ def _packing(world: World, name: str | None, place: tuple[int, ...]) -> Packing:
 
 
 def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = None) -> str | None:
-    """Words for values at which a statement is false or has no value; None where none is found.
+    """Words for values at which a statement is false; None where none is found.
+
+    Where it has no value at all they are ``WithoutValue``.
 
     All points of ``points`` are tried, or ``at_most`` so many of them. Points at which it speaks of
-    a bead below the base say nothing, unless all do.
+    a bead below the base say nothing, unless all do. A statement in a limit is looked at where the
+    indices are large; its moments have to be worked out before.
 
     What can't be evaluated is not refuted: unknown symbols, floats and roots, a number beside a
     vector, a sum whose upper bound is below its lower one by more than one, what is too large.
@@ -115,6 +127,8 @@ def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = N
 def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> str | None:
     if not isinstance(statement, sympy.Eq) or where.dimension != 2:
         return None
+    if where.limit:
+        return limits.counterexample(statement, where)
     free = _free_symbols(statement)
     budget, below, compared = Budget(READS), None, False
     for at, world in islice(_drawn(_with_all_indices(where, free)), at_most):
@@ -124,7 +138,7 @@ def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> st
         except (NoSumError, TooLargeError):
             continue
         except BelowError as reason:
-            below = below or (at, values, str(reason))
+            below = below or (at, values, WithoutValue(reason))
             continue
         compared = True
         if found:
@@ -137,7 +151,8 @@ def _words(
 ) -> str:
     named = [one for one in values if one in at or one in free or one == sy.phi]
     shown = (f"{text(one)} = {_exact(values[one])}" for one in named)
-    return f"at {', '.join(shown)}: {found}"
+    words = f"at {', '.join(shown)}: {found}"
+    return WithoutValue(words) if isinstance(found, WithoutValue) else words
 
 
 def _drawn(where: Where) -> Iterator[tuple[Point, World]]:
@@ -175,7 +190,7 @@ def _at(
     except BelowError:
         raise
     except (AbsentError, NoValueError) as reason:
-        return str(reason)
+        return WithoutValue(reason)
     left, right = _beside(left, right), _beside(right, left)
     if isinstance(left, Vector) != isinstance(right, Vector):
         raise UnreadableError("a number is set equal to a vector")
@@ -245,6 +260,7 @@ def _shown(value: Dual | Vector) -> str:
         return f"({_shown(value.x)}, {_shown(value.y)})"
     if not value.slope:
         return _exact(value.value)
+    assert not isinstance(value.slope, Weights)  # these stay within a moment
     size = _exact(-value.slope if value.slope < 0 else value.slope)
     part = f"{'' if size == '1' else f'({size})' if '/' in size else size}ε"
     sign = "−" if value.slope < 0 else "+"
