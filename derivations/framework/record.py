@@ -217,7 +217,7 @@ class Derivation:
         if (reason := without_value(candidate, in_the_limit=self.relation != "=")) and (
             ruling.verdict is not Verdict.REFUTED
         ):
-            ruling = not_a_statement(reason)
+            return not_a_statement(reason)
         proven = ruling.verdict.is_proved
         if proven and (less := says_less(candidate, self.printed[part])):
             proven, ruling = False, undecided(less)

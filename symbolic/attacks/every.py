@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from force_diffusion.symbolic.attacks import (  # noqa: F401 - each adds its own to ATTACKS
     averaging,
     inducing,
+    lines,
     moving,
     rewriting,
     solving,

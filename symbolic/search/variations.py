@@ -4,7 +4,7 @@ Factors in an index, domains that are too large, one component of a vector, defi
 exact forms, roots, sums split and exchanged. As in ``corpus``, no decision is asked.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import sympy
@@ -15,8 +15,17 @@ from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.counterexample import counterexample
 from force_diffusion.symbolic.search.points import points
-from force_diffusion.symbolic.search.sources import Made, Source, equal, over, plus, put_in, times
-from sympy import Add, Rational, Sum
+from force_diffusion.symbolic.search.sources import (
+    Change,
+    Made,
+    Source,
+    equal,
+    over,
+    plus,
+    put_in,
+    times,
+)
+from sympy import Add, Pow, Rational, Sum
 
 _MILLIONTH = Rational(1, 10**6)
 _FEW = 3  # points at the edge of a domain at which a statement is looked at
@@ -34,7 +43,7 @@ def factor_in_an_index(source: Source) -> Made:
                 f"({text(one)} + 1)/{text(one)} times too large",
                 source.right(times(one + 1, over(one))),
             )
-        if one != sy.M or source.relation == "=":
+        if one != sy.M or source.relation == "=":  # else it may be of another order alone
             yield f"it grows with {text(one)}", source.right(times(1 + _MILLIONTH * one))
             yield f"{text(one)}²⁰ times too large", source.right(times(one**20))
     if source.relation != "∝" and (sy.z in source.free or {sy.j, sy.M} <= source.free):
@@ -104,15 +113,24 @@ def one_sided(source: Source) -> Made:
             yield f"it is zero along {text(other)}", equal(left, said[1])
             without = Add(right, -said[1], evaluate=False)
             yield f"it is zero along {text(one)}", equal(left, without)
-            yield (
-                f"one component on the left, another one on the right: {text(one)}",
-                equal(sy.Dot(one, left), sy.Dot(other, right)),
-            )
-            yield "a component is the vector", equal(sy.Dot(one, left), right)
             swapped = other * sy.Dot(one, right) + one * sy.Dot(other, right)
             yield "its components are exchanged", equal(left, swapped)
         else:
             yield "a component is doubled in one term", source.right(plus(_MILLIONTH * one))
+
+
+def another_component(source: Source) -> Made:
+    """False: numbers that are no component of both sides."""
+    left, right = source.printed.args
+    if source.is_vector:
+        first = source.radii()[0]
+        for one, other in ((sy.e_x, sy.e_y), (sy.e_y, sy.e_x), (sy.n_plus, sy.n_minus)):
+            if right:
+                words = f"along {text(one)} on the left, along {text(other)} on the right"
+                yield words, equal(sy.Dot(one, left), sy.Dot(other, right))
+            along = [sy.Dot(one, side) if side else side for side in (left, right)]
+            more = Add(along[1], _MILLIONTH * first, evaluate=False)
+            yield f"a radius too much along {text(one)}", equal(along[0], more)
 
 
 def one_component(source: Source) -> Made:
@@ -142,8 +160,24 @@ _FALSELY = {
 }
 
 
+Radii = Callable[[sympy.Expr, sympy.Expr], sympy.Expr]
+"""Radii that stand for Δ at a bead."""
+
+
 def _second_difference(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     return sy.SecondDifference(across, layer).doit()
+
+
+def _lopsided(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
+    return _second_difference(across, layer) - sy.DeltaR(across, layer)
+
+
+def _further(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
+    return _second_difference(across + 2, layer)
+
+
+def _radii_for_delta(radii: Radii) -> Change:
+    return lambda side: side.replace(sy.SecondDifference, radii)
 
 
 def _kappa(source: Source) -> sympy.Expr:
@@ -158,10 +192,7 @@ def definition(source: Source) -> Made:
         if printed.has(symbol):
             yield f"{text(symbol)} by other vectors", source.both(put_in({symbol: image}))
     if printed.has(sy.SecondDifference):
-        yield (
-            "Δ by radii",
-            source.both(lambda side: side.replace(sy.SecondDifference, _second_difference)),
-        )
+        yield "Δ by radii", source.both(_radii_for_delta(_second_difference))
     if sy.f_load in source.free:
         yield "⟨f⟩ = f_load/2n_y put in", source.both(times(sy.f_load, over(2 * sy.n_y)))
     if printed.has(sy.kappa):
@@ -177,17 +208,8 @@ def wrong_definition(source: Source) -> Made:
         if printed.has(symbol):
             yield f"{text(symbol)} by other vectors, wrongly", source.both(put_in({symbol: image}))
     if printed.has(sy.SecondDifference):
-        for name, change in (
-            (
-                "half of its middle radius",
-                lambda at, on: _second_difference(at, on) - sy.DeltaR(at, on),
-            ),
-            ("two beads further", lambda at, on: _second_difference(at + 2, on)),
-        ):
-            yield (
-                f"Δ, {name}",
-                source.both(lambda side, c=change: side.replace(sy.SecondDifference, c)),
-            )
+        yield "Δ, half of its middle radius", source.both(_radii_for_delta(_lopsided))
+        yield "Δ, two beads further", source.both(_radii_for_delta(_further))
     if sy.f_load in source.free:
         yield "⟨f⟩ = f_load/2n_x on one side", source.right(times(sy.n_y, over(sy.n_x)))
     if printed.has(sy.kappa):
@@ -200,11 +222,24 @@ def wrong_definition(source: Source) -> Made:
 def zero_over_zero_beside_a_definition(source: Source) -> Made:
     """False: 0/0 somewhere, beside a symbol for which something is put in before it is read."""
     for where, a in source.zeros():
-        once = (sy.spacing, over(4 * sy.r * sy.n_x), a, over(a))
-        yield f"0/0 at {where}, beside s", source.right(times(*once))
+        by_spacing = times(sy.spacing, over(4 * sy.r * sy.n_x), a, over(a))
+        yield f"0/0 at {where}, beside s", source.right(by_spacing)
         if {sy.j, sy.M} <= source.free and sy.z not in source.free:
-            once = (1 + sy.z, over(1 + sy.j / sy.M), a, over(a))
-            yield f"0/0 at {where}, beside z", source.right(times(*once))
+            by_height = times(1 + sy.z, over(1 + sy.j / sy.M), a, over(a))
+            yield f"0/0 at {where}, beside z", source.right(by_height)
+
+
+# roots
+
+
+def root_of_what_is_negative(source: Source) -> Made:
+    """False: a root that has no value somewhere, or another sign there."""
+    half = Rational(1, 2)
+    for where, a in source.zeros():
+        roots = (Pow(a, half, evaluate=False), Pow(a, -half, evaluate=False))
+        yield f"a root of what is negative beside {where}", source.right(times(*roots))
+        size = Pow(Pow(a, 2, evaluate=False), half, evaluate=False)
+        yield f"another sign beside {where}", source.right(times(size, over(a)))
 
 
 # exact forms
@@ -214,17 +249,16 @@ def exact_form(source: Source) -> Made:
     """True: the exact form in place of the printed one."""
     for form in source.exact:
         if not form.of_one_layer:
-            yield f"the exact form, {form.name}", source.right(lambda _, f=form: f.expression)
+            statement = equal(source.printed.lhs, form.expression)
+            yield f"the exact form, {form.name}", statement
 
 
 def form_of_one_layer(source: Source) -> Made:
     """False: the exact form of a layer at an edge."""
     for form in source.exact:
         if form.of_one_layer:
-            yield (
-                f"the form of one layer, {form.name}",
-                source.right(lambda _, f=form: f.expression),
-            )
+            statement = equal(source.printed.lhs, form.expression)
+            yield f"the form of one layer, {form.name}", statement
 
 
 # sums
