@@ -93,7 +93,7 @@ class Proved(Protocol):
 Source = Any
 """A line, an equation, a theorem of the kernel, several of these, or what is supposed."""
 
-_FEW = 12  # points at which what may be no statement is looked at
+_FEW = 4  # points at which what may be no statement is looked at
 
 SUPPOSED = object()
 """What an induction supposes."""

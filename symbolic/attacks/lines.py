@@ -31,8 +31,6 @@ for tried, total, where, number, false, refused in (
 
     @attack("moment", tried, false, refused)
     def _(
-        left: sympy.Expr = Variance(total),
-        right: sympy.Expr = number * sigma**2,
-        where: Where = where,
+        form: sympy.Expr = total, right: sympy.Expr = number * sigma**2, where: Where = where
     ) -> object:
-        return told(moments.moment(), left, right, where)
+        return told(moments.moment(), Variance(form), right, where)

@@ -55,7 +55,9 @@ class Source:
     @property
     def is_vector(self) -> bool:
         """Whether it equates vectors."""
-        return bool(getattr(self.printed.lhs, "is_vector", False) or self.printed.rhs == 0)
+        factors = Mul.make_args(self.printed.lhs)
+        found = any(getattr(one, "is_vector", False) for one in factors)
+        return found or self.printed.rhs == 0
 
     @property
     def size(self) -> sympy.Symbol:
@@ -92,7 +94,8 @@ class Source:
 
     def radii(self) -> list[sympy.Expr]:
         """The radius of the bead that it is about, and two on the base; none for statistics."""
-        beads = by_name(self.printed.atoms(sy.SiteFunction))[:1]
+        found = by_name(self.printed.atoms(sy.SiteFunction))
+        beads = [one for one in found if one.free_symbols <= self.free]  # none within a sum
         if not beads:
             return []
         across, layer = beads[0].args
