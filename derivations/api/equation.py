@@ -22,6 +22,7 @@ from force_diffusion.derivations.export.prose import either
 from force_diffusion.derivations.export.terminal import (
     check_text,
     counts_text,
+    expected_text,
     follows_text,
     heading,
     relation_of,
@@ -92,9 +93,18 @@ class Proof:
         return self.outcomes[-1].checks
 
     @property
+    def refuted(self) -> tuple[Check, ...]:
+        """Printed statements that were refuted as expected: ERRATA.md says why."""
+        return self.outcomes[-1].refuted
+
+    @property
     def mutants(self) -> tuple[Mutant, ...]:
         """The printed equation with one mechanical change each, and what the checker said."""
         return self.outcomes[-1].mutants
+
+    def _said(self) -> str:
+        outcome, refuted = self.outcomes[-1], expected_text(len(self.refuted))
+        return f"Eq. {outcome.derivation.number} is {outcome.words}{refuted and f'; {refuted}'}."
 
     def _premises(self) -> str:
         numbers = [str(one.number) for one in self.outcomes[-1].derivation.premises]
@@ -108,7 +118,7 @@ class Proof:
         outcome = self.outcomes[-1]
         return "\n".join(
             [
-                f"Eq. {outcome.derivation.number} is {outcome.words}. {self._premises()}",
+                f"{self._said()} {self._premises()}",
                 *map(summary_line, self.outcomes[:-1]),
                 *map(check_text, self.checks),
                 f"  - {counts_text(outcome)}",
@@ -125,7 +135,7 @@ class Proof:
         rows = [row(one.kind, one.words, one.name, one.note) for one in self.checks]
         return "\n".join(
             [
-                f"**Eq. {outcome.derivation.number} is {outcome.words}.** {self._premises()}",
+                f"**{self._said()}** {self._premises()}",
                 "",
                 row("kind", "verdict", "check", "note"),
                 row("---", "---", "---", "---"),

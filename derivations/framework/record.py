@@ -9,7 +9,9 @@ from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.proving import (
     Line,
     Lines,
+    Refuted,
     Shown,
+    assumptions,
     fixes_it,
 )
 from force_diffusion.derivations.witnesses.both_sides import AbsentError, Points, compare
@@ -251,12 +253,9 @@ class Derivation:
         )
 
     @property
-    def assumed(self) -> tuple[str, ...]:
-        """What the lines of its printed equations assume that no rule discharges."""
-        if self.decide is not None:
-            return ()
-        found = (words for one in self.printed for words in self._line(one).assumed)
-        return tuple(dict.fromkeys(found))
+    def assumed(self) -> list[str]:
+        """What is assumed of its printed equations that no rule ends."""
+        return assumptions(self.theorems) if self.decide is None else []
 
     @cached_property
     def _lines(self) -> list[Line]:
@@ -268,6 +267,12 @@ class Derivation:
         lines = self.steps() if self.decide is None else ()
         further = lines.claims if isinstance(lines, Lines) else ()
         return (*(Claim(one.reason, one.decide) for one in further), *self.claims)
+
+    @property
+    def refuted(self) -> tuple[Refuted, ...]:
+        """The printed statements that are known not to hold; ``printed`` are those that do."""
+        lines = self.steps() if self.decide is None else ()
+        return tuple(lines.refuted) if isinstance(lines, Lines) else ()
 
     def _line(self, printed: sympy.Eq) -> Line:
         return next(line for line in self._lines if printed in line.equations)
@@ -330,7 +335,9 @@ def _component(line: Line, place: int, candidate: sympy.Eq) -> Ruling:
             rules.follows(rules.along(theorem, vector))(candidate, theorem.where)
         except (NotProvedError, NotExactError, ArithmeticError, RecursionError):
             continue
-        return proved(f"the component along {text(vector)}, by the rule: follows", line.assumed)
+        return proved(
+            f"the component along {text(vector)}, by the rule: follows", assumptions([theorem])
+        )
     found = line.counterexample(place, candidate)
     if found and not isinstance(found, WithoutValue):
         return refuted(found)
@@ -380,7 +387,7 @@ class ExactCase:
 class Check:
     """A step, a claim or a witness that has been run."""
 
-    kind: str  # "step", "proof" or "witness"
+    kind: str  # "step", "proof", "witness", or "refutation" of a printed statement
     name: str
     verdict: Verdict
     seconds: float
@@ -391,6 +398,11 @@ class Check:
     def words(self) -> str:
         """Its verdict, and what it assumes."""
         return in_words(self.verdict, self.assuming)
+
+    @property
+    def is_expected(self) -> bool:
+        """Whether a printed statement that is known not to hold was refuted."""
+        return self.kind == "refutation" and self.verdict is Verdict.REFUTED
 
 
 @dataclass(frozen=True)
@@ -442,6 +454,11 @@ class Outcome:
     mutants: tuple[Mutant, ...] = field(default=())
     tried: tuple[Tried, ...] = field(default=())
     seconds: float = 0.0
+
+    @property
+    def refuted(self) -> tuple[Check, ...]:
+        """The printed statements that were refuted as expected; the verdict is on the others."""
+        return tuple(check for check in self.checks if check.is_expected)
 
     @property
     def assuming(self) -> tuple[str, ...]:

@@ -58,7 +58,10 @@ def _timed(kind: str, name: str, decide: Callable[[], Ruling]) -> Check:
 
 
 def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
-    """Rule on each printed equation, on each step that leads to it, then on each further claim."""
+    """Rule on each printed equation, on each step that leads to it, then on each further claim.
+
+    Last come printed statements that are known not to hold.
+    """
     several = len(derivation.printed) > 1
     found: dict[sympy.Eq, Check] = {}
     for place, equation in enumerate(derivation.printed):
@@ -76,6 +79,9 @@ def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
     for claim in derivation.all_claims:
         watch(derivation, claim.name)
         yield _timed("proof", claim.name, claim.decide)
+    for one in derivation.refuted:
+        watch(derivation, one.reading)
+        yield _timed("refutation", one.reading, lambda r=one: r.ruling)  # type: ignore[misc]
 
 
 def _ruling(step: Shown, found: Mapping[sympy.Eq, Check]) -> Ruling:
@@ -215,15 +221,19 @@ def overall(
 ) -> Verdict:
     """Verdict on an equation from all that was found about it.
 
+    A printed statement that is known not to hold, and is not refuted, leaves it undecided.
     A mutant that is proved is a listed equivalent rewriting, and speaks for nobody; so does one
     that is not a statement. One of which the checker can't tell leaves the equation undecided, and
     so does a true statement that it does not prove.
     """
-    found = {check.verdict for check in checks}
+    checks = tuple(checks)
+    found = {check.verdict for check in checks if check.kind != "refutation"}
     if found & {Verdict.REFUTED, Verdict.DISAGREES}:
         return Verdict.REFUTED
     proofs = found - {Verdict.AGREES}
     if not proofs or not all(one.is_proved for one in proofs):
+        return Verdict.UNDECIDED
+    if any(check.kind == "refutation" and not check.is_expected for check in checks):
         return Verdict.UNDECIDED
     if any(mutant.ruling.verdict is Verdict.UNDECIDED for mutant in mutants):
         return Verdict.UNDECIDED
@@ -238,7 +248,7 @@ def _open_premises(derivation: Derivation, known: Mapping[Number, Verdict]) -> I
         verdict = known.get(premise.number, Verdict.PROVED)
         name, note = f"rests on Eq. {premise.number}", f"Eq. {premise.number} is {verdict}"
         if verdict is Verdict.ASSUMING:
-            assumed = premise.assumed or (f"what Eq. {premise.number} assumes",)
+            assumed = tuple(premise.assumed or [f"what Eq. {premise.number} assumes"])
             yield Check("proof", name, verdict, 0.0, assuming=assumed)
         elif verdict is not Verdict.PROVED:
             yield Check("proof", name, Verdict.UNDECIDED, 0.0, note)

@@ -63,7 +63,7 @@ def larger_domains(source: Source, turn: int | None = None) -> Iterator[tuple[st
     or explicit packings have other values, or hold no such bead. For a turn there is one of these.
     """
     where = source.where
-    if where is None:
+    if where is None or where.limit:  # a limit does not depend on one layer more
         return
     ends = [n for n, one in enumerate(where.relations) if not isinstance(one, sympy.Eq)]
     start = turn % len(ends) if turn is not None and ends else 0

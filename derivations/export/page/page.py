@@ -18,6 +18,7 @@ from force_diffusion.derivations.export.page.parts import Part
 from force_diffusion.derivations.export.page.proof_graph import proof_graph
 from force_diffusion.derivations.export.prose import both
 from force_diffusion.derivations.export.terminal import (
+    expected_text,
     mutant_counts,
     relation_of,
     tried_counts,
@@ -66,7 +67,8 @@ def equation_view(outcome: Outcome, outcomes: Sequence[Outcome]) -> dict[str, An
     """All that the page shows of one equation."""
     derivation = outcome.derivation
     kinds = {
-        kind: [c for c in outcome.checks if c.kind == kind] for kind in ("step", "proof", "witness")
+        kind: [c for c in outcome.checks if c.kind == kind]
+        for kind in ("step", "proof", "witness", "refutation")
     }
     return {
         "number": derivation.number,
@@ -75,6 +77,10 @@ def equation_view(outcome: Outcome, outcomes: Sequence[Outcome]) -> dict[str, An
         "assuming": prose(" and ".join(outcome.assuming)),
         "coq": recorded(derivation),
         "printed": display(derivation.printed, derivation.relation),
+        "refuted": [
+            (display([one.formula], one.relation), _noted(str(c.verdict), c.name, c.note))
+            for one, c in zip(derivation.refuted, kinds["refutation"], strict=True)
+        ],
         "symbols": [(symbol(one), prose(words)) for one, words in derivation.symbols],
         "assumptions": [prose(sentence(words)) for words in derivation.assumptions],
         "premises": [premise.number for premise in derivation.premises],
@@ -130,6 +136,7 @@ def page(outcomes: Sequence[Outcome], parts: Sequence[Part], command: str, made:
         equations=[equation_view(outcome, outcomes) for outcome in outcomes],
         totals={
             "proved": sum(outcome.verdict.is_proved for outcome in outcomes),
+            "expected": expected_text(sum(check.is_expected for check in checks)),
             "proofs": sum(check.kind == "proof" for check in checks),
             "witnesses": sum(check.kind == "witness" for check in checks),
             **{kind: sum(count[kind] for count in counts) for kind in counts[0]},

@@ -8,11 +8,13 @@ import pytest
 import sympy
 from force_diffusion.derivations.api.equation import Equation
 from force_diffusion.derivations.api.exact import ExactForm
-from force_diffusion.derivations.framework.proving import Lines, rewrite
+from force_diffusion.derivations.framework.proving import By, Lines
 from force_diffusion.derivations.framework.record import Derivation, ExactCase
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.kernel import rules
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, proved
+from force_diffusion.symbolic.kernel.theorem import Theorem, made
 from force_diffusion.symbolic.kernel.where import Where
 from sympy import Eq, Rational, Tuple
 
@@ -235,8 +237,12 @@ def made_up(assuming: tuple[str, ...] = ()) -> Derivation:
     lines = Lines(where)
     three = 2 * sy.DeltaR(i, j) - sy.DeltaR(i - 2, j) - sy.DeltaR(i + 2, j)
     twice = equation(sy.SecondDifference(i, j), three)
-    line = lines.show("Twice.", twice, rewrite())
-    line = replace(line, assuming=assuming)
+
+    def rule(formula: sympy.Eq, where: Where) -> Theorem:
+        theorem = rules.rewrite()(formula, where)
+        return made(formula, where, theorem.rule, [theorem], assuming=assuming)
+
+    line = lines.show("Twice.", twice, By(lambda _: rule))
     case = ExactCase(twice.lhs, "j ≥ 2", twice.rhs, (sy.j >= 2,), line=line)
     return replace(
         fd.equation(1)._derivation, number=1, printed=(twice,), exact=lambda: {"all": case},
