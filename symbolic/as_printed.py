@@ -47,7 +47,7 @@ def _in_place(node: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
     args = [_in_place(one, what, image) for one in node.args]
     if isinstance(what, type) and isinstance(node, what):
         result = image(*args)
-    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow) and _divides(node):
+    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow | sympy.Eq) and _divides(node):
         result = node.func(*args, evaluate=False)
     else:
         result = node.func(*args)
