@@ -10,7 +10,7 @@ from functools import cache, cached_property
 from typing import Any, Protocol
 
 import sympy
-from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel import limits, moments, rules
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
@@ -33,6 +33,7 @@ from force_diffusion.symbolic.kernel.theorem import (
 )
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.search.counterexample import counterexample
+from force_diffusion.symbolic.symbols import ForceMinus, ForcePlus
 
 Meaning = Mapping[Any, Any]
 """What a line writes in short: for a symbol, or for a function of its arguments."""
@@ -207,34 +208,6 @@ def facts_of(
     return tuple(known(one, supposed) for part in parts for one in part)
 
 
-def in_place(node: sympy.Basic, meaning: Meaning) -> sympy.Basic:
-    """What is written in short, put in one after the other; no divisor is cancelled by it."""
-    for what, image in meaning.items():
-        node = _in_place(node, what, image)
-    return node
-
-
-def _in_place(node: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
-    if node == what:
-        result: sympy.Basic = image
-        return result
-    if not node.has(what):
-        return node
-    args = [_in_place(one, what, image) for one in node.args]
-    if isinstance(what, type) and isinstance(node, what):
-        result = image(*args)
-    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow) and _divides(node, what):
-        result = node.func(*args, evaluate=False)
-    else:
-        result = node.func(*args)
-    return result
-
-
-def _divides(node: sympy.Basic, what: Any) -> bool:
-    """Whether something is divided by it there."""
-    return any(one.exp.is_negative and one.base.has(what) for one in node.atoms(sympy.Pow))
-
-
 # the rules of the kernel, with what they rest on
 
 
@@ -282,7 +255,7 @@ def negligible(force: Proved, *facts: Source) -> By:
 
     ``force`` says what the force is, ``facts`` what stands in it and in the statement.
     """
-    whole = (OfBoth(force), *facts)
+    whole = (Chain((OfBoth(force), *facts)),)
     return By(
         lambda supposed: limits.negligible(*facts_of(whole, supposed)),
         whole,
@@ -670,10 +643,12 @@ def fixes_it(candidate: sympy.Eq, printed: sympy.Eq, where: Where) -> str:
     """Why a candidate may say less than the printed equation; "" when it says as much.
 
     Where the printed equation is about one quantity, the candidate fixes that everywhere. (A
-    printed balance is about none, and its rule compares all of it.)
+    printed balance is about none, and its rule compares all of it; what drops a part of a force is
+    about that of the printed equation, not of one layer alone.)
     """
     if subject(printed.lhs) is None:
-        return ""
+        told, meant = (one.atoms(ForcePlus, ForceMinus) for one in (candidate, printed))
+        return "it is about another force" if where.limit and told != meant else ""
     try:
         about, _ = isolated(candidate, where)
     except NotProvedError as reason:
