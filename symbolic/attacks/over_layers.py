@@ -1,6 +1,7 @@
 """Attacks on averages over the layers, on what they go to, and on heights and integrals."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -587,3 +588,43 @@ for tried, left, right, false, refused in (
     @attack("density", tried, false, refused)
     def _(left: Expr = left, right: Expr = right) -> object:
         return averages.density(equation(left, right), Where())
+
+
+# what is supposed stays supposed; other packings; too many names
+
+
+def _only_supposed(theorem: Theorem) -> Theorem:
+    if theorem.supposed:
+        raise NotProvedError("it rests on what is supposed")
+    return theorem
+
+
+@attack("proportional", "an order that is only supposed", "nothing is proved", "supposed")
+def _() -> object:
+    order = _supposed(OVER, M**4 * VARIANCE, LARGE)
+    right = M**2 * sigma
+    return _only_supposed(told(averages.proportional(order), ROOT_OVER, right, IN_PROPORTION))
+
+
+@attack("unit_height", "an order that is only supposed", "nothing is proved", "supposed")
+def _() -> object:
+    order = _supposed(OVER, M**2 * VARIANCE, LARGE)
+    return _only_supposed(told(averages.unit_height(order), UNIT, 1 / sigma, AS_IT_IS))
+
+
+@attack("integral", "a slope that is only supposed", "nothing is proved", "supposed")
+def _() -> object:
+    slope = _supposed(Derivative(2 * z, z), S.One, Where())
+    return _only_supposed(told(averages.integral(slope), _mean(S.One), 2, Where()))
+
+
+@attack("proportional", "the height of a packing in space", "nothing is known", "another packing")
+def _() -> object:
+    where = replace(IN_PROPORTION, dimension=3)
+    return told(averages.proportional(_height()), UNIT, 1 / sigma, where)
+
+
+@attack("expansion", "more harmonic sums than have names", "they count", "too many harmonic")
+def _() -> object:
+    every = sum((Sum(1 / n, (n, first, M + 9)) for first in range(1, 9)), S.Zero)
+    return told(averages.expansion(), M + every, M, LARGE)
