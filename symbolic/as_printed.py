@@ -31,19 +31,24 @@ def equation(left: sympy.Expr, right: sympy.Expr) -> sympy.Eq:
     return sympy.Eq(left, right, evaluate=False)
 
 
-def put_in_place(expression: sympy.Basic, image: Mapping[Any, Any]) -> sympy.Basic:
-    """The same with other parts, and nothing evaluated: a/a keeps its divisor.
+def in_place(node: sympy.Basic, meaning: Mapping[Any, Any]) -> sympy.Basic:
+    """What is written in short, put in one after the other; no divisor is cancelled by it."""
+    for what, image in meaning.items():
+        node = _in_place(node, what, image)
+    return node
 
-    ``image`` says what stands for a part, or for a kind of function, of its arguments. (SymPy's own
-    ``xreplace`` builds products anew, and cancels what their other factors share.)
-    """
-    if expression in image:
-        return image[expression]
-    if type(expression) in image:
-        return image[type(expression)](*expression.args)
-    arguments = [put_in_place(one, image) for one in expression.args]
-    if all(new is old for new, old in zip(arguments, expression.args, strict=True)):
-        return expression
-    if isinstance(expression, sympy.Add | sympy.Mul | sympy.Pow | sympy.Eq):
-        return expression.func(*arguments, evaluate=False)
-    return expression.func(*arguments)
+
+def _in_place(node: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
+    if node == what:
+        result: sympy.Basic = image
+        return result
+    if not node.has(what):
+        return node
+    args = [_in_place(one, what, image) for one in node.args]
+    if isinstance(what, type) and isinstance(node, what):
+        result = image(*args)
+    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow | sympy.Eq):
+        result = node.func(*args, evaluate=False)
+    else:
+        result = node.func(*args)
+    return result

@@ -7,7 +7,7 @@ import sympy
 from force_diffusion.derivations.framework.proving import no_statement
 from force_diffusion.derivations.framework.record import Derivation, ExactCase, proved_by_line
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.as_printed import equation, put_in_place
+from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     all_of,
@@ -44,10 +44,10 @@ def rule_on_exact(derivation: Derivation, case: ExactCase, candidate: sympy.Eq) 
     """
     sums = {one: sympy.Dummy(f"sum_{n}") for n, one in enumerate(case.expression.atoms(sympy.Sum))}
     printed = equation(case.quantity, case.expression)
-    own = equation(case.quantity, put_in_place(case.expression, sums))
+    own = equation(case.quantity, in_place(case.expression, sums))
     held = set().union(*(one.free_symbols for one in (*case.domain, *_whens(case))))
     named = [*(symbol for symbol, _ in derivation.symbols), *held, *sums.values()]
-    given = put_in_place(candidate, sums)
+    given = in_place(candidate, sums)
     if refusal := unreadable(given, (own,), named, derivation.dimension):
         return refusal
     if case.line:

@@ -11,7 +11,7 @@ from typing import Any, Protocol
 
 import sympy
 from force_diffusion.symbolic.algebra.exact import NotExactError
-from force_diffusion.symbolic.as_printed import equation, put_in_place
+from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel import limits, moments, rules
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
@@ -37,6 +37,7 @@ from force_diffusion.symbolic.kernel.theorem import (
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.search.counterexample import counterexample
 from force_diffusion.symbolic.search.values import WithoutValue
+from force_diffusion.symbolic.symbols import ForceMinus, ForcePlus
 
 Meaning = Mapping[Any, Any]
 """What a line writes in short: for a symbol, or for a function of its arguments."""
@@ -211,13 +212,6 @@ def facts_of(
     return tuple(known(one, supposed) for part in parts for one in part)
 
 
-def in_place(node: sympy.Basic, meaning: Meaning) -> sympy.Basic:
-    """What is written in short, put in one after the other; no divisor is cancelled by it."""
-    for what, image in meaning.items():
-        node = put_in_place(node, {what: image})
-    return node
-
-
 # the rules of the kernel, with what they rest on
 
 
@@ -265,7 +259,7 @@ def negligible(force: Proved, *facts: Source) -> By:
 
     ``force`` says what the force is, ``facts`` what stands in it and in the statement.
     """
-    whole = (OfBoth(force), *facts)
+    whole = (Chain((OfBoth(force), *facts)),)
     return By(
         lambda supposed: limits.negligible(*facts_of(whole, supposed)),
         whole,
@@ -681,10 +675,12 @@ def fixes_it(candidate: sympy.Eq, printed: sympy.Eq, where: Where) -> str:
     """Why a candidate may say less than the printed equation; "" when it says as much.
 
     Where the printed equation is about one quantity, the candidate fixes that everywhere. (A
-    printed balance is about none, and its rule compares all of it.)
+    printed balance is about none, and its rule compares all of it; what drops a part of a force is
+    about that of the printed equation, not of one layer alone.)
     """
     if subject(printed.lhs) is None:
-        return ""
+        told, meant = (one.atoms(ForcePlus, ForceMinus) for one in (candidate, printed))
+        return "it is about another force" if where.limit and told != meant else ""
     try:
         about, _ = isolated(candidate, where)
     except NotProvedError as reason:

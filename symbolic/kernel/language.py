@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterator
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.signs import never_zero, sign
-from force_diffusion.symbolic.as_printed import put_in_place
+from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.decisions import Ruling, not_a_statement, undecided
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
@@ -104,7 +104,7 @@ def usual_form(candidate: sympy.Eq, printed: Collection[sympy.Eq]) -> sympy.Eq:
     image = {sy.spacing: 4 * sy.r * sy.n_x}
     if not any(line.has(sy.z) for line in printed):
         image[sy.z] = sy.j / sy.M
-    left, right = (put_in_place(side, image) for side in candidate.args)
+    left, right = (in_place(side, image) for side in candidate.args)
     subjects = [line.lhs for line in printed]
     if left == 0 or (right in subjects and left not in subjects):
         left, right = right, left

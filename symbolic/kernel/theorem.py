@@ -415,7 +415,8 @@ def _put_in(
             inner = inner.within(index, low, high)
             bound.add(index)
         summed = _put_in(series.function, together, inner, background)
-        image[series] = sympy.Sum(summed, *series.limits)
+        if summed != series.function:
+            image[series] = sympy.Sum(summed, *series.limits)
     for atom in node.atoms(sy.SiteFunction):
         if bound and atom.free_symbols & bound:
             continue  # it stands in a sum

@@ -165,7 +165,7 @@ def not_proportional(side: sympy.Expr, ratio: sympy.Expr) -> str | None:
             where = ", ".join(
                 f"{text(one)} = {float(values[one]):.6g}" for one in (sy.phi, *changed)
             )
-            if value.free_symbols:
+            if value.free_symbols or share.free_symbols:
                 return None
             if value.has(sympy.zoo, sympy.nan, sympy.oo):
                 return WithoutValue(f"it has no value at {where}")

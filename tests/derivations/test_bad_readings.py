@@ -55,7 +55,7 @@ def test_without_a_plant_nothing_is_noticed(number: int) -> None:
 
 @pytest.mark.parametrize("number", [*range(1, 17), "B4"])
 def test_what_is_put_in_cancels_zero_over_zero(monkeypatch: Plant, number: int | str) -> None:
-    monkeypatch.setattr(language, "put_in_place", lambda side, image: side.xreplace(image))
+    monkeypatch.setattr(language, "in_place", lambda side, image: side.xreplace(image))
     assert is_noticed(number)
 
 

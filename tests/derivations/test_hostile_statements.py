@@ -281,3 +281,52 @@ def test_the_printed_definition_of_kappa_may_be_put_in(number: int | str) -> Non
         right * known,
     ):
         assert equation.decide(wrong).verdict == "refuted"
+
+
+def of_eq_12() -> Iterator[tuple[str, sympy.Eq]]:
+    """Statements that are true of little, or of nothing."""
+    left, right = fd.equation(12).expr.args
+    force = left + 1
+    i, j, M, z, m = (VOCABULARY[name] for name in ("i", "j", "M", "z", "m"))
+    radius = VOCABULARY["DeltaR"](i, j)
+    one_layer = {i: i + j, j: Integer(6)}
+    yield "one layer", Eq(*(side.xreplace(one_layer) for side in (left, right)), evaluate=False)
+    yield "nothing", Eq(Integer(0), Integer(0), evaluate=False)
+    yield "f ≈ f", Eq(force, force, evaluate=False)
+    yield "f ≈ f and a radius", Eq(force, force + radius, evaluate=False)
+    yield "nothing at z = ½", Eq((2 * z - 1) * left, (2 * z - 1) * right, evaluate=False)
+    yield "0/0 at z = ½", Eq(left, times(*over_itself(2 * z - 1))(right), evaluate=False)
+    over = Mul(2 * z - 1, Pow(2 * j / M - 1, -1), right, evaluate=False)
+    yield "0/0 at j = M/2", Eq(left, over, evaluate=False)
+    yield "a pole at j = 7", Eq(left, right + radius / (j - 7), evaluate=False)
+    yield "half the sum", Eq(left, right / 2, evaluate=False)
+    yield "hidden by a large part", Eq(left + M**9 * radius, M**9 * radius, evaluate=False)
+    yield "a sum that is reversed", Eq(left, right + radius * Sum(1, (m, M, 2)), evaluate=False)
+
+
+@pytest.mark.parametrize("candidate", [pytest.param(one, id=name) for name, one in of_eq_12()])
+def test_what_says_less_than_eq_12_is_not_proved(candidate: sympy.Eq) -> None:
+    found = fd.equation(12).decide(candidate)
+    assert found.verdict != "proved", str(found)
+
+
+@pytest.mark.parametrize("number", [13, 14])
+def test_what_is_lost_in_the_limit_of_a_variance_is_not_hidden(number: int) -> None:
+    left, right = fd.equation(number).expr.args
+    M, z, phi = (VOCABULARY[name] for name in ("M", "z", "phi"))
+    half = 2 * z - 1
+    for hidden in (
+        Eq(half * left, half * right, evaluate=False),
+        Eq(left, times(*over_itself(half))(right), evaluate=False),
+        Eq(left, right * (1 + 1 / (half * M + Rational(1, 2))), evaluate=False),
+        Eq(left * phi, right * phi, evaluate=False),
+        Eq(left**2, right**2, evaluate=False),
+        Eq(left, left, evaluate=False),
+        Eq(left - right, left - right, evaluate=False),
+        Eq(left, right + MILLIONTH * left, evaluate=False),
+        Eq(left, right * (1 + MILLIONTH * z * (1 - z)), evaluate=False),
+    ):
+        found = fd.equation(number).decide(hidden)
+        assert found.verdict != "proved", (hidden, str(found))
+    same = Eq(left, right * (1 + 10**6 / M), evaluate=False)
+    assert fd.equation(number).decide(same).verdict == "proved"

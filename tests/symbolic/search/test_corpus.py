@@ -5,7 +5,7 @@ import sympy
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.as_printed import equation, put_in_place
+from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.search.corpus import statements
 from force_diffusion.symbolic.search.counterexample import counterexample
 from force_diffusion.symbolic.search.mutants import mutants
@@ -89,16 +89,16 @@ def test_statements_made_by_the_new_rules_are_as_false_as_they_say() -> None:
     assert shown >= 8
 
 
-def test_what_is_put_in_place_leaves_divisors_as_they_are() -> None:
+def test_what_is_in_place_leaves_divisors_as_they_are() -> None:
     zero = sympy.Mul(sy.phi, sympy.Pow(sy.phi, -1), sy.spacing, evaluate=False)
     image = {sy.spacing: 4 * sy.r * sy.n_x}
     assert not zero.xreplace(image).has(sy.phi)  # what SymPy does
-    kept = put_in_place(zero, image)
+    kept = in_place(zero, image)
     assert kept.has(sympy.Pow(sy.phi, -1))
     assert not kept.has(sy.spacing)
-    assert put_in_place(zero, {sy.z: sy.r}) is zero
-    both = put_in_place(equation(zero, sy.spacing), image)
+    assert in_place(zero, {sy.z: sy.r}) is zero
+    both = in_place(equation(zero, sy.spacing), image)
     assert isinstance(both, sympy.Eq)
     assert both.rhs == 4 * sy.r * sy.n_x
-    radius = put_in_place(sy.DeltaR(sy.i, sy.j), {sy.DeltaR: lambda across, layer: across * layer})
+    radius = in_place(sy.DeltaR(sy.i, sy.j), {sy.DeltaR: lambda across, layer: across * layer})
     assert radius == sy.i * sy.j
