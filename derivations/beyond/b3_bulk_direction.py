@@ -95,7 +95,7 @@ DERIVATION = Derivation(
         "printed form: M → ∞ at fixed z and t; exact form, for f⁺: every 0 ≤ j < M. For f⁻ put "
         "1/t in place of t",
     ),
-    premises=(b1.B1, eq14.DERIVATION),
+    premises=(eq11.DERIVATION, b1.B1, eq14.DERIVATION),
     printed=PRINTED,
     relation="∼",
     exact=lambda: exact_cases.exact_cases(VARIANCE_PLUS, exact_forms()),

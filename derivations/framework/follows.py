@@ -27,25 +27,13 @@ Known = Mapping[Any, Any]
 
 
 def put_in(expression: sympy.Expr, known: Known) -> sympy.Expr:
-    """Put in what is known, one after the other; what stands over itself still does then."""
+    """Put in what is known, one after the other."""
     for what, image in known.items():
         if isinstance(what, type):
             expression = expression.replace(what, image)
         else:
-            expression = _in_place(expression, what, image)
+            expression = expression.xreplace({what: image})
     return expression
-
-
-def _in_place(node: sympy.Basic, what: sympy.Basic, image: sympy.Basic) -> sympy.Basic:
-    """One thing in place of another, and nothing else carried out."""
-    if node == what:
-        return image
-    if not node.has(what):
-        return node
-    arguments = [_in_place(one, what, image) for one in node.args]
-    if isinstance(node, sympy.Add | sympy.Mul | sympy.Pow):
-        return node.func(*arguments, evaluate=False)
-    return node.func(*arguments)
 
 
 def linear(
