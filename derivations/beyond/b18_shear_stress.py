@@ -7,13 +7,13 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.derivations.beyond import b3_bulk_direction as b3
 from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond import b10_stress as b10
 from force_diffusion.derivations.beyond import b15_mean_surface_direction as b15
 from force_diffusion.derivations.beyond import b16_mean_bulk_direction as b16
 from force_diffusion.derivations.beyond import b17_stress_bulk as b17
 from force_diffusion.derivations.beyond import t1_forces as b1
+from force_diffusion.derivations.beyond import t2_variance as t2
 from force_diffusion.derivations.beyond.mean_directions import in_means, mirrored, ratio_stays
 from force_diffusion.derivations.beyond.means import decide_in_field
 from force_diffusion.derivations.beyond.stress import Stress
@@ -297,7 +297,8 @@ DERIVATION = Derivation(
     ),
     premises=(
         b1.B1,
-        *(one.DERIVATION for one in (eq11, eq14, b3, b4, b10, b15, b16, b17)),
+        t2.DERIVATIONS["B3"],
+        *(one.DERIVATION for one in (eq11, eq14, b4, b10, b15, b16, b17)),
     ),
     printed=PRINTED,
     domain=(sympy.Ge(j, 2), sympy.Ge(M, j + 2)),

@@ -496,7 +496,7 @@ def _on_every_bead(name: str, words: str, load: sympy.Expr) -> Loading:
     return Loading(name, words, (sy.M,), (), (_carries(load, sy.site_s <= sy.M), *_FREE_SURFACE))
 
 
-_TILTED = -(sy.L_plus * sy.n_plus + sy.L_minus * sy.n_minus)
+_TILTED = -sy.L_plus * (sy.n_plus + sy.t * sy.n_minus)
 
 SURFACE = _on_surface(
     "surface",
@@ -507,12 +507,14 @@ SURFACE = _on_surface(
 
 SURFACE_TILTED = _on_surface(
     "surface tilted",
-    "each bead of the surface j = M carries −(L⁺n⁺ + L⁻n⁻), no other a load",
+    "each bead of the surface j = M carries −(L⁺n⁺ + L⁻n⁻), L⁻ = tL⁺, no other a load",
     _TILTED,
 )
 """A load in any direction on the surface of a packing of height M."""
 
 BULK_TILTED = _on_every_bead(
-    "bulk tilted", "each bead of a packing of height M carries −(L⁺n⁺ + L⁻n⁻)", _TILTED
+    "bulk tilted",
+    "each bead of a packing of height M carries −(L⁺n⁺ + L⁻n⁻), L⁻ = tL⁺",
+    _TILTED,
 )
 """A load in any direction on every bead of a packing of height M."""
