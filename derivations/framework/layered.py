@@ -82,7 +82,7 @@ class Layered:
 
     Attributes:
         symbol: what is printed for it.
-        moment: what that is, such as ``Variance(f⁺_ij/⟨f⟩)``.
+        moment: what that is, such as ``Variance(f⁺_ij/⟨f⟩)``, or a sum of several.
         facts: what gives its forces in the radii, to be put in one after the other.
         loading: of the packing; a load's direction is a symbol of the facts.
         meaning: of further symbols in the moment.
@@ -90,7 +90,7 @@ class Layered:
     """
 
     symbol: sympy.Expr
-    moment: Moment
+    moment: sympy.Expr
     facts: tuple[Source, ...]
     loading: Loading
     meaning: Meaning = field(default_factory=dict)
@@ -114,7 +114,11 @@ class Layered:
         return Where.of(sympy.Eq(j, layer), sympy.Eq(M, height), loading=self.loading)
 
     def _value(self, where: Where) -> RationalFunction:
-        return moments.value(in_place(self.moment, self.meaning), facts_of(self.facts), where)
+        meant, facts = in_place(self.moment, self.meaning), facts_of(self.facts)
+        if isinstance(meant, Moment):
+            return moments.value(meant, facts, where)
+        worked_out = moments.without_moments(equation(meant, sympy.S.Zero), facts, where).lhs
+        return FIELD.from_sympy(worked_out).reduced()
 
     @cached_property
     def forms(self) -> dict[str, ClosedForm]:
