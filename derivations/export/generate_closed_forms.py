@@ -20,17 +20,16 @@ from force_diffusion.derivations.beyond import b5_mean_surface as b5
 from force_diffusion.derivations.beyond import b6_mean_bulk as b6
 from force_diffusion.derivations.beyond import b7_neighbouring_contacts as b7
 from force_diffusion.derivations.beyond import b8_neighbouring_beads as b8
-from force_diffusion.derivations.beyond import b10_stress as b10
 from force_diffusion.derivations.beyond import b11_any_dimension as b11
 from force_diffusion.derivations.beyond import b12_between_layers as b12
 from force_diffusion.derivations.beyond import b13_spheres_surface as b13
 from force_diffusion.derivations.beyond import b14_spheres_bulk as b14
 from force_diffusion.derivations.beyond import b15_mean_surface_direction as b15
 from force_diffusion.derivations.beyond import b16_mean_bulk_direction as b16
-from force_diffusion.derivations.beyond import b17_stress_bulk as b17
 from force_diffusion.derivations.beyond import b19_spheres_response as b19
 from force_diffusion.derivations.beyond import spheres
 from force_diffusion.derivations.beyond import t2_variance as t2
+from force_diffusion.derivations.beyond import t5_stress as t5
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.parts import cone
 from force_diffusion.symbolic.symbols import M, N, d, i, j, k, kappa, l, n_y, p, phi, r, sigma, z
@@ -471,9 +470,9 @@ def source() -> str:
     ):
         for load, (label, forms) in zip(("surface", "bulk"), both, strict=True):
             parts.append(_exact(f"{load}_{what}", f"{load} {how}", label, forms, template))
-    for load, equation in (("surface", b10), ("bulk", b17)):
-        name, label = f"{load}_stress_ratio_shift", equation.DERIVATION.number
-        parts.append(_exact(name, f"{load} load", label, equation.STRESS.ratio(), STRESS))
+    for label, stress in (("B10", t5.OF_SURFACE), ("B17", t5.OF_BULK)):
+        name, forms = f"{stress.name}_stress_ratio_shift", stress.forms[t5.RATIO]
+        parts.append(_exact(name, f"{stress.name} load", label, forms, STRESS))
     in_any = b11.PRINTED.rhs.doit().xreplace({kappa: sympy.Integer(1)})
     parts.append(DIMENSION.format(code=_code(in_any, M, d, z)))
     sinking = b4.PRINTED.rhs.doit().xreplace({n_y: sympy.Integer(1)})

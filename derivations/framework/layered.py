@@ -10,6 +10,7 @@ from functools import cached_property
 
 import sympy
 from force_diffusion.derivations.framework.proving import (
+    By,
     Line,
     Lines,
     Meaning,
@@ -87,6 +88,8 @@ class Layered:
         loading: of the packing; a load's direction is a symbol of the facts.
         meaning: of further symbols in the moment.
         cases: the layers, the interior first.
+        by: what proves its closed forms; working out the moments, for most.
+        said_as: what the symbol stands for there, if it is not the moment.
     """
 
     symbol: sympy.Expr
@@ -95,11 +98,19 @@ class Layered:
     loading: Loading
     meaning: Meaning = field(default_factory=dict)
     cases: Mapping[str, Case] = field(default_factory=lambda: EVERY_LAYER)
+    by: By | None = None
+    said_as: sympy.Expr | None = None
 
     @property
     def meant(self) -> Meaning:
         """What a line's symbols stand for."""
-        return {self.symbol: self.moment, **self.meaning}
+        said_as = self.moment if self.said_as is None else self.said_as
+        return {self.symbol: said_as, **self.meaning}
+
+    @property
+    def rule(self) -> By:
+        """What proves its closed forms."""
+        return self.by or moment(*self.facts)
 
     def where(self, case: str = "interior") -> Where:
         """The domain of a closed form."""
@@ -189,7 +200,7 @@ class Layered:
                 lines.show(
                     f"Exact {place}, {form.validity}: {how}.",
                     equation(self.symbol, form.expression),
-                    moment(*self.facts),
+                    self.rule,
                     where=self.where(name),
                     meaning=self.meant,
                     after=() if shown else after,
@@ -200,11 +211,23 @@ class Layered:
             lines.show(
                 f"The packing M = {size}, j = {at} is none of these:",
                 equation(self.symbol, value),
-                moment(*self.facts),
+                self.rule,
                 where=self._small(size, at),
                 meaning=self.meant,
             )
         return shown[0]
+
+    def claim_forms(self, lines: Lines, name: str) -> None:
+        """Claim the closed form of every layer, and the values of small packings."""
+        said = [(form.expression, self.where(case)) for case, form in self.forms.items()]
+        said += [(value, self._small(size, at)) for size, at, value in self._exceptions()]
+        lines.claim(
+            name,
+            sympy.Tuple(*(equation(self.symbol, value) for value, _ in said)),
+            self.rule,
+            where=tuple(where for _, where in said),
+            meaning=self.meant,
+        )
 
     def _exceptions(self) -> Iterator[tuple[int, int, sympy.Expr]]:
         yield from dict.fromkeys(one for form in self.forms.values() for one in form.exceptions)

@@ -237,7 +237,7 @@ class Derivation:
         assert self.where is not None
         if any(one.supposed for one in self.theorems):
             return undecided("it rests on what is only supposed")
-        if less := fixes_it(candidate, printed, self.where):
+        if less := fixes_it(candidate, printed, self.where) or says_less(candidate, printed):
             return undecided(less)
         if candidate == printed:
             return ruling

@@ -14,6 +14,7 @@ from force_diffusion.symbolic.search.dual import (
     NOWHERE,
     ZERO,
     Dual,
+    Number,
     Slope,
     TooLargeError,
     Vector,
@@ -255,6 +256,8 @@ class Packing:
     geometry: Geometry
     given: Given
     _below: dict[Site, tuple[Dual, Dual]] = field(default_factory=dict, repr=False, compare=False)
+    moments: dict[object, Number] = field(default_factory=dict, repr=False, compare=False)
+    """What moments were found to be, by what they are of and the values of its symbols."""
 
     @cached_property
     def by_radius(self) -> "Packing":
