@@ -222,6 +222,9 @@ def given(
                 ),
                 lambda *at: NOWHERE if at == place else _any_load(*at),
             )
+        if name == "point":
+            down = Vector(ZERO, Dual(-f_load))
+            return Given(place[1], lambda *_: ZERO, lambda *at: down if at == place else NOWHERE)
         if name == "entering":
             entry = (place[0] - 1, place[1] - 1)
             return Given(
