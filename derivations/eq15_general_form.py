@@ -18,7 +18,7 @@ from force_diffusion.derivations.framework.averaging import (
     unit_height,
 )
 from force_diffusion.derivations.framework.layered import EveryLayer
-from force_diffusion.derivations.framework.proving import Line, in_place
+from force_diffusion.derivations.framework.proving import Line
 from force_diffusion.derivations.framework.record import ExactCase, Missed, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
@@ -42,6 +42,7 @@ from force_diffusion.derivations.parts.tensile import (
     tensile_fraction,
 )
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
+from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.axioms import GAUSSIAN_BELOW
 from force_diffusion.symbolic.kernel.where import AT_FIXED_RATIO, at_large_height
 from force_diffusion.symbolic.notation import Symbol

@@ -6,6 +6,7 @@ from force_diffusion.symbolic.attacks import (  # noqa: F401 - each adds its own
     averaging,
     comparing,
     inducing,
+    lines,
     moving,
     over_layers,
     rewriting,

@@ -96,6 +96,13 @@ def _() -> object:
     return told(moments.moment(ON_SURFACE, whole=whole), Mean(2 + ForcePlus(i, j)), 2, below)
 
 
+@attack("moment", "of what is supposed, elsewhere", "f⁺ is anything", "does not hold there")
+def _() -> object:
+    supposed = rules.suppose(equation(ForcePlus(i, j), j), BEADS, Supposition(j), 0)
+    mean = told(moments.moment(supposed), Mean(ForcePlus(i, j)), j)
+    return rules.instance(mean, {j: j + 2}, BEADS)
+
+
 # leading orders on late parts, and with indices that equations give
 
 CONE = Where.of(Eq(k, i + p - q), Eq(l, j + p + q), j >= 0, p >= 1, q >= 1, loading=POINT)
@@ -132,6 +139,9 @@ TRUE = told(limits.asymptotic(), l + 3, j + p + q, AT_CONE)
 """l + 3 ∼ j + p + q."""
 
 
+ELSEWHERE = Where.of(Eq(l, 2 * j + p + q), j >= 0, p >= 1, q >= 1).in_the_limit(inside_cone("∼"))
+
+
 def disproved(
     theorem: Theorem, right: sympy.Expr, left: sympy.Expr = l + 3, where: Where = AT_CONE
 ) -> Disproof:
@@ -144,11 +154,11 @@ for tried, right, left, where, false, refused in (
     ("what is true, written otherwise", l * (l + 1) / (j + p + q), l + 3, AT_CONE,
      "they go the same way", "go the same way"),
     ("another left-hand side", 2 * l, 2 * l, AT_CONE, "it is true", "about another"),
-    ("another domain", l, l + 3, AT_CONE.also(j >= 2), "it is true", "about another"),
+    ("another domain", 2 * j + p + q, l + 3, ELSEWHERE, "it is true there", "about another"),
     ("a statement at finite size", l + 3, l + 3, CONE, "it is true", "not one in a limit"),
     ("another limit", l, l + 3, CONE.in_the_limit(
      Limit("∼", "l → ∞ at fixed p and q", (j,), (j,))), "it is true there", "does not hold all"),
-    ("zero", l - l, l + 3, AT_CONE, "it is no statement", "no ratio"),
+    ("zero", l - l, l + 3, AT_CONE, "it is no statement", "division by zero"),
     ("what is no statement", 1 / (j - p), l + 3, AT_CONE, "it has no value at j = p",
      "not shown to differ"),
     ("an index that is left", l + i, l + 3, AT_CONE, "true at each i", "neither grows nor is"),

@@ -110,10 +110,10 @@ def _are_equal(left: Iterable[LinearForm], right: Iterable[LinearForm]) -> bool:
     return all((a - b).is_zero() for a, b in zip(left, right, strict=True))
 
 
-def along(theorem: Theorem, vector: sympy.Symbol) -> Theorem:
-    """The component of an equation between vectors along a base vector."""
+def along(theorem: Theorem, vector: sympy.Expr) -> Theorem:
+    """The component of an equation between vectors along a base vector, or along e_x."""
     formula = equation(*(sy.Dot(vector, side) for side in theorem.formula.args))
-    if vector not in sy.VECTORS:
+    if vector not in (*sy.VECTORS, sy.e_x):
         raise NotProvedError(f"{text(vector)} is no base vector")
     return made(formula, theorem.where, "component", (theorem,))
 
@@ -195,6 +195,7 @@ def below(balance: Theorem, *facts: Theorem | tuple[Theorem, ...]) -> Rule:
     """A contact's force, by ``solve`` from the balance of the bead above it."""
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
+        check(formula, where)
         about, value = isolated(formula, where)
         branch = _BRANCHES.get(type(about))
         if branch is None:
