@@ -204,6 +204,20 @@ class Part:
         return self.of.words
 
 
+@dataclass(frozen=True)
+class Within:
+    """A line of another equation, under the name of that equation."""
+
+    lines: Callable[[], Sequence["Line"]]
+    place: int
+    words: str
+
+    @property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """One for each of its equations."""
+        return self.lines()[self.place].theorems
+
+
 def facts_of(
     sources: Sequence[Source], supposed: tuple[Theorem, ...] = ()
 ) -> tuple[tuple[Theorem, ...], ...]:

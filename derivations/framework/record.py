@@ -319,7 +319,8 @@ def proved_by_line(
         ruling = _component(line, place, candidate)
     else:
         ruling = line.rule_on(place, candidate)
-        if ruling.verdict.is_proved and (less := fixes_it(candidate, printed, where)):
+        less = fixes_it(candidate, printed, where) or says_less(candidate, printed)
+        if ruling.verdict.is_proved and less:
             return undecided(less)
     if not ruling.verdict.is_proved or candidate == printed:
         return ruling
