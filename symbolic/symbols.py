@@ -208,6 +208,49 @@ class Covariance(Moment):
         return f"cov({', '.join(map(printer._print, self.args))})"
 
 
+class ForceOfLayer(Function):  # type: ignore[misc]
+    """The force of a contact that leads up from a bead of layer j, over its ordered value.
+
+    In any dimension, under loads along the sum of the base vectors, by which all contacts of a
+    layer are alike.
+    """
+
+    nargs = 1
+
+    def _latex(self, printer: Any) -> str:
+        return rf"f_{{{printer._print(self.args[0])}}}/\langle f\rangle"
+
+    def _text(self, printer: Any) -> str:
+        return f"f_({printer._print(self.args[0])})/⟨f⟩"
+
+
+class ForceBelow(Function):  # type: ignore[misc]
+    """Below one loaded bead O in three dimensions: a contact's force over that of ordered legs.
+
+    ForceBelow(c, p, q, s) leads up along base vector c = 1, 2, 3 from O − p e_1 − q e_2 − s e_3.
+    """
+
+    nargs = 4
+    head = "f"
+
+    def _latex(self, printer: Any) -> str:
+        axis, *steps = map(printer._print, self.args)
+        return rf"{self.head}^{{({axis})}}_{{{','.join(steps)}}}"
+
+    def _text(self, printer: Any) -> str:
+        axis, *steps = map(printer._print, self.args)
+        return f"{self.head}{axis}_({','.join(steps)})"
+
+
+class PushBelow(ForceBelow):
+    """The vertical component of the same, over that of ordered legs."""
+
+    head = "p"
+
+
+CONTACTS = (ForceOfLayer, ForceBelow, PushBelow)
+
+
 class MatrixTimes(Function):  # type: ignore[misc]
     """((a, b), (c, d)) v in Cartesian components, kept whole: arguments a, b, c, d, v."""
 

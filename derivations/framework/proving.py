@@ -220,6 +220,11 @@ def cases(by: By, *parts: Iterable[sympy.Basic]) -> By:
     return By(lambda supposed: rules.cases(by.rule(supposed), *parts), (by,))
 
 
+def divided(by: By) -> By:
+    """The same rule, on the parts of the domain that it asks for."""
+    return By(lambda supposed: rules.divided(by.rule(supposed)), (by,))
+
+
 def in_cases(*choices: tuple[sympy.Symbol, Sequence[Iterable[sympy.Basic]]], by: By) -> By:
     """The same rule, on parts of the domain of a statement that has an index."""
 

@@ -102,7 +102,7 @@ def read(formula: sympy.Eq, facts: Facts, where: Where) -> tuple[RationalFunctio
     assert limit is not None
     finite = without_moments(formula, facts, where.in_the_limit(None))
     sides = [side.xreplace({sy.z: sy.j / sy.M}) for side in finite.args]
-    known = {*_FIXED, *limit.growing}
+    known = {*_FIXED, *limit.growing} | ({sy.d} if where.dimension == sy.d else set())
     if strange := by_name(set().union(*(side.free_symbols for side in sides)) - known):
         raise NotProvedError(f"{text(strange[0])} neither grows nor is fixed")
     try:

@@ -13,6 +13,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm
 from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.kernel import any_dimension
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import (
     Facts,
@@ -60,6 +61,8 @@ def without_moments(formula: sympy.Eq, facts: Facts, where: Where) -> sympy.Eq:
 @lru_cache(maxsize=256)
 def value(one: sy.Moment, facts: Facts, where: Where) -> RationalFunction:
     """A moment at finite size, exact to leading order in the deviations of the radii."""
+    if one.has(*sy.CONTACTS):
+        return any_dimension.value(one, where)
     forms = tuple(in_the_radii(argument, facts, where) for argument in one.args)
     if isinstance(one, sy.Mean):
         return forms[0].at_zero

@@ -20,6 +20,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     NotProvedError,
     Supposition,
     Theorem,
+    UndecidedError,
     applies,
     basis,
     check,
@@ -281,6 +282,30 @@ def cases(rule: Rule, *parts: Iterable[sympy.Basic]) -> Rule:
 def _on_part(rule: Rule, formula: sympy.Eq, where: Where) -> Theorem:
     """On a part where equations fix indices these are put in, so that a sum may be empty there."""
     return proved_by(rule, at(formula, where.solved), where)
+
+
+def divided(rule: Rule, most: int = 24) -> Rule:
+    """The same rule on the parts of the domain that it asks for, which are at most so many."""
+    left = [most]
+
+    def parts(formula: sympy.Eq, where: Where) -> Theorem:
+        try:
+            return rule(formula, where)
+        except UndecidedError as reason:
+            left[0] -= 1
+            if left[0] < 0:
+                raise
+            number = reason.number
+        one, zero = sympy.S.One, sympy.S.Zero
+        above = (sympy.Eq if where.implies(number <= 0) else sympy.Ge)(number, zero)
+        below = (sympy.Eq if where.implies(number >= -1) else sympy.Le)(number, -one)
+        return cases(parts, (above,), (below,))(formula, where)
+
+    def whole(formula: sympy.Eq, where: Where) -> Theorem:
+        left[0] = most
+        return parts(formula, where)
+
+    return whole
 
 
 def instance(theorem: Theorem, image: Mapping[sympy.Symbol, sympy.Expr], where: Where) -> Theorem:

@@ -38,6 +38,14 @@ class NotProvedError(ValueError):
     """A rule does not prove a statement, and why."""
 
 
+class UndecidedError(NotProvedError):
+    """It is another statement where a whole number is ≥ 0, and where it is below."""
+
+    def __init__(self, words: str, number: sympy.Expr) -> None:
+        super().__init__(words)
+        self.number = number
+
+
 class NotAStatementError(NotProvedError):
     """What is written has no value, or no single one, somewhere on its domain."""
 
@@ -145,7 +153,7 @@ def check(formula: sympy.Eq, where: Where, *, in_a_limit: bool = False) -> None:
             raise NotAStatementError(f"its domain does not say what {text(symbol)} is")
     if reserved := by_name(free & {*UNKNOWNS[0], *UNKNOWNS[1]}):
         raise NotAStatementError(f"{text(reserved[0])} is a name of the kernel's own")
-    if where.dimension < 2:
+    if where.dimension != sy.d and where.dimension < 2:
         raise NotAStatementError("a packing has two dimensions or more")
     if where.dimension != 2 and (found := by_name(free & _PLANE)):
         raise NotAStatementError(f"{text(found[0])} belongs to the plane")
@@ -191,7 +199,7 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
         _check(argument, where, outer)
 
 
-_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, sy.Moment)
+_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, sy.Moment, *sy.CONTACTS)
 _QUANTITIES = {
     *FORCES, sy.DeltaNMinus, sy.DeltaNPlus, sy.DeltaR, sy.DeltaX, sy.Load, sy.Position,
     sy.SecondDifference,
@@ -489,7 +497,7 @@ def applies(theorem: Theorem, image: Mapped, where: Where, background: Facts) ->
             return False
     if own.loading is None:
         return True
-    if own.loading.everywhere:
+    if own.loading.everywhere or not own.loading.given:
         return own.loading.put_in(image) == where.loading
     return all(_given(one, where, background) for one in own.loading.put_in(image).given)
 

@@ -123,7 +123,7 @@ class Where:
         relations: between whole numbers; all of them hold.
         loading: what is known of loads and forces; None for a statement about geometry alone.
         even: sums of indices that are even, since beads are there: i + j of a bead (i, j).
-        dimension: of the packing: −1/dimension < φ < ½.
+        dimension: d of the packing: −1/d < φ < ½; d itself for every one from 2 on.
         limit: in which the statement holds, and not at finite size; None for most.
     """
 
@@ -131,7 +131,7 @@ class Where:
     relations: tuple[sympy.Basic, ...] = ()
     loading: Loading | None = None
     even: tuple[sympy.Expr, ...] = ()
-    dimension: int = 2
+    dimension: int | sympy.Symbol = 2
     limit: Limit | None = None
     rows: frozenset[Affine] = field(init=False, repr=False)
 

@@ -10,6 +10,7 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.where import LATTICE, Loading, Where
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search import any_dimension
 from force_diffusion.symbolic.search.dual import (
     NOWHERE,
     Dual,
@@ -120,8 +121,10 @@ def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = N
 
 
 def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> str | None:
-    if not isinstance(statement, sympy.Eq) or where.dimension != 2:
+    if not isinstance(statement, sympy.Eq):
         return None
+    if where.dimension != 2 or statement.has(*sy.CONTACTS):
+        return any_dimension.counterexample(statement, where, at_most)
     free = _free_symbols(statement)
     budget, below, compared = Budget(READS), None, False
     for at, world in islice(_drawn(_with_all_indices(where, free)), at_most):
