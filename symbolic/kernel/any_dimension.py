@@ -11,7 +11,7 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, UndecidedError
+from force_diffusion.symbolic.kernel.theorem import NotProvedError
 from force_diffusion.symbolic.kernel.where import Loading, Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
@@ -34,33 +34,45 @@ Linear = tuple[RationalFunction, dict[sympy.Expr, RationalFunction]]
 """A number, and the factor of each force."""
 
 
-def value(one: sy.Moment, where: Where) -> RationalFunction:
+def value(one: sy.Moment, where: Where, parts: int = 24) -> RationalFunction:
     """A moment of what is linear in contact forces, exact to leading order in the radii.
 
+    Where the domain leaves open which beads are one it is divided, and the form of one part holds
+    on the other as well; into as many ``parts`` at the most.
+
     Raises:
-        NotProvedError: it holds something else, or the domain doesn't say that there are contacts.
-        UndecidedError: it is another one on two parts of the domain.
+        NotProvedError: it holds something else, or is not one form on all of the domain.
     """
     forms = [_linear(sympy.sympify(argument), where) for argument in one.args]
-    of = _of_layers if where.loading in (SURFACE, BULK) else _below_a_load
     try:
-        if isinstance(one, sy.Mean):
-            found, forces = forms[0]
-            for force, factor in forces.items():
-                found = found + factor * FIELD.constant(_ordered(force, where))
-            return found
-        squares = [of(form, where) for form in forms]
-        if isinstance(one, sy.Covariance):
-            both = of(_plus(*forms), where)
-            found = (both - squares[0] - squares[1]) / FIELD.constant(2)
-        else:
-            found = squares[0]
+        return _of(one, forms, where)
     except UndeterminedError as reason:
-        if reason.number is None:
+        if reason.number is None or not parts:
             raise NotProvedError(f"two places may be one: {reason}") from None
-        raise UndecidedError(f"two places may be one: {reason}", reason.number) from None
-    scale = FIELD.generator(sy.sigma) / FIELD.generator(sy.r)
-    return found * scale**2
+        number = reason.number
+    above = (sympy.Eq if where.implies(sympy.Le(number, 0)) else sympy.Ge)(number, 0)
+    below = (sympy.Eq if where.implies(sympy.Ge(number, -1)) else sympy.Le)(number, -1)
+    halves = [where.also(above), where.also(below)]
+    found = [(value(one, half, parts - 1), half) for half in halves if not half.is_empty]
+    for (form, _), (other, there) in zip(found, reversed(found), strict=True):
+        image = {symbol: FIELD.from_sympy(fixed) for symbol, fixed in there.solved.items()}
+        if (form.substitute(image) - other).is_zero():
+            return form
+    raise NotProvedError(f"it is another one where {text(number)} ≥ 0 and where it is below")
+
+
+def _of(one: sy.Moment, forms: list[Linear], where: Where) -> RationalFunction:
+    if isinstance(one, sy.Mean):
+        found, forces = forms[0]
+        for force, factor in forces.items():
+            found = found + factor * FIELD.constant(_ordered(force, where))
+        return found
+    of = _of_layers if where.loading in (SURFACE, BULK) else _below_a_load
+    found = of(forms[0], where)
+    if isinstance(one, sy.Covariance):
+        both = of(_plus(*forms), where)
+        found = (both - found - of(forms[1], where)) / FIELD.constant(2)
+    return found * (FIELD.generator(sy.sigma) / FIELD.generator(sy.r)) ** 2
 
 
 def _linear(expression: sympy.Expr, where: Where) -> Linear:

@@ -29,7 +29,7 @@ from force_diffusion.symbolic.kernel.theorem import (
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.variances.weights import take_apart
+from force_diffusion.symbolic.variances.weights import Pieces, take_apart
 
 _KNOWN = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS} - {sy.epsilon}
 _RADII = (sy.DeltaR, sy.SecondDifference)
@@ -53,9 +53,15 @@ def without_moments(formula: sympy.Eq, facts: Facts, where: Where) -> sympy.Eq:
     Raises:
         NotProvedError: one of them can't be.
     """
-    image = {one: value(one, facts, where).to_sympy() for one in by_name(formula.atoms(sy.Moment))}
+    image = {one: worked_out(one, facts, where) for one in by_name(formula.atoms(sy.Moment))}
     sides = (side.xreplace(image) for side in formula.args)
     return equation(*(put_in(side, facts, where, facts) for side in sides))
+
+
+@lru_cache(maxsize=256)
+def worked_out(one: sy.Moment, facts: Facts, where: Where) -> sympy.Expr:
+    """The same as ``value``, in factors."""
+    return value(one, facts, where).to_sympy()
 
 
 @lru_cache(maxsize=256)
@@ -92,13 +98,20 @@ def in_the_radii(expression: sympy.Expr, facts: Facts, where: Where) -> LinearFo
     return forms[0]
 
 
+def fluctuation(form: LinearForm) -> LinearForm:
+    """The part of a form that depends on the radii."""
+    sites = {site: weight for site, weight in form.sites.items() if site.family != CONSTANT}
+    return LinearForm(sites, dict(form.rays))
+
+
 def _sum_of_squares(form: LinearForm, where: Where) -> RationalFunction:
     """Σ weight² of the radii of a form, each met once."""
-    fluctuation = LinearForm(
-        {site: weight for site, weight in form.sites.items() if site.family != CONSTANT},
-        dict(form.rays),
-    )
+    return pieces(form, where).sum_of_squares()
+
+
+def pieces(form: LinearForm, where: Where) -> Pieces:
+    """The weights of the radii of a form, each met once."""
     try:
-        return take_apart(fluctuation, where).sum_of_squares()
+        return take_apart(fluctuation(form), where)
     except NotExactError as reason:
         raise NotProvedError(f"two places may be one: {reason}") from None

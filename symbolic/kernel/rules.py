@@ -20,7 +20,6 @@ from force_diffusion.symbolic.kernel.theorem import (
     NotProvedError,
     Supposition,
     Theorem,
-    UndecidedError,
     applies,
     basis,
     check,
@@ -284,30 +283,6 @@ def _on_part(rule: Rule, formula: sympy.Eq, where: Where) -> Theorem:
     return proved_by(rule, at(formula, where.solved), where)
 
 
-def divided(rule: Rule, most: int = 24) -> Rule:
-    """The same rule on the parts of the domain that it asks for, which are at most so many."""
-    left = [most]
-
-    def parts(formula: sympy.Eq, where: Where) -> Theorem:
-        try:
-            return rule(formula, where)
-        except UndecidedError as reason:
-            left[0] -= 1
-            if left[0] < 0:
-                raise
-            number = reason.number
-        one, zero = sympy.S.One, sympy.S.Zero
-        above = (sympy.Eq if where.implies(number <= 0) else sympy.Ge)(number, zero)
-        below = (sympy.Eq if where.implies(number >= -1) else sympy.Le)(number, -one)
-        return cases(parts, (above,), (below,))(formula, where)
-
-    def whole(formula: sympy.Eq, where: Where) -> Theorem:
-        left[0] = most
-        return parts(formula, where)
-
-    return whole
-
-
 def instance(theorem: Theorem, image: Mapping[sympy.Symbol, sympy.Expr], where: Where) -> Theorem:
     """A theorem at another place.
 
@@ -546,3 +521,17 @@ def differentiate(root: sympy.Symbol, square: sympy.Expr) -> Rule:
         return made(formula, where, "differentiate")
 
     return rule
+
+
+def slope(formula: sympy.Eq, where: Where) -> Theorem:
+    """SymPy differentiates by the relative height z, of which no other symbol is a function."""
+    found = {by for one in formula.atoms(sympy.Derivative) for by in one.variables}
+    if found != {sy.z}:
+        raise NotProvedError(f"it is not about a derivative by {text(sy.z)}")
+    if formula.atoms(sy.SiteFunction, sy.Moment) or formula.free_symbols & {*sy.INDICES}:
+        raise NotProvedError(f"it holds what may depend on {text(sy.z)}")
+    sides = [side.replace(sympy.Derivative, sympy.diff) for side in formula.args]
+    check(equation(*sides), where)
+    if not holds(equation(*sides), where):
+        raise NotProvedError("the derivatives differ")
+    return made(formula, where, "slope")

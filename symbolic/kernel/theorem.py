@@ -9,7 +9,7 @@ when both of its sides are the same dual number, which one normal form decides.
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import InitVar, dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
@@ -36,14 +36,6 @@ _MADE_HERE = object()
 
 class NotProvedError(ValueError):
     """A rule does not prove a statement, and why."""
-
-
-class UndecidedError(NotProvedError):
-    """It is another statement where a whole number is ≥ 0, and where it is below."""
-
-    def __init__(self, words: str, number: sympy.Expr) -> None:
-        super().__init__(words)
-        self.number = number
 
 
 class NotAStatementError(NotProvedError):
@@ -187,7 +179,7 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
         except NotExactError as reason:
             raise NotAStatementError(str(reason)) from None
         return
-    if isinstance(node, sy.Moment) and any(one.has(sy.Moment) for one in node.args):
+    if isinstance(node, _MOMENTS) and any(one.has(*_MOMENTS) for one in node.args):
         raise NotAStatementError("a moment of a moment")
     if isinstance(node, sympy.Pow):
         _check_power(node, where)
@@ -199,7 +191,8 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
         _check(argument, where, outer)
 
 
-_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, sy.Moment, *sy.CONTACTS)
+_MOMENTS = (sy.Moment, sy.LargestShare)
+_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, *_MOMENTS, *sy.CONTACTS)
 _QUANTITIES = {
     *FORCES, sy.DeltaNMinus, sy.DeltaNPlus, sy.DeltaR, sy.DeltaX, sy.Load, sy.Position,
     sy.SecondDifference,
@@ -415,6 +408,7 @@ def _put_in(
     return node.xreplace(image) if image else node
 
 
+@lru_cache(maxsize=20_000)
 def _instance_of(
     theorem: Theorem, atom: sy.SiteFunction, where: Where, background: Facts
 ) -> sympy.Expr | None:

@@ -94,8 +94,9 @@ class Limit:
     """How indices grow together, and how a statement relates its sides then.
 
     Attributes:
-        relation: "∼": left over right goes to 1; "≈": the variance of left less right is of a lower
-            order than that of the force it is about; "∝": left over right goes to a function of φ.
+        relation: "∼": left over right goes to 1; "O": left over right stays bounded; "≈": the
+            variance of left less right is of a lower order than that of the force it is about; "∝":
+            left over right goes to a function of φ.
         words: the same in plain words, such as "M → ∞ at fixed z = j/M, 0 < z < 1".
         growing: the indices that grow.
         positive: as many sums of them, which all grow in fixed positive ratios; uniformly so while
@@ -112,6 +113,11 @@ def at_fixed_height(relation: str) -> Limit:
     """The limit M → ∞ at a fixed relative height z = j/M between base and surface."""
     words = "M → ∞ at fixed z = j/M, 0 < z < 1"
     return Limit(relation, words, (sy.M, sy.j), (sy.j, sy.M - sy.j))
+
+
+def in_a_layer(relation: str) -> Limit:
+    """The limit M → ∞ of a layer at a fixed distance from base or surface."""
+    return Limit(relation, "M → ∞ in a fixed layer", (sy.M,), (sy.M,))
 
 
 @dataclass(frozen=True)
@@ -138,6 +144,13 @@ class Where:
     def __post_init__(self) -> None:
         rows = frozenset(row for one in self.relations for row in _rows_of(one))
         object.__setattr__(self, "rows", rows)
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.indices, self.relations, self.loading, self.even, self.limit))
 
     @classmethod
     def of(

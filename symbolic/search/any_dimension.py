@@ -13,10 +13,9 @@ from itertools import islice
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.moments import without_moments
-from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search import limits
 from force_diffusion.symbolic.search.points import Point, points
 
 Bead = tuple[int, ...]
@@ -208,11 +207,8 @@ def _number(
 
 
 def _in_the_limit(statement: sympy.Eq, where: Where) -> str | None:
-    finite = without_moments(statement, (), where.in_the_limit(None))
-    exact, candidate = finite.args
-    dimensions = (2, 3, 5) if where.dimension == sy.d else (int(where.dimension),)
-    for one in dimensions:
-        at = {sy.d: sympy.Integer(one)}
-        if found := parts_in_the_limit(exact.xreplace(at), candidate.xreplace(at), LAYERS, one):
+    for one in (2, 3, 5) if where.dimension == sy.d else (int(where.dimension),):
+        sides = (side.xreplace({sy.d: sympy.Integer(one)}) for side in statement.args)
+        if found := limits.counterexample(sympy.Eq(*sides, evaluate=False), where, one):
             return f"d = {one}, {found}"
     return None

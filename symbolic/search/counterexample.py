@@ -10,7 +10,7 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.where import LATTICE, Loading, Where
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search import any_dimension
+from force_diffusion.symbolic.search import any_dimension, limits
 from force_diffusion.symbolic.search.dual import (
     NOWHERE,
     Dual,
@@ -109,7 +109,8 @@ def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = N
     """Words for values at which a statement is false or has no value; None where none is found.
 
     All points of ``points`` are tried, or ``at_most`` so many of them. Points at which it speaks of
-    a bead below the base say nothing, unless all do.
+    a bead below the base say nothing, unless all do. A statement in a limit is looked at where the
+    indices are large; its moments have to be worked out before.
 
     What can't be evaluated is not refuted: unknown symbols, floats and roots, a number beside a
     vector, a sum whose upper bound is below its lower one by more than one, what is too large.
@@ -125,6 +126,8 @@ def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> st
         return None
     if where.dimension != 2 or statement.has(*sy.CONTACTS):
         return any_dimension.counterexample(statement, where, at_most)
+    if where.limit:
+        return limits.counterexample(statement, where)
     free = _free_symbols(statement)
     budget, below, compared = Budget(READS), None, False
     for at, world in islice(_drawn(_with_all_indices(where, free)), at_most):
