@@ -22,15 +22,12 @@ from force_diffusion.derivations.beyond import b6_mean_bulk as b6
 from force_diffusion.derivations.beyond import b7_neighbouring_contacts as b7
 from force_diffusion.derivations.beyond import b8_neighbouring_beads as b8
 from force_diffusion.derivations.beyond import b10_stress as b10
-from force_diffusion.derivations.beyond import b11_any_dimension as b11
 from force_diffusion.derivations.beyond import b12_between_layers as b12
-from force_diffusion.derivations.beyond import b13_spheres_surface as b13
-from force_diffusion.derivations.beyond import b14_spheres_bulk as b14
 from force_diffusion.derivations.beyond import b15_mean_surface_direction as b15
 from force_diffusion.derivations.beyond import b16_mean_bulk_direction as b16
 from force_diffusion.derivations.beyond import b17_stress_bulk as b17
-from force_diffusion.derivations.beyond import b19_spheres_response as b19
-from force_diffusion.derivations.beyond import spheres
+from force_diffusion.derivations.beyond import t8_any_dimension as t8
+from force_diffusion.derivations.beyond import t9_spheres_response as t9
 from force_diffusion.derivations.parts import cone
 from force_diffusion.symbolic.symbols import M, N, d, i, j, k, kappa, l, n_y, p, phi, r, sigma, z
 from force_diffusion.symbolic.variances.cases import Piece
@@ -454,17 +451,20 @@ def source() -> str:
     for what, how, template, both in (
         ("variance", "load", EXACT, (eq13, eq14)),
         ("variance_at_angle", "load at an angle", DIRECTION, (b2, b3)),
-        ("variance_of_spheres", "load", SPHERES, (b13, b14)),
+        ("variance_of_spheres", "load", SPHERES, (t8.B13, t8.B14)),
         ("mean_shift", "load", MEAN, (b5, b6)),
         ("mean_shift_at_angle", "load at an angle", MEAN_AT_ANGLE, (b15, b16)),
     ):
         for load, equation in zip(("surface", "bulk"), both, strict=True):
-            number, forms = equation.DERIVATION.number, equation.exact_forms()
+            if isinstance(equation, t8.Case):
+                number, forms = equation.number, equation.variance.forms
+            else:
+                number, forms = equation.DERIVATION.number, equation.exact_forms()
             parts.append(_exact(f"{load}_{what}", f"{load} {how}", number, forms, template))
     for load, equation in (("surface", b10), ("bulk", b17)):
         name, number = f"{load}_stress_ratio_shift", equation.DERIVATION.number
         parts.append(_exact(name, f"{load} load", number, equation.STRESS.ratio(), STRESS))
-    in_any = b11.PRINTED.rhs.doit().xreplace({kappa: sympy.Integer(1)})
+    in_any = t8.B11.printed.rhs.doit().xreplace({kappa: sympy.Integer(1)})
     parts.append(DIMENSION.format(code=_code(in_any, M, d, z)))
     sinking = b4.PRINTED.rhs.doit().xreplace({n_y: sympy.Integer(1)})
     parts.append(SETTLING.format(sinking=_code(sinking, j)))
@@ -493,8 +493,8 @@ def source() -> str:
     )
     parts.append(
         RESPONSE_OF_SPHERES.format(
-            leg=indent(_piecewise(b19.LEG_PIECES, spheres.UNIT / 9), "    "),
-            face=_piecewise(b19.BEAD_PIECES, spheres.UNIT / 9),
+            leg=indent(_piecewise(t9.LEG_PIECES, t9.UNIT / 9), "    "),
+            face=_piecewise(t9.BEAD_PIECES, t9.UNIT / 9),
         )
     )
     return "".join(parts)

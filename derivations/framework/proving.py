@@ -189,16 +189,16 @@ def _in_place(node: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
     args = [_in_place(one, what, image) for one in node.args]
     if isinstance(what, type) and isinstance(node, what):
         result = image(*args)
-    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow) and _divides(node, what):
+    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow) and _divides(node):
         result = node.func(*args, evaluate=False)
     else:
         result = node.func(*args)
     return result
 
 
-def _divides(node: sympy.Basic, what: Any) -> bool:
-    """Whether something is divided by it there."""
-    return any(one.exp.is_negative and one.base.has(what) for one in node.atoms(sympy.Pow))
+def _divides(node: sympy.Basic) -> bool:
+    """Whether something is divided by there, which may be a factor above as well."""
+    return any(one.exp.is_negative for one in node.atoms(sympy.Pow))
 
 
 # the rules of the kernel, with what they rest on

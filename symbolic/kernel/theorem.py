@@ -238,6 +238,7 @@ class Normal:
         if any(isinstance(one, FORCES) and bound & one.free_symbols for one in held):
             raise NotProvedError("a force is summed over, which is not one unknown number")
         known = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS, *UNKNOWNS[0], *UNKNOWNS[1]}
+        known |= {where.dimension} if where.dimension == sy.d else set()
         left = [list(reversed(UNKNOWNS[0])), list(reversed(UNKNOWNS[1]))]
         for used in held & {*UNKNOWNS[0], *UNKNOWNS[1]}:
             for one in left:

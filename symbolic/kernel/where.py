@@ -220,6 +220,11 @@ class Where:
         loading = self.loading and self.loading.mirrored()
         return replace(self, relations=relations, loading=loading)
 
+    @property
+    def at_least(self) -> int:
+        """The lowest dimension of its packings."""
+        return 2 if self.dimension == sy.d else int(self.dimension)
+
     # what follows
 
     def nonnegative(self, value: Affine) -> bool:
@@ -290,7 +295,7 @@ class Where:
             return base ** (int(expression.exp) % 2) if base else 0
         held = expression.free_symbols & set(sy.INDICES)
         if not held:
-            return sign(expression)
+            return sign(expression, dimension=self.at_least)
         try:
             value = affine.from_sympy(expression)
         except NotExactError:

@@ -19,10 +19,17 @@ HEIGHTS = tuple(Rational(*z) for z in ((1, 2), (1, 3), (3, 4), (1, 100)))
 
 @dataclass(frozen=True)
 class Source:
-    """A printed equation and its sign: "=", "≈", "∼" or "∝"."""
+    """A printed equation, its sign ("=", "≈", "∼" or "∝"), the dimension of its packing, and a layer."""
 
     printed: sympy.Eq
     relation: str
+    dimension: int = 2
+    layer: int = 2
+
+    @property
+    def cosines(self) -> list[Rational]:
+        """Values of φ, which is above −1/d."""
+        return [one for one in COSINES if one * self.dimension > -1]
 
     @property
     def free(self) -> set[sympy.Symbol]:
@@ -78,7 +85,7 @@ class Source:
 
     def zeros(self) -> Zeros:
         """Yield places of the domain, in words, with what vanishes there."""
-        for c in COSINES:
+        for c in self.cosines:
             yield f"φ = {c}", sy.phi - c
         yield "φ = 0", sy.n_x - sy.n_y
         yield "φ = 5/13", 3 * sy.n_x - 2 * sy.n_y
