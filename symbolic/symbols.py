@@ -208,6 +208,18 @@ class Covariance(Moment):
         return f"cov({', '.join(map(printer._print, self.args))})"
 
 
+class LargestWeight(Function):  # type: ignore[misc]
+    """The largest weight of a radius in X, without its sign (X over a length)."""
+
+    nargs = 1
+
+    def _latex(self, printer: Any) -> str:
+        return rf"\max |w| \left( {printer._print(self.args[0])} \right)"
+
+    def _text(self, printer: Any) -> str:
+        return f"max |w|({printer._print(self.args[0])})"
+
+
 class LargestShare(Function):  # type: ignore[misc]
     """The largest share that one radius has in the variance of X: max w²/Σw² of its weights."""
 

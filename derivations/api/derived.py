@@ -14,6 +14,7 @@ from force_diffusion.derivations.export.document import (
     statement_latex,
 )
 from force_diffusion.derivations.export.terminal import (
+    expected_text,
     mutant_counts,
     outcomes_data,
     summary_line,
@@ -46,13 +47,15 @@ class Derived:
 
     @property
     def proved(self) -> bool:
-        """Whether every one of them is proved."""
+        """Whether every one is proved; statements refuted as expected speak for nobody."""
         return set(self.verdicts.values()) == {Verdict.PROVED}
 
     def counts(self) -> str:
-        """How many equations have which verdict, in words."""
+        """How many equations have which verdict, in words; and printed statements refuted."""
         counts = Counter(map(str, self.verdicts.values()))
-        return ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+        words = [f"{count} {verdict}" for verdict, count in counts.items()]
+        refuted = sum(len(one.refuted) for one in self.outcomes)
+        return ", ".join(filter(None, [*words, expected_text(refuted)]))
 
     def data(self) -> dict[str, Any]:
         """What JSON can hold: verdicts, checks and mutants of each equation, times in seconds."""

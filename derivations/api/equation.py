@@ -21,6 +21,7 @@ from force_diffusion.derivations.export.prose import either
 from force_diffusion.derivations.export.terminal import (
     check_text,
     counts_text,
+    expected_text,
     follows_text,
     heading,
     relation_of,
@@ -91,9 +92,18 @@ class Proof:
         return self.outcomes[-1].checks
 
     @property
+    def refuted(self) -> tuple[Check, ...]:
+        """Printed statements that were refuted as expected: ERRATA.md says why."""
+        return self.outcomes[-1].refuted
+
+    @property
     def mutants(self) -> tuple[Mutant, ...]:
         """The printed equation with one mechanical change each, and what the checker said."""
         return self.outcomes[-1].mutants
+
+    def _said(self) -> str:
+        number, refuted = self.outcomes[-1].derivation.number, expected_text(len(self.refuted))
+        return f"Eq. {number} is {self.verdict}{refuted and f'; {refuted}'}."
 
     def _premises(self) -> str:
         numbers = [str(one.number) for one in self.outcomes[-1].derivation.premises]
@@ -107,7 +117,7 @@ class Proof:
         outcome = self.outcomes[-1]
         return "\n".join(
             [
-                f"Eq. {outcome.derivation.number} is {self.verdict}. {self._premises()}",
+                f"{self._said()} {self._premises()}",
                 *map(summary_line, self.outcomes[:-1]),
                 *map(check_text, self.checks),
                 f"  - {counts_text(outcome)}",
@@ -124,7 +134,7 @@ class Proof:
         rows = [row(one.kind, str(one.verdict), one.name, one.note) for one in self.checks]
         return "\n".join(
             [
-                f"**Eq. {outcome.derivation.number} is {self.verdict}.** {self._premises()}",
+                f"**{self._said()}** {self._premises()}",
                 "",
                 row("kind", "verdict", "check", "note"),
                 row("---", "---", "---", "---"),

@@ -111,6 +111,15 @@ def _steps(derivation: Derivation, verdicts: list[str]) -> str:
     return _list("enumerate", items)
 
 
+def _refuted(derivation: Derivation) -> str:
+    """Printed statements that do not hold; they are in no fragment."""
+    return "".join(
+        f"\\par {prose_latex(sentence(one.reading))}\n"
+        f"\\[\n{latex_body([one.formula], RELATIONS[one.relation], room=380.0)}\n\\]\n"
+        for one in derivation.refuted
+    )
+
+
 def _mutants(found: FoundMutants) -> str:
     if not found.changes:
         return ""
@@ -156,6 +165,7 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
             f"\\input{{{fragment_name(derivation).removesuffix('.tex')}}}%\n",
             f"Verdict: \\textbf{{{found.verdict}}}. Coq: {_coq(found)}."
             + (f" Rests on Eq{plural}.\\ {rests}.\n" if rests else "\n"),
+            _part("Printed as well, and refuted", _refuted(derivation)),
             _part("Symbols", _list("itemize", symbols)),
             _part("Assumptions", _list("itemize", map(prose_latex, derivation.assumptions))),
             _part("Steps", _steps(derivation, step_verdicts(found.checks))),

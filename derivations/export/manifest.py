@@ -35,9 +35,9 @@ class Made(_Part):
 
 
 class FoundCheck(_Part):
-    """A step, a proof or a witness, and its verdict."""
+    """A step, a proof, a witness or the refutation of a printed statement, and its verdict."""
 
-    kind: Literal["step", "proof", "witness"]
+    kind: Literal["step", "proof", "witness", "refutation"]
     name: str
     verdict: Literal["proved", "refuted", "undecided", "agrees", "disagrees"]
     note: str

@@ -40,6 +40,21 @@ def printed_text(derivation: Derivation, indent: str = "  ") -> str:
     return "\n".join(indent + line for line in lines)
 
 
+def refuted_text(derivation: Derivation) -> list[str]:
+    """The printed statements that do not hold, each with how the paper's words are read in it."""
+    lines = []
+    for one in derivation.refuted:
+        lines += ["", _paragraph(f"Printed as well; {one.reading}.", "")]
+        lines += ["  " + line for line in text_lines(one.formula, one.relation, TEXT_WIDTH - 2)]
+    return lines
+
+
+def expected_text(refuted: int) -> str:
+    """How many printed statements were refuted as expected, in words; "" for none."""
+    plural = "" if refuted == 1 else "s"
+    return f"{refuted} printed statement{plural} refuted, as expected (see ERRATA)" * bool(refuted)
+
+
 def heading(derivation: Derivation) -> str:
     """Number and title."""
     return f"Eq. {derivation.number}: {derivation.title}"
@@ -47,7 +62,8 @@ def heading(derivation: Derivation) -> str:
 
 def statement_text(derivation: Derivation) -> str:
     """What the equation says, in what symbols, under which assumptions."""
-    parts = [heading(derivation), "", printed_text(derivation), "", "Symbols"]
+    parts = [heading(derivation), "", printed_text(derivation), *refuted_text(derivation)]
+    parts += ["", "Symbols"]
     for symbol, meaning in derivation.symbols:
         parts.append(_paragraph(f"{text(symbol)}: {meaning}", later="      "))
     parts += ["", "Assumptions"]
@@ -161,7 +177,8 @@ def outcome_text(outcome: Outcome) -> str:
         for words in [tried_text(tried_counts([outcome]))]
         if words
     ] + [""]
-    parts.append(f"Eq. {derivation.number} is {outcome.verdict} ({outcome.seconds:.2f} s)")
+    said = [f"Eq. {derivation.number} is {outcome.verdict}", expected_text(len(outcome.refuted))]
+    parts.append(f"{'; '.join(filter(None, said))} ({outcome.seconds:.2f} s)")
     return "\n".join(parts)
 
 
@@ -175,16 +192,21 @@ def summary_line(outcome: Outcome) -> str:
     steps = _count(kinds.count("step"), "step", "steps")
     proofs = _count(kinds.count("proof"), "proof", "proofs")
     witnesses = _count(kinds.count("witness"), "witness", "witnesses")
+    found = [steps, proofs, witnesses, counts_text(outcome), expected_text(len(outcome.refuted))]
     return (
         f"{outcome.derivation.number!s:>3}  {outcome.verdict:<9}  {outcome.derivation.title}: "
-        f"{steps}, {proofs}, {witnesses}, {counts_text(outcome)} ({outcome.seconds:.2f} s)"
+        f"{', '.join(filter(None, found))} ({outcome.seconds:.2f} s)"
     )
 
 
 def trouble_lines(outcome: Outcome) -> list[str]:
     """What kept an equation from being proved."""
     fine = {Verdict.PROVED, Verdict.AGREES}
-    lines = [check_text(check) for check in outcome.checks if check.verdict not in fine]
+    lines = [
+        check_text(check)
+        for check in outcome.checks
+        if check.verdict not in fine and not check.is_expected
+    ]
     lines += [
         mutant_text(mutant)
         for mutant in outcome.mutants
@@ -217,6 +239,7 @@ def outcomes_data(outcomes: Iterable[Outcome]) -> dict[str, Any]:
                 }
                 for check in outcome.checks
             ],
+            "refuted as expected": len(outcome.refuted),
             "mutants": mutant_counts(outcome),
             "statements": tried_counts([outcome]),
             "seconds": round(outcome.seconds, 6),

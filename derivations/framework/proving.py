@@ -5,8 +5,8 @@ uses. The kernel proves what is shown; anything else said in its place goes the 
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
 from typing import Any, Protocol
 
 import sympy
@@ -20,6 +20,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     refuted,
     undecided,
 )
+from force_diffusion.symbolic.kernel.disproofs import Disproof, other_leading_order
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import (
     NotAStatementError,
@@ -27,6 +28,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     Supposition,
     Theorem,
     isolated,
+    put_in,
     subject,
 )
 from force_diffusion.symbolic.kernel.where import Where
@@ -101,11 +103,13 @@ class By:
         sources: what it rests on.
         finite: of a statement in a limit, what it says at finite size, where explicit values are
             looked for.
+        force: where that depends on what a force is, an equation that says so.
     """
 
     rule: Callable[[tuple[Theorem, ...]], Rule]
     sources: tuple[Source, ...] = ()
     finite: Callable[[sympy.Eq, Where], sympy.Eq] | None = None
+    force: Callable[[Where], sympy.Eq] | None = None
 
     def names(self) -> tuple[str, ...]:
         """The lines and equations that it rests on."""
@@ -118,7 +122,7 @@ def _names(sources: Iterable[Source]) -> Iterable[str]:
             yield from one.names()
         elif isinstance(one, tuple):
             yield from _names(one)
-        elif isinstance(one, Chain) or hasattr(one, "theorems"):
+        elif isinstance(one, Chain) or (hasattr(one, "theorems") and hasattr(one, "words")):
             yield one.words
 
 
@@ -133,6 +137,36 @@ class Chain:
         """How another line names it."""
         words: str = self.sources[0].words
         return words
+
+
+@dataclass(frozen=True)
+class OfBoth:
+    """An equation about one branch, and its mirror image about the other."""
+
+    of: Proved
+
+    @cached_property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """Its theorem and the mirror image of that."""
+        (theorem,) = self.of.theorems
+        return theorem, rules.mirror(theorem)
+
+    @property
+    def words(self) -> str:
+        """How another line names it."""
+        return self.of.words
+
+
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """Theorems that no line shows; what they follow from is named by the line that uses them."""
+
+    prove: Callable[[], tuple[Theorem, ...]]
+
+    @cached_property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """All of them."""
+        return self.prove()
 
 
 def known(source: Source, supposed: tuple[Theorem, ...]) -> tuple[Theorem, ...]:
@@ -209,23 +243,62 @@ def rewrite(*facts: Source) -> By:
     return By(lambda supposed: rules.rewrite(*facts_of(facts, supposed)), facts)
 
 
-def moment(*facts: Source) -> By:
+def moment(*facts: Source, **parts: Any) -> By:
     """Both sides are the same once facts are put in and means and variances are worked out."""
-    return By(lambda supposed: moments.moment(*facts_of(facts, supposed)), facts)
+    return By(lambda supposed: moments.moment(*facts_of(facts, supposed), **parts), facts)
 
 
-def asymptotic(*facts: Source) -> By:
+def asymptotic(*facts: Source, late: Iterable[sympy.Basic] = ()) -> By:
     """Both sides are of the same leading order, moments worked out at finite size."""
+    late = tuple(late)
     return By(
-        lambda supposed: limits.asymptotic(*facts_of(facts, supposed)),
+        lambda supposed: limits.asymptotic(*facts_of(facts, supposed), late=late),
         facts,
-        lambda formula, where: moments.without_moments(formula, facts_of(facts), where),
+        lambda formula, where: moments.without_moments(
+            formula, facts_of(facts), where, where.also(*late)
+        ),
     )
+
+
+def exhausting(whole: Where, parts: Iterable[Where], by: By) -> By:
+    """The same rule for several statements, if their domains leave nothing of a whole one out."""
+    parts = tuple(parts)
+
+    def rule(supposed: tuple[Theorem, ...]) -> Rule:
+        if not whole.covered_by(parts):
+            raise NotProvedError("the statements leave something out")
+        return by.rule(supposed)
+
+    return By(rule, (by,))
 
 
 def bounded(*facts: Source) -> By:
     """No radius has more than a share of some order in a variance."""
     return By(lambda supposed: limits.bounded(*facts_of(facts, supposed)), facts)
+
+
+def negligible(force: Proved, *facts: Source) -> By:
+    """What a statement about one force drops varies less, by an order, than that force.
+
+    ``force`` says what the force is, ``facts`` what stands in it and in the statement.
+    """
+    whole = (OfBoth(force), *facts)
+    return By(
+        lambda supposed: limits.negligible(*facts_of(whole, supposed)),
+        whole,
+        lambda formula, where: _put_in(formula, facts, where),
+        cache(lambda where: _put_in(force.theorems[0].formula, facts, where)),
+    )
+
+
+def heaviest(*facts: Source) -> By:
+    """All weights of left less right are of a lower order than the largest of left."""
+    return By(lambda supposed: limits.heaviest(*facts_of(facts, supposed)), facts)
+
+
+def _put_in(formula: sympy.Eq, facts: tuple[Source, ...], where: Where) -> sympy.Eq:
+    told = facts_of(facts)
+    return equation(*(put_in(side, told, where, told) for side in formula.args))
 
 
 def follows(source: Source, *facts: Source) -> By:
@@ -399,7 +472,7 @@ class Line:
     def relation(self) -> str:
         """How it relates its sides: "=", or as in the limit that it is about."""
         where: Where = _at(0, self.where)
-        return where.limit.relation if where.limit else "="
+        return where.limit.relation.split()[0] if where.limit else "="
 
     @property
     def words(self) -> str:
@@ -445,11 +518,13 @@ class Line:
         """Explicit values at which a candidate is false, found without the rule; or None."""
         by, where = (_at(part, one) for one in (self.by, self.where))
         meant = self._meant(part, candidate)
+        finite = where.in_the_limit(None)
         try:
-            found = by.finite(meant, where.in_the_limit(None)) if by.finite else meant
+            found = by.finite(meant, finite) if by.finite else meant
+            force = by.force(finite) if by.force else None
         except (ArithmeticError, RecursionError, TypeError, ValueError):
             return None  # what it says at finite size is not known
-        return counterexample(found, where, at_most=at_most)
+        return counterexample(found, where, at_most=at_most, force=force)
 
     def _meant(self, part: int, candidate: sympy.Eq) -> sympy.Eq:
         meaning = _at(part, self.meaning)
@@ -492,6 +567,48 @@ def _in_order(name: str) -> tuple[bool, int]:
     return kind == "step", int(number) if number.isdigit() else 0
 
 
+@dataclass(frozen=True)
+class Refuted:
+    """A printed statement that does not hold, which a theorem contradicts.
+
+    Attributes:
+        reading: how the words of the paper are read in it.
+        formula: the equation.
+        by: the line with the theorem.
+        where: its domain.
+        meaning: what is written in short.
+    """
+
+    reading: str
+    formula: sympy.Eq
+    by: Line
+    where: Where
+    meaning: Meaning
+
+    @property
+    def relation(self) -> str:
+        """How it relates its sides."""
+        return self.where.limit.relation if self.where.limit else "="
+
+    def disprove(self) -> Disproof:
+        """The kernel's disproof.
+
+        Raises:
+            NotProvedError: it is not shown to be false.
+        """
+        (theorem,) = self.by.theorems
+        meant = equation(*(in_place(side, self.meaning) for side in self.formula.args))
+        return other_leading_order(theorem)(meant, self.where)
+
+    @cached_property
+    def ruling(self) -> Ruling:
+        """``refuted``, with what the quantity does instead, or ``undecided``."""
+        try:
+            return refuted(self.disprove().reason)
+        except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
+            return undecided(str(reason) or type(reason).__name__)
+
+
 class Lines(list[Line]):
     """The lines of a derivation, which number themselves.
 
@@ -503,13 +620,28 @@ class Lines(list[Line]):
         super().__init__()
         self._where = where
         self.claims: list[Line] = []
+        self.refuted: list[Refuted] = []
 
     def claim(
         self, name: str, formula: sympy.Basic, by: By | tuple[By, ...], **options: Any
-    ) -> None:
-        """Add a further statement that the lines prove; it is not one of them."""
+    ) -> Line:
+        """Add a further statement that the lines prove, and return it; it is not one of them."""
         domain = options.pop("where", self._where)
         self.claims.append(Line(name, formula, by, domain, **options))
+        return self.claims[-1]
+
+    def refute(
+        self, reading: str, formula: sympy.Eq, by: Line, *, where: Where, meaning: Meaning
+    ) -> None:
+        """Add a printed statement that a line contradicts: it is expected to be refuted."""
+        self.refuted.append(Refuted(reading, formula, by, where, meaning))
+
+    def add(self, line: Line, after: tuple[Proved, ...] = ()) -> Line:
+        """Add a line that is there already, under the number that it has."""
+        if line.number != len(self) + 1:
+            raise ValueError(f"line {line.number} in place {len(self) + 1}")
+        self.append(line if not after else replace(line, after=after))
+        return line
 
     def show(
         self,

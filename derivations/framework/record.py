@@ -6,7 +6,7 @@ from functools import cached_property, partial
 
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import Line, Lines, Shown, fixes_it
+from force_diffusion.derivations.framework.proving import Line, Lines, Refuted, Shown, fixes_it
 from force_diffusion.derivations.witnesses.both_sides import AbsentError, Points, compare
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
@@ -224,6 +224,12 @@ class Derivation:
         further = lines.claims if isinstance(lines, Lines) else ()
         return (*(Claim(one.reason, one.decide) for one in further), *self.claims)
 
+    @property
+    def refuted(self) -> tuple[Refuted, ...]:
+        """The printed statements that are known not to hold; ``printed`` are those that do."""
+        lines = self.steps() if self.decide is None else ()
+        return tuple(lines.refuted) if isinstance(lines, Lines) else ()
+
     def _line(self, printed: sympy.Eq) -> Line:
         return next(line for line in self._lines if printed in line.equations)
 
@@ -302,11 +308,16 @@ class ExactCase:
 class Check:
     """A step, a claim or a witness that has been run."""
 
-    kind: str  # "step", "proof" or "witness"
+    kind: str  # "step", "proof", "witness", or "refutation" of a printed statement
     name: str
     verdict: Verdict
     seconds: float
     note: str = ""
+
+    @property
+    def is_expected(self) -> bool:
+        """Whether a printed statement that is known not to hold was refuted."""
+        return self.kind == "refutation" and self.verdict is Verdict.REFUTED
 
 
 @dataclass(frozen=True)
@@ -358,3 +369,8 @@ class Outcome:
     mutants: tuple[Mutant, ...] = field(default=())
     tried: tuple[Tried, ...] = field(default=())
     seconds: float = 0.0
+
+    @property
+    def refuted(self) -> tuple[Check, ...]:
+        """The printed statements that were refuted as expected; the verdict is on the others."""
+        return tuple(check for check in self.checks if check.is_expected)

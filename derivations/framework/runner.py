@@ -57,7 +57,10 @@ def _timed(kind: str, name: str, decide: Callable[[], Ruling]) -> Check:
 
 
 def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
-    """Rule on each printed equation, on each step that leads to it, then on each further claim."""
+    """Rule on each printed equation, on each step that leads to it, then on each further claim.
+
+    Last come printed statements that are known not to hold.
+    """
     several = len(derivation.printed) > 1
     found: dict[sympy.Eq, Check] = {}
     for place, equation in enumerate(derivation.printed):
@@ -75,6 +78,9 @@ def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
     for claim in derivation.all_claims:
         watch(derivation, claim.name)
         yield _timed("proof", claim.name, claim.decide)
+    for one in derivation.refuted:
+        watch(derivation, one.reading)
+        yield _timed("refutation", one.reading, lambda r=one: r.ruling)  # type: ignore[misc]
 
 
 def _ruling(step: Shown, found: Mapping[sympy.Eq, Check]) -> Ruling:
@@ -210,14 +216,18 @@ def overall(
 ) -> Verdict:
     """Verdict on an equation from all that was found about it.
 
+    A printed statement that is known not to hold, and is not refuted, leaves it undecided.
     A mutant that is proved is a listed equivalent rewriting, and speaks for nobody.
     One that the checker neither refutes nor proves shows that the checker can't tell, and so does
     a true statement that it does not prove.
     """
-    found = {check.verdict for check in checks}
+    checks = tuple(checks)
+    found = {check.verdict for check in checks if check.kind != "refutation"}
     if found & {Verdict.REFUTED, Verdict.DISAGREES}:
         return Verdict.REFUTED
     if Verdict.UNDECIDED in found or Verdict.PROVED not in found:
+        return Verdict.UNDECIDED
+    if any(check.kind == "refutation" and not check.is_expected for check in checks):
         return Verdict.UNDECIDED
     if any(mutant.ruling.verdict is Verdict.UNDECIDED for mutant in mutants):
         return Verdict.UNDECIDED

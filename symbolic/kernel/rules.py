@@ -396,30 +396,47 @@ def induct(
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
         members = [(formula, where), *family]
-        one = -1 if down else 1
-        supposition = Supposition(over, start)
-        supposed = []
-        for claim, domain in members:
-            first, later = (over, start) if not down else (start, over)
-            if not domain.implies(sympy.Ge(first, later)):
-                raise NotProvedError(f"the domain goes beyond {text(over)} = {text(start)}")
-            supposed.append(suppose(claim, domain, supposition, one))
-        if mirrored:
-            supposed += [mirror(theorem) for theorem in supposed]
-        premises = []
-        for claim, domain in members:
-            left = [symbol for symbol in domain.indices if symbol != over]
-            first_where = domain.put_in({over: start}, left)
-            if not first_where.is_empty:
-                premises.append(proved_by(base, at(claim, {over: start}), first_where))
-            rest = sympy.Le(over, start - 1) if down else sympy.Ge(over, start + 1)
-            if not domain.also(rest).is_empty:
-                premises.append(proved_by(step(tuple(supposed)), claim, domain.also(rest)))
-        if any(one.supposed - {supposition} for one in premises):
-            raise NotProvedError("an induction within another one is not read")
-        return made(formula, where, "induction", premises, ended=(supposition,))
+        return inducted(over, start, base, step, members, down=down, mirrored=mirrored)[0]
 
     return rule
+
+
+def inducted(
+    over: sympy.Symbol,
+    start: sympy.Expr,
+    base: Rule,
+    step: Callable[[tuple[Theorem, ...]], Rule],
+    members: Sequence[tuple[sympy.Eq, Where]],
+    *,
+    down: bool = False,
+    mirrored: bool = False,
+) -> tuple[Theorem, ...]:
+    """All of a family of statements, by ``induct``."""
+    one = -1 if down else 1
+    supposition = Supposition(over, start)
+    supposed = []
+    for claim, domain in members:
+        first, later = (over, start) if not down else (start, over)
+        if not domain.implies(sympy.Ge(first, later)):
+            raise NotProvedError(f"the domain goes beyond {text(over)} = {text(start)}")
+        supposed.append(suppose(claim, domain, supposition, one))
+    if mirrored:
+        supposed += [mirror(theorem) for theorem in supposed]
+    premises = []
+    for claim, domain in members:
+        left = [symbol for symbol in domain.indices if symbol != over]
+        first_where = domain.put_in({over: start}, left)
+        if not first_where.is_empty:
+            premises.append(proved_by(base, at(claim, {over: start}), first_where))
+        rest = sympy.Le(over, start - 1) if down else sympy.Ge(over, start + 1)
+        if not domain.also(rest).is_empty:
+            premises.append(proved_by(step(tuple(supposed)), claim, domain.also(rest)))
+    if any(one.supposed - {supposition} for one in premises):
+        raise NotProvedError("an induction within another one is not read")
+    return tuple(
+        made(claim, domain, "induction", premises, ended=(supposition,))
+        for claim, domain in members
+    )
 
 
 def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:

@@ -26,8 +26,8 @@ from force_diffusion.symbolic.printing.text import text
 SUMMATION = (sy.m, sy.n)
 """The indices that a statement may sum over."""
 
-_BOUND = (*SUMMATION, sy.p, sy.q)
-"""The indices over which sums are written that are put into others."""
+_SPARE = (*SUMMATION, sy.p, sy.q)
+"""Those that a sum may be over once facts are put in."""
 
 FORCES = (sy.ForcePlus, sy.ForceMinus)
 _PLANE = {sy.n_x, sy.n_y, sy.spacing, *sy.VECTORS}
@@ -191,7 +191,7 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
         _check(argument, where, outer)
 
 
-_MOMENTS = (sy.Moment, sy.LargestShare)
+_MOMENTS = (sy.Moment, sy.LargestShare, sy.LargestWeight)
 _READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, *_MOMENTS, *sy.CONTACTS)
 _QUANTITIES = {
     *FORCES, sy.DeltaNMinus, sy.DeltaNPlus, sy.DeltaR, sy.DeltaX, sy.Load, sy.Position,
@@ -434,7 +434,7 @@ def _renamed(value: sympy.Expr, image: Mapped, where: Where) -> sympy.Expr:
     for series in value.atoms(sympy.Sum):
         if taken & {limit[0] for limit in series.limits}:
             (index,) = {limit[0] for limit in series.limits}
-            spare = [one for one in _BOUND if one not in taken and not series.has(one)]
+            spare = [one for one in _SPARE if one not in taken and not series.has(one)]
             if not spare:
                 raise NotProvedError(f"{text(index)} would have two meanings")
             value = value.xreplace({series: series.xreplace({index: spare[0]})})

@@ -6,7 +6,7 @@ directions are given by their products with the base vectors; forces are balance
 
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache
 from itertools import islice
@@ -209,6 +209,7 @@ def _number(
 def _in_the_limit(statement: sympy.Eq, where: Where) -> str | None:
     for one in (2, 3, 5) if where.dimension == sy.d else (int(where.dimension),):
         sides = (side.xreplace({sy.d: sympy.Integer(one)}) for side in statement.args)
-        if found := limits.counterexample(sympy.Eq(*sides, evaluate=False), where, one):
+        there = replace(where, dimension=one)
+        if found := limits.counterexample(sympy.Eq(*sides, evaluate=False), there):
             return f"d = {one}, {found}"
     return None

@@ -105,17 +105,28 @@ def _packing(world: World, name: str | None, place: tuple[int, ...]) -> Packing:
     return Packing(world.geometry, given(name, place, f_load, m_g))
 
 
-def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = None) -> str | None:
+def counterexample(
+    statement: sympy.Eq,
+    where: Where,
+    *,
+    at_most: int | None = None,
+    force: sympy.Eq | None = None,
+) -> str | None:
     """Words for values at which a statement is false or has no value; None where none is found.
 
     All points of ``points`` are tried, or ``at_most`` so many of them. Points at which it speaks of
     a bead below the base say nothing, unless all do. A statement in a limit is looked at where the
-    indices are large; its moments have to be worked out before.
+    indices are large; its moments have to be worked out before, and ``force`` says what the force
+    is that it is about.
 
     What can't be evaluated is not refuted: unknown symbols, floats and roots, a number beside a
     vector, a sum whose upper bound is below its lower one by more than one, what is too large.
     """
     try:
+        if where.dimension != 2 or statement.has(*sy.CONTACTS):
+            return any_dimension.counterexample(statement, where, at_most)
+        if where.limit:
+            return limits.counterexample(statement, where, force)
         return _search(statement, where, at_most)
     except Exception:  # whatever the tree, also one that is too deep for Python: nothing is found
         return None
@@ -124,10 +135,6 @@ def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = N
 def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> str | None:
     if not isinstance(statement, sympy.Eq):
         return None
-    if where.dimension != 2 or statement.has(*sy.CONTACTS):
-        return any_dimension.counterexample(statement, where, at_most)
-    if where.limit:
-        return limits.counterexample(statement, where)
     free = _free_symbols(statement)
     budget, below, compared = Budget(READS), None, False
     for at, world in islice(_drawn(_with_all_indices(where, free)), at_most):

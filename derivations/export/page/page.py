@@ -18,6 +18,7 @@ from force_diffusion.derivations.export.page.parts import Part
 from force_diffusion.derivations.export.page.proof_graph import proof_graph
 from force_diffusion.derivations.export.prose import both
 from force_diffusion.derivations.export.terminal import (
+    expected_text,
     mutant_counts,
     relation_of,
     step_verdicts,
@@ -65,13 +66,20 @@ def _steps(derivation: Derivation, verdicts: list[str]) -> Iterator[tuple[Markup
 def equation_view(outcome: Outcome, outcomes: Sequence[Outcome]) -> dict[str, Any]:
     """All that the page shows of one equation."""
     derivation = outcome.derivation
-    kinds = {kind: [c for c in outcome.checks if c.kind == kind] for kind in ("proof", "witness")}
+    kinds = {
+        kind: [c for c in outcome.checks if c.kind == kind]
+        for kind in ("proof", "witness", "refutation")
+    }
     return {
         "number": derivation.number,
         "title": prose(derivation.title),
         "verdict": str(outcome.verdict),
         "coq": recorded(derivation),
         "printed": display(derivation.printed, derivation.relation),
+        "refuted": [
+            (display([one.formula], one.relation), _noted(str(c.verdict), c.name, c.note))
+            for one, c in zip(derivation.refuted, kinds["refutation"], strict=True)
+        ],
         "symbols": [(symbol(one), prose(words)) for one, words in derivation.symbols],
         "assumptions": [prose(sentence(words)) for words in derivation.assumptions],
         "premises": [premise.number for premise in derivation.premises],
@@ -127,6 +135,7 @@ def page(outcomes: Sequence[Outcome], parts: Sequence[Part], command: str, made:
         equations=[equation_view(outcome, outcomes) for outcome in outcomes],
         totals={
             "proved": sum(outcome.verdict is Verdict.PROVED for outcome in outcomes),
+            "expected": expected_text(sum(check.is_expected for check in checks)),
             "proofs": sum(check.kind == "proof" for check in checks),
             "witnesses": sum(check.kind == "witness" for check in checks),
             **{kind: sum(count[kind] for count in counts) for kind in counts[0]},
