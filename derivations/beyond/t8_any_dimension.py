@@ -119,9 +119,11 @@ OF_SURFACE, OF_BULK = eq13.PRINTED.lhs, eq14.PRINTED.lhs
 B11 = Case("B11", OF_SURFACE, SURFACE, d,
            (Rational(2, 3), terms(d, -1), terms(times(2, d), -1)), SURFACE_PROFILE)  # fmt: skip
 B13 = Case("B13", OF_SURFACE, SURFACE, 3, (Rational(20, 3),), SURFACE_PROFILE,
-           -(M**2) * (1 - z) * (5 + 16 * phi + 5 * phi**2 + 3 * z * (5 + 8 * phi + phi**2)))  # fmt: skip
+           -(M**2) * (1 - z)
+           * (5 + 16 * phi + 5 * phi**2 + 3 * z * (5 + 8 * phi + phi**2)))  # fmt: skip
 B14 = Case("B14", OF_BULK, BULK, 3, (sympy.S.One,), BULK_PROFILE,
-           M**2 * (1 - z) * (5 + 4 * phi + 3 * phi**2 - z * (5 + 4 * phi - 13 * phi**2)) / 4)  # fmt: skip
+           M**2 * (1 - z)
+           * (5 + 4 * phi + 3 * phi**2 - z * (5 + 4 * phi - 13 * phi**2)) / 4)  # fmt: skip
 B20 = Case("B20", OF_BULK, BULK, d,
            (Rational(1, 10), terms(d, -1), terms(times(2, d), -1)), BULK_PROFILE)  # fmt: skip
 
@@ -175,7 +177,7 @@ def _any_dimension(case: Case) -> Lines:
             squares * (_BULK_SUM if case.bulk else _SURFACE_SUM),
         ),
         rewrite(),
-        where=Where.of(j >= 1, M >= j + 2),
+        where=Where.of(j >= 1, j + 2 <= M),
         after=(products,),
     )  # fmt: skip
     lines.show(
@@ -265,8 +267,8 @@ def _three_dimensions(case: Case) -> Lines:
     lines = Lines(variance.in_the_limit)
     inside = variance.show_forms(
         lines,
-        "every radius of the contact's lines, of those beside its path and of those along the other "
-        "two vectors is met once, slice by slice, and each sum has its certificate",
+        "every radius of the contact's lines, of those beside its path and of those along the "
+        "other two vectors is met once, slice by slice, and each sum has its certificate",
     )
     leading = variance.show_leading(
         lines, "To leading order in M at fixed z:", case.printed, inside
@@ -315,7 +317,7 @@ def _three_dimensions(case: Case) -> Lines:
 
 
 def _weights(case: Case, packing: SmallPacking) -> Ruling:
-    """Exact variances against the recursion from bead to bead, in two, three and four dimensions."""
+    """Exact variances against the recursion from bead to bead, in up to four dimensions."""
     cosine = witnesses.cosine_of(packing)
     forms = exact_forms(case)
 
@@ -337,7 +339,8 @@ def _weights(case: Case, packing: SmallPacking) -> Ruling:
 def _taylor(case: Case, packing: SmallPacking) -> Ruling:
     """The same against exact packings of spheres, solved as rational series."""
     cosine = witnesses.cosine_of(packing)
-    forms, values = exact_forms(case), {phi: cosine, sigma: 1, r: 1}
+    forms = exact_forms(case)
+    values: explicit.Values = {phi: cosine, sigma: 1, r: 1}
     load = "bulk" if case.bulk else "surface"
     return compare(
         (
@@ -387,7 +390,9 @@ def _derivation(
     further: tuple[Witness, ...] = (),
 ) -> Derivation:
     any_d = case.dimension == d
-    steps: Callable[[], Lines] = cache(partial(_any_dimension if any_d else _three_dimensions, case))
+    steps: Callable[[], Lines] = cache(
+        partial(_any_dimension if any_d else _three_dimensions, case)
+    )
     own = "every bead rests on three others, along base vectors with one mutual dot product φ"
     limit = "M → ∞ at fixed z"
     assumptions = (
@@ -440,7 +445,7 @@ ANY_SURFACE = _derivation(
         "What is special to discs is that nothing is left but lines: for d ≥ 3 the force also "
         "holds line sums along every third direction, summed over the contact's path. They cover "
         "an area with weights of order 1, and drop out of the leading order alone.",
-        "The mean of the profile over z is ½: M* is [3 r²/((d−1)(2d−1)κ²σ²)]^(1/3), and the "
+        "The mean of the profile over z is 1/2: M* is [3 r²/((d−1)(2d−1)κ²σ²)]^(1/3), and the "
         "exponent −2/3 stays.",
         "Eqs. B13 and B14 are the exact forms at finite M for d = 3; Eq. B20 is for a bulk load.",
     ),
@@ -473,9 +478,7 @@ ANY_BULK = _derivation(
     "Variance of the contact forces in any dimension under a bulk load, to leading order",
     f"every bead above the base carries the same load, {_ALONG}",
     (eq11.DERIVATION, eq14.DERIVATION, ANY_SURFACE, SPHERES_BULK),
-    (
-        "The mean of the profile over z is ⅔: M* is [15 r²/((d−1)(2d−1)κ²σ²)]^(1/3).",
-    ),
+    ("The mean of the profile over z is 2/3: M* is [15 r²/((d−1)(2d−1)κ²σ²)]^(1/3).",),
 )
 
 DERIVATIONS = {one.number: one for one in (ANY_SURFACE, SPHERES_SURFACE, SPHERES_BULK, ANY_BULK)}

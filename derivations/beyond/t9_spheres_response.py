@@ -40,6 +40,7 @@ from force_diffusion.symbolic.symbols import (
     Mean,
     PushBelow,
     Variance,
+    d,
     f_load,
     j,
     l,
@@ -205,7 +206,7 @@ class Quantity:
     @property
     def on_leg(self) -> bool:
         """Whether q does not count."""
-        return self.steps == ALONG_LEG
+        return not self.steps.has(q)
 
 
 _CONTACT = PushBelow(TWO, ALONG_FACE, q, NONE)
@@ -335,8 +336,8 @@ def steps() -> Lines:
 
     printed(
         "Both ν are differences of line sums down 2 and down 3, in the planes of these and of the "
-        "leg, and of radii of the leg. In the face the bead p steps along 1 and q along 2 below the "
-        "load is in layer j = l − p − q. Squared and summed, and with the share ⅓ of the "
+        "leg, and of radii of the leg. In the face the bead p steps along 1 and q along 2 below "
+        "the load is in layer j = l − p − q. Squared and summed, and with the share ⅓ of the "
         "vertical, one contact of a face has, but for j = 0 and q = 1,",
         0, *INSIDE, j + q >= 2,
     )  # fmt: skip
@@ -377,15 +378,13 @@ def steps() -> Lines:
             meaning=MEANING,
         )
     of_three, of_two = (
-        (t8.KAPPA**2 + (t8.d - 2) * t8.CROSSED**2).xreplace({t8.d: Integer(n)}) for n in (3, 2)
+        (t8.KAPPA**2 + (d - 2) * t8.CROSSED**2).xreplace({d: Integer(n)}) for n in (3, 2)
     )
     lines.claim(
         "κ² + κ′² takes the place of κ² = 1/(1−φ²)² of discs, ⅓ that of ½",
         sympy.Tuple(
             equation(of_three, SHARE / ((1 - phi) ** 2 * (1 + 2 * phi) ** 2)),
-            equation(
-                of_two * Rational(3, 2) * (l + j) * (sigma / r) ** 2, eq16.PRINTED.rhs.doit()
-            ),
+            equation(of_two * Rational(3, 2) * (l + j) * (sigma / r) ** 2, eq16.PRINTED.rhs.doit()),
         ),
         rewrite(),
         where=(_GEOMETRY, Where((j, l))),
@@ -396,9 +395,7 @@ def steps() -> Lines:
 # witnesses
 
 
-def _exact(
-    quantity: sympy.Basic, level: int, first: int, other: int, cosine: Fraction
-) -> Fraction:
+def _exact(quantity: sympy.Basic, level: int, first: int, other: int, cosine: Fraction) -> Fraction:
     """The variance for σ = r = 1 by the recursion from bead to bead."""
     bead = (first, other, 0)
     contacts = {ON_FACE: ((bead, 1),), BEAD: ((bead, 0), (bead, 1))}.get(quantity, ((bead, 0),))

@@ -9,6 +9,7 @@ surface (k small, M large) the terms in M and j alone would cancel, those in k d
 
 from pathlib import Path
 from textwrap import dedent, indent
+from typing import Any
 
 import sympy
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
@@ -435,6 +436,13 @@ def _piecewise(pieces: tuple[Piece, ...], unit: sympy.Expr) -> str:
     return indent(lines.rstrip(), "    ")
 
 
+def _forms(equation: Any) -> tuple[Any, Any]:
+    """Number and exact forms of an equation's module, or of a theorem's case."""
+    if isinstance(equation, t8.Case):
+        return equation.number, equation.variance.forms
+    return equation.DERIVATION.number, equation.exact_forms()
+
+
 def source() -> str:
     """The whole module, as formatted source."""
     parts = [dedent(HEADER)]
@@ -448,18 +456,16 @@ def source() -> str:
         top, bottom = sympy.fraction(sympy.together(scaled))
         body = f"{top} / ({bottom})".replace("(1 - phi**2)**2", "((1 - phi) * (1 + phi)) ** 2")
         parts.append(PRINTED.format(name=name, load=load, number=number, body=body))
-    for what, how, template, both in (
+    exact: tuple[tuple[str, str, str, tuple[Any, Any]], ...] = (
         ("variance", "load", EXACT, (eq13, eq14)),
         ("variance_at_angle", "load at an angle", DIRECTION, (b2, b3)),
         ("variance_of_spheres", "load", SPHERES, (t8.B13, t8.B14)),
         ("mean_shift", "load", MEAN, (b5, b6)),
         ("mean_shift_at_angle", "load at an angle", MEAN_AT_ANGLE, (b15, b16)),
-    ):
+    )
+    for what, how, template, both in exact:
         for load, equation in zip(("surface", "bulk"), both, strict=True):
-            if isinstance(equation, t8.Case):
-                number, forms = equation.number, equation.variance.forms
-            else:
-                number, forms = equation.DERIVATION.number, equation.exact_forms()
+            number, forms = _forms(equation)
             parts.append(_exact(f"{load}_{what}", f"{load} {how}", number, forms, template))
     for load, equation in (("surface", b10), ("bulk", b17)):
         name, number = f"{load}_stress_ratio_shift", equation.DERIVATION.number

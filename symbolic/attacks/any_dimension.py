@@ -28,7 +28,7 @@ from force_diffusion.symbolic.symbols import (
 )
 from sympy import Eq, Integer, Symbol
 
-INSIDE = (j >= 2, M >= j + 2)
+INSIDE = (j >= 2, j + 2 <= M)
 ANY = Where((j, M), INSIDE, SURFACE, dimension=d)
 SPHERES = replace(ANY, dimension=3)
 TOP = Where((M,), (M >= 3,), SURFACE, dimension=3)
@@ -38,8 +38,8 @@ FACE = ForceBelow(SECOND, p, q, NONE)
 HERE = ForceOfLayer(j)
 UNKNOWN = Symbol("nu", real=True)
 ONE_BELOW = ForceOfLayer(M - 1)
-BELOW_TOP = 6 * M * (1 + 2 * phi + 3 * phi**2) * (sigma / r) ** 2 / (
-    (1 - phi) ** 2 * (1 + 2 * phi) ** 2
+BELOW_TOP = (
+    6 * M * (1 + 2 * phi + 3 * phi**2) * (sigma / r) ** 2 / ((1 - phi) ** 2 * (1 + 2 * phi) ** 2)
 )
 """What its variance goes as, for d = 3."""
 WITH_Q = Where((j, q, M), INSIDE, SURFACE, dimension=3)
@@ -92,10 +92,10 @@ for tried, left, right, where, false, refused in (
      value(Variance(HERE), ANY).to_sympy().xreplace({d: Integer(2)}), SPHERES,
      "spheres fluctuate more", "both sides differ"),
     ("one layer too low", Variance(HERE), value(Variance(HERE), SPHERES).to_sympy(),
-     Where((j, M), (j >= 1, M >= j + 2), SURFACE, dimension=3), "another one at j = 1",
+     Where((j, M), (j >= 1, j + 2 <= M), SURFACE, dimension=3), "another one at j = 1",
      "another one where"),
     ("one layer too high", Variance(HERE), value(Variance(HERE), SPHERES).to_sympy(),
-     Where((j, M), (j >= 2, M >= j + 1), SURFACE, dimension=3), "another one at j = M − 1",
+     Where((j, M), (j >= 2, j + 1 <= M), SURFACE, dimension=3), "another one at j = M − 1",
      "another one where"),
     ("a face with its leg", Variance(FACE), value(Variance(FACE), CONE.also(j >= 1)).to_sympy(),
      Where((j, l, p, q), (j >= 1, p >= 0, q >= 1, Eq(l, j + p + q)), POINT, dimension=3),
@@ -113,7 +113,7 @@ for tried, left, right, where, false, refused in (
 @attack("moment in any dimension", "more parts than are looked at", "it is not decided",
         "two places may be one")  # fmt: skip
 def _() -> object:
-    return value(Variance(HERE), Where((j, M), (j >= 0, M >= j + 1), SURFACE, dimension=3), 0)
+    return value(Variance(HERE), Where((j, M), (j >= 0, j + 1 <= M), SURFACE, dimension=3), 0)
 
 
 @attack("moment in any dimension", "the surface's theorem below a bulk load", "it is another load",
@@ -123,10 +123,11 @@ def _() -> object:
     return told(rules.follows(same), M, M, replace(ANY, loading=BULK))
 
 
-for tried, left, right, where, false, refused in (
-    ("half of it", Variance(ONE_BELOW), BELOW_TOP / 2, TOP, "their ratio is 2", "of order 1"),
-    ("a leading part that vanishes at φ = −¼", M * (phi + Integer(1) / 4), M * (phi + Integer(1) / 4)
-     + 1, TOP, "1 and 0 there", "not shown to vanish nowhere"),
+for tried, small, right, where, false, refused in (
+    ("half of its variance", Variance(ONE_BELOW), BELOW_TOP / 2, TOP, "their ratio is 2",
+     "of order 1"),
+    ("a leading part that vanishes at φ = −¼", M * (4 * phi + 1), M * (4 * phi + 1) + 1, TOP,
+     "1 and 0 there", "not shown to vanish nowhere"),
     ("a leading part of no sign", M * (d - 3), M * (d - 3) + 1, replace(TOP, dimension=d),
      "it vanishes for d = 3", "not shown to vanish nowhere"),
     ("d, where it is three", M * d, M * d + 1, TOP, "d is three", "neither grows nor is fixed"),
@@ -135,7 +136,7 @@ for tried, left, right, where, false, refused in (
 
     @attack("asymptotic in any dimension", tried, false, refused)
     def _(
-        left: sympy.Expr = left, right: sympy.Expr = right, where: Where = where
+        left: sympy.Expr = small, right: sympy.Expr | int = right, where: Where = where
     ) -> object:
         limit = replace(at_fixed_height("∼"))
         if j not in where.indices:

@@ -1,4 +1,4 @@
-"""Explicit packings in any dimension to first order, and values at which a statement is false there.
+"""Explicit packings in any dimension to first order, and values at which a statement is false.
 
 A bead is named by d whole numbers, whose sum is its layer, and rests on d others. Displacements and
 directions are given by their products with the base vectors; forces are balanced bead by bead.
@@ -56,7 +56,9 @@ class Packing:
         size = self.dimension
         gram = sympy.Matrix(size, size, lambda a, b: 1 if a == b else sympy.Rational(self.cosine))
         inverse = gram.inv()
-        self._inverse = [[Fraction(int(x.p), int(x.q)) for x in inverse.row(a)] for a in range(size)]
+        self._inverse = [
+            [Fraction(int(x.p), int(x.q)) for x in inverse.row(a)] for a in range(size)
+        ]
 
     def displacement(self, bead: Bead, along: int) -> Form:
         """n^b·δx: at the contact along b the distance grows as both radii do."""
@@ -118,7 +120,9 @@ def _below_load(cosine: Fraction, level: int) -> Packing:
     return Packing(3, cosine, on_leg)
 
 
-def contact(one: sympy.Expr, at: Point, dimension: int, cosine: Fraction, load: str) -> tuple[int, Form]:
+def contact(
+    one: sympy.Expr, at: Point, dimension: int, cosine: Fraction, load: str
+) -> tuple[int, Form]:
     """A force over that with which it is compared: ordered, and its change."""
     numbers = [int(argument.xreplace(at)) for argument in one.args]
     if isinstance(one, sy.ForceOfLayer):
@@ -190,11 +194,23 @@ def _number(
             held = list(argument.atoms(*sy.CONTACTS))
             names = {force: sympy.Dummy() for force in held}
             inside = argument.xreplace(names)
-            known = [contact(force, values, dimension, cosine, load) for force in held]
-            image = {name: sympy.Integer(ordered) for name, (ordered, _) in zip(names.values(), known, strict=True)}
+            known = [contact(force, dict(values), dimension, cosine, load) for force in held]
+            image = {
+                name: sympy.Integer(ordered)
+                for name, (ordered, _) in zip(names.values(), known, strict=True)
+            }
             means.append(inside.xreplace({**image, **values}))
-            slopes = (sympy.diff(inside, name).xreplace({**image, **values}) for name in names.values())
-            forms.append(_sum(*((Fraction(int(s.p), int(s.q)), form) for s, (_, form) in zip(slopes, known, strict=True))))
+            slopes = (
+                sympy.diff(inside, name).xreplace({**image, **values}) for name in names.values()
+            )
+            forms.append(
+                _sum(
+                    *(
+                        (Fraction(int(s.p), int(s.q)), form)
+                        for s, (_, form) in zip(slopes, known, strict=True)
+                    )
+                )
+            )
         if isinstance(one, sy.Mean):
             return means[0]
         total = sum((w * forms[-1].get(bead, 0) for bead, w in forms[0].items()), Fraction(0))

@@ -19,7 +19,7 @@ HEIGHTS = tuple(Rational(*z) for z in ((1, 2), (1, 3), (3, 4), (1, 100)))
 
 @dataclass(frozen=True)
 class Source:
-    """A printed equation, its sign ("=", "≈", "∼" or "∝"), the dimension of its packing, and a layer."""
+    """A printed equation, its sign ("=", "≈", "∼" or "∝"), dimension, and a layer of its domain."""
 
     printed: sympy.Eq
     relation: str

@@ -7,15 +7,15 @@ force over its ordered value is 1 + α,
 
     α = (1/l_1) Σ_{n=1}^{K} b^1·Σ_c [u_n δn^c(x_n) − l_n δn^c(x_n − e_c)],
 
-l_n being the load that the path's contact below x_n carries, and u_n = l_{n+1} the one above. By the
-contact constraint, δn^c of the contact from y to y + e_c has
+l_n being the load that the path's contact below x_n carries, and u_n = l_{n+1} the one above. By
+the contact constraint, δn^c of the contact from y to y + e_c has
 
     n^b·δn^c = ½[L_b(y + e_c) − L_b(y) − φ (δr(y + e_c) + δr(y))],  b ≠ c,  and n^c·δn^c = 0,
 
-with the line sum L_b(y) = 2 Σ δr down b from y to the base, less δr at both ends. So a radius has a
-weight if its bead is x_a + v, with v of one of a few kinds; beads of a kind differ in *which* of the
-other d − 1 vectors they hold, which says how many they are. Factors are written with b^1·b^1 and
-b^1·b^c times (1−φ)(1+(d−1)φ), sums over a slice of one a are polynomials in a.
+with the line sum L_b(y) = 2 Σ δr down b from y to the base, less δr at both ends. So a radius has
+a weight if its bead is x_a + v, with v of one of a few kinds; beads of a kind differ in *which* of
+the other d − 1 vectors they hold, which says how many they are. Factors are written with b^1·b^1
+and b^1·b^c times (1−φ)(1+(d−1)φ), sums over a slice of one a are polynomials in a.
 """
 
 from collections.abc import Iterator
@@ -134,9 +134,7 @@ class _Path:
         if sizes[2] > 0:
             down = down + lines[2] * _THIRD
             crossing = _TWO * lines[2] * _second(sizes[2])
-            total = total + _PAIRS * (
-                _HALF * crossing**2 + _further(lines[2], layer - 1, sizes[2])
-            )
+            total = total + _PAIRS * (_HALF * crossing**2 + _further(lines[2], layer - 1, sizes[2]))
         return total + here**2 + _OTHERS * (up**2 + down**2)
 
     def _along(

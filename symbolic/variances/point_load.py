@@ -1,9 +1,9 @@
 """Weights of radii in the forces below one loaded bead in three dimensions, the radii being r = 1.
 
 A bead is named by its steps down from the loaded bead O along the three base vectors: O − u. The
-ordered load goes straight down three legs, as a force of 1 in each of their contacts. To first order
-what enters a bead leaves it along the same vector, and b^a·Σ_c (F^c δn^c − F^c δn^c below) is added,
-F being ordered forces. So a force is the sum of what turns into it on legs, up its own path.
+ordered load goes straight down three legs, as a force of 1 in each of their contacts. To first
+order what enters a bead leaves it along the same vector, and b^a·Σ_c (F^c δn^c − F^c δn^c below) is
+added, F being ordered forces. So a force is the sum of what turns into it on legs, up its own path.
 A form is a few single beads and a few line sums, which run down along one vector to the base. Which
 of them meet, and where, is decided on a domain. Factors are written with b^a·b^a and b^a·b^c times
 (1−φ)(1+2φ).
