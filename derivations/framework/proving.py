@@ -458,6 +458,7 @@ class Line:
         meaning: what is written in short; one for each equation, or one for all.
         after: lines and equations that it follows in the text, beside those that its rule uses.
         number: its place among the lines, from 1.
+        alike: lines that say the same of other packings, and have to be proved as well.
     """
 
     reason: str
@@ -467,6 +468,7 @@ class Line:
     meaning: Meaning | tuple[Meaning, ...] | None = None
     after: tuple[Proved, ...] = ()
     number: int = 0
+    alike: tuple["Line", ...] = ()
 
     @property
     def relation(self) -> str:
@@ -491,6 +493,7 @@ class Line:
         rules_of = self.by if isinstance(self.by, tuple) else (self.by,)
         names = [name for one in rules_of for name in one.names()]
         names += [one.words for one in self.after]
+        names += [name for one in self.alike for name in one.uses]
         return tuple(sorted(dict.fromkeys(names), key=_in_order))
 
     def prove(self, part: int, candidate: sympy.Eq) -> Theorem:
@@ -499,6 +502,8 @@ class Line:
         Raises:
             NotProvedError: the rule does not prove it.
         """
+        for one in self.alike:
+            one.prove(part, candidate)
         by, where = (_at(part, one) for one in (self.by, self.where))
         rule: Rule = by.rule(())
         return rule(self._meant(part, candidate), where)
@@ -652,10 +657,11 @@ class Lines(list[Line]):
         where: Where | tuple[Where, ...] | None = None,
         meaning: Meaning | tuple[Meaning, ...] | None = None,
         after: tuple[Proved, ...] = (),
+        alike: tuple[Line, ...] = (),
     ) -> Line:
         """Add a line and return it."""
         domain = self._where if where is None else where
-        self.append(Line(reason, formula, by, domain, meaning, after, len(self) + 1))
+        self.append(Line(reason, formula, by, domain, meaning, after, len(self) + 1, alike))
         return self[-1]
 
 

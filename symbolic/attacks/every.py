@@ -7,6 +7,7 @@ from force_diffusion.symbolic.attacks import (  # noqa: F401 - each adds its own
     averaging,
     inducing,
     moving,
+    over_layers,
     rewriting,
     solving,
     statements,

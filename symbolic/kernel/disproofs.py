@@ -5,7 +5,7 @@ from dataclasses import InitVar, dataclass
 
 import sympy
 from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel.limits import in_its_limit, leading, order, read
+from force_diffusion.symbolic.kernel.limits import leading, limit_of, order, read
 from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
@@ -51,7 +51,7 @@ def other_leading_order(theorem: Theorem) -> Refute:
     """
 
     def refute(formula: sympy.Eq, where: Where) -> Disproof:
-        limit = in_its_limit(formula, where, "∼")
+        limit = limit_of(formula, where, "∼")
         if theorem.supposed:
             raise NotProvedError("the theorem rests on what is only supposed")
         if theorem.where != where or theorem.formula.lhs != formula.lhs:

@@ -38,7 +38,8 @@ from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.variances.weights import Pieces
 
 _NEVER = 10**9  # no order is as large
-_FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
+FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
+"""What stays as it is in every limit."""
 
 
 def asymptotic(*facts: Theorem | tuple[Theorem, ...], late: Iterable[sympy.Basic] = ()) -> Rule:
@@ -53,12 +54,12 @@ def asymptotic(*facts: Theorem | tuple[Theorem, ...], late: Iterable[sympy.Basic
     """
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = in_its_limit(formula, where, "∼")
+        limit = limit_of(formula, where, "∼")
         part = where.also(*late)
-        in_its_limit(formula, part, "∼")
+        limit_of(formula, part, "∼")
         left, right = read(formula, facts, where, part)
         low, high = order(left - right, limit), order(right, limit)
-        if not low < high:
+        if not low <= high - limit.orders:
             raise NotProvedError(
                 f"left less right is of order {low}, the right-hand side of order {high}"
             )
@@ -76,7 +77,7 @@ def bounded(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
     """The weight of each radius, or its share in the variance, is of the order on the right."""
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = in_its_limit(formula, where, "O")
+        limit = limit_of(formula, where, "O")
         most, bound = formula.args
         if not isinstance(most, sy.LargestShare | sy.LargestWeight):
             raise NotProvedError(f"{text(most)} is no largest share, or weight, of a radius")
@@ -100,7 +101,7 @@ def negligible(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
     """
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = in_its_limit(formula, where, "≈")
+        limit = limit_of(formula, where, "≈")
         finite = where.in_the_limit(None)
         force, factor = _one_force(formula, where)
         varies = value(sy.Variance(force), facts, finite) * factor**2
@@ -123,7 +124,7 @@ def heaviest(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
     """All weights of left less right are of a lower order than the largest of left."""
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = in_its_limit(formula, where, "≈ by weight")
+        limit = limit_of(formula, where, "≈ by weight")
         finite = where.in_the_limit(None)
         alone = in_the_radii(_at_height(formula.lhs, where), facts, finite)
         large = [full for full, _ in pieces(alone, finite).special.values() if not full.is_zero()]
@@ -212,7 +213,7 @@ def _order_over_layers(weight: RationalFunction, limit: Limit) -> int:
     )
 
 
-def in_its_limit(formula: sympy.Eq, where: Where, relation: str) -> Limit:
+def limit_of(formula: sympy.Eq, where: Where, relation: str) -> Limit:
     """The limit of a statement, if its domain holds all but the first of what grows so.
 
     Raises:
@@ -267,7 +268,7 @@ def read(
         one.in_the_limit(None) for one in (where, part or where)
     ))  # fmt: skip
     sides = [_at_height(side, where) for side in finite.args]
-    known = {*_FIXED, *limit.growing} | ({sy.d} if where.dimension == sy.d else set())
+    known = {*FIXED, *limit.growing} | ({sy.d} if where.dimension == sy.d else set())
     if strange := by_name(set().union(*(side.free_symbols for side in sides)) - known):
         raise NotProvedError(f"{text(strange[0])} neither grows nor is fixed")
     try:

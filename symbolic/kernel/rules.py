@@ -516,7 +516,8 @@ def differentiate(root: sympy.Symbol, square: sympy.Expr) -> Rule:
     """SymPy differentiates; ``root`` is positive, and stands for the root of what is positive."""
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        if formula.has(root) or square.free_symbols & _PARAMETERS:
+        held = square.free_symbols & _PARAMETERS
+        if formula.has(root) or (held and where.sign(square) != 1):
             raise NotProvedError(f"{text(root)} is not the root of what is positive")
 
         def read(node: sympy.Basic) -> sympy.Basic:

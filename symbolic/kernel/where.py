@@ -96,18 +96,22 @@ class Limit:
     Attributes:
         relation: "∼": left over right goes to 1; "O": left over right stays bounded; "≈": the
             variance of left less right is of a lower order than that of the force it is about; "∝":
-            left over right goes to a function of φ; "≈ by weight": the largest weight of left less
-            right is of a lower order than that of left.
+            left over right goes to a function of φ, which is positive; "≈ by weight": the largest
+            weight of left less right is of a lower order than that of left; "=": both sides go to
+            the same.
         words: the same in plain words, such as "M → ∞ at fixed z = j/M, 0 < z < 1".
         growing: the indices that grow.
         positive: as many sums of them, which all grow in fixed positive ratios; uniformly so while
             the ratios, and φ, stay within closed parts of their ranges.
+        orders: of what is related by "∼", how many leading orders are the same: left over right is
+            1 up to what vanishes faster than size^(1−orders).
     """
 
     relation: str
     words: str
     growing: tuple[sympy.Symbol, ...]
     positive: tuple[sympy.Expr, ...]
+    orders: int = 1
 
 
 def inside_cone(relation: str) -> Limit:
@@ -136,9 +140,18 @@ def at_fixed_height(relation: str) -> Limit:
     return Limit(relation, words, (sy.M, sy.j), (sy.j, sy.M - sy.j))
 
 
+def at_large_height(relation: str, orders: int = 1) -> Limit:
+    """The limit M → ∞ of what belongs to no layer."""
+    return Limit(relation, "M → ∞", (sy.M,), (sy.M,), orders)
+
+
 def in_a_layer(relation: str) -> Limit:
     """The limit M → ∞ of a layer at a fixed distance from base or surface."""
     return Limit(relation, "M → ∞ in a fixed layer", (sy.M,), (sy.M,))
+
+
+AT_FIXED_RATIO = Limit("=", "M → ∞ at fixed M/M*, as σ decreases", (sy.M,), (sy.M,))
+"""The limit in which variances over squared means stay, as M* grows with M."""
 
 
 @dataclass(frozen=True)

@@ -106,6 +106,8 @@ def counterexample(statement: sympy.Eq, where: Where, force: sympy.Eq | None = N
     if limit and limit.relation == "≈" and force is not None:
         return varies_too_much(force.rhs, statement)
     left, right = (side.xreplace(where.solved) for side in statement.args)
+    if limit and limit.relation == "∝":
+        return not_proportional(right, left / right)
     if limit is None or limit.relation != "∼" or not _is_rational(left):
         return None
     return parts_in_the_limit(left, right, _places(limit), where.dimension)
