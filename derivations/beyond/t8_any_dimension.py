@@ -14,6 +14,7 @@ import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
+from force_diffusion.derivations.framework.averaging import integral
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.record import usual
 from force_diffusion.derivations.framework.vocabulary import (
@@ -247,6 +248,14 @@ def _claim_any(case: Case, lines: Lines, geometry: Where) -> None:
             rewrite(),
             where=geometry,
         )
+    mean, height = (Rational(2, 3), "15") if case.bulk else (Rational(1, 2), "3")
+    lines.claim(
+        f"the mean of the profile over z is {mean}: M* is [{height} r²/((d−1)(2d−1)κ²σ²)]^(1/3), "
+        "and the exponent −2/3 stays",
+        equation(sympy.Integral(times(*case.profile.args[1:]), (z, 0, 1)), mean),
+        integral(),
+        where=geometry,
+    )
     lines.claim(
         "one layer below the surface both loads have one form, for every d",
         equation(case.symbol, _below_surface()),
@@ -445,8 +454,6 @@ ANY_SURFACE = _derivation(
         "What is special to discs is that nothing is left but lines: for d ≥ 3 the force also "
         "holds line sums along every third direction, summed over the contact's path. They cover "
         "an area with weights of order 1, and drop out of the leading order alone.",
-        "The mean of the profile over z is 1/2: M* is [3 r²/((d−1)(2d−1)κ²σ²)]^(1/3), and the "
-        "exponent −2/3 stays.",
         "Eqs. B13 and B14 are the exact forms at finite M for d = 3; Eq. B20 is for a bulk load.",
     ),
     (_SOLVED,),
@@ -478,7 +485,6 @@ ANY_BULK = _derivation(
     "Variance of the contact forces in any dimension under a bulk load, to leading order",
     f"every bead above the base carries the same load, {_ALONG}",
     (eq11.DERIVATION, eq14.DERIVATION, ANY_SURFACE, SPHERES_BULK),
-    ("The mean of the profile over z is 2/3: M* is [15 r²/((d−1)(2d−1)κ²σ²)]^(1/3).",),
 )
 
 DERIVATIONS = {one.number: one for one in (ANY_SURFACE, SPHERES_SURFACE, SPHERES_BULK, ANY_BULK)}
