@@ -83,7 +83,7 @@ class Layered:
 
     Attributes:
         symbol: what is printed for it.
-        moment: what that is, such as ``Variance(f⁺_ij/⟨f⟩)``.
+        moment: what that is, such as ``Variance(f⁺_ij/⟨f⟩)``, or a sum of several.
         facts: what gives its forces in the radii, to be put in one after the other.
         loading: of the packing; a load's direction is a symbol of the facts.
         meaning: of further symbols in the moment.
@@ -92,7 +92,7 @@ class Layered:
     """
 
     symbol: sympy.Expr
-    moment: Moment
+    moment: sympy.Expr
     facts: tuple[Source, ...]
     loading: Loading
     meaning: Meaning = field(default_factory=dict)
@@ -120,7 +120,11 @@ class Layered:
         return replace(Where.of(*relations, loading=self.loading), dimension=self.dimension)
 
     def _value(self, where: Where) -> RationalFunction:
-        return moments.value(in_place(self.moment, self.meaning), facts_of(self.facts), where)
+        meant, facts = in_place(self.moment, self.meaning), facts_of(self.facts)
+        if isinstance(meant, Moment):
+            return moments.value(meant, facts, where)
+        worked_out = moments.without_moments(equation(meant, sympy.S.Zero), facts, where).lhs
+        return FIELD.from_sympy(worked_out).reduced()
 
     @cached_property
     def forms(self) -> dict[str, ClosedForm]:

@@ -199,6 +199,20 @@ class Part:
         return self.of.words
 
 
+@dataclass(frozen=True)
+class Within:
+    """A line of another equation, under the name of that equation."""
+
+    lines: Callable[[], Sequence["Line"]]
+    place: int
+    words: str
+
+    @property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """One for each of its equations."""
+        return self.lines()[self.place].theorems
+
+
 def facts_of(
     sources: Sequence[Source], supposed: tuple[Theorem, ...] = ()
 ) -> tuple[tuple[Theorem, ...], ...]:
@@ -231,7 +245,7 @@ def _in_place(node: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
 
 
 def _divides(node: sympy.Basic) -> bool:
-    """Whether something is divided by there, which may be a factor above as well."""
+    """Whether it holds a divisor, which a factor may cancel."""
     return any(one.exp.is_negative for one in node.atoms(sympy.Pow))
 
 
