@@ -242,6 +242,21 @@ class Tensile(Function):  # type: ignore[misc]
     _latex = _text
 
 
+class Shift(Moment):
+    """⟨X⟩ less its value in the ordered packing, at second order in the deviations of the radii.
+
+    Forces and displacements in X stand for what they are to second order.
+    """
+
+    nargs = 1
+
+    def _latex(self, printer: Any) -> str:
+        return rf"\left\langle {printer._print(self.args[0])} \right\rangle_2"
+
+    def _text(self, printer: Any) -> str:
+        return f"⟨{printer._print(self.args[0])}⟩₂"
+
+
 class LargestShare(Function):  # type: ignore[misc]
     """The largest share that one radius has in the variance of X: max w²/Σw² of its weights."""
 

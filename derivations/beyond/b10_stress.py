@@ -5,8 +5,7 @@ from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.beyond import b4_settling as b4
-from force_diffusion.derivations.beyond import b5_mean_surface as b5
+from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.beyond.stress import (
     BY_FLUX,
     MEAN_XX,
@@ -147,7 +146,7 @@ DERIVATION = Derivation(
         "a vertical surface load",
         "printed form: 2 ≤ j ≤ M − 2; exact forms of the ratio: every 0 ≤ j < M",
     ),
-    premises=(eq11.DERIVATION, b4.DERIVATION, b5.DERIVATION),
+    premises=(eq11.DERIVATION, t4.B4, t4.B5),
     printed=PRINTED,
     domain=(sympy.Ge(j, 2), sympy.Ge(M, j + 2)),
     exact=lambda: exact_cases(RATIO - 1, STRESS.ratio(), "second order"),

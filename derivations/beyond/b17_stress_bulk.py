@@ -6,9 +6,8 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.derivations.beyond import b4_settling as b4
-from force_diffusion.derivations.beyond import b6_mean_bulk as b6
 from force_diffusion.derivations.beyond import b10_stress as b10
+from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.beyond.stress import (
     BY_FLUX,
     MEAN_XX,
@@ -125,8 +124,8 @@ DERIVATION = Derivation(
     premises=(
         eq11.DERIVATION,
         eq14.DERIVATION,
-        b4.DERIVATION,
-        b6.DERIVATION,
+        t4.B4,
+        t4.B6,
         b10.DERIVATION,
     ),
     printed=PRINTED,

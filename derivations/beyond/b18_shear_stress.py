@@ -7,13 +7,11 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond import b10_stress as b10
-from force_diffusion.derivations.beyond import b15_mean_surface_direction as b15
-from force_diffusion.derivations.beyond import b16_mean_bulk_direction as b16
 from force_diffusion.derivations.beyond import b17_stress_bulk as b17
 from force_diffusion.derivations.beyond import t1_forces as b1
 from force_diffusion.derivations.beyond import t2_variance as t2
+from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.beyond.mean_directions import in_means, mirrored, ratio_stays
 from force_diffusion.derivations.beyond.means import decide_in_field
 from force_diffusion.derivations.beyond.stress import Stress
@@ -298,7 +296,10 @@ DERIVATION = Derivation(
     premises=(
         b1.B1,
         t2.DERIVATIONS["B3"],
-        *(one.DERIVATION for one in (eq11, eq14, b4, b10, b15, b16, b17)),
+        *(one.DERIVATION for one in (eq11, eq14, b10, b17)),
+        t4.B4,
+        t4.B15,
+        t4.B16,
     ),
     printed=PRINTED,
     domain=(sympy.Ge(j, 2), sympy.Ge(M, j + 2)),

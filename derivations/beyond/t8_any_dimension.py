@@ -104,6 +104,11 @@ class Case:
         return equation(self.symbol, times(*leading, power(times(sigma, 1 / r), 2)))
 
     @property
+    def forms(self) -> dict[str, ClosedForm]:
+        """The closed form of every layer."""
+        return self.variance.forms
+
+    @property
     def variance(self) -> Layered:
         """The variance of a contact's force over its mean, at every layer."""
         if self not in _VARIANCES:

@@ -10,22 +10,19 @@ surface (k small, M large) the terms in M and j alone would cancel, those in k d
 from pathlib import Path
 from textwrap import dedent, indent
 from types import ModuleType
+from typing import Any
 
 import sympy
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations import eq16_response as eq16
-from force_diffusion.derivations.beyond import b4_settling as b4
-from force_diffusion.derivations.beyond import b5_mean_surface as b5
-from force_diffusion.derivations.beyond import b6_mean_bulk as b6
 from force_diffusion.derivations.beyond import b7_neighbouring_contacts as b7
 from force_diffusion.derivations.beyond import b8_neighbouring_beads as b8
 from force_diffusion.derivations.beyond import b10_stress as b10
 from force_diffusion.derivations.beyond import b12_between_layers as b12
-from force_diffusion.derivations.beyond import b15_mean_surface_direction as b15
-from force_diffusion.derivations.beyond import b16_mean_bulk_direction as b16
 from force_diffusion.derivations.beyond import b17_stress_bulk as b17
 from force_diffusion.derivations.beyond import t2_variance as t2
+from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.beyond import t8_any_dimension as t8
 from force_diffusion.derivations.beyond import t9_spheres_response as t9
 from force_diffusion.derivations.framework.catalogue import Number
@@ -436,6 +433,11 @@ def _piecewise(pieces: tuple[Piece, ...], unit: sympy.Expr) -> str:
     return indent(lines.rstrip(), "    ")
 
 
+def _cases(*cases: Any) -> tuple[Any, ...]:
+    """The same of cases of a theorem."""
+    return tuple((one.number, one.forms) for one in cases)
+
+
 def _forms_of(equation: ModuleType) -> tuple[Number, dict[str, ClosedForm]]:
     """The number of an equation, and its exact forms."""
     return equation.DERIVATION.number, equation.exact_forms()
@@ -466,10 +468,15 @@ def source() -> str:
             "variance_of_spheres",
             "load",
             SPHERES,
-            tuple((one.number, one.variance.forms) for one in (t8.B13, t8.B14)),
+            _cases(t8.B13, t8.B14),
         ),
-        ("mean_shift", "load", MEAN, map(_forms_of, (b5, b6))),
-        ("mean_shift_at_angle", "load at an angle", MEAN_AT_ANGLE, map(_forms_of, (b15, b16))),
+        ("mean_shift", "load", MEAN, _cases(t4.ON_SURFACE, t4.IN_BULK)),
+        (
+            "mean_shift_at_angle",
+            "load at an angle",
+            MEAN_AT_ANGLE,
+            _cases(t4.SURFACE_AT_ANGLE, t4.BULK_AT_ANGLE),
+        ),
     ):
         for load, (label, forms) in zip(("surface", "bulk"), both, strict=True):
             parts.append(_exact(f"{load}_{what}", f"{load} {how}", label, forms, template))
@@ -478,7 +485,7 @@ def source() -> str:
         parts.append(_exact(name, f"{load} load", label, equation.STRESS.ratio(), STRESS))
     in_any = t8.B11.printed.rhs.doit().xreplace({kappa: sympy.Integer(1)})
     parts.append(DIMENSION.format(code=_code(in_any, M, d, z)))
-    sinking = b4.PRINTED.rhs.doit().xreplace({n_y: sympy.Integer(1)})
+    sinking = t4.SETTLING.rhs.doit().xreplace({n_y: sympy.Integer(1)})
     parts.append(SETTLING.format(sinking=_code(sinking, j)))
     for name, what, label, average, below, above in (
         ("contacts_mean_variance", "f^±/⟨f⟩", "B7", b7, "1", "3"),

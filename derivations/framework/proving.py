@@ -10,6 +10,7 @@ from functools import cache, cached_property
 from typing import Any, Protocol
 
 import sympy
+from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel import limits, moments, rules
 from force_diffusion.symbolic.kernel.decisions import (
@@ -32,6 +33,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     subject,
 )
 from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.counterexample import counterexample
 
 Meaning = Mapping[Any, Any]
@@ -686,9 +688,22 @@ def fixes_it(candidate: sympy.Eq, printed: sympy.Eq, where: Where) -> str:
     printed balance is about none, and its rule compares all of it.)
     """
     if subject(printed.lhs) is None:
-        return ""
+        return _fixes_the_symbol(candidate, printed, where)
     try:
         about, _ = isolated(candidate, where)
     except NotProvedError as reason:
         return str(reason)
     return "" if about == subject(printed.lhs) else "it is about another quantity"
+
+
+def _fixes_the_symbol(candidate: sympy.Eq, printed: sympy.Eq, where: Where) -> str:
+    """The same where a symbol stands beside others on the left, as in ⟨f⟩/f₀ − 1."""
+    known = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS, sy.d, sy.kappa, sy.N}
+    about = printed.lhs.free_symbols - known
+    if printed.lhs.has(sy.SiteFunction) or len(about) != 1:
+        return ""
+    (symbol,) = about
+    slope = sympy.diff(candidate.lhs - candidate.rhs, symbol)
+    if slope.has(symbol) or not where.never_zero(slope):
+        return f"it does not fix {text(symbol)} everywhere"
+    return ""

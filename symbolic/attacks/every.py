@@ -9,6 +9,7 @@ from force_diffusion.symbolic.attacks import (  # noqa: F401 - each adds its own
     moving,
     over_layers,
     rewriting,
+    second_order,
     solving,
     statements,
     supposing,

@@ -69,6 +69,8 @@ def _of(one: sy.Moment, forms: list[Linear], where: Where) -> RationalFunction:
         return found
     of = _of_layers if where.loading in (SURFACE, BULK) else _below_a_load
     found = of(forms[0], where)
+    if isinstance(one, sy.Shift):
+        raise NotProvedError("second order is not known in any dimension")
     if isinstance(one, sy.Covariance):
         both = of(_plus(*forms), where)
         found = (both - found - of(forms[1], where)) / FIELD.constant(2)
