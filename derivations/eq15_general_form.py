@@ -18,7 +18,7 @@ from force_diffusion.derivations.framework.averaging import (
     unit_height,
 )
 from force_diffusion.derivations.framework.layered import EveryLayer
-from force_diffusion.derivations.framework.proving import Line, in_place
+from force_diffusion.derivations.framework.proving import Line
 from force_diffusion.derivations.framework.record import ExactCase, Missed, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
@@ -42,9 +42,11 @@ from force_diffusion.derivations.parts.tensile import (
     tensile_fraction,
 )
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
+from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.axioms import GAUSSIAN_BELOW
 from force_diffusion.symbolic.kernel.where import AT_FIXED_RATIO, at_large_height
 from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import (
     DeltaX,
     Dot,
@@ -302,11 +304,11 @@ def steps() -> Lines:
 def claims(lines: Lines, exact: dict[str, Line], of_height: dict[str, Line]) -> None:
     """What else follows."""
     for load, module in LOADS.items():
-        shift = HEIGHT_SHIFT[load]
         lines.claim(
-            "to two orders the exact mean is that of the height less "
-            f"{shift}: it is 1 at M* + {shift} as M* → ∞, {load} load",
-            equation(MEAN_SQUARE, times(LEADING[load], power(terms(M, -shift), 3), UNIT)),
+            f"as M* → ∞ the exact mean is 1 at {text(HEIGHT + HEIGHT_SHIFT[load])}, {load} load",
+            equation(
+                MEAN_SQUARE, times(LEADING[load], power(terms(M, -HEIGHT_SHIFT[load]), 3), UNIT)
+            ),
             expansion(exact[load]),
             where=heights(load).in_the_limit(LARGE("∼", 2)),
             meaning={MEAN_SQUARE: mean(load, Variance)},
@@ -333,14 +335,14 @@ def claims(lines: Lines, exact: dict[str, Line], of_height: dict[str, Line]) -> 
         )
         top, below = BELOW_THE_PEAK[load]
         lines.claim(
-            f"so that σ_f²/⟨f⟩² is nowhere above {top} (M/M*)³ at leading order, {load} load",
+            f"so that σ_f²/⟨f⟩² is nowhere above {text(top)} (M/M*)³ at leading order, {load} load",
             equation(terms(top, times(-1, PROFILES[load])), below),
             rewrite(),
         )
     for unit in (n_plus, n_minus):
         lines.claim(
             "displacements are of order M^(1/2) σ, so of order r at a height (σ/r)^(−2), far above "
-            f"M*: along {unit} exactly",
+            f"M*: along {text(unit)} exactly",
             equation(Variance(Dot(unit, DeltaX(i, j))), (4 * j - 2) * sigma**2),
             moment(eq03.DERIVATION),
             where=Where.of(j >= 2),

@@ -9,7 +9,6 @@ from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import in_place
 from force_diffusion.derivations.framework.vocabulary import (
     SUPPOSED,
     By,
@@ -28,6 +27,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     times,
 )
 from force_diffusion.derivations.witnesses.both_sides import each_tilted
+from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.where import BULK_TILTED, SURFACE_TILTED
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.notation import Symbol

@@ -7,7 +7,7 @@ another below it, p, q ≥ 1, in layer j = l − p − q; a leg has q = 0.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, partial
+from functools import cache
 from itertools import product
 
 import sympy
@@ -34,7 +34,6 @@ from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.any_dimension import POINT
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.search.corpus import statements
 from force_diffusion.symbolic.symbols import (
     ForceBelow,
     Mean,
@@ -473,7 +472,6 @@ DERIVATION = Derivation(
     dimension=3,
     exact=at_finite_size,
     steps=steps,
-    tries=partial(statements, layer=6),
     witnesses=(
         Witness("squared weights by the recursion from bead to bead, as fractions", _squares),
         Witness(

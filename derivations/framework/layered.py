@@ -18,13 +18,12 @@ from force_diffusion.derivations.framework.proving import (
     asymptotic,
     bounded,
     facts_of,
-    in_place,
     moment,
     rewrite,
 )
 from force_diffusion.derivations.framework.record import Derivation, ExactCase, Missed
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
-from force_diffusion.symbolic.as_printed import equation, minus, terms, times
+from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms, times
 from force_diffusion.symbolic.kernel import moments
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import (

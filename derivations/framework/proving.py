@@ -11,12 +11,13 @@ from typing import Any, Protocol
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel import limits, moments, rules
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
     all_of,
+    not_a_statement,
     proved,
     refuted,
     undecided,
@@ -29,12 +30,15 @@ from force_diffusion.symbolic.kernel.theorem import (
     Supposition,
     Theorem,
     isolated,
+    no_statement,
     put_in,
     subject,
 )
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.counterexample import counterexample
+from force_diffusion.symbolic.search.values import WithoutValue
+from force_diffusion.symbolic.symbols import ForceMinus, ForcePlus
 
 Meaning = Mapping[Any, Any]
 """What a line writes in short: for a symbol, or for a function of its arguments."""
@@ -69,7 +73,7 @@ class Shown(Protocol):
 
     @property
     def verdict(self) -> Verdict:
-        """``proved``, ``refuted`` or ``undecided``."""
+        """That of ``ruling``."""
 
     def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
         """Rule on a candidate for one of its equations."""
@@ -90,7 +94,7 @@ class Proved(Protocol):
 Source = Any
 """A line, an equation, a theorem of the kernel, several of these, or what is supposed."""
 
-_FEW = 12  # points at which such a statement is looked at
+_FEW = 4  # points at which what may be no statement is looked at
 
 SUPPOSED = object()
 """What an induction supposes."""
@@ -223,34 +227,6 @@ def facts_of(
     return tuple(known(one, supposed) for part in parts for one in part)
 
 
-def in_place(node: sympy.Basic, meaning: Meaning) -> sympy.Basic:
-    """What is written in short, put in one after the other; no divisor is cancelled by it."""
-    for what, image in meaning.items():
-        node = _in_place(node, what, image)
-    return node
-
-
-def _in_place(node: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
-    if node == what:
-        result: sympy.Basic = image
-        return result
-    if not node.has(what):
-        return node
-    args = [_in_place(one, what, image) for one in node.args]
-    if isinstance(what, type) and isinstance(node, what):
-        result = image(*args)
-    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow) and _divides(node):
-        result = node.func(*args, evaluate=False)
-    else:
-        result = node.func(*args)
-    return result
-
-
-def _divides(node: sympy.Basic) -> bool:
-    """Whether it holds a divisor, which a factor may cancel."""
-    return any(one.exp.is_negative for one in node.atoms(sympy.Pow))
-
-
 # the rules of the kernel, with what they rest on
 
 
@@ -298,7 +274,7 @@ def negligible(force: Proved, *facts: Source) -> By:
 
     ``force`` says what the force is, ``facts`` what stands in it and in the statement.
     """
-    whole = (OfBoth(force), *facts)
+    whole = (Chain((OfBoth(force), *facts)),)
     return By(
         lambda supposed: limits.negligible(*facts_of(whole, supposed)),
         whole,
@@ -512,32 +488,49 @@ class Line:
         names += [name for one in self.alike for name in one.uses]
         return tuple(sorted(dict.fromkeys(names), key=_in_order))
 
+    def domain(self, part: int) -> Where:
+        """Where one of its equations holds."""
+        where: Where = _at(part, self.where)
+        return where
+
     def prove(self, part: int, candidate: sympy.Eq) -> Theorem:
         """The theorem that a candidate for one of its equations is.
 
         Raises:
             NotProvedError: the rule does not prove it.
         """
-        for one in self.alike:
-            one.prove(part, candidate)
-        by, where = (_at(part, one) for one in (self.by, self.where))
-        rule: Rule = by.rule(())
-        return rule(self._meant(part, candidate), where)
+        return self._proofs(part, candidate)[0]
+
+    def _proofs(self, part: int, candidate: sympy.Eq) -> tuple[Theorem, ...]:
+        """The theorem, and those of the lines alike."""
+        others = [one.prove(part, candidate) for one in self.alike]
+        rule: Rule = _at(part, self.by).rule(())
+        return (rule(self._meant(part, candidate), self.domain(part)), *others)
 
     def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
-        """Rule on a candidate: proved by the rule, or searched for explicit values against it."""
-        try:
-            theorem = self.prove(part, candidate)
-        except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
-            # what has no value somewhere is mostly without one at a place that no packing shows
-            at_most = _FEW if isinstance(reason, NotAStatementError) else None
-            found = self.counterexample(part, candidate, at_most)
-            return refuted(found) if found else undecided(str(reason) or type(reason).__name__)
-        return proved(f"by the rule: {theorem.rule}")
+        """Rule on a candidate: proved by the rule, or searched for explicit values against it.
 
-    def counterexample(self, part: int, candidate: sympy.Eq, at_most: int | None) -> str | None:
+        What the kernel sees no statement in is refuted only where both sides have values.
+        """
+        meant, where = self._meant(part, candidate), self.domain(part)
+        try:
+            theorem, *others = self._proofs(part, candidate)
+        except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
+            none = isinstance(reason, NotAStatementError) and no_statement(meant, where)
+            # what has no value somewhere is mostly without one at a place that no packing shows
+            found = self.counterexample(part, candidate, _FEW if none else None)
+            if found and not isinstance(found, WithoutValue):
+                return refuted(found)
+            if none or found:
+                return not_a_statement(str(reason) if none else str(found))
+            return undecided(str(reason) or type(reason).__name__)
+        return proved(f"by the rule: {theorem.rule}", assumptions((theorem, *others)))
+
+    def counterexample(
+        self, part: int, candidate: sympy.Eq, at_most: int | None = None
+    ) -> str | None:
         """Explicit values at which a candidate is false, found without the rule; or None."""
-        by, where = (_at(part, one) for one in (self.by, self.where))
+        by, where = _at(part, self.by), self.domain(part)
         meant = self._meant(part, candidate)
         finite = where.in_the_limit(None)
         try:
@@ -549,11 +542,7 @@ class Line:
 
     def _meant(self, part: int, candidate: sympy.Eq) -> sympy.Eq:
         meaning = _at(part, self.meaning)
-        return (
-            equation(*(in_place(side, meaning) for side in candidate.args))
-            if meaning
-            else candidate
-        )
+        return in_place(candidate, meaning or {})
 
     @cached_property
     def theorems(self) -> tuple[Theorem, ...]:
@@ -571,7 +560,7 @@ class Line:
 
     @property
     def verdict(self) -> Verdict:
-        """``proved``, ``refuted`` or ``undecided``."""
+        """That of ``ruling``."""
         return self.ruling.verdict
 
     def decide(self) -> Ruling:
@@ -681,13 +670,22 @@ class Lines(list[Line]):
         return self[-1]
 
 
+def assumptions(theorems: Iterable[Theorem]) -> list[str]:
+    """What theorems rest on and no rule ends, in words."""
+    return sorted(set().union(*(one.assuming for one in theorems)))
+
+
 def fixes_it(candidate: sympy.Eq, printed: sympy.Eq, where: Where) -> str:
     """Why a candidate may say less than the printed equation; "" when it says as much.
 
     Where the printed equation is about one quantity, the candidate fixes that everywhere. (A
-    printed balance is about none, and its rule compares all of it.)
+    printed balance is about none, and its rule compares all of it; what drops a part of a force is
+    about that of the printed equation, not of one layer alone.)
     """
     if subject(printed.lhs) is None:
+        told, meant = (one.atoms(ForcePlus, ForceMinus) for one in (candidate, printed))
+        if where.limit and told != meant:
+            return "it is about another force"
         return _fixes_the_symbol(candidate, printed, where)
     try:
         about, _ = isolated(candidate, where)

@@ -291,7 +291,10 @@ for tried, theorem, left, right, where, false, refused in (
 
 
 @attack(
-    "restated", "what holds at finite size", "nothing is said of a limit", "what holds in a limit"
+    "restated",
+    "what holds at finite size",
+    "nothing is said of a limit",
+    "it is not one in a limit",
 )
 def _() -> object:
     return told(averages.restated(_exact()), OVER, (M + 1) * (2 * M + 1) * VARIANCE / 6, HEIGHTS)

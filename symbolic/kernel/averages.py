@@ -3,6 +3,7 @@
 What is proved in a limit is used by rules of limits alone, and never at finite size.
 """
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from math import lcm
 from operator import mul
@@ -155,6 +156,37 @@ def _roots(*sides: sympy.Expr) -> sympy.Integer:
     return sympy.Integer(lcm(*(int(one.q) for one in powers if one.is_Rational)))
 
 
+def _gathered(node: sympy.Expr) -> sympy.Expr:
+    """The same, a root that is a factor of all terms of a sum taken out of it."""
+    if not isinstance(node, sympy.Add | sympy.Mul | sympy.Pow):
+        return node
+    args = list(map(_gathered, node.args))
+    if isinstance(node, sympy.Add):
+        parts = [_root_and_rest(term) for term in args]
+        root = parts[0][0]
+        if root and all(one == root for one, _ in parts):
+            powers = (sympy.Pow(base, e, evaluate=False) for base, e in root.items())
+            rest = sympy.Add(*(one for _, one in parts), evaluate=False)
+            return sympy.Mul(*powers, rest, evaluate=False)
+    return node.func(*args, evaluate=False)
+
+
+def _root_and_rest(term: sympy.Expr) -> tuple[dict[sympy.Expr, sympy.Rational], sympy.Expr]:
+    """Bases and exponents between 0 and 1 of the roots in a product, and what else is in it."""
+    powers: Counter[sympy.Expr] = Counter()
+    factors = [term]
+    while factors:
+        one = factors.pop()
+        if isinstance(one, sympy.Mul):
+            factors += one.args
+        else:
+            base, exponent = one.args if isinstance(one, sympy.Pow) else (one, sympy.S.One)
+            powers[base] += exponent
+    roots = {base: e % 1 for base, e in powers.items() if e % 1}
+    wholes = (sympy.Pow(base, e - e % 1, evaluate=False) for base, e in powers.items())
+    return roots, sympy.Mul(*wholes, evaluate=False)
+
+
 def proportional(*facts: Theorem) -> Rule:
     """Left over right goes to a positive number that depends on φ alone.
 
@@ -175,7 +207,7 @@ def proportional(*facts: Theorem) -> Rule:
                 about, value = one.formula.args
                 image[about] = sympy.Dummy()
                 sums.known[image[about]] = sums.read(value)
-        sides = [side.xreplace(image) for side in known.args]
+        sides = [_gathered(side.xreplace(image)) for side in known.args]
 
         def read(node: sympy.Expr) -> RationalFunction:
             found = leading(_fixed_but(sums.read(node), limit), limit)

@@ -131,7 +131,7 @@ def heaviest(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
         sure = [one for one in large if even(one, limit) and even(FIELD.one / one, limit)]
         most = max((order(_fixed_but(one, limit), limit) for one in sure), default=-_NEVER)
         rest = pieces(_difference(formula, facts, where), finite)
-        if not all(one < most for one in _orders(rest, limit)):
+        if not sure or any(one >= most for one in _orders(rest, limit)):
             raise NotProvedError("left less right has weights of the order of the largest of left")
         return made(formula, where, "heaviest weights", flat(facts))
 

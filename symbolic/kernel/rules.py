@@ -110,10 +110,10 @@ def _are_equal(left: Iterable[LinearForm], right: Iterable[LinearForm]) -> bool:
     return all((a - b).is_zero() for a, b in zip(left, right, strict=True))
 
 
-def along(theorem: Theorem, vector: sympy.Symbol) -> Theorem:
-    """The component of an equation between vectors along a base vector."""
+def along(theorem: Theorem, vector: sympy.Expr) -> Theorem:
+    """The component of an equation between vectors along a base vector, or along e_x."""
     formula = equation(*(sy.Dot(vector, side) for side in theorem.formula.args))
-    if vector not in sy.VECTORS:
+    if vector not in (*sy.VECTORS, sy.e_x):
         raise NotProvedError(f"{text(vector)} is no base vector")
     return made(formula, theorem.where, "component", (theorem,))
 
@@ -195,6 +195,7 @@ def below(balance: Theorem, *facts: Theorem | tuple[Theorem, ...]) -> Rule:
     """A contact's force, by ``solve`` from the balance of the bead above it."""
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
+        check(formula, where)
         about, value = isolated(formula, where)
         branch = _BRANCHES.get(type(about))
         if branch is None:
@@ -546,9 +547,20 @@ def slope(formula: sympy.Eq, where: Where) -> Theorem:
     found = {by for one in formula.atoms(sympy.Derivative) for by in one.variables}
     if found != {sy.z}:
         raise NotProvedError(f"it is not about a derivative by {text(sy.z)}")
-    if formula.atoms(sy.SiteFunction, sy.Moment) or formula.free_symbols & {*sy.INDICES}:
+    if formula.atoms(sy.SiteFunction) or formula.free_symbols - {*sy.PARAMETERS}:
         raise NotProvedError(f"it holds what may depend on {text(sy.z)}")
-    sides = [side.replace(sympy.Derivative, sympy.diff) for side in formula.args]
+    for one in formula.atoms(sympy.Derivative):
+        check(equation(one.expr, one.expr), where)  # what SymPy cancels has a value
+
+    def read(node: sympy.Basic) -> sympy.Basic:
+        """The same, differentiated, and nothing else of it carried out."""
+        if isinstance(node, sympy.Derivative):
+            return node.doit()
+        if not node.has(sympy.Derivative):
+            return node
+        return node.func(*map(read, node.args), evaluate=False)
+
+    sides = list(map(read, formula.args))
     check(equation(*sides), where)
     if not holds(equation(*sides), where):
         raise NotProvedError("the derivatives differ")

@@ -158,6 +158,17 @@ def check(formula: sympy.Eq, where: Where, *, in_a_limit: bool = False) -> None:
         _check(side, where, frozenset(known))
 
 
+def no_statement(formula: sympy.Eq, where: Where) -> str:
+    """Why a formula is seen to be no statement on a domain; "" when that is not seen."""
+    try:
+        check(formula, where, in_a_limit=where.limit is not None)
+    except NotAStatementError as reason:
+        return str(reason)
+    except NotExactError:  # a bound that is not read
+        return ""
+    return ""
+
+
 def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> None:
     if isinstance(node, sympy.Sum):
         for index, low, high in reversed(node.limits):
@@ -416,7 +427,8 @@ def _put_in(
             inner = inner.within(index, low, high)
             bound.add(index)
         summed = _put_in(series.function, together, inner, background)
-        image[series] = sympy.Sum(summed, *series.limits)
+        if summed != series.function:
+            image[series] = sympy.Sum(summed, *series.limits)
     for atom in node.atoms(sy.SiteFunction):
         if bound and atom.free_symbols & bound:
             continue  # it stands in a sum

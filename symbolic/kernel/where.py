@@ -360,8 +360,18 @@ class Where:
             found *= 1 if number > 0 else -1
             for factor, power in powers.items():
                 one = 0 if factor == expression else self.sign(factor)
+                one = one or sign(factor, *self._positive)
                 found *= one ** (power % 2) if one else 0
         return found
+
+    @cached_property
+    def _positive(self) -> tuple[tuple[sympy.Symbol, ...], tuple[sympy.Symbol, ...]]:
+        """The indices that are positive, and those that are not negative."""
+        found = [
+            tuple(s for s in self.indices if self.nonnegative(affine.from_sympy(s - least)))
+            for least in (1, 0)
+        ]
+        return found[0], found[1]
 
     def is_even(self, value: Affine) -> bool:
         """Whether an affine expression is even at every point with beads at their places."""

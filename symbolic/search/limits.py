@@ -17,6 +17,7 @@ from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.where import Limit, Where
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search.values import WithoutValue
 
 HIGHEST_POWER = 20
 SIZES = (10**100, 10**200)
@@ -87,7 +88,7 @@ def parts_in_the_limit(
             try:
                 found = explicit.number(candidate, values)
             except explicit.DivisionError:
-                return f"it has no value at {where}"
+                return WithoutValue(f"it has no value at {where}")
             except explicit.AmbiguousError:
                 return None
             true = _number(exact, tuple(values.items()))
@@ -164,10 +165,10 @@ def not_proportional(side: sympy.Expr, ratio: sympy.Expr) -> str | None:
             where = ", ".join(
                 f"{text(one)} = {float(values[one]):.6g}" for one in (sy.phi, *changed)
             )
-            if value.free_symbols:
+            if value.free_symbols or share.free_symbols:
                 return None
             if value.has(sympy.zoo, sympy.nan, sympy.oo):
-                return f"it has no value at {where}"
+                return WithoutValue(f"it has no value at {where}")
             if not value.is_positive:
                 return f"it is {value.evalf(3)}, which is not positive, at {where}"
             found.append((share, where))
@@ -230,7 +231,7 @@ def _undefined(candidate: sympy.Eq) -> str | None:
         try:
             explicit.weights(side, values)
         except explicit.DivisionError:
-            return f"it has no value at φ = {cosine}"
+            return WithoutValue(f"it has no value at φ = {cosine}")
         except explicit.AmbiguousError:
             continue
     return None

@@ -11,6 +11,12 @@ import sympy
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq16_response as eq16
+from force_diffusion.derivations.api.derived import Derived
+from force_diffusion.derivations.api.equation import Proof
+from force_diffusion.derivations.export import terminal
+from force_diffusion.derivations.export.document import finding, statement_latex
+from force_diffusion.derivations.export.manifest import Manifest
+from force_diffusion.derivations.export.terminal import statement_text
 from force_diffusion.derivations.framework import runner
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proving import Line, exhausting, moment
@@ -231,3 +237,31 @@ def test_what_holds_for_one_contact_is_not_refuted() -> None:
         true = replace(reading, formula=equation(eq16.ONE_CONTACT, rhs))
         assert true.ruling.verdict is Verdict.UNDECIDED
         assert true.ruling.note == "both go the same way"
+
+
+def test_all_that_is_said_of_the_run_counts_it() -> None:
+    outcome = runner.run(load(16))
+    words = "1 printed statement refuted, as expected (see ERRATA)"
+    derived, proof = Derived((outcome,)), Proof((outcome,), premises_run=False)
+    assert outcome.verdict is proof.verdict is Verdict.PROVED
+    assert derived.proved
+    assert derived.counts() == f"1 proved, {words}"
+    assert [check.kind for check in proof.refuted] == ["refutation"]
+    for said in (str(derived), str(proof), terminal.outcome_text(outcome)):
+        assert words in said
+    assert terminal.trouble_lines(outcome) == []
+    (found,) = derived.data()["equations"]
+    assert found["refuted as expected"] == 1
+    checks = Manifest.model_validate_json(
+        Manifest(program="force-diffusion", files={}, equations=(finding(outcome),)).text()
+    ).equations[0]
+    assert [c.verdict for c in checks.checks if c.kind == "refutation"] == ["refuted"]
+    (reading,) = outcome.derivation.refuted
+    for document in (derived.latex()["equations.tex"], statement_text(outcome.derivation)):
+        assert reading.reading[1:] in " ".join(document.split())  # a sentence, or part of one
+
+
+def test_the_statement_for_one_contact_is_in_no_fragment() -> None:
+    """A fragment is to be pasted."""
+    assert "contact" not in statement_latex(load(16))
+    assert statement_latex(load(16)).count(r"\sim") == 1
