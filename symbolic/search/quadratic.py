@@ -12,7 +12,7 @@ from functools import lru_cache
 from force_diffusion.symbolic.search.dual import TooLargeError
 from force_diffusion.symbolic.search.packing import Given, Site
 
-HIGHEST = 5
+HIGHEST = 6
 Series = tuple[Fraction, Fraction, Fraction]
 """Coefficients of 1, ε and ε²."""
 Pair = tuple[Series, Series]
