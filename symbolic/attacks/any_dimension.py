@@ -108,18 +108,18 @@ for tried, left, right, where, false, refused in (
      "its direction changes, too", "both sides differ"),
 ):  # fmt: skip
 
-    @attack("moment in any dimension", tried, false, refused)
+    @attack("moment", tried, false, refused)
     def _(left: sympy.Expr = left, right: sympy.Expr | int = right, where: Where = where) -> object:
         return told(moments.moment(), left, right, where)
 
 
-@attack("moment in any dimension", "more parts than are looked at", "it is not decided",
+@attack("moment", "more parts than are looked at", "it is not decided",
         "two places may be one")  # fmt: skip
 def _() -> object:
     return value(Variance(HERE), Where((j, M), (j >= 0, j + 1 <= M), SURFACE, dimension=3), 0)
 
 
-@attack("moment in any dimension", "the surface's theorem below a bulk load", "it is another load",
+@attack("moment", "the surface's theorem below a bulk load", "it is another load",
         "does not hold")  # fmt: skip
 def _() -> object:
     same = told(moments.moment(), Mean(HERE) * M, M, ANY)
@@ -137,7 +137,7 @@ for tried, small, right, where, false, refused in (
     ("another index", M * q, M * q + 1, WITH_Q, "it may grow, too", "neither grows nor is fixed"),
 ):  # fmt: skip
 
-    @attack("asymptotic in any dimension", tried, false, refused)
+    @attack("asymptotic", tried, false, refused)
     def _(
         left: sympy.Expr = small, right: sympy.Expr | int = right, where: Where = where
     ) -> object:
