@@ -108,7 +108,7 @@ for tried, left, right, where, false, refused in (
      "its direction changes, too", "both sides differ"),
 ):  # fmt: skip
 
-    @attack("moment", tried, false, refused)
+    @attack("moment", f"in any dimension: {tried}", false, refused)
     def _(left: sympy.Expr = left, right: sympy.Expr | int = right, where: Where = where) -> object:
         return told(moments.moment(), left, right, where)
 
@@ -137,7 +137,7 @@ for tried, small, right, where, false, refused in (
     ("another index", M * q, M * q + 1, WITH_Q, "it may grow, too", "neither grows nor is fixed"),
 ):  # fmt: skip
 
-    @attack("asymptotic", tried, false, refused)
+    @attack("asymptotic", f"in any dimension: {tried}", false, refused)
     def _(
         left: sympy.Expr = small, right: sympy.Expr | int = right, where: Where = where
     ) -> object:

@@ -90,6 +90,6 @@ for tried, left, where, false, refused in (
      "second order is not known"),
 ):  # fmt: skip
 
-    @attack("moment", tried, false, refused)
+    @attack("moment", f"at second order: {tried}", false, refused)
     def _(left: sympy.Expr = left, where: Where = where) -> object:
         return told(_at_second_order(), left, 0, where)
