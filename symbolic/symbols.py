@@ -242,6 +242,21 @@ class Tensile(Function):  # type: ignore[misc]
     _latex = _text
 
 
+class Shift(Moment):
+    """⟨X⟩ less its value in the ordered packing, at second order in the deviations of the radii.
+
+    Forces and displacements in X stand for what they are to second order.
+    """
+
+    nargs = 1
+
+    def _latex(self, printer: Any) -> str:
+        return rf"\left\langle {printer._print(self.args[0])} \right\rangle_2"
+
+    def _text(self, printer: Any) -> str:
+        return f"⟨{printer._print(self.args[0])}⟩₂"
+
+
 class LargestShare(Function):  # type: ignore[misc]
     """The largest share that one radius has in the variance of X: max w²/Σw² of its weights."""
 
@@ -252,6 +267,49 @@ class LargestShare(Function):  # type: ignore[misc]
 
     def _text(self, printer: Any) -> str:
         return f"max w²/Σw²({printer._print(self.args[0])})"
+
+
+class ForceOfLayer(Function):  # type: ignore[misc]
+    """The force of a contact that leads up from a bead of layer j, over its ordered value.
+
+    In any dimension, under loads along the sum of the base vectors, by which all contacts of a
+    layer are alike.
+    """
+
+    nargs = 1
+
+    def _latex(self, printer: Any) -> str:
+        return rf"f_{{{printer._print(self.args[0])}}}/\langle f\rangle"
+
+    def _text(self, printer: Any) -> str:
+        return f"f_({printer._print(self.args[0])})/⟨f⟩"
+
+
+class ForceBelow(Function):  # type: ignore[misc]
+    """Below one loaded bead O in three dimensions: a contact's force over that of ordered legs.
+
+    ForceBelow(c, p, q, s) leads up along base vector c = 1, 2, 3 from O − p e_1 − q e_2 − s e_3.
+    """
+
+    nargs = 4
+    head = "f"
+
+    def _latex(self, printer: Any) -> str:
+        axis, *steps = map(printer._print, self.args)
+        return rf"{self.head}^{{({axis})}}_{{{','.join(steps)}}}"
+
+    def _text(self, printer: Any) -> str:
+        axis, *steps = map(printer._print, self.args)
+        return f"{self.head}{axis}_({','.join(steps)})"
+
+
+class PushBelow(ForceBelow):
+    """The vertical component of the same, over that of ordered legs."""
+
+    head = "p"
+
+
+CONTACTS = (ForceOfLayer, ForceBelow, PushBelow)
 
 
 class MatrixTimes(Function):  # type: ignore[misc]

@@ -7,7 +7,7 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq16_response as eq16
-from force_diffusion.derivations.beyond import b4_settling as b4
+from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.beyond.mean_forces import SUM_OF_RADII
 from force_diffusion.derivations.beyond.means import decide_in_field
 from force_diffusion.derivations.framework.follows import identity, linear
@@ -58,6 +58,7 @@ from force_diffusion.symbolic.symbols import (
 from force_diffusion.symbolic.variances.cases import Case
 from force_diffusion.symbolic.variances.means import covariance, covariances_by_case
 from force_diffusion.symbolic.variances.orders import UNIT
+from force_diffusion.symbolic.variances.variance import variance
 
 INSIDE = Symbol(
     "mean_inside",
@@ -100,7 +101,7 @@ PRINTED = (
 @cache
 def _inside() -> tuple[Case, ...]:
     """⟨να₁⟩/σ² of a contact f⁺ inside of the cone, by case: p, q ≥ 1."""
-    force, slant = eq11.in_radii(cone.UPPER_RIGHT), eq11.in_radii(b4.TILT)
+    force, slant = eq11.in_radii(cone.UPPER_RIGHT), eq11.in_radii(t4.TILT)
     return tuple(covariances_by_case(slant, force, {j: 0, p: 1, q: 1}, 3))
 
 
@@ -108,7 +109,7 @@ def _inside() -> tuple[Case, ...]:
 def _leg() -> tuple[Case, ...]:
     """The same of a contact of the left leg, p ≥ 1 steps below the load."""
     force = eq11.in_radii(cone.LEG_CONTACT).xreplace(cone.ON_LEFT_LEG)
-    return tuple(covariances_by_case(eq11.in_radii(b4.TILT), force, {j: 0, p: 1}, 3))
+    return tuple(covariances_by_case(eq11.in_radii(t4.TILT), force, {j: 0, p: 1}, 3))
 
 
 _SCALE = sigma**2 / (r**2 * (1 - phi**2))
@@ -123,8 +124,8 @@ FURTHER = phi * (4 * j + phi**2 + 2) / 2 * _SCALE
 @cache
 def turned() -> tuple[sympy.Expr, sympy.Expr]:
     """⟨n⁺·u₂⟩ and ⟨n⁻·u₂⟩ of a contact along n⁺ in layer j ≥ 1 (Eq. B4)."""
-    square, _ = b4.tilt_variance()
-    slant = eq11.in_radii(b4.TILT)
+    square = variance(eq11.in_radii(t4.TILT), Region({j: 1}))
+    slant = eq11.in_radii(t4.TILT)
     both = covariance(slant, SUM_OF_RADII, Region({j: 1})).to_sympy()
     means = {d_plus: SETTLED, d_minus: SETTLED, tilt * radii: with_radii}
     first, second = (
@@ -376,7 +377,7 @@ DERIVATION = Derivation(
         "inside: 2 ≤ j ≤ l − 3, and not on the two lines of contacts that start at the bead "
         "straight below the load; leg: 2 ≤ j ≤ l − 2",
     ),
-    premises=(eq11.DERIVATION, eq16.DERIVATION, b4.DERIVATION),
+    premises=(eq11.DERIVATION, eq16.DERIVATION, t4.B4),
     printed=PRINTED,
     domain=(sympy.Ge(j, 2), sympy.Ge(l, j + 3)),  # where both lines have a contact
     steps=steps,

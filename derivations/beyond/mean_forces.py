@@ -6,7 +6,7 @@ from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.beyond import b4_settling as b4
+from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.beyond.means import decide_in_field
 from force_diffusion.derivations.framework.follows import Decide
 from force_diffusion.derivations.framework.record import Search
@@ -56,7 +56,7 @@ def known(
     needed: Collection[sympy.Basic],
 ) -> dict[sympy.Symbol, RationalFunction]:
     """Means of products of two first-order quantities of a contact; ``force`` is f⁺ in δr."""
-    nu, rho, alpha = (e.xreplace(at) for e in (eq11.in_radii(b4.TILT), SUM_OF_RADII, force - 1))
+    nu, rho, alpha = (e.xreplace(at) for e in (eq11.in_radii(t4.TILT), SUM_OF_RADII, force - 1))
     products = {
         mean_square: (nu, nu),
         with_radii: (nu, rho),

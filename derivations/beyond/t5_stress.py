@@ -13,10 +13,8 @@ from typing import Any
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
-from force_diffusion.derivations.beyond import b4_settling as b4
-from force_diffusion.derivations.beyond import b15_mean_surface_direction as b15
-from force_diffusion.derivations.beyond import b16_mean_bulk_direction as b16
 from force_diffusion.derivations.beyond import t1_forces as t1
+from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.proving import Line, Meaning, facts_of
 from force_diffusion.derivations.framework.record import ExactCase, usual
@@ -177,7 +175,7 @@ class Load:
     def _products(self, branch: str) -> Meaning:
         """Means of products of two first-order quantities of a contact, and of its partner."""
         own = {"+": ForcePlus(i, j) / L_plus, "-": ForceMinus(i, j) / (t * L_plus)}
-        tilts = {"+": b4.TILT, "-": mirror(b4.TILT)}
+        tilts = {"+": t4.TILT, "-": mirror(t4.TILT)}
         other = "-" if branch == "+" else "+"
         radii = DeltaR(i, j) + DeltaR(i + (1 if branch == "+" else -1), j + 1)
         force, tilt = own[branch] / self.layers, tilts[branch]
@@ -305,8 +303,8 @@ class Load:
 
 
 LOADS = (
-    Load("surface", sympy.S.One, b15.DERIVATION),
-    Load("bulk", M - j, b16.DERIVATION),
+    Load("surface", sympy.S.One, t4.B15),
+    Load("bulk", M - j, t4.B16),
 )
 
 
@@ -391,7 +389,7 @@ def _show_moments(lines: Lines, parts: tuple[int, ...]) -> Line:
         rewrite(),
         where=Where(),
         meaning=means,
-        after=(at_order_2, b4.DERIVATION, b15.DERIVATION, b16.DERIVATION),
+        after=(at_order_2, t4.B4, t4.B15, t4.B16),
     )
 
 
@@ -460,7 +458,7 @@ def stress_steps(number: Number) -> Lines:
         equation(terms(BY_FLUX, -1), WITH_HEIGHT),
         moment(*load.facts),
         meaning=load.meaning,
-        after=(b4.DERIVATION, mean),
+        after=(t4.B4, mean),
     )
     lines.show(
         "The covariances put in there:",
@@ -676,7 +674,7 @@ def _stress(number: Number, load_in_words: str, **options: Any) -> Derivation:
     )
 
 
-_MEANS = (eq04.DERIVATION, eq05.DERIVATION, t1.B1, b4.DERIVATION, b15.DERIVATION, b16.DERIVATION)
+_MEANS = (eq04.DERIVATION, eq05.DERIVATION, t1.B1, t4.B4, t4.B15, t4.B16)
 
 B10 = _stress(
     "B10",

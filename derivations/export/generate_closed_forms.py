@@ -10,26 +10,20 @@ surface (k small, M large) the terms in M and j alone would cancel, those in k d
 from pathlib import Path
 from textwrap import dedent, indent
 from types import ModuleType
+from typing import Any
 
 import sympy
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations import eq16_response as eq16
-from force_diffusion.derivations.beyond import b4_settling as b4
-from force_diffusion.derivations.beyond import b5_mean_surface as b5
-from force_diffusion.derivations.beyond import b6_mean_bulk as b6
 from force_diffusion.derivations.beyond import b7_neighbouring_contacts as b7
 from force_diffusion.derivations.beyond import b8_neighbouring_beads as b8
-from force_diffusion.derivations.beyond import b11_any_dimension as b11
 from force_diffusion.derivations.beyond import b12_between_layers as b12
-from force_diffusion.derivations.beyond import b13_spheres_surface as b13
-from force_diffusion.derivations.beyond import b14_spheres_bulk as b14
-from force_diffusion.derivations.beyond import b15_mean_surface_direction as b15
-from force_diffusion.derivations.beyond import b16_mean_bulk_direction as b16
-from force_diffusion.derivations.beyond import b19_spheres_response as b19
-from force_diffusion.derivations.beyond import spheres
 from force_diffusion.derivations.beyond import t2_variance as t2
+from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.beyond import t5_stress as t5
+from force_diffusion.derivations.beyond import t8_any_dimension as t8
+from force_diffusion.derivations.beyond import t9_spheres_response as t9
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.parts import cone
 from force_diffusion.symbolic.symbols import M, N, d, i, j, k, kappa, l, n_y, p, phi, r, sigma, z
@@ -438,6 +432,11 @@ def _piecewise(pieces: tuple[Piece, ...], unit: sympy.Expr) -> str:
     return indent(lines.rstrip(), "    ")
 
 
+def _cases(*cases: Any) -> tuple[Any, ...]:
+    """The same of cases of a theorem."""
+    return tuple((one.number, one.forms) for one in cases)
+
+
 def _forms_of(equation: ModuleType) -> tuple[Number, dict[str, ClosedForm]]:
     """The number of an equation, and its exact forms."""
     return equation.DERIVATION.number, equation.exact_forms()
@@ -464,18 +463,28 @@ def source() -> str:
             DIRECTION,
             (("B2", t2.SURFACE.variance.forms), ("B3", t2.BULK.variance.forms)),
         ),
-        ("variance_of_spheres", "load", SPHERES, map(_forms_of, (b13, b14))),
-        ("mean_shift", "load", MEAN, map(_forms_of, (b5, b6))),
-        ("mean_shift_at_angle", "load at an angle", MEAN_AT_ANGLE, map(_forms_of, (b15, b16))),
+        (
+            "variance_of_spheres",
+            "load",
+            SPHERES,
+            _cases(t8.B13, t8.B14),
+        ),
+        ("mean_shift", "load", MEAN, _cases(t4.ON_SURFACE, t4.IN_BULK)),
+        (
+            "mean_shift_at_angle",
+            "load at an angle",
+            MEAN_AT_ANGLE,
+            _cases(t4.SURFACE_AT_ANGLE, t4.BULK_AT_ANGLE),
+        ),
     ):
         for load, (label, forms) in zip(("surface", "bulk"), both, strict=True):
             parts.append(_exact(f"{load}_{what}", f"{load} {how}", label, forms, template))
     for label, stress in (("B10", t5.OF_SURFACE), ("B17", t5.OF_BULK)):
         name, forms = f"{stress.name}_stress_ratio_shift", stress.forms[t5.RATIO]
         parts.append(_exact(name, f"{stress.name} load", label, forms, STRESS))
-    in_any = b11.PRINTED.rhs.doit().xreplace({kappa: sympy.Integer(1)})
+    in_any = t8.B11.printed.rhs.doit().xreplace({kappa: sympy.Integer(1)})
     parts.append(DIMENSION.format(code=_code(in_any, M, d, z)))
-    sinking = b4.PRINTED.rhs.doit().xreplace({n_y: sympy.Integer(1)})
+    sinking = t4.SETTLING.rhs.doit().xreplace({n_y: sympy.Integer(1)})
     parts.append(SETTLING.format(sinking=_code(sinking, j)))
     for name, what, label, average, below, above in (
         ("contacts_mean_variance", "f^±/⟨f⟩", "B7", b7, "1", "3"),
@@ -502,8 +511,8 @@ def source() -> str:
     )
     parts.append(
         RESPONSE_OF_SPHERES.format(
-            leg=indent(_piecewise(b19.LEG_PIECES, spheres.UNIT / 9), "    "),
-            face=_piecewise(b19.BEAD_PIECES, spheres.UNIT / 9),
+            leg=indent(_piecewise(t9.LEG_PIECES, t9.UNIT / 9), "    "),
+            face=_piecewise(t9.BEAD_PIECES, t9.UNIT / 9),
         )
     )
     return "".join(parts)

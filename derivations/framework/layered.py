@@ -5,7 +5,7 @@ own; each with its ``where``, from which users get the range of the closed form.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import sympy
@@ -90,6 +90,7 @@ class Layered:
         cases: the layers, the interior first.
         by: what proves its closed forms; working out the moments, for most.
         said_as: what the symbol stands for there, if it is not the moment.
+        dimension: of the packing.
     """
 
     symbol: sympy.Expr
@@ -100,6 +101,7 @@ class Layered:
     cases: Mapping[str, Case] = field(default_factory=lambda: EVERY_LAYER)
     by: By | None = None
     said_as: sympy.Expr | None = None
+    dimension: int | sympy.Symbol = 2
 
     @property
     def meant(self) -> Meaning:
@@ -114,7 +116,7 @@ class Layered:
 
     def where(self, case: str = "interior") -> Where:
         """The domain of a closed form."""
-        return Where.of(*self.cases[case].relations, loading=self.loading)
+        return self._where(*self.cases[case].relations)
 
     @property
     def in_the_limit(self) -> Where:
@@ -122,7 +124,10 @@ class Layered:
         return self._large("interior", "∼")
 
     def _small(self, height: int, layer: int) -> Where:
-        return Where.of(sympy.Eq(j, layer), sympy.Eq(M, height), loading=self.loading)
+        return self._where(sympy.Eq(j, layer), sympy.Eq(M, height))
+
+    def _where(self, *relations: sympy.Basic) -> Where:
+        return replace(Where.of(*relations, loading=self.loading), dimension=self.dimension)
 
     def _value(self, where: Where) -> RationalFunction:
         meant, facts = in_place(self.moment, self.meaning), facts_of(self.facts)

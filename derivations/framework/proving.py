@@ -10,6 +10,7 @@ from functools import cache, cached_property
 from typing import Any, Protocol
 
 import sympy
+from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel import limits, moments, rules
@@ -35,6 +36,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     subject,
 )
 from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.counterexample import counterexample
 from force_diffusion.symbolic.search.values import WithoutValue
 from force_diffusion.symbolic.symbols import ForceMinus, ForcePlus
@@ -127,8 +129,10 @@ def _names(sources: Iterable[Source]) -> Iterable[str]:
             yield from one.names()
         elif isinstance(one, tuple):
             yield from _names(one)
-        elif isinstance(one, Chain) or (hasattr(one, "theorems") and hasattr(one, "words")):
-            yield one.words
+        else:
+            first = one.sources[0] if isinstance(one, Chain) else one
+            if hasattr(first, "words"):
+                yield first.words
 
 
 @dataclass(frozen=True)
@@ -136,12 +140,6 @@ class Chain:
     """Equations put in one after the other, under the name of the first; it rests on the others."""
 
     sources: tuple[Source, ...]
-
-    @property
-    def words(self) -> str:
-        """How another line names it."""
-        words: str = self.sources[0].words
-        return words
 
 
 @dataclass(frozen=True)
@@ -694,9 +692,24 @@ def fixes_it(candidate: sympy.Eq, printed: sympy.Eq, where: Where) -> str:
     """
     if subject(printed.lhs) is None:
         told, meant = (one.atoms(ForcePlus, ForceMinus) for one in (candidate, printed))
-        return "it is about another force" if where.limit and told != meant else ""
+        if where.limit and told != meant:
+            return "it is about another force"
+        return _fixes_the_symbol(candidate, printed, where)
     try:
         about, _ = isolated(candidate, where)
     except NotProvedError as reason:
         return str(reason)
     return "" if about == subject(printed.lhs) else "it is about another quantity"
+
+
+def _fixes_the_symbol(candidate: sympy.Eq, printed: sympy.Eq, where: Where) -> str:
+    """The same where a symbol stands beside others on the left, as in ⟨f⟩/f₀ − 1."""
+    known = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS, sy.d, sy.kappa, sy.N}
+    about = printed.lhs.free_symbols - known
+    if printed.lhs.has(sy.SiteFunction) or len(about) != 1:
+        return ""
+    (symbol,) = about
+    slope = sympy.diff(candidate.lhs - candidate.rhs, symbol)
+    if slope.has(symbol) or not where.never_zero(slope):
+        return f"it does not fix {text(symbol)} everywhere"
+    return ""

@@ -1,6 +1,6 @@
 """Signs over the whole domain: 0 < z < 1, −½ < φ < ½, and all that is positive by its name.
 
-Beside d, the number of dimensions, −1/d < φ < ½.
+Beside d ≥ 2, the number of dimensions, −1/d < φ < ½.
 
 A sign is found exactly, by the number of real roots of a polynomial in an interval; what is not
 shown to have one sign has none.
@@ -19,27 +19,37 @@ _COSINES = {n_x, n_y, phi}
 _UP = sympy.Dummy("up", positive=True)
 _BETWEEN = (d * _UP - 2) / (2 * d * (1 + _UP))
 """φ from −1/d to ½, as _UP goes from 0 to infinity."""
+_MORE = sympy.Dummy("more", nonnegative=True)
+"""d − 2."""
 _HALF, _QUARTER = sympy.Rational(1, 2), sympy.Rational(1, 4)
 
 
 @cache
-def sign(expression: sympy.Expr, positive: Symbols = (), nonnegative: Symbols = ()) -> int:
+def sign(
+    expression: sympy.Expr,
+    positive: Symbols = (),
+    nonnegative: Symbols = (),
+    dimension: int = 2,
+) -> int:
     """1 or −1 where the expression is that side of zero everywhere; 0 where that is not shown.
 
-    ``positive`` names further symbols that are positive, ``nonnegative`` those that may be zero.
+    ``positive`` names further symbols that are positive, ``nonnegative`` those that may be zero. φ
+    is above −1/``dimension``.
     """
     if isinstance(expression, sympy.Mul):
         product = 1
         for factor in expression.args:
-            product *= sign(factor, positive, nonnegative)
+            product *= sign(factor, positive, nonnegative, dimension)
         return product
     if isinstance(expression, sympy.Pow) and isinstance(expression.exp, sympy.Rational):
-        base = sign(expression.base, positive, nonnegative)
+        base = sign(expression.base, positive, nonnegative, dimension)
         if expression.exp.is_Integer:
             return base ** (int(expression.exp) % 2) if base else 0
         return base if base == 1 else 0
     if expression.has(d) and expression.has(phi):
         expression = expression.xreplace({phi: _BETWEEN})
+    if expression.has(d):
+        expression, nonnegative = expression.xreplace({d: _MORE + 2}), (*nonnegative, _MORE)
     domain = Domain(by_name(expression.free_symbols))
     try:
         value = domain.from_sympy(expression)
@@ -52,22 +62,29 @@ def sign(expression: sympy.Expr, positive: Symbols = (), nonnegative: Symbols = 
         number, powers = value.factors(polynomial)
         found *= 1 if number > 0 else -1
         for factor, power in powers.items():
-            one = _of_factor(factor, positive, nonnegative)
+            one = _of_factor(factor, positive, nonnegative, sympy.Rational(-1, dimension))
             found *= one ** (power % 2) if one else 0
     return found
 
 
-def never_zero(expression: sympy.Expr, positive: Symbols = (), nonnegative: Symbols = ()) -> bool:
+def never_zero(
+    expression: sympy.Expr,
+    positive: Symbols = (),
+    nonnegative: Symbols = (),
+    dimension: int = 2,
+) -> bool:
     """Whether it is shown to differ from zero everywhere in the domain."""
-    return sign(expression, positive, nonnegative) != 0
+    return sign(expression, positive, nonnegative, dimension) != 0
 
 
-def _of_factor(factor: sympy.Expr, positive: Symbols, nonnegative: Symbols) -> int:
+def _of_factor(
+    factor: sympy.Expr, positive: Symbols, nonnegative: Symbols, lowest: sympy.Rational
+) -> int:
     if factor.free_symbols == {z}:
         return _on_interval(sympy.Poly(factor, z), sympy.S.Zero, sympy.S.One)
     if factor.free_symbols <= _COSINES and (found := _of_cosines(factor)):
         return found
-    return _of_terms(factor, positive, nonnegative)
+    return _of_terms(factor, positive, nonnegative, lowest)
 
 
 def _on_interval(polynomial: sympy.Poly, low: sympy.Expr, high: sympy.Expr) -> int:
@@ -94,17 +111,27 @@ def _of_cosines(factor: sympy.Expr) -> int:
     return 1 if value.is_positive else -1 if value.is_negative else 0
 
 
-def _of_terms(factor: sympy.Expr, positive: Symbols, nonnegative: Symbols) -> int:
-    """All terms of one sign, even powers of φ included, and one that is not zero anywhere."""
-    symbols = by_name(factor.free_symbols)
-    may_vanish = {phi, *nonnegative} - set(positive)
+def _of_terms(
+    factor: sympy.Expr, positive: Symbols, nonnegative: Symbols, lowest: sympy.Rational
+) -> int:
+    """All terms of one sign, factors in φ included, and one that is not zero anywhere."""
+    symbols = by_name(factor.free_symbols - {phi})
+    may_vanish = {*nonnegative} - set(positive)
     if not all(s in may_vanish or s == z or s.is_positive or s in positive for s in symbols):
         return 0
     found, strict = set(), False
-    for powers, c in sympy.Poly(factor, *symbols).terms():
-        held = {symbol: power for symbol, power in zip(symbols, powers, strict=True) if power}
-        if held.get(phi, 0) % 2:
-            return 0
-        found.add(1 if c > 0 else -1)
-        strict = strict or not may_vanish & held.keys()
+    whole = sympy.Poly(factor, *symbols, phi).as_expr()
+    for powers, c in sympy.Poly(whole, *symbols).terms() if symbols else (((), whole),):
+        one, never = _in_phi(c, lowest)
+        found.add(one)
+        held = {symbol for symbol, power in zip(symbols, powers, strict=True) if power}
+        strict = strict or (never and not may_vanish & held)
     return found.pop() if strict and len(found) == 1 else 0
+
+
+def _in_phi(factor: sympy.Expr, lowest: sympy.Rational) -> tuple[int, bool]:
+    """The sign of a polynomial in φ, and whether it vanishes nowhere; it may at φ = 0."""
+    polynomial = sympy.Poly(factor, phi)
+    power = min(power for (power,) in polynomial.monoms())
+    rest = sympy.Poly({(p - power,): c for (p,), c in polynomial.terms()}, phi)
+    return (0 if power % 2 else _on_interval(rest, lowest, _HALF)), not power

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from force_diffusion.symbolic.attacks import (  # noqa: F401 - each adds its own to ATTACKS
+    any_dimension,
     averaging,
     comparing,
     inducing,
@@ -10,6 +11,7 @@ from force_diffusion.symbolic.attacks import (  # noqa: F401 - each adds its own
     moving,
     over_layers,
     rewriting,
+    second_order,
     solving,
     splitting,
     statements,

@@ -63,9 +63,10 @@ def asymptotic(*facts: Theorem | tuple[Theorem, ...], late: Iterable[sympy.Basic
             raise NotProvedError(
                 f"left less right is of order {low}, the right-hand side of order {high}"
             )
-        if not even(FIELD.one / right, limit):
+        least = where.at_least
+        if not even(FIELD.one / right, limit, least):
             raise NotProvedError("what the right-hand side goes as is not shown to vanish nowhere")
-        if not even(left - right, limit):
+        if not even(left - right, limit, least):
             raise NotProvedError("the order of what is left is not shown to hold everywhere")
         return made(formula, where, "leading order", flat(facts))
 
@@ -265,7 +266,7 @@ def read(
         one.in_the_limit(None) for one in (where, part or where)
     ))  # fmt: skip
     sides = [_at_height(side, where) for side in finite.args]
-    known = {*FIXED, *limit.growing}
+    known = {*FIXED, *limit.growing} | ({sy.d} if where.dimension == sy.d else set())
     if strange := by_name(set().union(*(side.free_symbols for side in sides)) - known):
         raise NotProvedError(f"{text(strange[0])} neither grows nor is fixed")
     try:
@@ -286,10 +287,10 @@ def leading(value: RationalFunction, limit: Limit) -> RationalFunction:
     return _top(value.numerator, limit) / _top(value.denominator, limit)
 
 
-def even(value: RationalFunction, limit: Limit) -> bool:
+def even(value: RationalFunction, limit: Limit, dimension: int = 2) -> bool:
     """Whether its order holds at all ratios and φ: what its divisor goes as vanishes nowhere."""
     below = _top(value.denominator, limit).to_sympy().xreplace(_coordinates(limit))
-    return never_zero(below, _NAMES)
+    return never_zero(below, _NAMES, dimension=dimension)
 
 
 def _degree(polynomial: Polynomial, limit: Limit) -> int:

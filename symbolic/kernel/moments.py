@@ -14,6 +14,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import FIELD, UNKNOWNS, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm
 from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.kernel import any_dimension, second_order
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import (
     Facts,
@@ -124,6 +125,12 @@ def value(
 ) -> RationalFunction:
     """A moment on a part of a domain, exact to leading order in the deviations of the radii."""
     part = part or where
+    if one.has(*sy.CONTACTS):
+        return any_dimension.value(one, part)
+    if isinstance(one, sy.Shift):
+        inside = one.args[0].xreplace(part.solved)
+        found = second_order.shift(inside, part, lambda of, there: value(of, facts, there))
+        return found.reduced()
     if isinstance(one, sy.Covariance):
         first, second = one.args
         of = (sy.Variance(first + second), sy.Variance(first), sy.Variance(second))

@@ -150,7 +150,7 @@ def check(formula: sympy.Eq, where: Where, *, in_a_limit: bool = False) -> None:
             raise NotAStatementError(f"its domain does not say what {text(symbol)} is")
     if reserved := by_name(free & {*UNKNOWNS[0], *UNKNOWNS[1]}):
         raise NotAStatementError(f"{text(reserved[0])} is a name of the kernel's own")
-    if where.dimension < 2:
+    if where.dimension != sy.d and where.dimension < 2:
         raise NotAStatementError("a packing has two dimensions or more")
     if where.dimension != 2 and (found := by_name(free & _PLANE)):
         raise NotAStatementError(f"{text(found[0])} belongs to the plane")
@@ -197,7 +197,7 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
 
 
 _MOMENTS = (sy.Moment, sy.LargestShare, sy.LargestWeight)
-_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, *_MOMENTS)
+_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, *_MOMENTS, *sy.CONTACTS)
 _QUANTITIES = {
     *FORCES, sy.DeltaNMinus, sy.DeltaNPlus, sy.DeltaR, sy.DeltaX, sy.Load, sy.Position,
     sy.SecondDifference,
@@ -257,6 +257,7 @@ class Normal:
         if any(isinstance(one, FORCES) and bound & one.free_symbols for one in held):
             raise NotProvedError("a force is summed over, which is not one unknown number")
         known = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS, *UNKNOWNS[0], *UNKNOWNS[1]}
+        known |= {where.dimension} if where.dimension == sy.d else set()
         left = [list(reversed(UNKNOWNS[0])), list(reversed(UNKNOWNS[1]))]
         for used in held & {*UNKNOWNS[0], *UNKNOWNS[1]}:
             for one in left:
@@ -511,7 +512,7 @@ def applies(theorem: Theorem, image: Mapped, where: Where, background: Facts) ->
             return False
     if own.loading is None:
         return True
-    if own.loading.everywhere:
+    if own.loading.everywhere or not own.loading.given:
         return own.loading.put_in(image) == where.loading
     return all(_given(one, where, background) for one in own.loading.put_in(image).given)
 

@@ -163,7 +163,7 @@ class Where:
         relations: between whole numbers; all of them hold.
         loading: what is known of loads and forces; None for a statement about geometry alone.
         even: sums of indices that are even, since beads are there: i + j of a bead (i, j).
-        dimension: of the packing: −1/dimension < φ < ½.
+        dimension: d of the packing: −1/d < φ < ½; d itself for every one from 2 on.
         limit: in which the statement holds, and not at finite size; None for most.
     """
 
@@ -171,7 +171,7 @@ class Where:
     relations: tuple[sympy.Basic, ...] = ()
     loading: Loading | None = None
     even: tuple[sympy.Expr, ...] = ()
-    dimension: int = 2
+    dimension: int | sympy.Symbol = 2
     limit: Limit | None = None
     rows: frozenset[Affine] = field(init=False, repr=False)
 
@@ -254,6 +254,11 @@ class Where:
         loading = self.loading and self.loading.mirrored()
         return replace(self, relations=relations, loading=loading)
 
+    @property
+    def at_least(self) -> int:
+        """The lowest dimension of its packings."""
+        return 2 if self.dimension == sy.d else int(self.dimension)
+
     # what follows
 
     def nonnegative(self, value: Affine) -> bool:
@@ -332,7 +337,7 @@ class Where:
             return base ** (int(expression.exp) % 2) if base else 0
         held = expression.free_symbols & set(sy.INDICES)
         if not held:
-            return sign(expression)
+            return sign(expression, dimension=self.at_least)
         try:
             value = affine.from_sympy(expression)
         except NotExactError:

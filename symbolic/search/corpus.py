@@ -16,7 +16,6 @@ from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search import variations
 from force_diffusion.symbolic.search.sources import (
-    COSINES,
     Made,
     Source,
     Zeros,
@@ -61,11 +60,11 @@ def _zero_over_zero(source: Source) -> Made:
 
 
 def _zero_over_zero_below(source: Source) -> Made:
-    yield from _at_zero(source, ((f"φ = {c}", sy.phi - c) for c in COSINES if c < 0))
+    yield from _at_zero(source, ((f"φ = {c}", sy.phi - c) for c in source.cosines if c < 0))
 
 
 def _zero_over_zero_above(source: Source) -> Made:
-    yield from _at_zero(source, ((f"φ = {c}", sy.phi - c) for c in COSINES if c > 0))
+    yield from _at_zero(source, ((f"φ = {c}", sy.phi - c) for c in source.cosines if c > 0))
 
 
 def _zero_over_zero_on_the_left(source: Source) -> Made:
@@ -154,15 +153,17 @@ def _up_to(highest: int, layer: sympy.Symbol) -> sympy.Expr:
 def _near_the_base(source: Source) -> Made:
     for layer in (sy.j, sy.l, sy.site_s):
         if source.relation == "=" and layer in source.free:
-            once = 2 * _up_to(2, layer) - _up_to(3, layer) - 1  # zero in layer 1, and from 3 on
+            at = source.layer(layer)
+            before = _up_to(at - 1, layer) if at > 2 else 1
+            once = 2 * _up_to(at, layer) - _up_to(at + 1, layer) - before  # zero in all others
             wrong = source.right(plus(source.term(_MILLIONTH) * once))
-            yield f"wrong at {text(layer)} = 2 alone", wrong
+            yield f"wrong at {text(layer)} = {at} alone", wrong
 
 
 def _as_large_somewhere(source: Source) -> Made:
     if source.relation not in "≈∼":
         return
-    places = [*source.heights(), *((f"φ = {c}", sy.phi - c) for c in COSINES)]
+    places = [*source.heights(), *((f"φ = {c}", sy.phi - c) for c in source.cosines)]
     for (where, a), (grows, even) in product(places, ((2, 2), (1, 2), (3, 4), (4, 2))):
         bump = 1 + over(1 + source.size**grows * a**even)
         yield f"twice as large at {where}, of lower order beside it", source.right(times(bump))
@@ -174,7 +175,7 @@ def _negative_or_zero(source: Source) -> Made:
     yield "it is negative", source.right(times(sympy.Integer(-1)))
     yield "it is negative", source.right(times(sy.phi - 1))
     yield "it is negative", source.right(times(sy.phi**2 - 1, over(sy.n_x)))
-    for c in COSINES:
+    for c in source.cosines:
         a = sy.phi - c
         yield f"it changes its sign at φ = {c}", source.right(times(a))
         yield f"it vanishes at φ = {c}", source.right(times(a**2))

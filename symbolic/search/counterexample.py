@@ -10,7 +10,7 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.where import LATTICE, Loading, Where
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search import limits
+from force_diffusion.symbolic.search import any_dimension, limits
 from force_diffusion.symbolic.search.dual import (
     NOWHERE,
     Dual,
@@ -132,6 +132,8 @@ def counterexample(
     vector, a sum whose upper bound is below its lower one by more than one, what is too large.
     """
     try:
+        if where.dimension != 2 or statement.has(*sy.CONTACTS):
+            return any_dimension.counterexample(statement, where, at_most)
         if where.limit:
             return limits.counterexample(statement, where, force)
         return _search(statement, where, at_most)
@@ -140,7 +142,7 @@ def counterexample(
 
 
 def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> str | None:
-    if not isinstance(statement, sympy.Eq) or where.dimension != 2:
+    if not isinstance(statement, sympy.Eq):
         return None
     free = _free_symbols(statement)
     budget, below, compared = Budget(READS), None, False

@@ -48,6 +48,18 @@ class Source:
     dimension: int = 2
 
     @property
+    def cosines(self) -> list[Rational]:
+        """Values of φ, which is above −1/d."""
+        return [one for one in COSINES if one * self.dimension > -1]
+
+    def layer(self, index: sympy.Symbol) -> int:
+        """A layer of the domain, above the first."""
+        found = 2
+        while self.where and found < 9 and self.where.implies(index >= found + 1):
+            found += 1
+        return found
+
+    @property
     def free(self) -> set[sympy.Symbol]:
         """The symbols that are not summed over."""
         return set(self.printed.free_symbols)
@@ -104,7 +116,7 @@ class Source:
 
     def zeros(self) -> Zeros:
         """Yield places of the domain, in words, with what vanishes there."""
-        for c in COSINES:
+        for c in self.cosines:
             yield f"φ = {c}", sy.phi - c
         yield "φ = 0", sy.n_x - sy.n_y
         yield "φ = 5/13", 3 * sy.n_x - 2 * sy.n_y

@@ -11,6 +11,7 @@ from fractions import Fraction
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search import quadratic
 from force_diffusion.symbolic.search.dual import (
     NOWHERE,
     ZERO,
@@ -139,6 +140,8 @@ class Evaluator:
         return known
 
     def _over_radii(self, node: sy.Moment) -> Number:
+        if isinstance(node, sy.Shift):
+            return self._shift(node.args[0]) * self._plain(sy.sigma) ** 2
         each = Evaluator(self.packing.by_radius, self.numbers, self.budget)
         try:
             values = [each._number(argument) for argument in node.args]
@@ -153,6 +156,36 @@ class Evaluator:
             return 0
         self._spend(len(first.by_site))
         return first.times(last) * self._plain(sy.sigma) ** 2
+
+    def _shift(self, inside: sympy.Expr) -> Number:
+        """The mean at second order of what is linear in forces or displacements, σ = 1."""
+        forces = inside.atoms(sy.ForcePlus, sy.ForceMinus)
+        moved = {one for one in inside.atoms(sy.Dot) if isinstance(one.args[1], sy.DeltaX)}
+        names = {one: sympy.Dummy() for one in (*forces, *moved)}
+        linear = inside.xreplace(names)
+        if linear.has(sy.SiteFunction):
+            raise UnreadableError(f"the mean of {_brief(inside)} at second order")
+        total: Number = 0
+        for one, name in names.items():
+            slope = sympy.diff(linear, name)
+            if slope.has(*names.values()):
+                raise UnreadableError(f"{_brief(inside)} is not linear")
+            total += self._plain(slope) * self._second_order(one)
+        return total
+
+    def _second_order(self, one: sympy.Expr) -> Number:
+        geometry, given = self.packing.geometry, self.packing.given
+        n, radius = geometry.n, geometry.radius
+        self._spend(A_BEAD * quadratic.HIGHEST**2)
+        if isinstance(one, sy.Dot):
+            layer = self._index(one.args[1].args[1])
+            x, y = quadratic.displacement(n, radius, given, layer)
+            found = self._vector(one.args[0]).dot(Vector(Dual(x), Dual(y))).value
+            return found
+        branch = 1 if isinstance(one, sy.ForcePlus) else -1
+        across, layer = map(self._index, one.args)
+        self.packing.quantity(type(one).__name__, across, layer)  # it is there
+        return quadratic.forces(n, radius, given, branch, layer)
 
     def _spend(self, reads: int) -> None:
         self.budget.left -= reads

@@ -12,6 +12,7 @@ from functools import cmp_to_key
 from itertools import pairwise
 from typing import Protocol
 
+import sympy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.affine import Affine
 from force_diffusion.symbolic.algebra.exact import (
@@ -38,7 +39,14 @@ class Order(Protocol):
 
 
 class UndeterminedError(NotExactError):
-    """An order relation between layers does not hold throughout the region."""
+    """An order relation between layers does not hold throughout the region.
+
+    ``number`` is ≥ 0 on one part of it and below on the other, where that is known.
+    """
+
+    def __init__(self, words: str, number: sympy.Expr | None = None) -> None:
+        super().__init__(words)
+        self.number = number
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,493 @@
+"""T9: the response to a point load in three dimensions, Eq. B19: what is zero, and all variances.
+
+A face of the cone below the loaded bead O holds the beads p steps along one vector and q along
+another below it, p, q ≥ 1, in layer j = l − p − q; a leg has q = 0.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from itertools import product
+
+import sympy
+from force_diffusion.derivations import eq16_response as eq16
+from force_diffusion.derivations.beyond import t8_any_dimension as t8
+from force_diffusion.derivations.framework.record import ExactCase, Missed, usual
+from force_diffusion.derivations.framework.vocabulary import (
+    Derivation,
+    Lines,
+    Where,
+    Witness,
+    equation,
+    minus,
+    moment,
+    power,
+    rewrite,
+    terms,
+    times,
+)
+from force_diffusion.derivations.witnesses import dimensions as witnesses
+from force_diffusion.derivations.witnesses.draws import SmallPacking
+from force_diffusion.derivations.witnesses.squared_weights import compare
+from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.kernel.any_dimension import POINT
+from force_diffusion.symbolic.kernel.decisions import Ruling
+from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.symbols import (
+    ForceBelow,
+    Mean,
+    PushBelow,
+    Variance,
+    d,
+    f_load,
+    j,
+    l,
+    p,
+    phi,
+    q,
+    r,
+    sigma,
+)
+from force_diffusion.symbolic.variances.cases import Piece
+from sympy import Eq, Integer, Rational
+
+ON_FACE = Symbol(
+    "face_response",
+    r"\frac{\sigma_{\mathrm{face}}^{2}(n_{z} f)}{(f^{\mathrm{load}})^{2}}",
+    "σ²(n_z f on a face)/f_load²",
+)
+BEAD = Symbol(
+    "face_bead_response",
+    r"\frac{\sigma_{\mathrm{face}}^{2}(p)}{(f^{\mathrm{load}})^{2}}",
+    "σ²(p on a face)/f_load²",
+)
+ON_LEG = Symbol(
+    "leg_response",
+    r"\frac{\sigma_{\mathrm{leg}}^{2}(p)}{(f^{\mathrm{load}})^{2}}",
+    "σ²(p on a leg)/f_load²",
+)
+LEG_MAGNITUDE = Symbol(
+    "leg_force",
+    r"\frac{\sigma_{\mathrm{leg}}^{2}(f)}{\langle f\rangle^{2}}",
+    "σ²(f on a leg)/⟨f⟩²",
+)
+
+UNIT = t8.IN_THREE
+SHARE = 1 + 2 * phi + 2 * phi**2
+_HALF = Rational(1, 2)
+_FACE = (SHARE * (12 * (j + q) - 9) + 3 + phi**2) / 2
+_BEAD = SHARE * (6 * (l + j) - 9) + 3 + phi**2
+_BELOW = 2 * phi**2 * j + _HALF + 3 * phi + 7 * phi**2
+_LEG = (6 + 12 * phi + 10 * phi**2) * l + 4 * j - 4 * (1 + phi - phi**2)
+_LEG_FORCE = (
+    (6 + 12 * phi + 10 * phi**2) * l
+    + 4 * phi**2 * j
+    - 5 - 12 * phi + 3 * phi**2 + 8 * phi**3 + 2 * phi**4
+)  # fmt: skip
+
+CONTACT_PIECES = (
+    Piece("j = 0, one step from the leg", {j: 0, q: 1}, Rational(7, 2) + 4 * phi + 5 * phi**2),
+    Piece("every other contact of a face", {}, _FACE),
+)
+BEAD_PIECES = (
+    Piece("j = 0, l = 2", {j: 0, p: 1, q: 1}, _BEAD - _HALF + 2 * phi + 9 * phi**2),
+    *(
+        Piece(
+            f"j = 0, beside a leg ({steps} = 1)",
+            {j: 0, steps: 1},
+            _BEAD - 2 - 7 * phi / 2 - phi**2 / 2,
+        )
+        for steps in (p, q)
+    ),
+    Piece("j = 0, further inside", {j: 0}, _BEAD - 3 * (1 + phi) ** 2),
+    Piece("j = 1, l = 3", {j: 1, p: 1, q: 1}, _BEAD + _BELOW + 4 * (1 + phi) ** 2),
+    Piece("j = 1, l > 3", {j: 1}, _BEAD + 4 * (1 + phi) ** 2),
+    Piece("j = 2, l = 4", {j: 2, p: 1, q: 1}, _BEAD + _BELOW - 3 * _HALF * (1 + phi) ** 2),
+    Piece("j = 2, l > 4", {j: 2}, _BEAD - 3 * _HALF * (1 + phi) ** 2),
+    Piece("j = l − 2 ≥ 3", {p: 1, q: 1}, _BEAD + _BELOW),
+    Piece("j ≥ 3, every other bead of a face", {}, _BEAD),
+)
+LEG_PIECES = (
+    Piece("j = 0, l = 1", {j: 0, p: 1}, 3 * _HALF * (1 + 4 * phi + 4 * phi**2)),
+    Piece("j = 0, l = 2", {j: 0, p: 2}, _LEG - (5 + 14 * phi + 7 * phi**2) / 2),
+    Piece("j = 0, l > 2", {j: 0}, _LEG - (5 + 14 * phi + 4 * phi**2) / 2),
+    Piece("j = 1, l = 2", {j: 1, p: 1}, _LEG + 3 + 10 * phi - 15 * phi**2 / 2),
+    Piece("j = 1, l > 2", {j: 1}, _LEG + 3 * (1 + phi)),
+    Piece("j = l − 1 ≥ 2", {p: 1}, _LEG + 4 * phi * j + 3 * phi * (1 - 2 * phi)),
+    Piece("2 ≤ j ≤ l − 2, on a leg", {}, _LEG),
+)
+LEG_FORCE_PIECES = (
+    Piece("j = 0, l = 1", {j: 0, p: 1}, 2 - 2 * phi + 27 * phi**2 / 2 - 2 * phi**3 + 2 * phi**4),
+    Piece("j = 0, l = 2", {j: 0, p: 2}, _LEG_FORCE - phi * (3 + 6 * phi + 4 * phi**2)),
+    Piece("j = 0, l > 2", {j: 0}, _LEG_FORCE - phi * (6 + 9 * phi + 8 * phi**2) / 2),
+    Piece("j = 1, l = 2", {j: 1, p: 1}, _LEG_FORCE + phi * (6 + 17 * phi - 12 * phi**2) / 2),
+    Piece("j = 1, l > 2", {j: 1}, _LEG_FORCE + 3 * phi * (1 + phi)),
+    Piece("j = l − 1 ≥ 2", {p: 1}, _LEG_FORCE + phi**2 * (4 * j + 3 - 6 * phi)),
+    Piece("2 ≤ j ≤ l − 2, on a leg", {}, _LEG_FORCE),
+)
+
+_VARIANCE = power(times(sigma, 1 / r), 2)
+_BELOW_LINE = 1 / ((1 - phi) ** 2 * (1 + 2 * phi) ** 2)
+_OF_FACE = terms(1, times(2, phi), times(2, phi**2))
+PRINTED = (
+    equation(
+        ON_FACE,
+        times(
+            _BELOW_LINE / 18,
+            terms(times(_OF_FACE, terms(times(12, terms(j, q)), -9)), 3, phi**2),
+            _VARIANCE,
+        ),
+    ),
+    equation(
+        BEAD,
+        times(
+            _BELOW_LINE / 9,
+            terms(times(_OF_FACE, terms(times(6, terms(l, j)), -9)), 3, phi**2),
+            _VARIANCE,
+        ),
+    ),
+    equation(
+        ON_LEG,
+        times(
+            _BELOW_LINE / 9,
+            terms(
+                times(2, terms(3, times(6, phi), times(5, phi**2)), l),
+                times(4, j),
+                minus(times(4, terms(1, phi, -(phi**2)))),
+            ),
+            _VARIANCE,
+        ),
+    ),
+)
+
+ONE, TWO, NONE = Integer(1), Integer(2), Integer(0)
+ALONG_FACE, ALONG_LEG = l - j - q, l - j
+"""The steps p down the first vector."""
+
+
+def _below(*relations: sympy.Basic) -> Where:
+    """Sites below the load."""
+    return Where((j, l, q), relations, POINT, dimension=3)
+
+
+INSIDE = (j >= 0, q >= 1, l >= j + q + 1)
+"""The sites of a face."""
+DOWN = (j >= 0, l >= j + 1)
+"""Those of a leg."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A variance below the load: what it is, its closed forms, and where each of them holds.
+
+    Attributes:
+        of: what varies.
+        pieces: the first that fits has the value, in ``unit``.
+        steps: p, and the relations of all sites.
+        domains: for each piece, the parts of those that no piece before is for.
+    """
+
+    symbol: sympy.Symbol
+    of: sympy.Expr
+    pieces: tuple[Piece, ...]
+    unit: sympy.Expr
+    steps: sympy.Expr
+    sites: tuple[sympy.Basic, ...]
+    domains: tuple[tuple[tuple[sympy.Basic, ...], ...], ...]
+
+    def wheres(self) -> Iterator[tuple[Piece, Where]]:
+        """Each piece with a part of its domain."""
+        for piece, parts in zip(self.pieces, self.domains, strict=True):
+            for part in parts:
+                yield piece, _below(*self.sites, *part)
+
+    @property
+    def on_leg(self) -> bool:
+        """Whether q does not count."""
+        return not self.steps.has(q)
+
+
+_CONTACT = PushBelow(TWO, ALONG_FACE, q, NONE)
+_BESIDE = PushBelow(ONE, ALONG_FACE, q, NONE)
+_UP_LEG = (ONE, ALONG_LEG, NONE, NONE)
+_OF_LEG = (
+    ((Eq(j, 0), Eq(l, 1)),),
+    ((Eq(j, 0), Eq(l, 2)),),
+    ((Eq(j, 0), l >= 3),),
+    ((Eq(j, 1), Eq(l, 2)),),
+    ((Eq(j, 1), l >= 3),),
+    ((j >= 2, Eq(l, j + 1)),),
+    ((j >= 2, l >= j + 2),),
+)
+_OF_BEAD = (
+    ((Eq(j, 0), Eq(l, 2)),),
+    ((Eq(j, 0), Eq(l, q + 1), q >= 2),),
+    ((Eq(j, 0), Eq(q, 1), l >= 3),),
+    ((Eq(j, 0), q >= 2, l >= q + 2),),
+    ((Eq(j, 1), Eq(l, 3)),),
+    ((Eq(j, 1), l >= 4),),
+    ((Eq(j, 2), Eq(l, 4)),),
+    ((Eq(j, 2), l >= 5),),
+    ((j >= 3, Eq(l, j + 2)),),
+    ((j >= 3, l >= j + 3),),
+)
+ALL = {
+    one.symbol: one
+    for one in (
+        Quantity(ON_FACE, _CONTACT / 3, CONTACT_PIECES, UNIT / 9, ALONG_FACE, INSIDE,
+                 (((Eq(j, 0), Eq(q, 1)),), ((j + q >= 2,),))),
+        Quantity(BEAD, (_CONTACT + _BESIDE) / 3, BEAD_PIECES, UNIT / 9, ALONG_FACE, INSIDE,
+                 _OF_BEAD),
+        Quantity(ON_LEG, PushBelow(*_UP_LEG) / 3, LEG_PIECES, UNIT / 9, ALONG_LEG, DOWN, _OF_LEG),
+        Quantity(LEG_MAGNITUDE, ForceBelow(*_UP_LEG), LEG_FORCE_PIECES, UNIT, ALONG_LEG, DOWN,
+                 _OF_LEG),
+    )
+}  # fmt: skip
+"""By symbol; the vertical force of a contact is a third of the load on a leg."""
+
+MEANING = {symbol: Variance(one.of) for symbol, one in ALL.items()}
+WHERE = _below(j >= 3, q >= 1, l >= j + q + 1, l >= j + 3)
+"""Where all that is printed holds."""
+
+
+def at_finite_size() -> dict[str, ExactCase]:
+    """The exact forms of a face's beads and contacts, and of a leg's."""
+
+    def case(one: Quantity) -> ExactCase:
+        steps = {p: one.steps}
+
+        def put_in(piece: Piece) -> sympy.Expr:
+            numbers = {symbol: sympy.Integer(value) for symbol, value in piece.at.items()}
+            expression = piece.expression.xreplace({j: numbers[j]} if j in numbers else {})
+            return sympy.together(expression) * one.unit  # one fraction: 5/2 is no whole number
+
+        *edges, main = (
+            Missed(
+                piece.where,
+                tuple(Eq(steps.get(s, s), value) for s, value in piece.at.items()),
+                put_in(piece),
+            )
+            for piece in one.pieces
+        )
+        inside = (sympy.Ge(one.steps, 1), *(() if one.on_leg else (sympy.Ge(q, 1),)))
+        return ExactCase(one.symbol, main.where, main.expression, inside, tuple(edges))
+
+    names = ("contact", "bead", "leg", "leg-force")
+    return {name: case(one) for name, one in zip(names, ALL.values(), strict=True)}
+
+
+TILTS = tuple(
+    Symbol(f"nu_{b}{place}", rf"\nu_{{{b}}}^{{{raised}}}", f"ν_{b}{prime}", real=True)
+    for b in (2, 3)
+    for place, raised, prime in (("", "", ""), ("_below", r"\prime", "′"))
+)
+TURNED = Symbol("turned", r"g_{12}", "g₁₂", real=True)
+_GEOMETRY = Where((l,), dimension=3)
+
+
+@cache
+def steps() -> Lines:
+    """Where a force turns; what turns; squares."""
+    nu_2, below_2, nu_3, below_3 = TILTS
+    gram = sympy.Matrix(3, 3, lambda a, b: 1 if a == b else phi)
+    tilts = sympy.Matrix([0, nu_2 - below_2, nu_3 - below_3])
+    lines = Lines(WHERE)
+    turned = lines.show(
+        "The ordered load goes straight down the three legs, as the same force f in each contact. "
+        "To first order what enters a bead from above along e_a leaves it along e_a, plus "
+        "b^a·Σ_c(f^c δn^c − f^c δn^c below). So a force turns only on a leg. From leg 1 into 2 it "
+        "is, over f, with ν_b = n^b·δn^1 of the leg's contact above the bead and ν′_b below it:",
+        equation(
+            TURNED,
+            times(
+                1 / ((1 - phi) * (1 + 2 * phi)),
+                terms(
+                    times(terms(1, phi), terms(nu_2, -below_2)),
+                    minus(times(phi, terms(nu_3, -below_3))),
+                ),
+            ),
+        ),
+        rewrite(),
+        where=_GEOMETRY,
+        meaning={TURNED: (gram.inv() * tilts)[1]},
+        after=(t8.ANY_SURFACE,),
+    )
+    nothing = lines.show(
+        "It runs down a line of the face between both legs, and turns no more. A contact off legs "
+        "and faces hangs below a contact that enters a face, or the cone, from outside, where "
+        "there is nothing: it carries no force, in no packing. Nor does one of a face on average:",
+        sympy.Tuple(
+            equation(Variance(ForceBelow(Integer(3), ALONG_FACE, q, NONE)), NONE),
+            equation(Variance(ForceBelow(ONE, ALONG_FACE - 1, q, ONE)), NONE),
+            equation(Mean(ForceBelow(TWO, ALONG_FACE, q, NONE)), NONE),
+        ),
+        moment(),
+        where=(_below(*INSIDE), _below(j >= 0, q >= 1, l >= j + q + 2), _below(*INSIDE)),
+        after=(turned,),
+    )
+
+    def printed(words: str, part: int, *relations: sympy.Basic) -> None:
+        lines.show(
+            words, PRINTED[part], moment(), where=_below(*relations), meaning=MEANING,
+            after=(turned, nothing),
+        )  # fmt: skip
+
+    printed(
+        "Both ν are differences of line sums down 2 and down 3, in the planes of these and of the "
+        "leg, and of radii of the leg. In the face the bead p steps along 1 and q along 2 below "
+        "the load is in layer j = l − p − q. Squared and summed, and with the share ⅓ of the "
+        "vertical, one contact of a face has, but for j = 0 and q = 1,",
+        0, *INSIDE, j + q >= 2,
+    )  # fmt: skip
+    printed(
+        "The vertical force of both contacts of the face on a bead: where lines of both cross, the "
+        "products of their weights add up to zero, for j ≥ 3 and p + q ≥ 3. The layers j + q and "
+        "j + p, where they turn, add up to l + j:",
+        1, *WHERE.relations,
+    )  # fmt: skip
+    printed(
+        "On a leg the sum telescopes: what is left is the split at the loaded bead and the tilt of "
+        "the contact itself. Its vertical component, for 2 ≤ j ≤ l − 2:",
+        2, j >= 2, l >= j + 2,
+    )  # fmt: skip
+    lines.show(
+        "The magnitude of that force, over its mean squared:",
+        equation(LEG_MAGNITUDE, LEG_FORCE_PIECES[-1].expression * UNIT),
+        moment(),
+        where=_below(j >= 2, l >= j + 2),
+        meaning=MEANING,
+        after=(turned,),
+    )
+    for name, symbol in (
+        ("the exact variance of every contact of a face", ON_FACE),
+        ("the exact variance of p at every bead of a face; for j ≥ 3 it depends on l + j alone, "
+         "but for p = q = 1", BEAD),
+        ("the exact variance on a leg, vertical", ON_LEG),
+        ("and of the magnitude there", LEG_MAGNITUDE),
+    ):  # fmt: skip
+        pieces = list(ALL[symbol].wheres())
+        lines.claim(
+            name,
+            sympy.Tuple(
+                *(equation(symbol, piece.expression * ALL[symbol].unit) for piece, _ in pieces)
+            ),
+            moment(),
+            where=tuple(where for _, where in pieces),
+            meaning=MEANING,
+        )
+    of_three, of_two = (
+        (t8.KAPPA**2 + (d - 2) * t8.CROSSED**2).xreplace({d: Integer(n)}) for n in (3, 2)
+    )
+    lines.claim(
+        "κ² + κ′² takes the place of κ² = 1/(1−φ²)² of discs, ⅓ that of ½",
+        sympy.Tuple(
+            equation(of_three, SHARE / ((1 - phi) ** 2 * (1 + 2 * phi) ** 2)),
+            equation(of_two * Rational(3, 2) * (l + j) * (sigma / r) ** 2, eq16.PRINTED.rhs.doit()),
+        ),
+        rewrite(),
+        where=(_GEOMETRY, Where((j, l))),
+    )
+    return lines
+
+
+# witnesses
+
+
+def _exact(quantity: sympy.Basic, level: int, first: int, other: int, cosine: Fraction) -> Fraction:
+    """The variance for σ = r = 1 by the recursion from bead to bead."""
+    bead = (first, other, 0)
+    contacts = {ON_FACE: ((bead, 1),), BEAD: ((bead, 0), (bead, 1))}.get(quantity, ((bead, 0),))
+    whole = witnesses.response_variance(level, cosine, contacts, vertical=quantity == ON_LEG)
+    return whole if quantity == LEG_MAGNITUDE else whole / 9
+
+
+def _squares(packing: SmallPacking) -> Ruling:
+    cosine = witnesses.cosine_of(packing)
+    values: explicit.Values = {phi: cosine, sigma: 1, r: 1}
+
+    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
+        for layer, first, second in product(range(4), (1, 2, 3), (1, 2)):
+            for symbol, one in ALL.items():
+                if one.on_leg and second > 1:
+                    continue
+                other = 0 if one.on_leg else second
+                at = {j: layer, p: first, q: other, l: layer + first + other}
+                piece = next(each for each in one.pieces if each.at.items() <= at.items())
+                stated = explicit.number(piece.expression * one.unit, {**values, **at})
+                where = f"{symbol.name}, j = {layer}, p = {first}, q = {other}"
+                yield where, stated, _exact(symbol, at[l], first, other, cosine)
+
+    return compare(pairs())
+
+
+def _spheres(packing: SmallPacking) -> Ruling:
+    cosine, level = witnesses.cosine_of(packing), 4
+    drawn = list(packing.rho.values())
+    beads = [u for u in product(range(level + 1), repeat=3) if sum(u) <= level]
+    rho = {bead: drawn[place % len(drawn)] for place, bead in enumerate(beads)}
+    exact = witnesses.response_of_spheres(cosine, level, rho)
+
+    def force(bead: tuple[int, ...], axis: int) -> Fraction:
+        """First order on legs and faces by the recursion; zero elsewhere, as is stated."""
+        if not bead[axis] or sum(map(bool, bead)) > 2:
+            return Fraction(0)
+        weights = witnesses.response_weights(3, level, cosine, bead, axis)
+        return sum((w * rho[at] for at, w in weights.items()), Fraction(0))
+
+    return compare(
+        (f"from O − {bead} along {axis + 1}", force(bead, axis), true)
+        for (bead, axis), true in exact.items()
+        if min(bead) >= 0
+    )
+
+
+DERIVATION = Derivation(
+    number="B19",
+    name="spheres_response",
+    title="Response to a point load in three dimensions",
+    symbols=(
+        (ON_FACE, "variance of the vertical force of one contact in a face of the cone"),
+        (BEAD, "the same of both contacts above a bead of a face together"),
+        (ON_LEG, "the same of the contact on a leg of the cone"),
+        (LEG_MAGNITUDE, "variance of its magnitude over the squared mean"),
+        (f_load, "the load on one bead, downwards"),
+        (l, "layer of the loaded bead, j that of the bead below the contact"),
+        (q, "steps of that contact from the leg where its path turns"),
+        (p, "steps down the leg"),
+        *usual(sigma, r),
+        (phi, "mutual dot product of the three base vectors, −1/3 < φ < ½"),
+    ),
+    assumptions=(
+        "every bead rests on three others, along base vectors with one mutual dot product φ",
+        "the radii are independent, of zero mean and variance σ²",
+        "first order in δr",
+        "printed forms: p, q ≥ 1 and j + q ≥ 2; p, q ≥ 1, j ≥ 3 and l ≥ j + 3; 2 ≤ j ≤ l − 2. "
+        "Exact forms: every site",
+    ),
+    premises=(eq16.DERIVATION, t8.ANY_SURFACE),
+    printed=PRINTED,
+    domain=WHERE.relations,
+    where=WHERE,
+    dimension=3,
+    exact=at_finite_size,
+    steps=steps,
+    witnesses=(
+        Witness("squared weights by the recursion from bead to bead, as fractions", _squares),
+        Witness(
+            "exact packing of spheres with one load, l = 4: order ε¹ of every contact, and exact "
+            "zeros off legs and faces",
+            _spheres,
+        ),
+    ),
+    remarks=(
+        "Inside of the cone, off its three legs and three faces, no force is of first order: not "
+        "on average, but in every packing. For discs the two legs enclose one face, and this face "
+        "is all of the inside.",
+    ),
+)
+
+if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
+    raise SystemExit(run_alone(DERIVATION))
