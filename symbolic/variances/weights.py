@@ -38,7 +38,16 @@ class Order(Protocol):
 
 
 class UndeterminedError(NotExactError):
-    """An order relation between layers does not hold throughout the region."""
+    """An order relation between layers does not hold throughout the region.
+
+    Args:
+        reason: which, in words.
+        apart: whose sign is not known; None for what no sign decides.
+    """
+
+    def __init__(self, reason: str, apart: Affine | None = None):
+        super().__init__(reason)
+        self.apart = apart
 
 
 @dataclass(frozen=True)
@@ -121,7 +130,8 @@ def _runs(line: tuple[str, int, Affine], form: LinearForm, region: Order) -> lis
         if region.nonnegative(affine.add(one.start, other.start, -1)):
             return 1
         raise UndeterminedError(
-            f"layers {affine.to_sympy(one.start)} and {affine.to_sympy(other.start)}"
+            f"layers {affine.to_sympy(one.start)} and {affine.to_sympy(other.start)}",
+            affine.add(one.start, other.start, -1),
         )
 
     rays.sort(key=cmp_to_key(order))
@@ -158,7 +168,8 @@ def _meets(site: Site, run: Run, region: Order) -> bool:
         return False
     raise UndeterminedError(
         f"whether ({affine.to_sympy(site.i)}, {affine.to_sympy(site.j)}) lies on the line "
-        f"({affine.to_sympy(on_line.i)}, {affine.to_sympy(site.j)})"
+        f"({affine.to_sympy(on_line.i)}, {affine.to_sympy(site.j)})",
+        affine.add(site.i, on_line.i, -1),
     )
 
 
@@ -177,7 +188,8 @@ def _assert_lines_apart(runs: tuple[Run, ...], region: Order) -> None:
             if not apart:
                 raise UndeterminedError(
                     f"whether the lines {affine.to_sympy(one.ray.line)} and "
-                    f"{affine.to_sympy(other.ray.line)} are one"
+                    f"{affine.to_sympy(other.ray.line)} are one",
+                    affine.add(one.ray.line, other.ray.line, -1),
                 )
 
 
@@ -194,7 +206,8 @@ def _inside(site: Site, run: Run, region: Order) -> bool:
         return False
     raise UndeterminedError(
         f"layer {affine.to_sympy(site.j)} against "
-        f"{affine.to_sympy(run.first)} … {affine.to_sympy(run.last)}"
+        f"{affine.to_sympy(run.first)} … {affine.to_sympy(run.last)}",
+        below if region.nonnegative(above) else above,
     )
 
 
@@ -206,5 +219,6 @@ def _assert_distinct(sites: list[Site], region: Order) -> None:
             ):
                 raise UndeterminedError(
                     f"sites ({affine.to_sympy(one.i)}, {affine.to_sympy(one.j)}) and "
-                    f"({affine.to_sympy(other.i)}, {affine.to_sympy(other.j)})"
+                    f"({affine.to_sympy(other.i)}, {affine.to_sympy(other.j)})",
+                    affine.add(*((one.i, other.i) if one.i != other.i else (one.j, other.j)), -1),
                 )
