@@ -9,7 +9,7 @@ when both of its sides are the same dual number, which one normal form decides.
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import InitVar, dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
@@ -407,6 +407,7 @@ def _put_in(
     return node.xreplace(image) if image else node
 
 
+@lru_cache(maxsize=20_000)
 def _instance_of(
     theorem: Theorem, atom: sy.SiteFunction, where: Where, background: Facts
 ) -> sympy.Expr | None:

@@ -139,6 +139,13 @@ class Where:
         rows = frozenset(row for one in self.relations for row in _rows_of(one))
         object.__setattr__(self, "rows", rows)
 
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.indices, self.relations, self.loading, self.even, self.limit))
+
     @classmethod
     def of(
         cls,

@@ -26,7 +26,7 @@ Plant = pytest.MonkeyPatch
 
 @pytest.fixture(autouse=True)
 def _nothing_is_remembered() -> Iterator[None]:
-    remembering = (signs.sign, read_with, moments.value)
+    remembering = (signs.sign, read_with, moments.value, theorem._instance_of)
     for one in remembering:
         one.cache_clear()
     yield
