@@ -7,14 +7,14 @@ the domain, or nothing is proved. Where one is not decided the domain is parted,
 to be the same on all of its parts.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from math import gcd
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.affine import Affine
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm
 from force_diffusion.symbolic.as_printed import equation
@@ -77,45 +77,75 @@ def value(one: sy.Moment, facts: Facts, where: Where, alone: Alone = ()) -> Rati
     Raises:
         NotProvedError: it holds what is not known, or is not one function on all of the domain.
     """
-    try:
-        return _value(one, facts, where, alone)
-    except NotProvedError as reason:
-        undecided = reason.__cause__
-        if not isinstance(undecided, UndeterminedError) or undecided.apart is None:
-            raise
-        parts = tuple(_parts(where, undecided.apart))
-        if where in parts or len(where.relations) > _MOST_RELATIONS:
-            raise
-        found = [value(one.xreplace(part.solved), facts, part, alone) for part in parts]
-        for part, other in zip(parts[1:], found[1:], strict=True):
-            known = {index: FIELD.from_sympy(at) for index, at in part.solved.items()}
-            if not (found[0] - other).substitute(known).is_zero():
-                raise
-        return found[0]
-
-
-def _parts(where: Where, apart: Affine) -> Iterator[Where]:
-    """The parts of a domain where a whole number is positive, negative and zero."""
-    divisor = gcd(*apart)
-    number = affine.to_sympy(tuple(c // divisor for c in apart))
-    for kind, side in ((sympy.Ge, 1), (sympy.Le, -1), (sympy.Eq, 0)):
-        part = where.also(kind(number, sympy.Integer(side), evaluate=False))
-        if not part.is_empty:
-            yield part.tightened() if kind is sympy.Eq else part
-
-
-def _value(one: sy.Moment, facts: Facts, where: Where, alone: Alone) -> RationalFunction:
-    if isinstance(one, sy.Variance) and (taken := _neighbours(one.args[0], where)):
-        return _of_neighbours(*taken, facts, where, alone)
+    sigma = FIELD.generator(sy.sigma) ** 2
+    if isinstance(one, sy.Variance) and (mean := _neighbours(one.args[0], where)):
+        places = tuple(sympy.expand(place.xreplace(where.solved)) for place in alone)
+        try:
+            return mean.variance(facts, where, places) * sigma
+        except UndeterminedError as reason:
+            parts = _parts(where, reason)
+            return _agreed(parts, [value(one, facts, part, alone) for part in parts], reason)
     forms = tuple(in_the_radii(argument, facts, where) for argument in one.args)
     if isinstance(one, sy.Mean):
         return forms[0].at_zero
-    squares = tuple(_sum_of_squares(form, where) for form in forms)
-    sigma = FIELD.generator(sy.sigma) ** 2
-    if isinstance(one, sy.Variance):
-        return squares[0] * sigma
-    both = _sum_of_squares(forms[0] + forms[1], where)
-    return (both - squares[0] - squares[1]) * sigma / FIELD.constant(2)
+    return _products(forms, where) * sigma
+
+
+def _products(forms: Sequence[LinearForm], where: Where) -> RationalFunction:
+    """Σ weight · weight′ of the radii of two forms, or Σ weight² of one, each met once."""
+    if len(forms) == 1:
+        return _everywhere(tuple(forms), where, _sum_of_squares)
+    one, other = forms
+    return _everywhere((one + other, one - other), where, _quarter)
+
+
+def _quarter(forms: tuple[LinearForm, ...], where: Where) -> RationalFunction:
+    both, apart = (_sum_of_squares((form,), where) for form in forms)
+    return (both - apart) / FIELD.constant(4)
+
+
+def _everywhere(
+    forms: tuple[LinearForm, ...],
+    where: Where,
+    worth: Callable[[tuple[LinearForm, ...], Where], RationalFunction],
+) -> RationalFunction:
+    """A value of forms that is one function on all of the domain, parted as far as it takes."""
+    try:
+        return worth(forms, where)
+    except UndeterminedError as reason:
+        parts = _parts(where, reason)
+        found = []
+        for part in parts:
+            at = {symbol: affine.from_sympy(place) for symbol, place in part.solved.items()}
+            found.append(_everywhere(tuple(form.put_in(at) for form in forms), part, worth))
+        return _agreed(parts, found, reason)
+
+
+def _parts(where: Where, reason: UndeterminedError) -> tuple[Where, ...]:
+    """The parts of a domain where a number whose sign was undecided is > 0, < 0 and 0."""
+    refused = NotProvedError(f"two places may be one: {reason}")
+    if reason.apart is None or len(where.relations) > _MOST_RELATIONS:
+        raise refused from reason
+    divisor = gcd(*reason.apart)
+    number = affine.to_sympy(tuple(c // divisor for c in reason.apart))
+    parts = [
+        where.also(kind(number, sympy.Integer(side), evaluate=False))
+        for kind, side in ((sympy.Ge, 1), (sympy.Le, -1), (sympy.Eq, 0))
+    ]
+    if where in parts:
+        raise refused from reason
+    return tuple(one.tightened() for one in parts if not one.is_empty)
+
+
+def _agreed(
+    parts: Sequence[Where], found: Sequence[RationalFunction], reason: UndeterminedError
+) -> RationalFunction:
+    """The value of the first part, if those of all others are the same there."""
+    for part, other in zip(parts[1:], found[1:], strict=True):
+        known = {index: FIELD.from_sympy(at) for index, at in part.solved.items()}
+        if not (found[0] - other).substitute(known).is_zero():
+            raise NotProvedError(f"two places may be one: {reason}")
+    return found[0]
 
 
 def in_the_radii(expression: sympy.Expr, facts: Facts, where: Where) -> LinearForm:
@@ -136,90 +166,98 @@ def in_the_radii(expression: sympy.Expr, facts: Facts, where: Where) -> LinearFo
     return forms[0]
 
 
-def _sum_of_squares(form: LinearForm, where: Where) -> RationalFunction:
+def _sum_of_squares(forms: tuple[LinearForm, ...], where: Where) -> RationalFunction:
     """Σ weight² of the radii of a form, each met once."""
+    (form,) = forms
     fluctuation = LinearForm(
         {site: weight for site, weight in form.sites.items() if site.family != CONSTANT},
         dict(form.rays),
     )
     try:
         return take_apart(fluctuation, where).sum_of_squares()
+    except UndeterminedError:
+        raise
     except NotExactError as reason:
-        raise NotProvedError(f"two places may be one: {reason}") from reason
+        raise NotProvedError(str(reason)) from None
 
 
 # sums over neighbours
 
-Neighbours = tuple[sympy.Expr, sympy.Expr, sympy.Symbol, sympy.Expr]
-"""A factor, what is summed at its first place, the index of places, and how many there are."""
+
+@dataclass(frozen=True)
+class _Neighbours:
+    """A sum over neighbours of one layer, all that it is about two columns further each time.
+
+    Attributes:
+        factor: of the sum.
+        first: what is summed, at its first place.
+        across: the index across the packing.
+        count: how many are summed.
+    """
+
+    factor: sympy.Expr
+    first: sympy.Expr
+    across: sympy.Symbol
+    count: sympy.Expr
+
+    def variance(self, facts: Facts, where: Where, alone: Alone) -> RationalFunction:
+        """Variance over σ²: count C₀ + 2 Σ (count − p) C_p, times the factor squared.
+
+        C_p is the covariance of two that are p places apart, the same for all such pairs, since
+        the domain leaves the place along the layer free. It is zero but for p in ``alone``.
+        """
+        count, across = self.count, self.across
+        if self.factor.free_symbols - _KNOWN or self.factor.has(sy.SiteFunction):
+            raise NotProvedError(f"whether {text(self.factor)} depends on the radii is not known")
+        beads = where.without(count.free_symbols - self.first.free_symbols & {sy.N})
+        place = where.loading.place if where.loading else ()
+        if any(across in one.free_symbols for one in (*beads.relations, *place)):
+            raise NotProvedError(f"its domain says something of {text(across)}")
+        if not _at_least(count, sympy.S.One, where):
+            raise NotProvedError(f"{text(count)} may be less than 1")
+        spare = [one for one in (sy.p, sy.q) if one not in where.indices]
+        if not spare:
+            raise NotProvedError("no index is left for the distance of two neighbours")
+        form, apart = in_the_radii(self.first, facts, beads), spare[0]
+
+        def covariance(places: sympy.Expr, at: Where) -> RationalFunction:
+            further = {across: affine.from_sympy(sympy.expand(across + 2 * places))}
+            found = _products((form, form.put_in(further)), at)
+            if found.holds(across):
+                raise NotProvedError("covariances are not the same along the layer")
+            return found
+
+        total = FIELD.from_sympy(count) * covariance(sympy.S.Zero, beads)
+        places = _in_order(alone, where)
+        for low, high in zip((sympy.S.Zero, *places), (*places, None), strict=True):
+            if _at_least(low, count - 1, where):
+                break
+            between = beads.also(apart >= low + 1, indices=(apart,))
+            if high is not None:
+                between = between.also(apart <= high - 1)
+            if not between.is_empty and not covariance(apart, between).is_zero():
+                raise NotProvedError(f"covariances beyond {text(low)} places are not zero")
+            if high is None or _at_least(high, count, where):
+                continue
+            if _is_positive(count - high + 1, where):
+                weight = FIELD.from_sympy(2 * (count - high))
+                total = total + weight * covariance(high, beads)
+        return total * FIELD.from_sympy(self.factor**2)
 
 
-def _neighbours(side: sympy.Expr, where: Where) -> Neighbours | None:
-    """A sum over neighbours of one layer: all that it is about is two columns further each time."""
-    sums = [one for one in sympy.Mul.make_args(side) if isinstance(one, sympy.Sum)]
+def _neighbours(side: sympy.Expr, where: Where) -> _Neighbours | None:
+    """What is a sum over neighbours, times a factor."""
+    factors = sympy.Mul.make_args(side.xreplace(where.solved))
+    sums = [one for one in factors if isinstance(one, sympy.Sum)]
     if len(sums) != 1 or len(sums[0].limits) != 1:
         return None
     index, low, high = sums[0].limits[0]
-    factor = sympy.Mul(*(one for one in sympy.Mul.make_args(side) if one is not sums[0]))
+    factor = sympy.Mul(*(one for one in factors if one is not sums[0]))
     first = sums[0].function.xreplace({index: low})
     for across in by_name(_ACROSS & {*where.indices}):
         if first.xreplace({across: across + 2 * (index - low)}) == sums[0].function:
-            return factor, first, across, high - low + 1
+            return _Neighbours(factor, first, across, high - low + 1)
     return None
-
-
-def _of_neighbours(
-    factor: sympy.Expr,
-    first: sympy.Expr,
-    across: sympy.Symbol,
-    count: sympy.Expr,
-    facts: Facts,
-    where: Where,
-    alone: Alone,
-) -> RationalFunction:
-    """Variance of a sum over ``count`` neighbours: count C₀ + 2 Σ (count − p) C_p.
-
-    C_p is the covariance of two that are p places apart, the same for all such pairs, since the
-    domain leaves the place along the layer free. It is zero but for the distances ``alone``.
-    """
-    if factor.free_symbols - _KNOWN or factor.has(sy.SiteFunction):
-        raise NotProvedError(f"whether {text(factor)} depends on the radii is not known")
-    counted = count.free_symbols - first.free_symbols
-    beads = where.without(counted & {sy.N})
-    if any(across in one.free_symbols for one in beads.relations) or (
-        where.loading and any(across in one.free_symbols for one in where.loading.place)
-    ):
-        raise NotProvedError(f"its domain says something of {text(across)}")
-    if not _at_least(count, sympy.S.One, where):
-        raise NotProvedError(f"{text(count)} may be less than 1")
-    spare = [one for one in (sy.p, sy.q) if one not in where.indices]
-    if not spare:
-        raise NotProvedError("no index is left for the distance of two neighbours")
-    apart = spare[0]
-
-    def covariance(places: sympy.Expr, at: Where) -> RationalFunction:
-        other = first.xreplace({across: across + 2 * places})
-        found = value(sy.Covariance(first, other), facts, at)
-        if found.holds(across):
-            raise NotProvedError("covariances are not the same along the layer")
-        return found
-
-    total = FIELD.from_sympy(count) * covariance(sympy.S.Zero, beads)
-    places = _in_order(alone, where)
-    for low, high in zip((sympy.S.Zero, *places), (*places, None), strict=True):
-        if _at_least(low, count - 1, where):
-            break
-        between = beads.also(apart >= low + 1, indices=(apart,))
-        if high is not None:
-            between = between.also(apart <= high - 1)
-        if not between.is_empty and not covariance(apart, between).is_zero():
-            raise NotProvedError(f"covariances between {text(low)} and {text(high)} are not zero")
-        if high is None or _at_least(high, count, where):
-            continue
-        if _is_positive(count - high + 1, where):
-            weight = FIELD.from_sympy(2 * (count - high))
-            total = total + weight * covariance(high, beads)
-    return total * FIELD.from_sympy(factor**2)
 
 
 def _in_order(places: Alone, where: Where) -> list[sympy.Expr]:
@@ -242,12 +280,11 @@ def _is_positive(number: sympy.Expr, where: Where) -> bool:
     """Whether a whole number is positive on all of the domain, or nowhere.
 
     Raises:
-        NotProvedError: neither is known; the domain may be parted by its sign.
+        UndeterminedError: neither is known.
     """
     value = affine.from_sympy(sympy.expand(number))
     if where.nonnegative(affine.shifted(value, -1)):
         return True
     if where.nonnegative(affine.times(value, -1)):
         return False
-    undecided = UndeterminedError(f"the sign of {text(number)} is not known", value)
-    raise NotProvedError(str(undecided)) from undecided
+    raise UndeterminedError(f"the sign of {text(number)}", value)
