@@ -7,7 +7,7 @@ the domain, or nothing is proved. Where one is not decided the domain is parted,
 to be the same on all of its parts.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import gcd
@@ -33,7 +33,7 @@ from force_diffusion.symbolic.kernel.theorem import (
 from force_diffusion.symbolic.kernel.where import LATTICE, Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.variances.weights import UndeterminedError, take_apart
+from force_diffusion.symbolic.variances.weights import UndeterminedError, sum_of_products
 
 _KNOWN = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS} - {sy.epsilon}
 _RADII = (sy.DeltaR, sy.SecondDifference)
@@ -88,37 +88,22 @@ def value(one: sy.Moment, facts: Facts, where: Where, alone: Alone = ()) -> Rati
     forms = tuple(in_the_radii(argument, facts, where) for argument in one.args)
     if isinstance(one, sy.Mean):
         return forms[0].at_zero
-    return _products(forms, where) * sigma
+    return _products(forms[0], forms[-1], where) * sigma
 
 
-def _products(forms: Sequence[LinearForm], where: Where) -> RationalFunction:
-    """Σ weight · weight′ of the radii of two forms, or Σ weight² of one, each met once."""
-    if len(forms) == 1:
-        return _everywhere(tuple(forms), where, _sum_of_squares)
-    one, other = forms
-    return _everywhere((one + other, one - other), where, _quarter)
-
-
-def _quarter(forms: tuple[LinearForm, ...], where: Where) -> RationalFunction:
-    both, apart = (_sum_of_squares((form,), where) for form in forms)
-    return (both - apart) / FIELD.constant(4)
-
-
-def _everywhere(
-    forms: tuple[LinearForm, ...],
-    where: Where,
-    worth: Callable[[tuple[LinearForm, ...], Where], RationalFunction],
-) -> RationalFunction:
-    """A value of forms that is one function on all of the domain, parted as far as it takes."""
+def _products(one: LinearForm, other: LinearForm, where: Where) -> RationalFunction:
+    """Σ weight · weight′ of the radii of two forms, one function on all of the domain."""
     try:
-        return worth(forms, where)
+        return sum_of_products(fluctuation(one), fluctuation(other), where)
     except UndeterminedError as reason:
         parts = _parts(where, reason)
         found = []
         for part in parts:
             at = {symbol: affine.from_sympy(place) for symbol, place in part.solved.items()}
-            found.append(_everywhere(tuple(form.put_in(at) for form in forms), part, worth))
+            found.append(_products(one.put_in(at), other.put_in(at), part))
         return _agreed(parts, found, reason)
+    except NotExactError as reason:
+        raise NotProvedError(str(reason)) from None
 
 
 def _parts(where: Where, reason: UndeterminedError) -> tuple[Where, ...]:
@@ -166,19 +151,10 @@ def in_the_radii(expression: sympy.Expr, facts: Facts, where: Where) -> LinearFo
     return forms[0]
 
 
-def _sum_of_squares(forms: tuple[LinearForm, ...], where: Where) -> RationalFunction:
-    """Σ weight² of the radii of a form, each met once."""
-    (form,) = forms
-    fluctuation = LinearForm(
-        {site: weight for site, weight in form.sites.items() if site.family != CONSTANT},
-        dict(form.rays),
-    )
-    try:
-        return take_apart(fluctuation, where).sum_of_squares()
-    except UndeterminedError:
-        raise
-    except NotExactError as reason:
-        raise NotProvedError(str(reason)) from None
+def fluctuation(form: LinearForm) -> LinearForm:
+    """The part of a form that depends on the radii."""
+    sites = {site: weight for site, weight in form.sites.items() if site.family != CONSTANT}
+    return LinearForm(sites, dict(form.rays))
 
 
 # sums over neighbours
@@ -209,7 +185,8 @@ class _Neighbours:
         count, across = self.count, self.across
         if self.factor.free_symbols - _KNOWN or self.factor.has(sy.SiteFunction):
             raise NotProvedError(f"whether {text(self.factor)} depends on the radii is not known")
-        beads = where.without(count.free_symbols - self.first.free_symbols & {sy.N})
+        given = count.free_symbols - self.first.free_symbols & {sy.N}
+        beads = where.without(given)
         place = where.loading.place if where.loading else ()
         if any(across in one.free_symbols for one in (*beads.relations, *place)):
             raise NotProvedError(f"its domain says something of {text(across)}")
@@ -222,26 +199,22 @@ class _Neighbours:
 
         def covariance(places: sympy.Expr, at: Where) -> RationalFunction:
             further = {across: affine.from_sympy(sympy.expand(across + 2 * places))}
-            found = _products((form, form.put_in(further)), at)
+            found = _products(form, form.put_in(further), at)
             if found.holds(across):
                 raise NotProvedError("covariances are not the same along the layer")
             return found
 
         total = FIELD.from_sympy(count) * covariance(sympy.S.Zero, beads)
-        places = _in_order(alone, where)
-        for low, high in zip((sympy.S.Zero, *places), (*places, None), strict=True):
-            if _at_least(low, count - 1, where):
-                break
-            between = beads.also(apart >= low + 1, indices=(apart,))
-            if high is not None:
-                between = between.also(apart <= high - 1)
+        near = _in_order([one for one in alone if _reached(one, count, where)], where)
+        for low, high in zip((sympy.S.Zero, *near), (*near, None), strict=True):
+            domain, last = (where, count - 1) if high is None else (beads, high - 1)
+            between = domain.also(apart >= low + 1, apart <= last, indices=(apart,))
             if not between.is_empty and not covariance(apart, between).is_zero():
                 raise NotProvedError(f"covariances beyond {text(low)} places are not zero")
-            if high is None or _at_least(high, count, where):
-                continue
-            if _is_positive(count - high + 1, where):
+            if high is not None:
                 weight = FIELD.from_sympy(2 * (count - high))
-                total = total + weight * covariance(high, beads)
+                counted = where.also(sympy.Le(high, count - 1, evaluate=False)).without(given)
+                total = total + weight * covariance(high, counted)
         return total * FIELD.from_sympy(self.factor**2)
 
 
@@ -260,7 +233,7 @@ def _neighbours(side: sympy.Expr, where: Where) -> _Neighbours | None:
     return None
 
 
-def _in_order(places: Alone, where: Where) -> list[sympy.Expr]:
+def _in_order(places: Sequence[sympy.Expr], where: Where) -> list[sympy.Expr]:
     """Those of the distances that are positive, each once, in the order of the domain."""
     found: list[sympy.Expr] = []
     for place in places:
@@ -270,6 +243,11 @@ def _in_order(places: Alone, where: Where) -> list[sympy.Expr]:
         if len(before) == len(found) or _is_positive(found[len(before)] - place, where):
             found.insert(len(before), place)
     return found
+
+
+def _reached(place: sympy.Expr, count: sympy.Expr, where: Where) -> bool:
+    """Whether a distance is below ``count``, or just that, where nothing of it is counted."""
+    return not _at_least(place, count, where) and _is_positive(count - place + 1, where)
 
 
 def _at_least(number: sympy.Expr, least: sympy.Expr, where: Where) -> bool:

@@ -59,6 +59,10 @@ class Run:
     last: Affine
     weight: RationalFunction
 
+    def at(self, layer: Affine) -> RationalFunction:
+        """The weight of one of the layers."""
+        return self.weight.substitute({LAYER: affine.to_field(layer)})
+
 
 @dataclass(frozen=True)
 class Pieces:
@@ -106,7 +110,7 @@ def take_apart(form: LinearForm, region: Order) -> Pieces:
     special = {}
     for site in sites:
         counted = tuple(
-            run.weight.substitute({LAYER: affine.to_field(site.j)})
+            run.at(site.j)
             for run in runs
             if _meets(site, run, region)
         )
@@ -115,6 +119,84 @@ def take_apart(form: LinearForm, region: Order) -> Pieces:
             full = full + part
         special[site] = full, counted
     return Pieces(runs, special)
+
+
+def sum_of_products(one: LinearForm, other: LinearForm, region: Order) -> RationalFunction:
+    """Σ weight · weight′ over all sites of two forms: their covariance, in the same unit.
+
+    Single sites and runs of one form meet those of the other in one site, on a line, or nowhere.
+
+    Raises:
+        UndeterminedError: when the region does not fix which.
+        NotExactError: when a form has a constant term or an endless ray.
+    """
+    forms = (one,) if one is other else (one, other)
+    if any(site.family == CONSTANT for form in forms for site in form.sites):
+        raise NotExactError("a constant has no variance: subtract it first")
+    runs = [[run for line in _lines(form) for run in _runs(line, form, region)] for form in forms]
+    total = FIELD.zero
+    for a, (site, weight) in enumerate(one.sites.items()):
+        for b, (place, factor) in enumerate(other.sites.items()):
+            if one is other and b > a:
+                break
+            if _are_one(site, place, region):
+                total = total + weight * factor
+    for form, against in ((one, runs[-1]), (other, runs[0])):
+        for site, weight in form.sites.items():
+            for run in against:
+                if _meets(site, run, region):
+                    total = total + weight * run.at(site.j)
+    for run in runs[0]:
+        for line in runs[-1]:
+            total = total + _shared(run, line, region)
+    return total
+
+
+def _are_one(one: Site, other: Site, region: Order) -> bool:
+    if one == other:
+        return True
+    if one.family != other.family or region.differ(one.i, other.i) or region.differ(one.j, other.j):
+        return False
+    raise UndeterminedError(
+        f"sites ({affine.to_sympy(one.i)}, {affine.to_sympy(one.j)}) and "
+        f"({affine.to_sympy(other.i)}, {affine.to_sympy(other.j)})",
+        affine.add(*((one.i, other.i) if one.i != other.i else (one.j, other.j)), -1),
+    )
+
+
+def _shared(one: Run, other: Run, region: Order) -> RationalFunction:
+    """Σ of the products of two runs' weights."""
+    if region.below(one.last, other.first) or region.below(other.last, one.first):
+        return FIELD.zero
+    crossing = _crossing(one.ray, other.ray)
+    if crossing is not None:
+        if not all(_inside(crossing, run, region) for run in (one, other)):
+            return FIELD.zero
+        return one.at(crossing.j) * other.at(crossing.j)
+    if (one.ray.family, one.ray.slope) != (other.ray.family, other.ray.slope):
+        return FIELD.zero
+    if one.ray.line != other.ray.line:
+        _assert_lines_apart((one, other), region)
+        return FIELD.zero
+    first = one.first if _is_last(one.first, other.first, region) else other.first
+    last = other.last if _is_last(one.last, other.last, region) else one.last
+    if not _is_last(affine.shifted(last, 1), first, region):
+        return FIELD.zero
+    return sum_polynomial(
+        one.weight * other.weight, LAYER, affine.to_field(first), affine.to_field(last)
+    )
+
+
+def _is_last(layer: Affine, other: Affine, region: Order) -> bool:
+    """Whether a layer is the other one or above it."""
+    apart = affine.add(layer, other, -1)
+    if region.nonnegative(apart):
+        return True
+    if region.nonnegative(affine.times(apart, -1)):
+        return False
+    raise UndeterminedError(
+        f"layers {affine.to_sympy(layer)} and {affine.to_sympy(other)}", apart
+    )
 
 
 def _lines(form: LinearForm) -> list[tuple[str, int, Affine]]:
@@ -214,11 +296,4 @@ def _inside(site: Site, run: Run, region: Order) -> bool:
 def _assert_distinct(sites: list[Site], region: Order) -> None:
     for a, one in enumerate(sites):
         for other in sites[:a]:
-            if one.family == other.family and not (
-                region.differ(one.i, other.i) or region.differ(one.j, other.j)
-            ):
-                raise UndeterminedError(
-                    f"sites ({affine.to_sympy(one.i)}, {affine.to_sympy(one.j)}) and "
-                    f"({affine.to_sympy(other.i)}, {affine.to_sympy(other.j)})",
-                    affine.add(*((one.i, other.i) if one.i != other.i else (one.j, other.j)), -1),
-                )
+            _are_one(one, other, region)
