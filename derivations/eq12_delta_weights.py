@@ -21,9 +21,9 @@ from force_diffusion.symbolic.kernel.decisions import (
     proved,
     refuted,
 )
-from force_diffusion.symbolic.kernel.searches import varies_too_much
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search.limits import varies_too_much
 from force_diffusion.symbolic.symbols import (
     Braces,
     DeltaNMinus,

@@ -208,6 +208,18 @@ class Covariance(Moment):
         return f"cov({', '.join(map(printer._print, self.args))})"
 
 
+class LargestShare(Function):  # type: ignore[misc]
+    """The largest share that one radius has in the variance of X: max w²/Σw² of its weights."""
+
+    nargs = 1
+
+    def _latex(self, printer: Any) -> str:
+        return rf"\max w^2/\sum w^2 \left( {printer._print(self.args[0])} \right)"
+
+    def _text(self, printer: Any) -> str:
+        return f"max w²/Σw²({printer._print(self.args[0])})"
+
+
 class MatrixTimes(Function):  # type: ignore[misc]
     """((a, b), (c, d)) v in Cartesian components, kept whole: arguments a, b, c, d, v."""
 

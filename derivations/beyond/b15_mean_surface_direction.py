@@ -5,10 +5,10 @@ from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.beyond import b1_any_direction as b1
 from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond import b5_mean_surface as b5
 from force_diffusion.derivations.beyond import b10_stress as b10
+from force_diffusion.derivations.beyond import t1_forces as b1
 from force_diffusion.derivations.beyond.mean_directions import (
     balances,
     decided,
@@ -107,7 +107,7 @@ DERIVATION = Derivation(
         "printed form: 2 ≤ j ≤ M − 2; exact forms, for f⁺: every 0 ≤ j < M. For f⁻ put 1/t in "
         "place of t",
     ),
-    premises=(eq11.DERIVATION, b1.DERIVATION, b4.DERIVATION, b5.DERIVATION, b10.DERIVATION),
+    premises=(eq11.DERIVATION, b1.B1, b4.DERIVATION, b5.DERIVATION, b10.DERIVATION),
     printed=PRINTED,
     domain=(sympy.Ge(j, 2), sympy.Ge(M, j + 2)),
     exact=lambda: exact_cases(PLUS - 1, exact_forms(), "second order"),

@@ -7,13 +7,13 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.derivations.beyond import b1_any_direction as b1
 from force_diffusion.derivations.beyond import b3_bulk_direction as b3
 from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond import b10_stress as b10
 from force_diffusion.derivations.beyond import b15_mean_surface_direction as b15
 from force_diffusion.derivations.beyond import b16_mean_bulk_direction as b16
 from force_diffusion.derivations.beyond import b17_stress_bulk as b17
+from force_diffusion.derivations.beyond import t1_forces as b1
 from force_diffusion.derivations.beyond.mean_directions import in_means, mirrored, ratio_stays
 from force_diffusion.derivations.beyond.means import decide_in_field
 from force_diffusion.derivations.beyond.stress import Stress
@@ -99,7 +99,7 @@ PRINTED = (
 
 LOADS = {
     "surface": (lambda: b1.in_radii(0), b10.STRESS),
-    "bulk": (lambda: b1.put_in_radii(b3.bulk_force()), b17.STRESS),
+    "bulk": (lambda: eq11.in_radii(b1.bulk_force()), b17.STRESS),
 }
 """f⁺ in the radii for any direction of each load, and its stress for a vertical one."""
 
@@ -225,7 +225,7 @@ def _any_direction() -> Ruling:
             not any(form.value.holds(t) for load in LOADS for form in exact_forms(load).values()),
             "S_xy over its ordered value does not hold t",
         ),
-        ratio_stays(b1.put_in_radii(b3.bulk_force()), eq11.in_radii(eq14.bulk_force())),
+        ratio_stays(eq11.in_radii(b1.bulk_force()), eq11.in_radii(eq14.bulk_force())),
     )
 
 
@@ -295,7 +295,10 @@ DERIVATION = Derivation(
         "L⁺, L⁻ > 0, not equal; a load on the surface, or the same on every bead above the base",
         "printed form: 2 ≤ j ≤ M − 2; exact forms of the shear: every 0 ≤ j < M",
     ),
-    premises=tuple(one.DERIVATION for one in (eq11, eq14, b1, b3, b4, b10, b15, b16, b17)),
+    premises=(
+        b1.B1,
+        *(one.DERIVATION for one in (eq11, eq14, b3, b4, b10, b15, b16, b17)),
+    ),
     printed=PRINTED,
     domain=(sympy.Ge(j, 2), sympy.Ge(M, j + 2)),
     exact=at_every_layer,

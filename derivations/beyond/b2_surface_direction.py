@@ -5,7 +5,7 @@ from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
-from force_diffusion.derivations.beyond import b1_any_direction as b1
+from force_diffusion.derivations.beyond import t1_forces as b1
 from force_diffusion.derivations.beyond.directions import (
     UNLOADED,
     VARIANCE_PLUS,
@@ -119,7 +119,7 @@ DERIVATION = Derivation(
         "printed form: M → ∞ at fixed z and t; exact form, for f⁺: every 0 ≤ j < M. For f⁻ put "
         "1/t in place of t",
     ),
-    premises=(b1.DERIVATION, eq13.DERIVATION),
+    premises=(b1.B1, eq13.DERIVATION),
     printed=PRINTED,
     relation="∼",
     exact=lambda: exact_cases.exact_cases(VARIANCE_PLUS, exact_forms()),

@@ -4,8 +4,9 @@ from collections.abc import Iterator
 from functools import cache
 
 import sympy
+from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.derivations.beyond import b1_any_direction as b1
+from force_diffusion.derivations.beyond import t1_forces as b1
 from force_diffusion.derivations.beyond.directions import (
     UNLOADED,
     VARIANCE_PLUS,
@@ -30,15 +31,10 @@ from force_diffusion.symbolic.variances.variance import ClosedForm, exact_varian
 PRINTED = printed(sympy.Rational(3, 10), 4)
 
 
-def bulk_force() -> sympy.Expr:
-    """f⁺_ij over its ordered value (M − j) L⁺: Eq. B1 for a load on each layer above j."""
-    return sympy.Sum(b1.PRINTED[0].rhs.xreplace({M: l}), (l, j + 1, M)) / (M - j)
-
-
 @cache
 def exact_forms() -> dict[str, ClosedForm]:
     """Exact variance of f⁺ over its mean squared at every layer, site by site."""
-    return exact_variances(b1.put_in_radii(bulk_force()))
+    return exact_variances(eq11.in_radii(b1.bulk_force()))
 
 
 def next_order() -> sympy.Expr:
@@ -60,7 +56,7 @@ def steps() -> Iterator[Step]:
             ratio,
             times(1 / (M - j), sympy.Sum(b1.PRINTED[0].rhs.xreplace({M: l}), (l, j + 1, M))),
         ),
-        states(equation(ratio, bulk_force()), region=Region({j: 0, M: j + 1})),
+        states(equation(ratio, b1.bulk_force()), region=Region({j: 0, M: j + 1})),
         ("Eq. 14", "Eq. B1"),
     )
     yield Step(
@@ -69,7 +65,7 @@ def steps() -> Iterator[Step]:
         decide,
         ("Eq. 14", "step 1"),
     )
-    force = b1.put_in_radii(bulk_force())
+    force = eq11.in_radii(b1.bulk_force())
     yield from exact_cases.variance_steps(VARIANCE_PLUS, ratio, force, exact_forms(), 2, "Eq. B1")
     yield exact_cases.next_order(
         VARIANCE_PLUS, PRINTED[0].rhs, exact_forms(), next_order(), "Eq. B3", "step 5"
@@ -99,7 +95,7 @@ DERIVATION = Derivation(
         "printed form: M → ∞ at fixed z and t; exact form, for f⁺: every 0 ≤ j < M. For f⁻ put "
         "1/t in place of t",
     ),
-    premises=(b1.DERIVATION, eq14.DERIVATION),
+    premises=(eq11.DERIVATION, b1.B1, eq14.DERIVATION),
     printed=PRINTED,
     relation="∼",
     exact=lambda: exact_cases.exact_cases(VARIANCE_PLUS, exact_forms()),
@@ -111,7 +107,7 @@ DERIVATION = Derivation(
         Claim(
             "at fixed z, and in the layers next to base and surface, no radius has more than "
             "O(1/M) of the variance",
-            lambda: no_radius_dominates(b1.put_in_radii(bulk_force()), exact_forms()),
+            lambda: no_radius_dominates(eq11.in_radii(b1.bulk_force()), exact_forms()),
         ),
         Claim("as n⁻ is unloaded, f⁺ keeps the variance of its own tilt", _unloaded),
         Claim(

@@ -3,12 +3,16 @@
 Symbols, what makes an expression as it is printed, the rules, the axioms, and what a derivation is.
 """
 
+from force_diffusion.derivations.framework.layered import UNIT, Layered
 from force_diffusion.derivations.framework.proving import (
     SUPPOSED,
     By,
+    Chain,
     Lines,
     Part,
+    Within,
     along,
+    asymptotic,
     below,
     cases,
     differentiate,
@@ -18,9 +22,11 @@ from force_diffusion.derivations.framework.proving import (
     induct,
     inverse,
     mirror_of,
+    moment,
     order,
     reach,
     rewrite,
+    slope,
     solve,
     supposing,
     walk,
@@ -31,20 +37,25 @@ from force_diffusion.derivations.framework.record import (
     Witness,
     on_packings,
 )
-from force_diffusion.symbolic.as_printed import equation, minus, terms, times
+from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
 from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.where import Where
 
 __all__ = [
     "SUPPOSED",
+    "UNIT",
     "By",
+    "Chain",
     "Claim",
     "Derivation",
+    "Layered",
     "Lines",
     "Part",
     "Where",
+    "Within",
     "Witness",
     "along",
+    "asymptotic",
     "axioms",
     "below",
     "cases",
@@ -57,10 +68,13 @@ __all__ = [
     "inverse",
     "minus",
     "mirror_of",
+    "moment",
     "on_packings",
     "order",
+    "power",
     "reach",
     "rewrite",
+    "slope",
     "solve",
     "supposing",
     "terms",

@@ -12,12 +12,14 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.exact import (
     FIELD,
+    LAYER,
     NotExactError,
     Polynomial,
     RationalFunction,
 )
 from force_diffusion.symbolic.algebra.signs import never_zero
-from force_diffusion.symbolic.kernel.moments import without_moments
+from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.kernel.moments import in_the_radii, pieces, without_moments
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import (
     Facts,
@@ -58,6 +60,46 @@ def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
     return rule
 
 
+def bounded(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
+    """One radius has at most a share of the order of the right-hand side in a variance."""
+
+    def rule(formula: sympy.Eq, where: Where) -> Theorem:
+        limit = _limit(formula, where, "O")
+        share, bound = formula.args
+        if not isinstance(share, sy.LargestShare):
+            raise NotProvedError(f"{text(share)} is not the largest share of a radius")
+        finite = where.in_the_limit(None)
+        parts = pieces(in_the_radii(share.args[0], facts, finite), finite)
+        whole = parts.sum_of_squares() * read(equation(bound, bound), facts, where)[0]
+        if whole.is_zero() or not even(FIELD.one / whole, limit):
+            raise NotProvedError("what is divided by is not shown to vanish nowhere")
+        fixed = {*sy.INDICES} - {*limit.growing}
+        ends = [affine.to_field(one) for run in parts.runs for one in (run.first, run.last)]
+        weights = [run.weight for run in parts.runs]
+        weights += [full for full, _ in parts.special.values()]
+        if any(one.holds(index) for one in (*ends, *weights) for index in fixed):
+            raise NotProvedError("a weight, or where it stands, holds an index that does not grow")
+        for weight in weights:
+            if not even(weight, limit) or 2 * _order_over_layers(weight, limit) > order(
+                whole, limit
+            ):
+                raise NotProvedError("a radius has a larger share, or that is not excluded")
+        return made(formula, where, "largest share", flat(facts))
+
+    return rule
+
+
+def _order_over_layers(weight: RationalFunction, limit: Limit) -> int:
+    """The order of a weight in any layer of its diagonal: a layer is at most of the order of M."""
+    if weight.is_zero():
+        return order(weight, limit)
+    if weight.denominator.degrees()[FIELD.position[LAYER]] > 0:
+        raise NotProvedError("a weight is divided by what depends on the layer")
+    return max(_degrees(weight.numerator, (*limit.growing, LAYER))) - _degree(
+        weight.denominator, limit
+    )
+
+
 def _limit(formula: sympy.Eq, where: Where, relation: str) -> Limit:
     """The limit of a statement, if its domain holds all but the first of what grows so.
 
@@ -70,7 +112,10 @@ def _limit(formula: sympy.Eq, where: Where, relation: str) -> Limit:
         raise NotProvedError(f"it is not in a limit, or not with the sign {relation}")
     coordinates = _coordinates(limit)
     for row in where.rows:
-        at_large = affine.to_sympy((*row[:-1], 0)).xreplace(coordinates)
+        whole = sympy.expand(affine.to_sympy(row).xreplace(where.solved))
+        if whole == 0:
+            continue  # the index that an equation fixes is given by the others
+        at_large = (whole - whole.as_coeff_Add()[0]).xreplace(coordinates)
         parts = sympy.expand(at_large).as_coefficients_dict()
         inside = all(c > 0 for c in parts.values() if c) and any(parts.values())
         if not inside or at_large.free_symbols - set(_NAMES):
@@ -101,7 +146,8 @@ def read(formula: sympy.Eq, facts: Facts, where: Where) -> tuple[RationalFunctio
     limit = where.limit
     assert limit is not None
     finite = without_moments(formula, facts, where.in_the_limit(None))
-    sides = [side.xreplace({sy.z: sy.j / sy.M}) for side in finite.args]
+    height = {sy.z: (sy.j / sy.M).xreplace(where.solved)}
+    sides = [side.xreplace(where.solved).xreplace(height) for side in finite.args]
     known = {*_FIXED, *limit.growing}
     if strange := by_name(set().union(*(side.free_symbols for side in sides)) - known):
         raise NotProvedError(f"{text(strange[0])} neither grows nor is fixed")

@@ -33,7 +33,11 @@ from force_diffusion.symbolic.kernel.theorem import (
 from force_diffusion.symbolic.kernel.where import LATTICE, Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
+<<<<<<< HEAD
 from force_diffusion.symbolic.variances.weights import UndeterminedError, sum_of_products
+=======
+from force_diffusion.symbolic.variances.weights import Pieces, take_apart
+>>>>>>> forces
 
 _KNOWN = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS} - {sy.epsilon}
 _RADII = (sy.DeltaR, sy.SecondDifference)
@@ -64,12 +68,17 @@ def without_moments(
     Raises:
         NotProvedError: one of them can't be.
     """
+<<<<<<< HEAD
     found = by_name(formula.atoms(sy.Moment))
     image = {one: value(one, facts, where, alone).to_sympy() for one in found}
+=======
+    image = {one: worked_out(one, facts, where) for one in by_name(formula.atoms(sy.Moment))}
+>>>>>>> forces
     sides = (side.xreplace(image) for side in formula.args)
     return equation(*(put_in(side, facts, where, facts) for side in sides))
 
 
+<<<<<<< HEAD
 @lru_cache(maxsize=1024)
 def value(one: sy.Moment, facts: Facts, where: Where, alone: Alone = ()) -> RationalFunction:
     """A moment at finite size, exact to leading order in the deviations of the radii.
@@ -85,6 +94,17 @@ def value(one: sy.Moment, facts: Facts, where: Where, alone: Alone = ()) -> Rati
         except UndeterminedError as reason:
             parts = _parts(where, reason)
             return _agreed(parts, [value(one, facts, part, alone) for part in parts], reason)
+=======
+@lru_cache(maxsize=256)
+def worked_out(one: sy.Moment, facts: Facts, where: Where) -> sympy.Expr:
+    """The same as ``value``, in factors."""
+    return value(one, facts, where).to_sympy()
+
+
+@lru_cache(maxsize=256)
+def value(one: sy.Moment, facts: Facts, where: Where) -> RationalFunction:
+    """A moment at finite size, exact to leading order in the deviations of the radii."""
+>>>>>>> forces
     forms = tuple(in_the_radii(argument, facts, where) for argument in one.args)
     if isinstance(one, sy.Mean):
         return forms[0].at_zero
@@ -157,6 +177,7 @@ def fluctuation(form: LinearForm) -> LinearForm:
     return LinearForm(sites, dict(form.rays))
 
 
+<<<<<<< HEAD
 # sums over neighbours
 
 
@@ -266,3 +287,16 @@ def _is_positive(number: sympy.Expr, where: Where) -> bool:
     if where.nonnegative(affine.times(value, -1)):
         return False
     raise UndeterminedError(f"the sign of {text(number)}", value)
+=======
+def _sum_of_squares(form: LinearForm, where: Where) -> RationalFunction:
+    """Σ weight² of the radii of a form, each met once."""
+    return pieces(form, where).sum_of_squares()
+
+
+def pieces(form: LinearForm, where: Where) -> Pieces:
+    """The weights of the radii of a form, each met once."""
+    try:
+        return take_apart(fluctuation(form), where)
+    except NotExactError as reason:
+        raise NotProvedError(f"two places may be one: {reason}") from None
+>>>>>>> forces

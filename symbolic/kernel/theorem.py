@@ -179,7 +179,7 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
         except NotExactError as reason:
             raise NotAStatementError(str(reason)) from None
         return
-    if isinstance(node, sy.Moment) and any(one.has(sy.Moment) for one in node.args):
+    if isinstance(node, _MOMENTS) and any(one.has(*_MOMENTS) for one in node.args):
         raise NotAStatementError("a moment of a moment")
     if isinstance(node, sympy.Pow):
         _check_power(node, where)
@@ -191,7 +191,8 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
         _check(argument, where, outer)
 
 
-_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, sy.Moment)
+_MOMENTS = (sy.Moment, sy.LargestShare)
+_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, *_MOMENTS)
 _QUANTITIES = {
     *FORCES, sy.DeltaNMinus, sy.DeltaNPlus, sy.DeltaR, sy.DeltaX, sy.Load, sy.Position,
     sy.SecondDifference,

@@ -38,7 +38,7 @@ class Loading:
     """What is known of the loads and of the forces above, before any balance.
 
     Attributes:
-        name: "loaded", "passing", "entering", "surface" or "bulk".
+        name: "loaded", "passing", "entering", "surface" or "surface tilted", for example.
         words: the same in plain words.
         place: the indices that it names, which stand for the same wherever it is used.
         given: equations that hold at that place.
@@ -94,8 +94,9 @@ class Limit:
     """How indices grow together, and how a statement relates its sides then.
 
     Attributes:
-        relation: "∼": left over right goes to 1; "≈": the variance of left less right is of a lower
-            order than that of the force it is about; "∝": left over right goes to a function of φ.
+        relation: "∼": left over right goes to 1; "O": left over right stays bounded; "≈": the
+            variance of left less right is of a lower order than that of the force it is about; "∝":
+            left over right goes to a function of φ.
         words: the same in plain words, such as "M → ∞ at fixed z = j/M, 0 < z < 1".
         growing: the indices that grow.
         positive: as many sums of them, which all grow in fixed positive ratios; uniformly so while
@@ -112,6 +113,11 @@ def at_fixed_height(relation: str) -> Limit:
     """The limit M → ∞ at a fixed relative height z = j/M between base and surface."""
     words = "M → ∞ at fixed z = j/M, 0 < z < 1"
     return Limit(relation, words, (sy.M, sy.j), (sy.j, sy.M - sy.j))
+
+
+def in_a_layer(relation: str) -> Limit:
+    """The limit M → ∞ of a layer at a fixed distance from base or surface."""
+    return Limit(relation, "M → ∞ in a fixed layer", (sy.M,), (sy.M,))
 
 
 @dataclass(frozen=True)
@@ -509,19 +515,43 @@ ENTERING = Loading(
 )
 """What one contact force contributes below itself."""
 
-SURFACE = Loading(
+_AT_SURFACE = sympy.Eq(sy.site_s, sy.M)
+_FREE_SURFACE = ((_zero(_PLUS(*_BEAD)), (_AT_SURFACE,)), (_zero(_MINUS(*_BEAD)), (_AT_SURFACE,)))
+
+
+def _carries(load: sympy.Expr, where: sympy.Basic) -> tuple[sympy.Eq, tuple[sympy.Basic, ...]]:
+    return sympy.Eq(sy.Load(*_BEAD), load, evaluate=False), (where,)
+
+
+def _on_surface(name: str, words: str, load: sympy.Expr) -> Loading:
+    """A load on each bead of the surface j = M."""
+    none_below = (_zero(sy.Load(*_BEAD)), (sy.site_s <= sy.M - 1,))
+    everywhere = (none_below, _carries(load, _AT_SURFACE), *_FREE_SURFACE)
+    return Loading(name, words, (sy.M,), (), everywhere)
+
+
+def _on_every_bead(name: str, words: str, load: sympy.Expr) -> Loading:
+    """A load on each bead of a packing of height M; the base bears its own."""
+    return Loading(name, words, (sy.M,), (), (_carries(load, sy.site_s <= sy.M), *_FREE_SURFACE))
+
+
+_TILTED = -(sy.L_plus * sy.n_plus + sy.L_minus * sy.n_minus)
+
+SURFACE = _on_surface(
     "surface",
     "each bead of the surface j = M carries f_load straight down, no other a load",
-    (sy.M,),
-    (),
-    (
-        (_zero(sy.Load(*_BEAD)), (sy.site_s <= sy.M - 1,)),
-        (
-            sympy.Eq(sy.Load(*_BEAD), -sy.f_load * sy.e_y, evaluate=False),
-            (sympy.Eq(sy.site_s, sy.M),),
-        ),
-        (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.M),)),
-        (_zero(_MINUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.M),)),
-    ),
+    -sy.f_load * sy.e_y,
 )
 """A load on the surface of a packing of height M."""
+
+SURFACE_TILTED = _on_surface(
+    "surface tilted",
+    "each bead of the surface j = M carries −(L⁺n⁺ + L⁻n⁻), no other a load",
+    _TILTED,
+)
+"""A load in any direction on the surface of a packing of height M."""
+
+BULK_TILTED = _on_every_bead(
+    "bulk tilted", "each bead of a packing of height M carries −(L⁺n⁺ + L⁻n⁻)", _TILTED
+)
+"""A load in any direction on every bead of a packing of height M."""

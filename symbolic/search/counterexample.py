@@ -10,6 +10,7 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.where import LATTICE, Loading, Where
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search import limits
 from force_diffusion.symbolic.search.dual import (
     NOWHERE,
     Dual,
@@ -22,6 +23,7 @@ from force_diffusion.symbolic.search.packing import (
     AbsentError,
     BelowError,
     Geometry,
+    Given,
     Packing,
     given,
 )
@@ -53,6 +55,12 @@ class World:
     def geometry(self) -> Geometry:
         """The packing of these contacts and this radius."""
         return _geometry(self)
+
+    def given(self, name: str | None, place: tuple[int, ...]) -> Given:
+        """What the loading of a name says at its place, in these loads."""
+        (x, y), (f_load, m_g, *_, plus, minus) = self.n, self.numbers
+        tilted = Vector(Dual((minus - plus) * x), Dual(-(plus + minus) * y))
+        return given(name, place, f_load, m_g, tilted)
 
     def values(self) -> dict[sympy.Symbol, Number]:
         """Value of each continuous symbol."""
@@ -100,15 +108,15 @@ def _geometry(world: World) -> Geometry:
 
 @lru_cache(maxsize=512)
 def _packing(world: World, name: str | None, place: tuple[int, ...]) -> Packing:
-    f_load, m_g = world.numbers[:2]
-    return Packing(world.geometry, given(name, place, f_load, m_g))
+    return Packing(world.geometry, world.given(name, place))
 
 
 def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = None) -> str | None:
     """Words for values at which a statement is false or has no value; None where none is found.
 
     All points of ``points`` are tried, or ``at_most`` so many of them. Points at which it speaks of
-    a bead below the base say nothing, unless all do.
+    a bead below the base say nothing, unless all do. A statement in a limit is looked at where the
+    indices are large; its moments have to be worked out before.
 
     What can't be evaluated is not refuted: unknown symbols, floats and roots, a number beside a
     vector, a sum whose upper bound is below its lower one by more than one, what is too large.
@@ -122,6 +130,8 @@ def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = N
 def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> str | None:
     if not isinstance(statement, sympy.Eq) or where.dimension != 2:
         return None
+    if where.limit:
+        return limits.counterexample(statement, where)
     free = _free_symbols(statement)
     budget, below, compared = Budget(READS), None, False
     for at, world in islice(_drawn(_with_all_indices(where, free)), at_most):

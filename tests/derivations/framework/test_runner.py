@@ -2,6 +2,8 @@
 
 import time
 from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import sympy
@@ -12,7 +14,8 @@ from force_diffusion.derivations.export.terminal import (
     summary_line,
     trouble_lines,
 )
-from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework import loading
+from force_diffusion.derivations.framework.catalogue import THEOREMS, modules
 from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.derivations.framework.record import KernelError
 from force_diffusion.derivations.framework.runner import Ruled, rulings, run
@@ -20,6 +23,8 @@ from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 from force_diffusion.symbolic.search.corpus import Statement
 
 from tests.derivations import fakes
+
+FOLDER = Path(__file__).parents[3] / "derivations" / "beyond"
 
 
 def test_a_sound_derivation_is_proved() -> None:
@@ -122,6 +127,29 @@ def test_run_alone_proves_the_premises_too(capsys: pytest.CaptureFixture[str]) -
     doubtful = replace(fakes.with_claim(Verdict.UNDECIDED), number=1, premises=())
     assert run_alone(replace(fakes.CONCLUSION, premises=(doubtful,)), []) == 1
     assert "Eq. 2 is undecided" in capsys.readouterr().out
+
+
+def test_run_alone_prints_every_equation_of_a_module(capsys: pytest.CaptureFixture[str]) -> None:
+    doubtful = replace(fakes.with_claim(Verdict.UNDECIDED), number=3)
+    several = {2: fakes.CONCLUSION, 3: doubtful}
+    assert run_alone(several, []) == 1
+    printed = capsys.readouterr().out
+    assert printed.index("1  proved") < printed.index("Eq. 2: B") < printed.index("Eq. 3")
+    assert "Eq. 3 is undecided" in printed
+
+
+def test_a_module_may_derive_several(monkeypatch: pytest.MonkeyPatch) -> None:
+    several = SimpleNamespace(DERIVATIONS={2: fakes.CONCLUSION, 1: fakes.PREMISE})
+    monkeypatch.setattr(loading, "import_module", lambda _: several)
+    assert [load(1).number, load(2).number] == [1, 2]
+
+
+def test_every_theorem_is_a_module_of_its_own() -> None:
+    numbers = [number for own in THEOREMS.values() for number in own]
+    assert sorted(numbers) == list(range(1, 22))
+    for stem, own in THEOREMS.items():
+        there = {modules()[f"B{number}"] == f"beyond.{stem}" for number in own}
+        assert there == {(FOLDER / f"{stem}.py").exists()}
 
 
 def test_the_summary_counts(capsys: pytest.CaptureFixture[str]) -> None:

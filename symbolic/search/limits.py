@@ -14,6 +14,7 @@ from itertools import pairwise, product
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.kernel.where import Limit, Where
 from force_diffusion.symbolic.printing.text import text
 
 HIGHEST_POWER = 20
@@ -25,6 +26,7 @@ DIRECTIONS = tuple(
     for x, y, length in ((3, 4, 5), (4, 3, 5), (20, 21, 29), (21, 20, 29), (119, 120, 169))
 )
 
+_SHARE = Fraction(1, 10**30)  # of what is of a lower order, far less is left at these sizes
 _LOW = Fraction(1, 3)
 
 Place = Mapping[sympy.Symbol, Fraction]
@@ -88,10 +90,32 @@ def parts_in_the_limit(
             except explicit.AmbiguousError:
                 return None
             true = _number(exact, tuple(values.items()))
-            shares.append(abs(found - true) / true)
-        if shares[1] > Fraction(1, 1000) and shares[1] * 10 > shares[0]:
+            shares.append(abs((found - true) / true))
+        if shares[1] > _SHARE and shares[1] * 10 > shares[0]:
             return f"at {where}, size = 10²⁰⁰, it differs by the share {float(shares[1]):.3g}"
     return None
+
+
+def counterexample(statement: sympy.Eq, where: Where) -> str | None:
+    """Where the sides of a statement in a limit, all moments put in, part; or None."""
+    limit = where.limit
+    left, right = (side.xreplace(where.solved) for side in statement.args)
+    if limit is None or limit.relation != "∼" or not _is_rational(left):
+        return None
+    return parts_in_the_limit(left, right, _places(limit))
+
+
+@cache
+def _places(limit: Limit) -> tuple[Place, ...]:
+    """How the indices grow, as multiples of one size: what is positive in some fixed ratios."""
+    ratios = [(one, 1 - one) for one in HEIGHTS] if len(limit.positive) == 2 else [(Fraction(1),)]
+    found = []
+    for ratio in ratios:
+        rows = (one - sympy.Rational(c) for one, c in zip(limit.positive, ratio, strict=True))
+        (at,) = sympy.linsolve(list(rows), *limit.growing)
+        multiples = (Fraction(int(c.p), int(c.q)) for c in at)
+        found.append(dict(zip(limit.growing, multiples, strict=True)))
+    return tuple(found)
 
 
 LAYERS: tuple[Place, ...] = tuple({sy.M: Fraction(1), sy.j: z} for z in HEIGHTS)
