@@ -111,6 +111,8 @@ def _limit(formula: sympy.Eq, where: Where, relation: str) -> Limit:
     if limit is None or limit.relation != relation:
         raise NotProvedError(f"it is not in a limit, or not with the sign {relation}")
     coordinates = _coordinates(limit)
+    if any(one in where.solved for one in limit.growing):
+        raise NotProvedError(f"its domain does not hold all of {limit.words}")
     for row in where.rows:
         whole = sympy.expand(affine.to_sympy(row).xreplace(where.solved))
         if whole == 0:
