@@ -33,11 +33,12 @@ from force_diffusion.symbolic.kernel.theorem import (
 from force_diffusion.symbolic.kernel.where import LATTICE, Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
-<<<<<<< HEAD
-from force_diffusion.symbolic.variances.weights import UndeterminedError, sum_of_products
-=======
-from force_diffusion.symbolic.variances.weights import Pieces, take_apart
->>>>>>> forces
+from force_diffusion.symbolic.variances.weights import (
+    Pieces,
+    UndeterminedError,
+    sum_of_products,
+    take_apart,
+)
 
 _KNOWN = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS} - {sy.epsilon}
 _RADII = (sy.DeltaR, sy.SecondDifference)
@@ -60,25 +61,24 @@ def moment(*facts: Theorem | tuple[Theorem, ...], alone: Alone = ()) -> Rule:
     return rule
 
 
-def without_moments(
-    formula: sympy.Eq, facts: Facts, where: Where, alone: Alone = ()
-) -> sympy.Eq:
+def without_moments(formula: sympy.Eq, facts: Facts, where: Where, alone: Alone = ()) -> sympy.Eq:
     """An equation with its moments worked out, and facts put in elsewhere.
 
     Raises:
         NotProvedError: one of them can't be.
     """
-<<<<<<< HEAD
     found = by_name(formula.atoms(sy.Moment))
-    image = {one: value(one, facts, where, alone).to_sympy() for one in found}
-=======
-    image = {one: worked_out(one, facts, where) for one in by_name(formula.atoms(sy.Moment))}
->>>>>>> forces
+    image = {one: worked_out(one, facts, where, alone) for one in found}
     sides = (side.xreplace(image) for side in formula.args)
     return equation(*(put_in(side, facts, where, facts) for side in sides))
 
 
-<<<<<<< HEAD
+@lru_cache(maxsize=1024)
+def worked_out(one: sy.Moment, facts: Facts, where: Where, alone: Alone = ()) -> sympy.Expr:
+    """The same as ``value``, in factors."""
+    return value(one, facts, where, alone).to_sympy()
+
+
 @lru_cache(maxsize=1024)
 def value(one: sy.Moment, facts: Facts, where: Where, alone: Alone = ()) -> RationalFunction:
     """A moment at finite size, exact to leading order in the deviations of the radii.
@@ -94,17 +94,6 @@ def value(one: sy.Moment, facts: Facts, where: Where, alone: Alone = ()) -> Rati
         except UndeterminedError as reason:
             parts = _parts(where, reason)
             return _agreed(parts, [value(one, facts, part, alone) for part in parts], reason)
-=======
-@lru_cache(maxsize=256)
-def worked_out(one: sy.Moment, facts: Facts, where: Where) -> sympy.Expr:
-    """The same as ``value``, in factors."""
-    return value(one, facts, where).to_sympy()
-
-
-@lru_cache(maxsize=256)
-def value(one: sy.Moment, facts: Facts, where: Where) -> RationalFunction:
-    """A moment at finite size, exact to leading order in the deviations of the radii."""
->>>>>>> forces
     forms = tuple(in_the_radii(argument, facts, where) for argument in one.args)
     if isinstance(one, sy.Mean):
         return forms[0].at_zero
@@ -177,7 +166,14 @@ def fluctuation(form: LinearForm) -> LinearForm:
     return LinearForm(sites, dict(form.rays))
 
 
-<<<<<<< HEAD
+def pieces(form: LinearForm, where: Where) -> Pieces:
+    """The weights of the radii of a form, each met once."""
+    try:
+        return take_apart(fluctuation(form), where)
+    except NotExactError as reason:
+        raise NotProvedError(f"two places may be one: {reason}") from None
+
+
 # sums over neighbours
 
 
@@ -209,7 +205,7 @@ class _Neighbours:
         given = count.free_symbols - self.first.free_symbols & {sy.N}
         beads = where.without(given)
         place = where.loading.place if where.loading else ()
-        if any(across in one.free_symbols for one in (*beads.relations, *place)):
+        if any(across in one.free_symbols for one in (*where.relations, *place)):
             raise NotProvedError(f"its domain says something of {text(across)}")
         if not _at_least(count, sympy.S.One, where):
             raise NotProvedError(f"{text(count)} may be less than 1")
@@ -287,16 +283,3 @@ def _is_positive(number: sympy.Expr, where: Where) -> bool:
     if where.nonnegative(affine.times(value, -1)):
         return False
     raise UndeterminedError(f"the sign of {text(number)}", value)
-=======
-def _sum_of_squares(form: LinearForm, where: Where) -> RationalFunction:
-    """Σ weight² of the radii of a form, each met once."""
-    return pieces(form, where).sum_of_squares()
-
-
-def pieces(form: LinearForm, where: Where) -> Pieces:
-    """The weights of the radii of a form, each met once."""
-    try:
-        return take_apart(fluctuation(form), where)
-    except NotExactError as reason:
-        raise NotProvedError(f"two places may be one: {reason}") from None
->>>>>>> forces

@@ -109,11 +109,7 @@ def take_apart(form: LinearForm, region: Order) -> Pieces:
     _assert_lines_apart(runs, region)
     special = {}
     for site in sites:
-        counted = tuple(
-            run.at(site.j)
-            for run in runs
-            if _meets(site, run, region)
-        )
+        counted = tuple(run.at(site.j) for run in runs if _meets(site, run, region))
         full = form.sites.get(site, FIELD.zero)
         for part in counted:
             full = full + part
@@ -194,9 +190,7 @@ def _is_last(layer: Affine, other: Affine, region: Order) -> bool:
         return True
     if region.nonnegative(affine.times(apart, -1)):
         return False
-    raise UndeterminedError(
-        f"layers {affine.to_sympy(layer)} and {affine.to_sympy(other)}", apart
-    )
+    raise UndeterminedError(f"layers {affine.to_sympy(layer)} and {affine.to_sympy(other)}", apart)
 
 
 def _lines(form: LinearForm) -> list[tuple[str, int, Affine]]:
