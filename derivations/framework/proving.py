@@ -5,7 +5,7 @@ uses. The kernel proves what is shown; anything else said in its place goes the 
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Protocol
 
@@ -524,6 +524,13 @@ class Lines(list[Line]):
         """Add a further statement that the lines prove; it is not one of them."""
         domain = options.pop("where", self._where)
         self.claims.append(Line(name, formula, by, domain, **options))
+
+    def add(self, line: Line, after: tuple[Proved, ...] = ()) -> Line:
+        """Add a line that is there already, under the number that it has."""
+        if line.number != len(self) + 1:
+            raise ValueError(f"line {line.number} in place {len(self) + 1}")
+        self.append(line if not after else replace(line, after=after))
+        return line
 
     def show(
         self,

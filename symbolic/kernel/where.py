@@ -555,3 +555,19 @@ BULK_TILTED = _on_every_bead(
     "bulk tilted", "each bead of a packing of height M carries −(L⁺n⁺ + L⁻n⁻)", _TILTED
 )
 """A load in any direction on every bead of a packing of height M."""
+
+BULK = Loading(
+    "bulk",
+    "each bead above the base carries its weight mg straight down, and nothing lies above j = M",
+    (sy.M,),
+    (),
+    (
+        (
+            sympy.Eq(sy.Load(*_BEAD), -sy.m_g * sy.e_y, evaluate=False),
+            (sy.site_s >= 1, sy.site_s <= sy.M),
+        ),
+        (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.M),)),
+        (_zero(_MINUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.M),)),
+    ),
+)
+"""A weight on every bead of a packing of height M."""
