@@ -223,9 +223,12 @@ def rewrite(*facts: Source) -> By:
     return By(lambda supposed: rules.rewrite(*facts_of(facts, supposed)), facts)
 
 
-def moment(*facts: Source) -> By:
-    """Both sides are the same once facts are put in and means and variances are worked out."""
-    return By(lambda supposed: moments.moment(*facts_of(facts, supposed)), facts)
+def moment(*facts: Source, alone: moments.Alone = ()) -> By:
+    """Both sides are the same once facts are put in and means and variances are worked out.
+
+    ``alone`` are distances at which neighbours may be correlated, where a sum over them is one.
+    """
+    return By(lambda supposed: moments.moment(*facts_of(facts, supposed), alone=alone), facts)
 
 
 def asymptotic(*facts: Source) -> By:

@@ -68,7 +68,10 @@ def without_moments(formula: sympy.Eq, facts: Facts, where: Where, alone: Alone 
         NotProvedError: one of them can't be.
     """
     found = by_name(formula.atoms(sy.Moment))
-    image = {one: worked_out(one, facts, where, alone) for one in found}
+    try:
+        image = {one: worked_out(one, facts, where, alone) for one in found}
+    except UndeterminedError as reason:
+        raise NotProvedError(f"two places may be one: {reason}") from None
     sides = (side.xreplace(image) for side in formula.args)
     return equation(*(put_in(side, facts, where, facts) for side in sides))
 
@@ -84,16 +87,12 @@ def value(one: sy.Moment, facts: Facts, where: Where, alone: Alone = ()) -> Rati
     """A moment at finite size, exact to leading order in the deviations of the radii.
 
     Raises:
-        NotProvedError: it holds what is not known, or is not one function on all of the domain.
+        NotProvedError: it holds what is not known.
+        UndeterminedError: it is not one function on all of the domain.
     """
     sigma = FIELD.generator(sy.sigma) ** 2
-    if isinstance(one, sy.Variance) and (mean := _neighbours(one.args[0], where)):
-        places = tuple(sympy.expand(place.xreplace(where.solved)) for place in alone)
-        try:
-            return mean.variance(facts, where, places) * sigma
-        except UndeterminedError as reason:
-            parts = _parts(where, reason)
-            return _agreed(parts, [value(one, facts, part, alone) for part in parts], reason)
+    if isinstance(one, sy.Variance) and (mean := _neighbours(one.args[0], facts, where, alone)):
+        return mean.variance(where) * sigma
     forms = tuple(in_the_radii(argument, facts, where) for argument in one.args)
     if isinstance(one, sy.Mean):
         return forms[0].at_zero
@@ -122,6 +121,8 @@ def _parts(where: Where, reason: UndeterminedError) -> tuple[Where, ...]:
         raise refused from reason
     divisor = gcd(*reason.apart)
     number = affine.to_sympy(tuple(c // divisor for c in reason.apart))
+    if not number.free_symbols <= {*where.indices}:
+        raise refused from reason
     parts = [
         where.also(kind(number, sympy.Integer(side), evaluate=False))
         for kind, side in ((sympy.Ge, 1), (sympy.Le, -1), (sympy.Eq, 0))
@@ -134,11 +135,15 @@ def _parts(where: Where, reason: UndeterminedError) -> tuple[Where, ...]:
 def _agreed(
     parts: Sequence[Where], found: Sequence[RationalFunction], reason: UndeterminedError
 ) -> RationalFunction:
-    """The value of the first part, if those of all others are the same there."""
+    """The value of the first part, if those of all others are the same there.
+
+    Raises:
+        UndeterminedError: they are not; the sum that they stand in may be, on the same parts.
+    """
     for part, other in zip(parts[1:], found[1:], strict=True):
         known = {index: FIELD.from_sympy(at) for index, at in part.solved.items()}
         if not (found[0] - other).substitute(known).is_zero():
-            raise NotProvedError(f"two places may be one: {reason}")
+            raise UndeterminedError(str(reason), reason.apart)
     return found[0]
 
 
@@ -186,58 +191,97 @@ class _Neighbours:
         first: what is summed, at its first place.
         across: the index across the packing.
         count: how many are summed.
+        alone: how many places apart two of them may be correlated.
+        facts: what gives it in the radii.
+        beads: the domain, as far as it does not speak of N.
     """
 
     factor: sympy.Expr
     first: sympy.Expr
     across: sympy.Symbol
     count: sympy.Expr
+    alone: Alone
+    facts: Facts
+    beads: Where
 
-    def variance(self, facts: Facts, where: Where, alone: Alone) -> RationalFunction:
-        """Variance over σ²: count C₀ + 2 Σ (count − p) C_p, times the factor squared.
+    def variance(self, where: Where) -> RationalFunction:
+        """Variance over σ² on a domain, which is parted as far as it takes."""
+        try:
+            return self._on(where)
+        except UndeterminedError as reason:
+            parts = _parts(where, reason)
+            return _agreed(parts, [self.variance(part) for part in parts], reason)
+
+    def _on(self, where: Where) -> RationalFunction:
+        """Factor² [count C₀ + 2 Σ (count − p) C_p].
 
         C_p is the covariance of two that are p places apart, the same for all such pairs, since
         the domain leaves the place along the layer free. It is zero but for p in ``alone``.
         """
-        count, across = self.count, self.across
-        if self.factor.free_symbols - _KNOWN or self.factor.has(sy.SiteFunction):
-            raise NotProvedError(f"whether {text(self.factor)} depends on the radii is not known")
-        given = count.free_symbols - self.first.free_symbols & {sy.N}
-        beads = where.without(given)
-        place = where.loading.place if where.loading else ()
-        if any(across in one.free_symbols for one in (*where.relations, *place)):
-            raise NotProvedError(f"its domain says something of {text(across)}")
+        count, *places = (
+            sympy.expand(one.xreplace(where.solved)) for one in (self.count, *self.alone)
+        )
         if not _at_least(count, sympy.S.One, where):
             raise NotProvedError(f"{text(count)} may be less than 1")
+        near = _in_order([one for one in places if _reached(one, count, where)], where)
         spare = [one for one in (sy.p, sy.q) if one not in where.indices]
         if not spare:
             raise NotProvedError("no index is left for the distance of two neighbours")
-        form, apart = in_the_radii(self.first, facts, beads), spare[0]
-
-        def covariance(places: sympy.Expr, at: Where) -> RationalFunction:
-            further = {across: affine.from_sympy(sympy.expand(across + 2 * places))}
-            found = _products(form, form.put_in(further), at)
-            if found.holds(across):
-                raise NotProvedError("covariances are not the same along the layer")
-            return found
-
-        total = FIELD.from_sympy(count) * covariance(sympy.S.Zero, beads)
-        near = _in_order([one for one in alone if _reached(one, count, where)], where)
+        apart, beads = spare[0], self._of_beads(where)
+        total = FIELD.from_sympy(count) * _apart(self._one, sympy.S.Zero, beads)
         for low, high in zip((sympy.S.Zero, *near), (*near, None), strict=True):
             domain, last = (where, count - 1) if high is None else (beads, high - 1)
             between = domain.also(apart >= low + 1, apart <= last, indices=(apart,))
-            if not between.is_empty and not covariance(apart, between).is_zero():
+            if not between.is_empty and not _apart(self._one, apart, between).is_zero():
                 raise NotProvedError(f"covariances beyond {text(low)} places are not zero")
             if high is not None:
                 weight = FIELD.from_sympy(2 * (count - high))
-                counted = where.also(sympy.Le(high, count - 1, evaluate=False)).without(given)
-                total = total + weight * covariance(high, counted)
+                reached = sympy.Le(high, count - 1, evaluate=False)
+                counted = self._of_beads(where.also(reached))
+                total = total + weight * _apart(self._one, high, counted)
         return total * FIELD.from_sympy(self.factor**2)
 
+    @property
+    def _one(self) -> tuple[sympy.Expr, sympy.Symbol, Facts, Where]:
+        return self.first, self.across, self.facts, self.beads
 
-def _neighbours(side: sympy.Expr, where: Where) -> _Neighbours | None:
-    """What is a sum over neighbours, times a factor."""
-    factors = sympy.Mul.make_args(side.xreplace(where.solved))
+    def _of_beads(self, where: Where) -> Where:
+        found = where.without({sy.N} - self.first.free_symbols)
+        return self.beads if found.rows == self.beads.rows else found
+
+
+@lru_cache(maxsize=1024)
+def _apart(
+    one: tuple[sympy.Expr, sympy.Symbol, Facts, Where], places: sympy.Expr, domain: Where
+) -> RationalFunction:
+    """Covariance over σ² with the neighbour so many places away, on a part of the domain of one.
+
+    Raises:
+        NotProvedError: it depends on the place along the layer.
+    """
+    first, across, facts, beads = one
+    at = {symbol: affine.from_sympy(place) for symbol, place in domain.solved.items()}
+    further = {across: affine.from_sympy(sympy.expand(across + 2 * places))}
+    form = _read(first, facts, beads)
+    found = _products(form.put_in(at), form.put_in(further).put_in(at), domain)
+    if found.holds(across):
+        raise NotProvedError("covariances are not the same along the layer")
+    return found
+
+
+_read = lru_cache(maxsize=64)(in_the_radii)
+
+
+def _neighbours(
+    side: sympy.Expr, facts: Facts, where: Where, alone: Alone
+) -> _Neighbours | None:
+    """What is a sum over neighbours, times a factor.
+
+    Raises:
+        NotProvedError: its domain says something of the place along the layer, or the factor
+            may depend on the radii.
+    """
+    factors = sympy.Mul.make_args(side)
     sums = [one for one in factors if isinstance(one, sympy.Sum)]
     if len(sums) != 1 or len(sums[0].limits) != 1:
         return None
@@ -246,8 +290,16 @@ def _neighbours(side: sympy.Expr, where: Where) -> _Neighbours | None:
     first = sums[0].function.xreplace({index: low})
     for across in by_name(_ACROSS & {*where.indices}):
         if first.xreplace({across: across + 2 * (index - low)}) == sums[0].function:
-            return _Neighbours(factor, first, across, high - low + 1)
-    return None
+            break
+    else:
+        return None
+    if factor.free_symbols - _KNOWN or factor.has(sy.SiteFunction):
+        raise NotProvedError(f"whether {text(factor)} depends on the radii is not known")
+    place = where.loading.place if where.loading else ()
+    if any(across in one.free_symbols for one in (*where.relations, *place)):
+        raise NotProvedError(f"its domain says something of {text(across)}")
+    beads = where.without({sy.N} - first.free_symbols)
+    return _Neighbours(factor, first, across, high - low + 1, alone, facts, beads)
 
 
 def _in_order(places: Sequence[sympy.Expr], where: Where) -> list[sympy.Expr]:

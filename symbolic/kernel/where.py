@@ -212,7 +212,8 @@ class Where:
                 rows = _eliminated(rows, sy.INDICES.index(one))
             more = [sympy.Ge(affine.to_sympy(row), 0, evaluate=False) for row in sorted(rows)]
         indices = tuple(one for one in self.indices if one not in given)
-        domain = replace(self, indices=indices, relations=kept)
+        even = tuple(one for one in self.even if not one.free_symbols & {*given})
+        domain = replace(self, indices=indices, relations=kept, even=even)
         further = [one for one in more if not domain.implies(one)]
         return domain.also(*further)
 
@@ -374,7 +375,7 @@ class Where:
                 value = _tightened(
                     affine.from_sympy(sympy.expand((one.lhs - one.rhs).xreplace(image)))
                 )
-                for symbol in self.indices:
+                for symbol in sorted(self.indices, key=lambda one: one is not sy.N):
                     c = affine.coefficient(value, symbol)
                     if abs(c) == 1:
                         rest = affine.to_sympy(affine.times(affine.without(value, symbol), -c))
