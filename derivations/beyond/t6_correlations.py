@@ -201,9 +201,7 @@ class Means:
         forms = []
         for case, form in self.exact.items():
             forms.append((self.on(*self.windows[case].relations), form.expression))
-            forms += [
-                (self.on(*form.domain, *one.when), one.expression) for one in form.missed
-            ]
+            forms += [(self.on(*form.domain, *one.when), one.expression) for one in form.missed]
         lines.claim(
             name,
             sympy.Tuple(*(equation(self.symbol, form) for _, form in forms)),
@@ -417,9 +415,7 @@ UNDER_SURFACE = Means(
         "N=j+1": Window(
             "N = j + 1 ≥ 3 and M ≥ j + 2", (Eq(N, j + 1), j >= 2, M >= j + 2), phi * (K + 3) / 2
         ),
-        "N>j+1": Window(
-            "N ≥ j + 2 ≥ 4 and M ≥ j + 2", (N >= j + 2, j >= 2, M >= j + 2), 2 * phi
-        ),
+        "N>j+1": Window("N ≥ j + 2 ≥ 4 and M ≥ j + 2", (N >= j + 2, j >= 2, M >= j + 2), 2 * phi),
         "surface": Window("j = M − 1 and 2 ≤ N ≤ j − 1", (*UP_TO_BASE, Eq(M, j + 1)), _LESS),
         "surface, N=j": Window(
             "j = M − 1 and N = j ≥ 2", (Eq(N, j), j >= 2, Eq(M, j + 1)), _LESS + 3 * phi / 2
@@ -649,3 +645,445 @@ def bead_steps() -> Lines:
         "the base leaves nothing, while the surface leaves −(1+φ²)/2, in the same unit over N²",
     )
     return lines
+
+
+# --- between layers -----------------------------------------------------------------------------
+
+COVARIANCE = Symbol(
+    "layers_covariance",
+    r"\frac{\langle\Delta f^{+}_{ij}\,\Delta f^{+}_{i+l-j,\,l}\rangle}{\langle f\rangle^2}",
+    "⟨Δf⁺_ij Δf⁺_{i+l−j,l}⟩/⟨f⟩²",
+)
+CORRELATION = Symbol("layers_correlation", r"\rho_{jl}", "ρ_jl")
+z_upper = Symbol("z_upper", "z'", "z′", positive=True)
+"""Relative height l/M of the upper contact."""
+AT_HEIGHTS = {z: j / M, z_upper: l / M}
+
+LAYERS = equation(
+    COVARIANCE,
+    times(
+        1 / (4 * (1 - phi**2) ** 2),
+        terms(
+            times(
+                terms(M, -l),
+                terms(
+                    times(8, M**2), times(8, M, l), minus(times(12, j**2)), minus(times(4, l**2))
+                ),
+            ),
+            minus(times(6, M, terms(M, j, l))),
+            times(6, terms(j**2, times(j, l), l**2)),
+            times(2, phi**2, terms(times(9, terms(M, -l)), -4)),
+            times(2, phi, terms(times(2, M), -j, -l, -2)),
+            minus(times(8, M)),
+            times(7, j),
+            times(9, l),
+            6,
+        ),
+        power(times(sigma, 1 / r), 2),
+    ),
+)
+
+UPPER = (j >= 0, l >= j, M >= l + 1)
+"""A contact of layer j and one of layer l, which is not below it."""
+APART = (j >= 2, l >= j + 2)
+INSIDE = (*APART, M >= l + 2)
+WEIGHTS = Symbol("products", r"\sum w\,w'", "Σw w′")
+"""Sum over all radii of the products of both weights in Eq. 12, its prefactor left out."""
+PRODUCTS = times(
+    6,
+    terms(
+        times(terms(M, -l), sympy.Sum(M - j, (m, 1, j))),
+        times(terms(M, -l), sympy.Sum(M - m, (m, j + 1, l))),
+        sympy.Sum((M - m) ** 2, (m, l + 1, M)),
+    ),
+)
+HIGHEST = times(terms(M, -l), terms(times(2, M**2), times(2, M, l), minus(times(3, j**2)), -(l**2)))
+REST = minus(times(terms(M, -l), terms(times(3, M), minus(times(3, j)), -1)))
+ON_SURFACE_LEADING = times(
+    M**3,
+    terms(1, -z_upper),
+    terms(times(3, terms(1, -(z**2))), minus(terms(1, -z_upper) ** 2)),
+    UNIT,
+)
+IN_BULK_LEADING = times(
+    M**3 / (10 * (1 - z)),
+    terms(1, -z_upper),
+    terms(
+        3, times(6, z_upper), minus(times(15, z**2)), minus(times(6, z_upper**2)),
+        times(10, z**3), times(2, z_upper**3),
+    ),
+    UNIT,
+)  # fmt: skip
+"""The same for a bulk load, both forces over their own means."""
+AT_TWO_HEIGHTS = Limit(
+    "∼", "M → ∞ at fixed z = j/M and z′ = l/M, 0 < z < z′ < 1", (M, j, l), (j, l - j, M - l)
+)
+
+
+def between(*relations: sympy.Basic, loading: Loading | None = SURFACE) -> Where:
+    """A domain of two layers, of the indices i, j, l, M and p."""
+    return Where.of(*relations, loading=loading).without((k,))
+
+
+def higher(quantity: sympy.Expr, places: sympy.Expr | int = 0) -> sympy.Expr:
+    """The same in layer l, so many places to the right of the diagonal of (i, j)."""
+    return quantity.xreplace({i: i + l - j + 2 * places, j: l})
+
+
+MEANT = {COVARIANCE: Covariance(ON_SURFACE, higher(ON_SURFACE))}
+FAR_LEFT = Symbol("C_minus_p", "C_{-p}", "C_−p")
+FAR_APART = {
+    FAR: Covariance(ON_SURFACE, higher(ON_SURFACE, p)),
+    FAR_LEFT: Covariance(ON_SURFACE, higher(ON_SURFACE, -p)),
+}
+"""Covariances of contacts whose diagonals are p places apart."""
+UNCORRELATED: tuple[tuple[sympy.Symbol, tuple[sympy.Basic, ...]], ...] = (
+    (FAR, (p >= 3, p <= j - 2)),
+    (FAR, (p >= j + 3,)),
+    (FAR_LEFT, (p >= 3, p <= l - j - 2)),
+    (FAR_LEFT, (p >= l - j + 2, p <= l - 2)),
+    (FAR_LEFT, (p >= l + 3,)),
+)
+"""Where they are, away from base and surface."""
+
+
+def _ends(above: sympy.Expr) -> tuple[sympy.Expr, ...]:
+    """What is left at p = j − 1, …, j + 2, ``above`` layers of the other contact's path up."""
+    return tuple(value.xreplace({M: above + j}).expand() for _, value in BANDS)
+
+
+LEFT_OVER: tuple[tuple[sympy.Symbol, sympy.Expr, sympy.Expr], ...] = (
+    *((FAR, j + at, value) for at, value in enumerate(_ends(M - l), start=-1)),
+    *((FAR_LEFT, l + at, value) for at, value in enumerate(_ends(M - j), start=-1)),
+    (FAR_LEFT, l - j - 1, -(phi**2) * (4 * j + 3 - 2 * phi) / 4),
+    (FAR_LEFT, l - j, phi**2 * (4 * j + 1) / 2),
+    (FAR_LEFT, l - j + 1, -(phi**2) * (4 * j - 1 + 2 * phi) / 4),
+)
+"""Places where two contacts are correlated after all, in ``UNIT``."""
+
+OTHER_BRANCH = Covariance(ON_SURFACE, ForceMinus(i + 2 * p + j - l, l) / (f_load / (2 * n_y)))
+"""Of f⁺_ij and the f⁻ of layer l whose diagonal crosses that of f⁺, p layers above (i, j)."""
+CROSSINGS: tuple[tuple[sympy.Basic, ...], ...] = (
+    (p <= -4, p >= 4 - j),
+    (p >= 4, p <= l - j - 4),
+    (p >= l - j + 4, p <= M - j - 4, p <= l - 4),
+    (p >= l - j + 4, p <= M - j - 4, p >= l + 4),
+)
+"""Where these two are uncorrelated: below both, between both, above both."""
+
+EDGES: dict[str, tuple[str, tuple[sympy.Basic, ...]]] = {
+    "next": ("2 ≤ j = l − 1 ≤ M − 3", (j >= 2, Eq(l, j + 1), M >= l + 2)),
+    "base": ("j = 0 and 2 ≤ l ≤ M − 2", (Eq(j, 0), l >= 2, M >= l + 2)),
+    "base, next": ("j = 0, l = 1 and M ≥ 3", (Eq(j, 0), Eq(l, 1), M >= 3)),
+    "base+1": ("j = 1 and 3 ≤ l ≤ M − 2", (Eq(j, 1), l >= 3, M >= l + 2)),
+    "base+1, next": ("j = 1, l = 2 and M ≥ 4", (Eq(j, 1), Eq(l, 2), M >= 4)),
+    "surface": ("2 ≤ j ≤ l − 2 and l = M − 1", (*APART, Eq(M, l + 1))),
+    "surface, next": ("2 ≤ j = l − 1 = M − 2", (j >= 2, Eq(l, j + 1), Eq(M, l + 1))),
+    "base, surface": ("j = 0 and 2 ≤ l = M − 1", (Eq(j, 0), l >= 2, Eq(M, l + 1))),
+    "base+1, surface": ("j = 1 and 3 ≤ l = M − 1", (Eq(j, 1), l >= 3, Eq(M, l + 1))),
+}
+"""Pairs of layers with a closed form of their own."""
+
+
+@cache
+def edges() -> dict[str, ExactCase]:
+    """The covariance at the edges, as users get it."""
+    facts, found = facts_of((eq11.IN_RADII,)), {}
+    for name, (validity, relations) in EDGES.items():
+        form = moments.value(MEANT[COVARIANCE], facts, between(*relations)).to_sympy()
+        found[name] = ExactCase(COVARIANCE, validity, form, relations)
+    return found
+
+
+@cache
+def layer_steps() -> Lines:
+    """Products of the weights of Eq. 12; exactly; beside the diagonal; as a correlation."""
+    lines = Lines(between(*INSIDE))
+    products = lines.show(
+        "By Eq. 12 the forces of two contacts on one diagonal, j < l, are sums of the same Δ on "
+        "it, with the weights M − max(j, m) and M − max(l, m). The squares of the radii in one Δ "
+        "add up to 6. So the products of both weights are",
+        equation(WEIGHTS, PRODUCTS),
+        moment(),
+        where=between(j >= 1, l >= j + 1, M >= l + 1, loading=None),
+        meaning={WEIGHTS: Covariance(OF_DELTA, higher(OF_DELTA)) / sigma**2},
+        after=(eq12.DERIVATION,),
+    )
+    added = lines.show(
+        "Added up:",
+        equation(PRODUCTS, terms(HIGHEST, REST)),
+        rewrite(),
+        where=between(*UPPER, loading=None),
+        after=(products,),
+    )
+    highest = lines.show(
+        "The first term, with the prefactor of Eq. 12 squared, is the leading order, z = j/M being "
+        "the height of the lower contact and z′ = l/M that of the upper one:",
+        equation(times(eq12.PREFACTOR**2, sigma**2, HIGHEST), ON_SURFACE_LEADING),
+        rewrite(),
+        where=between(*UPPER, loading=None),
+        meaning=AT_HEIGHTS,
+        after=(added,),
+    )
+    exact = lines.show(
+        "Eq. 11 in the radii, weight by weight, for 2 ≤ j ≤ l − 2 and l ≤ M − 2:",
+        LAYERS,
+        moment(eq11.IN_RADII),
+        meaning=MEANT,
+    )
+    limit = between(*INSIDE).in_the_limit(AT_TWO_HEIGHTS)
+    leading = lines.show(
+        "Its leading order is that of step 3; for z′ = z it is Eq. 13:",
+        equation(COVARIANCE, ON_SURFACE_LEADING),
+        asymptotic(eq11.IN_RADII),
+        where=limit,
+        meaning={**MEANT, **AT_HEIGHTS},
+        after=(highest, exact),
+    )
+    lines.show(
+        "Contacts of layer l whose diagonals are p ≥ 3 places away are uncorrelated: to the right, "
+        "where p is none of j − 1, …, j + 2; to the left, where it is none of l − 1, …, l + 2, nor "
+        "of l − j − 1, …, l − j + 1. At those places a line of one contact's tilt meets the "
+        "other's path where that begins or ends.",
+        sympy.Tuple(*(equation(one, 0) for one, _ in UNCORRELATED)),
+        moment(eq11.IN_RADII),
+        where=tuple(between(*relations, *INSIDE) for _, relations in UNCORRELATED),
+        meaning=FAR_APART,
+    )
+    below, above = (eq13.PRINTED.rhs.xreplace({z: at}) for at in (z, z_upper))
+    lines.show(
+        "As a correlation, with Eq. 13 for both variances:",
+        equation(CORRELATION**2, SQUARED),
+        rewrite(),
+        where=between(*UPPER, loading=None),
+        meaning={CORRELATION**2: ON_SURFACE_LEADING**2 / (below * above), **AT_HEIGHTS},
+        after=(eq13.DERIVATION, leading),
+    )
+    lines.claim(
+        "beside the diagonal, one and two places away, the covariances are −2/3 and 1/6 of it "
+        "to leading order, as within a layer",
+        sympy.Tuple(
+            *(
+                equation(
+                    Covariance(ON_SURFACE, higher(ON_SURFACE, side * places)),
+                    times(share, ON_SURFACE_LEADING),
+                )
+                for places, share in ((1, -Rational(2, 3)), (2, Rational(1, 6)))
+                for side in (1, -1)
+            )
+        ),
+        asymptotic(eq11.IN_RADII),
+        where=between(j >= 4, l >= j + 4, M >= l + 2).in_the_limit(AT_TWO_HEIGHTS),
+        meaning=AT_HEIGHTS,
+    )
+    deep = (j >= 4, l >= j + 4, M >= l + 2)
+    lines.claim(
+        "where the diagonal is p = j − 1, …, j + 2 places to the right, or to the left "
+        "l − 1, …, l + 2 or l − j − 1, …, l − j + 1, a covariance of order M is left, and none "
+        "for φ = 0",
+        sympy.Tuple(*(equation(one, times(value, UNIT)) for one, _, value in LEFT_OVER)),
+        moment(eq11.IN_RADII),
+        where=tuple(between(*deep, Eq(p, at)) for _, at, _ in LEFT_OVER),
+        meaning=FAR_APART,
+    )
+    lines.claim(
+        "f⁺ and f⁻ are uncorrelated, exactly, where their diagonals cross four layers or more "
+        "from both, from the base and from the surface, and, if q layers above both, where q "
+        "and j differ by four or more",
+        sympy.Tuple(*(equation(OTHER_BRANCH, 0) for _ in CROSSINGS)),
+        moment(BOTH),
+        where=tuple(between(*relations, *UPPER) for relations in CROSSINGS),
+    )
+    of_bulk = Covariance(OF_BULK, higher(OF_BULK))
+    lines.claim(
+        "under a bulk load, over both means, it goes as M³(1−z′)Q (σ/r)²/(1−φ²)², where "
+        "10(1−z)Q = 3 + 6z′ − 15z² − 6z′² + 10z³ + 2z′³",
+        equation(of_bulk, IN_BULK_LEADING),
+        asymptotic(IN_BULK),
+        where=between(*APART, M >= l + 1, loading=BULK).in_the_limit(AT_TWO_HEIGHTS),
+        meaning=AT_HEIGHTS,
+    )
+    bulk_squared = IN_BULK_LEADING.xreplace({1 - z_upper: sympy.S.One}) ** 2 / (
+        eq14.PRINTED.rhs * eq14.PRINTED.rhs.xreplace({z: z_upper})
+    ).xreplace({1 - z_upper: sympy.S.One})
+    ends = {z: sympy.Integer(0), z_upper: sympy.Integer(1)}
+    lines.claim(
+        "along a diagonal from the base to the surface a correlation of √3/2 is left under a "
+        "surface load, of √5/3 under a bulk load, as M → ∞ and then z′ → 1",
+        sympy.Tuple(
+            equation(SQUARED.xreplace(ends), Rational(3, 4)),
+            equation(bulk_squared.xreplace(ends), Rational(5, 9)),
+        ),
+        rewrite(),
+        where=between(*UPPER, loading=None),
+    )
+    lines.claim(
+        "the forms next to base and surface, and of neighbouring layers",
+        sympy.Tuple(*(equation(COVARIANCE, one.expression) for one in edges().values())),
+        moment(eq11.IN_RADII),
+        where=tuple(between(*relations) for _, relations in EDGES.values()),
+        meaning=MEANT,
+    )
+    return lines
+
+
+OF_DELTA = sympy.Sum(times(eq12.BRACES, eq12.ON_DIAGONAL), (m, 1, M))
+"""Eq. 12 without its prefactor."""
+SQUARED = times(
+    terms(times(3, terms(1, -(z**2))), minus(terms(1, -z_upper) ** 2)) ** 2,
+    1 / (4 * terms(1, -z) ** 2),
+    1 / terms(1, times(2, z)),
+    1 / terms(1, times(2, z_upper)),
+)
+"""The squared correlation of two contacts of one diagonal."""
+
+
+def _mean_of_diagonal() -> Ruling:
+    """Twice the integral over 0 < z < z′ < 1, against that of the variance, by powers."""
+    lower, upper = sympy.symbols("a b")
+    of_pair = sympy.expand((1 - upper) * (3 * (1 - lower**2) - (1 - upper) ** 2))
+    up_to = sympy.Poly(of_pair, lower).integrate().as_expr().xreplace({lower: upper})
+    whole = 2 * sympy.Poly(up_to, upper).integrate()(1)
+    single = sympy.Poly(2 * (1 - z) ** 2 * (1 + 2 * z), z).integrate()(1)
+    return from_test(
+        whole == Rational(4, 5) and single == 1,
+        "the mean over a diagonal has 4/5 of the variance that a contact of it has on average",
+    )
+
+
+def _pairs_of_layers(packing: SmallPacking) -> Ruling:
+    cosine = packing.n[1] ** 2 - packing.n[0] ** 2
+    stated = [(between(*INSIDE), LAYERS.rhs)]
+    stated += [(between(*one.domain), one.expression) for one in edges().values()]
+
+    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
+        for height in (5, 8):
+            for upper in range(height):
+                for lower in range(upper):
+                    at = {M: height, j: lower, l: upper}
+                    for form in (form for where, form in stated if where.holds(at)):
+                        true = witnesses.between_layers(height, lower, upper, 0, packing.n)
+                        value = explicit.number(form, {**at, phi: cosine, sigma: 1, r: 1})
+                        yield f"M = {height}, j = {lower}, l = {upper}", value, true
+
+    return compare(pairs())
+
+
+# --- the equations ------------------------------------------------------------------------------
+
+_LOADED = "a surface load"
+_NEIGHBOURS = (
+    (MEAN_OF_N, "variance of the mean of f^± over N neighbours of one layer"),
+    (N, "number of neighbouring contacts"),
+    *usual(sigma, r, M, phi),
+)
+B7 = Derivation(
+    number="B7",
+    name="neighbouring_contacts",
+    title="Mean over N neighbouring contacts of one branch",
+    symbols=_NEIGHBOURS,
+    assumptions=(*ASSUMED, _LOADED, "2 ≤ N ≤ j − 1 and M ≥ j + 2"),
+    premises=(eq11.DERIVATION, eq13.DERIVATION),
+    printed=(CONTACT_MEAN,),
+    domain=UNDER_SURFACE.relations,
+    where=UNDER_SURFACE.where,
+    steps=contact_steps,
+    exact=lambda: UNDER_SURFACE.exact,
+    witnesses=(
+        UNDER_SURFACE.witness(
+            "force", ((7, 4, 3), (8, 5, 4), (6, 4, 2), (6, 4, 4), (6, 2, 3), (6, 2, 7), (5, 4, 3),
+                      (5, 4, 4), (5, 3, 6), (4, 0, 3), (1, 0, 2), (4, 1, 2), (2, 1, 4))
+        ),
+    ),
+    remarks=(
+        "N independent contacts would have σ_f²/N. Force fluctuations are hyperuniform along a "
+        "layer up to N of order M³, where the radii of the two layers that touch take over.",
+    ),
+)  # fmt: skip
+B8 = Derivation(
+    number="B8",
+    name="neighbouring_beads",
+    title="Mean vertical force over N neighbouring beads",
+    symbols=(
+        (BEAD_MEAN_OF_N, "variance of the mean of p over N neighbours of one layer"),
+        (N, "number of neighbouring beads"),
+        *usual(sigma, r, M, phi),
+    ),
+    assumptions=(
+        *ASSUMED,
+        "a surface load; p is the vertical force that a bead gets from both upper contacts",
+        "2 ≤ N ≤ j − 2 and N ≤ M − j − 1",
+    ),
+    premises=(eq11.DERIVATION, eq13.DERIVATION, B7),
+    printed=(BEAD_MEAN,),
+    domain=OF_BEADS.relations,
+    where=OF_BEADS.where,
+    steps=bead_steps,
+    exact=lambda: OF_BEADS.exact,
+    witnesses=(
+        OF_BEADS.witness(
+            "bead", ((10, 5, 3), (12, 6, 4), (8, 4, 3), (8, 3, 3), (9, 3, 4), (9, 3, 5), (7, 5, 2),
+                     (8, 6, 3))
+        ),
+    ),
+)  # fmt: skip
+B12 = Derivation(
+    number="B12",
+    name="between_layers",
+    title="Covariance of contact forces in different layers",
+    symbols=(
+        (COVARIANCE, "covariance of f⁺_ij and of f⁺ in layer l on the same diagonal, over ⟨f⟩²"),
+        (l, "layer of the upper contact, j that of the lower one"),
+        *usual(sigma, r, M, phi),
+    ),
+    assumptions=(*ASSUMED, _LOADED, "2 ≤ j ≤ l − 2 and l ≤ M − 2"),
+    premises=(eq11.DERIVATION, eq12.DERIVATION, eq13.DERIVATION, eq14.DERIVATION),
+    printed=(LAYERS,),
+    domain=INSIDE,
+    where=between(*INSIDE),
+    steps=layer_steps,
+    exact=edges,
+    claims=(
+        Claim(
+            "the mean over all contacts of a diagonal keeps 4/5 of the mean variance, to leading "
+            "order",
+            _mean_of_diagonal,
+        ),
+    ),
+    witnesses=(Witness("exact packings: products of weights, as fractions", _pairs_of_layers),),
+    remarks=(
+        "Within a layer fluctuations cancel over neighbours (Eq. B7); along a diagonal they do "
+        "not: a force that is large stays so through the whole packing. What a mean over a region "
+        "leaves of them depends on its shape.",
+    ),
+)
+B21 = Derivation(
+    number="B21",
+    name="neighbouring_contacts_bulk",
+    title="Mean over N neighbouring contacts of one branch under a bulk load",
+    symbols=_NEIGHBOURS,
+    assumptions=(
+        *ASSUMED,
+        "every bead above the base carries the same load, whatever its radius",
+        "2 ≤ N ≤ j − 1",
+    ),
+    premises=(eq11.DERIVATION, eq14.DERIVATION, B7),
+    printed=(BULK_MEAN,),
+    domain=UNDER_BULK.relations,
+    where=UNDER_BULK.where,
+    steps=bulk_steps,
+    exact=lambda: UNDER_BULK.exact,
+    witnesses=(
+        UNDER_BULK.witness(
+            "bulk", ((7, 4, 3), (8, 5, 4), (5, 4, 3), (5, 4, 4), (5, 3, 6), (6, 2, 3), (4, 0, 3),
+                     (1, 0, 2), (4, 1, 2), (2, 1, 4))
+        ),
+    ),
+)  # fmt: skip
+
+DERIVATIONS: dict[Number, Derivation] = {one.number: one for one in (B7, B8, B12, B21)}
+
+if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
+    raise SystemExit(run_alone(DERIVATIONS))

@@ -272,9 +272,7 @@ def _apart(
 _read = lru_cache(maxsize=64)(in_the_radii)
 
 
-def _neighbours(
-    side: sympy.Expr, facts: Facts, where: Where, alone: Alone
-) -> _Neighbours | None:
+def _neighbours(side: sympy.Expr, facts: Facts, where: Where, alone: Alone) -> _Neighbours | None:
     """What is a sum over neighbours, times a factor.
 
     Raises:
