@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
@@ -27,7 +27,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     asymptotic,
     equation,
     minus,
-    mirror_of,
     moment,
     power,
     rewrite,
@@ -45,6 +44,7 @@ from force_diffusion.symbolic.kernel.where import BULK, SURFACE, Limit, Loading,
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search.corpus import statements
 from force_diffusion.symbolic.symbols import (
     Covariance,
     DeltaNMinus,
@@ -72,7 +72,7 @@ from force_diffusion.symbolic.symbols import (
     sigma,
     z,
 )
-from sympy import Eq, Ge, Rational
+from sympy import Eq, Ge, Le, Rational
 
 _RADII = power(times(sigma, 1 / r), 2)
 DIRECTIONS = (eq04.DERIVATION, eq05.DERIVATION)
@@ -215,7 +215,7 @@ class Means:
     ) -> None:
         """Claim covariances of two so many places apart, in units of ``UNIT``, deep inside."""
         pairs = tuple(pairs)
-        deep = (j >= 6, M >= j + 6)
+        deep = (j >= 6, Ge(M, j + 6))
         lines.claim(
             name,
             sympy.Tuple(*(equation(FAR, times(value, UNIT)) for _, value in pairs)),
@@ -235,7 +235,7 @@ class Means:
                 equation(KEPT, times(Rational(2, 3), variance)),
             ),
             asymptotic(*self.facts),
-            where=self.on(j >= 4, M >= j + 2).in_the_limit(at_fixed_height("∼")),
+            where=self.on(j >= 4, Ge(M, j + 2)).in_the_limit(at_fixed_height("∼")),
             meaning=self.meaning,
         )
 
@@ -269,7 +269,7 @@ KEPT = -2 * FIRST - 4 * SECOND
 def _of_contacts(means: Means, first: str, far: str, printed: str, *after: Source) -> Lines:
     """Covariances of two neighbouring contacts, none beyond the second neighbour, their sum."""
     lines = Lines(means.where)
-    inside = (means.on(j >= 2, M >= j + 2), *(means.on(j >= low, M >= j + 2) for low in (3, 4)))
+    inside = (means.on(j >= 2, Ge(M, j + 2)), *(means.on(j >= low, Ge(M, j + 2)) for low in (3, 4)))
     near = lines.show(
         first,
         sympy.Tuple(
@@ -294,7 +294,7 @@ def _of_contacts(means: Means, first: str, far: str, printed: str, *after: Sourc
         "So the variance of the mean of N is",
         equation(means.symbol, OF_MEAN),
         means.by,
-        where=means.where.also(N >= 3, M >= j + 2),
+        where=means.where.also(N >= 3, Ge(M, j + 2)),
         meaning=means.meaning,
         after=(near, none),
     )
@@ -320,7 +320,7 @@ MEAN_OF_N = Symbol(
     "σ²(mean of N f^±)/⟨f⟩²",
 )
 _PER_CONTACT = times((1 - phi) ** 2 / (2 * N * (1 + phi) ** 2), _RADII)
-UP_TO_BASE = (N >= 2, N <= j - 1)
+UP_TO_BASE = (N >= 2, Le(N, j - 1))
 """Windows that are shorter than the way to the base."""
 
 
@@ -366,12 +366,12 @@ UNDER_BULK = Means(
     OF_BULK,
     BULK,
     CONTACTS,
-    (*UP_TO_BASE, M >= j + 1),
+    (*UP_TO_BASE, Ge(M, j + 1)),
     BULK_MEAN,
     {
-        "N=j": Window("N = j ≥ 2", (Eq(N, j), j >= 2, M >= j + 1), 3 * phi * (K + 1) / 4),
-        "N=j+1": Window("N = j + 1 ≥ 3", (Eq(N, j + 1), j >= 2, M >= j + 1), phi * (K + 7) / 4),
-        "N>j+1": Window("N ≥ j + 2 ≥ 4", (N >= j + 2, j >= 2, M >= j + 1), 2 * phi),
+        "N=j": Window("N = j ≥ 2", (Eq(N, j), j >= 2, Ge(M, j + 1)), 3 * phi * (K + 1) / 4),
+        "N=j+1": Window("N = j + 1 ≥ 3", (Eq(N, j + 1), j >= 2, Ge(M, j + 1)), phi * (K + 7) / 4),
+        "N>j+1": Window("N ≥ j + 2 ≥ 4", (Ge(N, j + 2), j >= 2, Ge(M, j + 1)), 2 * phi),
         **_at_base(missed=False),
     },
     (IN_BULK,),
@@ -408,20 +408,22 @@ UNDER_SURFACE = Means(
     ON_SURFACE,
     SURFACE,
     CONTACTS,
-    (*UP_TO_BASE, M >= j + 2),
+    (*UP_TO_BASE, Ge(M, j + 2)),
     CONTACT_MEAN,
     {
-        "N=j": Window("N = j ≥ 2 and M ≥ j + 2", (Eq(N, j), j >= 2, M >= j + 2), 3 * phi * K / 2),
+        "N=j": Window("N = j ≥ 2 and M ≥ j + 2", (Eq(N, j), j >= 2, Ge(M, j + 2)), 3 * phi * K / 2),
         "N=j+1": Window(
-            "N = j + 1 ≥ 3 and M ≥ j + 2", (Eq(N, j + 1), j >= 2, M >= j + 2), phi * (K + 3) / 2
+            "N = j + 1 ≥ 3 and M ≥ j + 2", (Eq(N, j + 1), j >= 2, Ge(M, j + 2)), phi * (K + 3) / 2
         ),
-        "N>j+1": Window("N ≥ j + 2 ≥ 4 and M ≥ j + 2", (N >= j + 2, j >= 2, M >= j + 2), 2 * phi),
+        "N>j+1": Window(
+            "N ≥ j + 2 ≥ 4 and M ≥ j + 2", (Ge(N, j + 2), j >= 2, Ge(M, j + 2)), 2 * phi
+        ),
         "surface": Window("j = M − 1 and 2 ≤ N ≤ j − 1", (*UP_TO_BASE, Eq(M, j + 1)), _LESS),
         "surface, N=j": Window(
             "j = M − 1 and N = j ≥ 2", (Eq(N, j), j >= 2, Eq(M, j + 1)), _LESS + 3 * phi / 2
         ),
         "surface, N>j": Window(
-            "j = M − 1 and N ≥ j + 1 ≥ 3", (N >= j + 1, j >= 2, Eq(M, j + 1)), _LESS + 2 * phi
+            "j = M − 1 and N ≥ j + 1 ≥ 3", (Ge(N, j + 1), j >= 2, Eq(M, j + 1)), _LESS + 2 * phi
         ),
         **_at_base(missed=True),
     },
@@ -551,28 +553,28 @@ class _Mirrored:
 
 
 BOTH = Chain((_Mirrored(), DIRECTIONS))
-SHORTER = M >= j + N + 1
+SHORTER = Ge(M, j + N + 1)
 """N ≤ M − j − 1: windows that are shorter than the way to the surface."""
 OF_BEADS = Means(
     BEAD_MEAN_OF_N,
     ON_BEAD,
     SURFACE,
     (*map(sympy.Integer, (1, 2)), *(j + one for one in (-2, -1, 0, 1, 2)), K - 1, K, K + 1),
-    (N >= 2, N <= j - 2, SHORTER),
+    (N >= 2, Le(N, j - 2), SHORTER),
     BEAD_MEAN,
     {
         "N=j-1": Window("N = j − 1 ≥ 2", (Eq(N, j - 1), N >= 2, SHORTER), -3 * K**2 / 8),
         "N=j": Window("N = j ≥ 3", (Eq(N, j), j >= 3, SHORTER), K**2 / 4),
         "N=j+1": Window("N = j + 1 ≥ 4", (Eq(N, j + 1), j >= 3, SHORTER), K**2 / 8),
-        "N>j+1": Window("N ≥ j + 2 ≥ 5", (N >= j + 2, j >= 3, SHORTER), sympy.S.Zero),
+        "N>j+1": Window("N ≥ j + 2 ≥ 5", (Ge(N, j + 2), j >= 3, SHORTER), sympy.S.Zero),
         "N=M-j": Window(
             "2 ≤ N = M − j ≤ j − 2",
-            (N >= 2, N <= j - 2, Eq(M, j + N)),
+            (N >= 2, Le(N, j - 2), Eq(M, j + N)),
             -(3 * phi**2 - 2 * phi + 3) / 8,
         ),
         "N>M-j": Window(
             "3 ≤ M − j + 1 ≤ N ≤ j − 2",
-            (M >= j + 2, M <= j + N - 1, N <= j - 2),
+            (Ge(M, j + 2), Le(M, j + N - 1), Le(N, j - 2)),
             -(1 + phi**2) / 2,
         ),
     },
@@ -594,7 +596,7 @@ def bead_steps() -> Lines:
         where=eq11.WHERE,
         meaning={BEAD: ON_BEAD * f_load},
     )
-    deep = means.on(j >= 5, M >= j + 4)
+    deep = means.on(j >= 5, Ge(M, j + 4))
     near = lines.show(
         "Covariances of beads p = 0, 1, 2 places apart:",
         sympy.Tuple(*(equation(one, means.value(one, deep)) for one in COVARIANCES)),
@@ -683,10 +685,10 @@ LAYERS = equation(
     ),
 )
 
-UPPER = (j >= 0, l >= j, M >= l + 1)
+UPPER = (j >= 0, l >= j, Ge(M, l + 1))
 """A contact of layer j and one of layer l, which is not below it."""
 APART = (j >= 2, l >= j + 2)
-INSIDE = (*APART, M >= l + 2)
+INSIDE = (*APART, Ge(M, l + 2))
 WEIGHTS = Symbol("products", r"\sum w\,w'", "Σw w′")
 """Sum over all radii of the products of both weights in Eq. 12, its prefactor left out."""
 PRODUCTS = times(
@@ -772,10 +774,10 @@ CROSSINGS: tuple[tuple[sympy.Basic, ...], ...] = (
 """Where these two are uncorrelated: below both, between both, above both."""
 
 EDGES: dict[str, tuple[str, tuple[sympy.Basic, ...]]] = {
-    "next": ("2 ≤ j = l − 1 ≤ M − 3", (j >= 2, Eq(l, j + 1), M >= l + 2)),
-    "base": ("j = 0 and 2 ≤ l ≤ M − 2", (Eq(j, 0), l >= 2, M >= l + 2)),
+    "next": ("2 ≤ j = l − 1 ≤ M − 3", (j >= 2, Eq(l, j + 1), Ge(M, l + 2))),
+    "base": ("j = 0 and 2 ≤ l ≤ M − 2", (Eq(j, 0), l >= 2, Ge(M, l + 2))),
     "base, next": ("j = 0, l = 1 and M ≥ 3", (Eq(j, 0), Eq(l, 1), M >= 3)),
-    "base+1": ("j = 1 and 3 ≤ l ≤ M − 2", (Eq(j, 1), l >= 3, M >= l + 2)),
+    "base+1": ("j = 1 and 3 ≤ l ≤ M − 2", (Eq(j, 1), l >= 3, Ge(M, l + 2))),
     "base+1, next": ("j = 1, l = 2 and M ≥ 4", (Eq(j, 1), Eq(l, 2), M >= 4)),
     "surface": ("2 ≤ j ≤ l − 2 and l = M − 1", (*APART, Eq(M, l + 1))),
     "surface, next": ("2 ≤ j = l − 1 = M − 2", (j >= 2, Eq(l, j + 1), Eq(M, l + 1))),
@@ -805,7 +807,7 @@ def layer_steps() -> Lines:
         "add up to 6. So the products of both weights are",
         equation(WEIGHTS, PRODUCTS),
         moment(),
-        where=between(j >= 1, l >= j + 1, M >= l + 1, loading=None),
+        where=between(j >= 1, l >= j + 1, Ge(M, l + 1), loading=None),
         meaning={WEIGHTS: Covariance(OF_DELTA, higher(OF_DELTA)) / sigma**2},
         after=(eq12.DERIVATION,),
     )
@@ -873,10 +875,10 @@ def layer_steps() -> Lines:
             )
         ),
         asymptotic(eq11.IN_RADII),
-        where=between(j >= 4, l >= j + 4, M >= l + 2).in_the_limit(AT_TWO_HEIGHTS),
+        where=between(j >= 4, l >= j + 4, Ge(M, l + 2)).in_the_limit(AT_TWO_HEIGHTS),
         meaning=AT_HEIGHTS,
     )
-    deep = (j >= 4, l >= j + 4, M >= l + 2)
+    deep = (j >= 4, l >= j + 4, Ge(M, l + 2))
     lines.claim(
         "where the diagonal is p = j − 1, …, j + 2 places to the right, or to the left "
         "l − 1, …, l + 2 or l − j − 1, …, l − j + 1, a covariance of order M is left, and none "
@@ -900,7 +902,7 @@ def layer_steps() -> Lines:
         "10(1−z)Q = 3 + 6z′ − 15z² − 6z′² + 10z³ + 2z′³",
         equation(of_bulk, IN_BULK_LEADING),
         asymptotic(IN_BULK),
-        where=between(*APART, M >= l + 1, loading=BULK).in_the_limit(AT_TWO_HEIGHTS),
+        where=between(*APART, Ge(M, l + 1), loading=BULK).in_the_limit(AT_TWO_HEIGHTS),
         meaning=AT_HEIGHTS,
     )
     bulk_squared = IN_BULK_LEADING.xreplace({1 - z_upper: sympy.S.One}) ** 2 / (
@@ -988,6 +990,7 @@ B7 = Derivation(
     domain=UNDER_SURFACE.relations,
     where=UNDER_SURFACE.where,
     steps=contact_steps,
+    tries=partial(statements, low=4),
     exact=lambda: UNDER_SURFACE.exact,
     witnesses=(
         UNDER_SURFACE.witness(
@@ -1019,6 +1022,7 @@ B8 = Derivation(
     domain=OF_BEADS.relations,
     where=OF_BEADS.where,
     steps=bead_steps,
+    tries=partial(statements, low=4),
     exact=lambda: OF_BEADS.exact,
     witnesses=(
         OF_BEADS.witness(
@@ -1042,6 +1046,7 @@ B12 = Derivation(
     domain=INSIDE,
     where=between(*INSIDE),
     steps=layer_steps,
+    tries=partial(statements, low=4),
     exact=edges,
     claims=(
         Claim(
@@ -1072,6 +1077,7 @@ B21 = Derivation(
     domain=UNDER_BULK.relations,
     where=UNDER_BULK.where,
     steps=bulk_steps,
+    tries=partial(statements, low=4),
     exact=lambda: UNDER_BULK.exact,
     witnesses=(
         UNDER_BULK.witness(

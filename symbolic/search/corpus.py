@@ -149,9 +149,10 @@ def _up_to(highest: int, layer: sympy.Symbol) -> sympy.Expr:
 def _near_the_base(source: Source) -> Made:
     for layer in (sy.j, sy.l, sy.site_s):
         if source.relation == "=" and layer in source.free:
-            once = 2 * _up_to(2, layer) - _up_to(3, layer) - 1  # zero in layer 1, and from 3 on
+            below, at, above = (_up_to(source.low + one, layer) for one in (-1, 0, 1))
+            once = 2 * at - above - below  # 1 in that layer, and 0 in all others
             wrong = source.right(plus(source.term(_MILLIONTH) * once))
-            yield f"wrong at {text(layer)} = 2 alone", wrong
+            yield f"wrong at {text(layer)} = {source.low} alone", wrong
 
 
 def _as_large_somewhere(source: Source) -> Made:
@@ -424,10 +425,13 @@ TRUE: dict[str, tuple[Rule, ...]] = {
 
 
 def statements(
-    printed: sympy.Eq, relation: str, turn: int | None = None, dimension: int = 2
+    printed: sympy.Eq, relation: str, turn: int | None = None, dimension: int = 2, low: int = 2
 ) -> Iterator[Statement]:
-    """Yield all statements, or, for a turn, one of each rule: another one for another turn."""
-    source = Source(printed, relation)
+    """Yield all statements, or, for a turn, one of each rule: another one for another turn.
+
+    ``low`` is a layer of the domain.
+    """
+    source = Source(printed, relation, low)
     for holds, kinds in ((False, FALSE), (True, TRUE)):
         for kind, rules in kinds.items():
             for rule in rules:

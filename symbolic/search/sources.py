@@ -19,10 +19,11 @@ HEIGHTS = tuple(Rational(*z) for z in ((1, 2), (1, 3), (3, 4), (1, 100)))
 
 @dataclass(frozen=True)
 class Source:
-    """A printed equation and its sign: "=", "≈", "∼" or "∝"."""
+    """A printed equation and its sign: "=", "≈", "∼" or "∝"; ``low`` is a layer of its domain."""
 
     printed: sympy.Eq
     relation: str
+    low: int = 2
 
     @property
     def free(self) -> set[sympy.Symbol]:
@@ -87,10 +88,10 @@ class Source:
         if self.relation == "=":
             for layer in (sy.j, sy.l, sy.site_s):
                 if layer in self.free:
-                    yield f"{text(layer)} = 3", layer - 3
+                    yield f"{text(layer)} = {self.low + 1}", layer - self.low - 1
             if sy.M in self.free:
-                yield "M = 4", sy.M - 4
-                yield "M = j + 2", sy.M - sy.j - 2
+                yield f"M = {2 * self.low}", sy.M - 2 * self.low
+                yield f"M = j + {self.low}", sy.M - sy.j - self.low
         yield from self.heights()
 
     def heights(self) -> Zeros:
