@@ -545,7 +545,7 @@ class _Mirrored:
 
     words: str = "Eq. 11"
 
-    @property
+    @cached_property
     def theorems(self) -> tuple[Theorem, ...]:
         """Of f⁺, and its mirror image."""
         (own,) = eq11.DERIVATION.theorems
@@ -592,7 +592,7 @@ def bead_steps() -> Lines:
         "The vertical force that bead (i, j) gets from both upper contacts, over f_load and less "
         "1, by Eq. 11, its mirror image, and the tilts of both:",
         equation(change, VERTICAL),
-        rewrite(_Mirrored()),
+        rewrite(BOTH.sources[0]),
         where=eq11.WHERE,
         meaning={BEAD: ON_BEAD * f_load},
     )
