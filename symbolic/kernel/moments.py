@@ -221,8 +221,6 @@ class _Neighbours:
         count, *places = (
             sympy.expand(one.xreplace(where.solved)) for one in (self.count, *self.alone)
         )
-        if not _at_least(count, sympy.S.One, where):
-            raise NotProvedError(f"{text(count)} may be less than 1")
         near = _in_order([one for one in places if _reached(one, count, where)], where)
         spare = [one for one in (sy.p, sy.q) if one not in where.indices]
         if not spare:
