@@ -187,7 +187,7 @@ class Means:
                 form = self.value(self.symbol, where)
             else:
                 form = terms(self.printed.rhs, times(window.added / N**2, UNIT))
-            domain, missed = window.relations, ()
+            domain, missed = window.relations, tuple[Missed, ...]()
             if window.missed:
                 domain = tuple(one for one in domain if not one.has(M))
                 small = Eq(M, window.missed)
@@ -467,9 +467,9 @@ def contact_steps() -> Lines:
         meaning=means.meaning,
     )
     lines.claim(
-        "these four add up to zero, so that in a long window, N ≥ j + 2, they leave 2φ/N² in units "
-        "of (σ/r)²/(1−φ²)², however high the packing: the part that falls as 1/N has no M in it, "
-        "and takes over from N of order M³ on",
+        "the part that falls as 1/N has no M in it, and stays from N = j on: these four add up to "
+        "zero, and leave 2φ/N² from N = j + 2 on, in units of (σ/r)²/(1−φ²)²; it takes over from "
+        "N of order M³ on",
         sympy.Tuple(
             equation(terms(*(value for _, value in BANDS)), 0),
             equation(minus(times(2, terms(*(at * value for at, value in BANDS)))), 2 * phi),
@@ -843,10 +843,10 @@ def layer_steps() -> Lines:
         after=(highest, exact),
     )
     lines.show(
-        "Contacts of layer l whose diagonals are p ≥ 3 places away are uncorrelated: to the right, "
-        "where p is none of j − 1, …, j + 2; to the left, where it is none of l − 1, …, l + 2, nor "
-        "of l − j − 1, …, l − j + 1. At those places a line of one contact's tilt meets the "
-        "other's path where that begins or ends.",
+        "Contacts of layer l whose diagonals are p ≥ 3 places away: to the right, where p is none "
+        "of j − 1, …, j + 2; to the left, where it is none of l − 1, …, l + 2, nor of l − j − 1, "
+        "…, l − j + 1. At those places a line of one contact's tilt meets the other's path where "
+        "that begins or ends.",
         sympy.Tuple(*(equation(one, 0) for one, _ in UNCORRELATED)),
         moment(eq11.IN_RADII),
         where=tuple(between(*relations, *INSIDE) for _, relations in UNCORRELATED),
@@ -881,8 +881,8 @@ def layer_steps() -> Lines:
     deep = (j >= 4, l >= j + 4, Ge(M, l + 2))
     lines.claim(
         "where the diagonal is p = j − 1, …, j + 2 places to the right, or to the left "
-        "l − 1, …, l + 2 or l − j − 1, …, l − j + 1, a covariance of order M is left, and none "
-        "for φ = 0",
+        "l − 1, …, l + 2 or l − j − 1, …, l − j + 1, a covariance of order M is left, for j and "
+        "l − j from 4 on and M − l from 2 on, and none for φ = 0",
         sympy.Tuple(*(equation(one, times(value, UNIT)) for one, _, value in LEFT_OVER)),
         moment(eq11.IN_RADII),
         where=tuple(between(*deep, Eq(p, at)) for _, at, _ in LEFT_OVER),
