@@ -5,11 +5,11 @@ from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.beyond import b3_bulk_direction as b3
 from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond import b6_mean_bulk as b6
 from force_diffusion.derivations.beyond import b15_mean_surface_direction as b15
 from force_diffusion.derivations.beyond import t1_forces as b1
+from force_diffusion.derivations.beyond import t2_variance as t2
 from force_diffusion.derivations.beyond.mean_directions import (
     balances,
     decided,
@@ -122,7 +122,7 @@ DERIVATION = Derivation(
     premises=(
         eq11.DERIVATION,
         b1.B1,
-        b3.DERIVATION,
+        t2.DERIVATIONS["B3"],
         b4.DERIVATION,
         b6.DERIVATION,
         b15.DERIVATION,

@@ -27,6 +27,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     times,
 )
 from force_diffusion.derivations.witnesses.both_sides import each_tilted
+from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.where import BULK_TILTED, SURFACE_TILTED
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.notation import Symbol
@@ -60,8 +61,8 @@ from force_diffusion.symbolic.symbols import (
 WHERE = Where.of(j >= 0, j < M, loading=SURFACE_TILTED)
 IN_BULK = WHERE.loaded(BULK_TILTED)
 
-RATIO = {t: L_minus / L_plus}
-"""What t is."""
+RATIO = {L_minus: t * L_plus}
+"""What L⁻ is."""
 
 CARRIED = terms(times(L_plus, n_plus), times(L_minus, n_minus))
 """What the supports of a loaded bead have to carry: minus its load."""
@@ -124,9 +125,10 @@ def from_the_surface_down(statements: tuple[sympy.Eq, ...], where: Where) -> tup
     assert where.loading is not None
     loads = axioms.loads(where.loading)
     first, step = below(axioms.balance(), loads), below(axioms.balance(), (SUPPOSED, loads))
+    meant = [equation(*(in_place(side, RATIO) for side in one.args)) for one in statements]
     return tuple(
         induct(j, M - 1, first, step, down=True, family=((other, where),))
-        for other in reversed(statements)
+        for other in reversed(meant)
     )
 
 
@@ -141,6 +143,7 @@ def steps() -> Lines:
         equation(Load(k, l), minus(CARRIED)),
         rewrite(loads),
         where=at_load,
+        meaning=RATIO,
     )
     split = equation(
         ForcePlus(k - 1, l - 1) / L_plus,
@@ -184,6 +187,7 @@ def steps() -> Lines:
         "with L⁺ and L⁻ exchanged:",
         sympy.Tuple(*FORCES),
         from_the_surface_down(FORCES, WHERE),
+        meaning=RATIO,
         after=(eq11.DERIVATION, passed),
     )
     lines.show(
@@ -198,6 +202,7 @@ def steps() -> Lines:
         sympy.Tuple(*BULK),
         from_the_surface_down(BULK, IN_BULK),
         where=IN_BULK,
+        meaning=RATIO,
         after=(forces, passed),
     )
     first, geometry = PRINTED[0].rhs, WHERE.loaded(None)

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cache, cached_property, partial
+from functools import cache, cached_property
 
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
@@ -13,7 +13,7 @@ from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import By, Source, facts_of
+from force_diffusion.derivations.framework.proving import By, Line, Source, facts_of
 from force_diffusion.derivations.framework.record import ExactCase, Missed, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
@@ -44,7 +44,6 @@ from force_diffusion.symbolic.kernel.where import BULK, SURFACE, Limit, Loading,
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search.corpus import statements
 from force_diffusion.symbolic.symbols import (
     Covariance,
     DeltaNMinus,
@@ -175,7 +174,8 @@ class Means:
     def value(self, symbol: sympy.Symbol, where: Where) -> sympy.Expr:
         """What one of the symbols is found to be; a line says that this is right."""
         facts = facts_of(self.facts)
-        return moments.value(self.meaning[symbol], facts, where, self.alone).to_sympy()
+        found = moments.value(self.meaning[symbol], facts, where, alone=self.alone)
+        return found.to_sympy()
 
     @cached_property
     def exact(self) -> dict[str, ExactCase]:
@@ -193,7 +193,8 @@ class Means:
                 small = Eq(M, window.missed)
                 value = self.value(self.symbol, self.on(*domain, small))
                 missed = (Missed(f"M = {window.missed}", (small,), value),)
-            found[name] = ExactCase(self.symbol, window.validity, form, domain, missed)
+            line = Line(window.validity, equation(self.symbol, form), self.by, where, self.meaning)
+            found[name] = ExactCase(self.symbol, window.validity, form, domain, missed, line=line)
         return found
 
     def claim_windows(self, lines: Lines, name: str) -> None:
@@ -792,8 +793,10 @@ def edges() -> dict[str, ExactCase]:
     """The covariance at the edges, as users get it."""
     facts, found = facts_of((eq11.IN_RADII,)), {}
     for name, (validity, relations) in EDGES.items():
-        form = moments.value(MEANT[COVARIANCE], facts, between(*relations)).to_sympy()
-        found[name] = ExactCase(COVARIANCE, validity, form, relations)
+        where = between(*relations)
+        form = moments.value(MEANT[COVARIANCE], facts, where).to_sympy()
+        line = Line(validity, equation(COVARIANCE, form), moment(eq11.IN_RADII), where, MEANT)
+        found[name] = ExactCase(COVARIANCE, validity, form, relations, line=line)
     return found
 
 
@@ -990,7 +993,6 @@ B7 = Derivation(
     domain=UNDER_SURFACE.relations,
     where=UNDER_SURFACE.where,
     steps=contact_steps,
-    tries=partial(statements, low=4),
     exact=lambda: UNDER_SURFACE.exact,
     witnesses=(
         UNDER_SURFACE.witness(
@@ -1022,7 +1024,6 @@ B8 = Derivation(
     domain=OF_BEADS.relations,
     where=OF_BEADS.where,
     steps=bead_steps,
-    tries=partial(statements, low=4),
     exact=lambda: OF_BEADS.exact,
     witnesses=(
         OF_BEADS.witness(
@@ -1046,7 +1047,6 @@ B12 = Derivation(
     domain=INSIDE,
     where=between(*INSIDE),
     steps=layer_steps,
-    tries=partial(statements, low=4),
     exact=edges,
     claims=(
         Claim(
@@ -1077,7 +1077,6 @@ B21 = Derivation(
     domain=UNDER_BULK.relations,
     where=UNDER_BULK.where,
     steps=bulk_steps,
-    tries=partial(statements, low=4),
     exact=lambda: UNDER_BULK.exact,
     witnesses=(
         UNDER_BULK.witness(

@@ -9,7 +9,6 @@ from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.loading import with_premises
 from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.derivations.framework.runner import run_all
-from force_diffusion.symbolic.kernel.decisions import Verdict
 
 
 def run_alone(
@@ -35,6 +34,6 @@ def run_alone(
             premises = map(summary_line, outcomes.values())
             print("It rests on", *premises, sep="\n", end="\n\n")
         print(*map(outcome_text, shown), sep="\n\n")
-        return 0 if all(one.verdict is Verdict.PROVED for one in shown) else 1
+        return 0 if all(one.verdict.is_proved for one in shown) else 1
 
     return guarded(program)

@@ -35,7 +35,6 @@ from force_diffusion.symbolic.symbols import (
     Dot,
     ForceMinus,
     ForcePlus,
-    L_minus,
     L_plus,
     Load,
     M,
@@ -54,6 +53,7 @@ from force_diffusion.symbolic.symbols import (
     q,
     site_r,
     site_s,
+    t,
 )
 from sympy import Eq, Integer, Sum
 
@@ -209,10 +209,10 @@ def _() -> object:
     return told(rules.follows(rules.mirror(beside)), ForcePlus(site_r, site_s), 0, where)
 
 
-@attack("mirror", "a load that is not vertical", "L⁺ and L⁻ are exchanged", "on all of its domain")
+@attack("mirror", "a load that is not vertical", "t belongs to n⁻", "on all of its domain")
 def _() -> object:
     where = Where.of(Eq(j, M), j >= 0, loading=SURFACE_TILTED)
-    carried = -(L_plus * n_plus + L_minus * n_minus)
+    carried = -L_plus * (n_plus + t * n_minus)
     tilted = told(rules.rewrite(axioms.loads(SURFACE_TILTED)), Load(i, j), carried, where)
     exchanged = carried.xreplace({n_plus: n_minus, n_minus: n_plus})
     return told(rules.follows(rules.mirror(tilted)), Load(i, j), exchanged, where)
@@ -222,7 +222,7 @@ def _() -> object:
         "normal forms")  # fmt: skip
 def _() -> object:
     where = Where.of(j >= 0, j <= M - 1, loading=SURFACE_TILTED)
-    carried = -(L_plus * n_plus + L_minus * n_minus)
+    carried = -L_plus * (n_plus + t * n_minus)
     return told(rules.rewrite(axioms.loads(BULK_TILTED)), Load(i, j), carried, where)
 
 

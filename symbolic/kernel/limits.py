@@ -4,7 +4,7 @@ Orders count all growing indices together, at fixed ratios. They hold uniformly 
 φ stay within closed parts of their ranges, as the leading parts of all divisors vanish nowhere.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
 import sympy
@@ -17,11 +17,14 @@ from force_diffusion.symbolic.algebra.exact import (
     Polynomial,
     RationalFunction,
 )
+from force_diffusion.symbolic.algebra.linear_forms import LinearForm
+from force_diffusion.symbolic.algebra.reading import Reader
 from force_diffusion.symbolic.algebra.signs import never_zero
 from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel.moments import in_the_radii, pieces, without_moments
+from force_diffusion.symbolic.kernel.moments import in_the_radii, pieces, value, without_moments
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import (
+    FORCES,
     Facts,
     NotProvedError,
     Theorem,
@@ -32,22 +35,31 @@ from force_diffusion.symbolic.kernel.theorem import (
 from force_diffusion.symbolic.kernel.where import Limit, Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.variances.weights import Pieces
 
-_FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
+_NEVER = 10**9  # no order is as large
+FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
+"""What stays as it is in every limit."""
 
 
-def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
+def asymptotic(*facts: Theorem | tuple[Theorem, ...], late: Iterable[sympy.Basic] = ()) -> Rule:
     """Both sides are of the same leading order: left over right goes to 1.
 
     Facts are put in and moments worked out at finite size. What the right-hand side goes as
     vanishes nowhere, and the difference is of a lower order.
+
+    Args:
+        facts: are put in one after the other, those of a tuple at once.
+        late: relations that hold for all but the first of what grows; moments are worked out there.
     """
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = _limit(formula, where, "∼")
-        left, right = read(formula, facts, where)
+        limit = limit_of(formula, where, "∼")
+        part = where.also(*late)
+        limit_of(formula, part, "∼")
+        left, right = read(formula, facts, where, part)
         low, high = order(left - right, limit), order(right, limit)
-        if not low < high:
+        if not low <= high - limit.orders:
             raise NotProvedError(
                 f"left less right is of order {low}, the right-hand side of order {high}"
             )
@@ -61,32 +73,132 @@ def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
 
 
 def bounded(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
-    """One radius has at most a share of the order of the right-hand side in a variance."""
+    """The weight of each radius, or its share in the variance, is of the order on the right."""
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = _limit(formula, where, "O")
-        share, bound = formula.args
-        if not isinstance(share, sy.LargestShare):
-            raise NotProvedError(f"{text(share)} is not the largest share of a radius")
+        limit = limit_of(formula, where, "O")
+        most, bound = formula.args
+        if not isinstance(most, sy.LargestShare | sy.LargestWeight):
+            raise NotProvedError(f"{text(most)} is no largest share, or weight, of a radius")
         finite = where.in_the_limit(None)
-        parts = pieces(in_the_radii(share.args[0], facts, finite), finite)
-        whole = parts.sum_of_squares() * read(equation(bound, bound), facts, where)[0]
-        if whole.is_zero() or not even(FIELD.one / whole, limit):
-            raise NotProvedError("what is divided by is not shown to vanish nowhere")
-        fixed = {*sy.INDICES} - {*limit.growing}
-        ends = [affine.to_field(one) for run in parts.runs for one in (run.first, run.last)]
-        weights = [run.weight for run in parts.runs]
-        weights += [full for full, _ in parts.special.values()]
-        if any(one.holds(index) for one in (*ends, *weights) for index in fixed):
-            raise NotProvedError("a weight, or where it stands, holds an index that does not grow")
-        for weight in weights:
-            if not even(weight, limit) or 2 * _order_over_layers(weight, limit) > order(
-                whole, limit
-            ):
-                raise NotProvedError("a radius has a larger share, or that is not excluded")
-        return made(formula, where, "largest share", flat(facts))
+        parts = pieces(in_the_radii(_at_height(most.args[0], where), facts, finite), finite)
+        square = read(equation(bound, bound), facts, where)[0]
+        whole = parts.sum_of_squares() * square if isinstance(most, sy.LargestShare) else square**2
+        _grows_as(whole, limit)
+        if any(2 * one > order(whole, limit) for one in _orders(parts, limit)):
+            raise NotProvedError("a radius has more, or that is not excluded")
+        return made(formula, where, "largest share or weight", flat(facts))
 
     return rule
+
+
+def negligible(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
+    """What a statement about one force drops varies less, by an order, than that force.
+
+    Facts are put in at finite size. Both sides have one mean. What they share beside that force
+    counts for nothing.
+    """
+
+    def rule(formula: sympy.Eq, where: Where) -> Theorem:
+        limit = limit_of(formula, where, "≈")
+        finite = where.in_the_limit(None)
+        force, factor = _one_force(formula, where)
+        varies = value(sy.Variance(force), facts, finite) * factor**2
+        _grows_as(varies, limit)
+        rest = _difference(formula, facts, where)
+        squares = pieces(rest, finite).sum_of_squares() * FIELD.generator(sy.sigma) ** 2
+        dropped, kept = order(_fixed_but(squares, limit), limit), order(varies, limit)
+        if not even(squares, limit):
+            raise NotProvedError("the order of what is dropped is not shown to hold everywhere")
+        if not dropped < kept:
+            raise NotProvedError(
+                f"what is dropped varies as the power {dropped} of the height, the force as {kept}"
+            )
+        return made(formula, where, "dropped orders", flat(facts))
+
+    return rule
+
+
+def heaviest(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
+    """All weights of left less right are of a lower order than the largest of left."""
+
+    def rule(formula: sympy.Eq, where: Where) -> Theorem:
+        limit = limit_of(formula, where, "≈ by weight")
+        finite = where.in_the_limit(None)
+        alone = in_the_radii(_at_height(formula.lhs, where), facts, finite)
+        large = [full for full, _ in pieces(alone, finite).special.values() if not full.is_zero()]
+        sure = [one for one in large if even(one, limit) and even(FIELD.one / one, limit)]
+        most = max((order(_fixed_but(one, limit), limit) for one in sure), default=-_NEVER)
+        rest = pieces(_difference(formula, facts, where), finite)
+        if not sure or any(one >= most for one in _orders(rest, limit)):
+            raise NotProvedError("left less right has weights of the order of the largest of left")
+        return made(formula, where, "heaviest weights", flat(facts))
+
+    return rule
+
+
+def _one_force(formula: sympy.Eq, where: Where) -> tuple[sympy.Expr, RationalFunction]:
+    """The force that a statement is about, and its factor.
+
+    Raises:
+        NotProvedError: there is not one, or it has no factor.
+    """
+    reader = Reader(where.in_the_limit(None))
+    try:
+        left, right = (reader.scalar(_at_height(side, where)) for side in formula.args)
+    except NotExactError as reason:
+        raise NotProvedError(str(reason)) from None
+    form, kinds = left - right, {one.__name__: one for one in FORCES}
+    found = [(site, weight) for site, weight in form.sites.items() if site.family in kinds]
+    if len(found) != 1 or any(ray.family in kinds for ray in form.rays):
+        raise NotProvedError("it is not about one contact force")
+    ((site, factor),) = found
+    return kinds[site.family](*map(affine.to_sympy, (site.i, site.j))), factor.reduced()
+
+
+def _difference(formula: sympy.Eq, facts: Facts, where: Where) -> LinearForm:
+    """Left less right in the radii; their means agree."""
+    finite = where.in_the_limit(None)
+    left, right = (in_the_radii(_at_height(side, where), facts, finite) for side in formula.args)
+    rest = left - right
+    if not rest.at_zero.is_zero():
+        raise NotProvedError(f"the means differ by {text(rest.at_zero.to_sympy())}")
+    return rest
+
+
+def _at_height(side: sympy.Expr, where: Where) -> sympy.Expr:
+    """A side with z = j/M, and with what equations of the domain fix."""
+    height = {sy.z: (sy.j / sy.M).xreplace(where.solved)}
+    return side.xreplace(where.solved).xreplace(height)
+
+
+def _grows_as(whole: RationalFunction, limit: Limit) -> None:
+    """That it is of its order everywhere."""
+    if _fixed_but(whole, limit).is_zero() or not (
+        even(whole, limit) and even(FIELD.one / whole, limit)
+    ):
+        raise NotProvedError("what is compared with is not shown to be of one order everywhere")
+
+
+def _fixed_but(value: RationalFunction, limit: Limit) -> RationalFunction:
+    """The same, if only what grows stands in it beside what is fixed."""
+    strange = [
+        one for one in {*sy.INDICES, sy.z, sy.epsilon} - {*limit.growing} if value.holds(one)
+    ]
+    if strange:
+        raise NotProvedError(f"{text(by_name(strange)[0])} neither grows nor is fixed")
+    return value.reduced()
+
+
+def _orders(parts: Pieces, limit: Limit) -> list[int]:
+    """The orders of all weights; of those along a diagonal, the highest in any layer."""
+    for run in parts.runs:
+        for end in (run.first, run.last):
+            _fixed_but(affine.to_field(end), limit)
+    weights = [run.weight for run in parts.runs] + [full for full, _ in parts.special.values()]
+    if not all(even(_fixed_but(one, limit), limit) for one in weights):
+        raise NotProvedError("the order of a weight is not shown to hold everywhere")
+    return [_order_over_layers(one, limit) for one in weights]
 
 
 def _order_over_layers(weight: RationalFunction, limit: Limit) -> int:
@@ -100,7 +212,7 @@ def _order_over_layers(weight: RationalFunction, limit: Limit) -> int:
     )
 
 
-def _limit(formula: sympy.Eq, where: Where, relation: str) -> Limit:
+def limit_of(formula: sympy.Eq, where: Where, relation: str) -> Limit:
     """The limit of a statement, if its domain holds all but the first of what grows so.
 
     Raises:
@@ -139,18 +251,23 @@ def _coordinates(limit: Limit) -> dict[sympy.Symbol, sympy.Expr]:
     return dict(found[0])
 
 
-def read(formula: sympy.Eq, facts: Facts, where: Where) -> tuple[RationalFunction, ...]:
+def read(
+    formula: sympy.Eq, facts: Facts, where: Where, part: Where | None = None
+) -> tuple[RationalFunction, ...]:
     """Both sides as functions of what grows and of parameters, moments worked out at finite size.
+
+    Facts are put in on the whole domain, and moments worked out on a part of it.
 
     Raises:
         NotProvedError: they hold something else, or are none.
     """
     limit = where.limit
     assert limit is not None
-    finite = without_moments(formula, facts, where.in_the_limit(None))
-    height = {sy.z: (sy.j / sy.M).xreplace(where.solved)}
-    sides = [side.xreplace(where.solved).xreplace(height) for side in finite.args]
-    known = {*_FIXED, *limit.growing}
+    finite = without_moments(formula, facts, *(
+        one.in_the_limit(None) for one in (where, part or where)
+    ))  # fmt: skip
+    sides = [_at_height(side, where) for side in finite.args]
+    known = {*FIXED, *limit.growing}
     if strange := by_name(set().union(*(side.free_symbols for side in sides)) - known):
         raise NotProvedError(f"{text(strange[0])} neither grows nor is fixed")
     try:
@@ -162,7 +279,7 @@ def read(formula: sympy.Eq, facts: Facts, where: Where) -> tuple[RationalFunctio
 def order(value: RationalFunction, limit: Limit) -> int:
     """The power with which a function grows; less than any for zero."""
     if value.is_zero():
-        return -(10**9)
+        return -_NEVER
     return _degree(value.numerator, limit) - _degree(value.denominator, limit)
 
 

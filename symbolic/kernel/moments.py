@@ -7,15 +7,15 @@ the domain, or nothing is proved. Where one is not decided the domain is parted,
 to be the same on all of its parts.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from math import gcd
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
+from force_diffusion.symbolic.algebra.exact import FIELD, UNKNOWNS, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.rules import Rule
@@ -26,7 +26,6 @@ from force_diffusion.symbolic.kernel.theorem import (
     Theorem,
     check,
     flat,
-    holds,
     made,
     put_in,
 )
@@ -49,54 +48,113 @@ Alone = tuple[sympy.Expr, ...]
 """Distances of neighbours whose covariance is looked at by itself; between them it is zero."""
 
 
-def moment(*facts: Theorem | tuple[Theorem, ...], alone: Alone = ()) -> Rule:
-    """Both sides are the same once facts are put in and the moments are worked out."""
+def moment(
+    *facts: Theorem | tuple[Theorem, ...],
+    whole: Where | None = None,
+    cases: Sequence[Iterable[sympy.Basic]] = ((),),
+    alone: Alone = (),
+) -> Rule:
+    """Both sides are the same once facts are put in and the moments are worked out.
+
+    Args:
+        facts: are put in one after the other, those of a tuple at once.
+        whole: a domain on which that is done once, for statements on parts of it.
+        cases: parts that leave no integer point of a statement's domain out: sums of squares are
+            taken apart on each, as places that are two elsewhere may be one there.
+        alone: of a sum over neighbours, at which distances two of them may be correlated.
+    """
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
         check(formula, where)
-        if not holds(without_moments(formula, facts, where, alone), where):
-            raise NotProvedError("the moments of both sides differ")
+        domain = whole or where
+        if where != domain.also(*where.relations):
+            raise NotProvedError("it is not about a part of the whole domain")
+        parts = [where.also(*relations) for relations in cases]
+        if not where.covered_by(parts):
+            raise NotProvedError("the cases leave something of the domain out")
+        names = _named(formula)
+        for part in parts:
+            if part.is_empty:
+                continue
+            apart = _on_part(partial(_apart, formula, facts), where, part)
+            found = {name: value(one, facts, domain, part, alone) for one, name in names.items()}
+            if not apart.mapped(partial(_put_for, found)).is_zero():
+                raise NotProvedError("the moments of both sides differ")
         return made(formula, where, "moment", flat(facts))
 
     return rule
 
 
-def without_moments(formula: sympy.Eq, facts: Facts, where: Where, alone: Alone = ()) -> sympy.Eq:
-    """An equation with its moments worked out, and facts put in elsewhere.
+def _named(formula: sympy.Eq) -> dict[sympy.Expr, sympy.Symbol]:
+    """A name for each moment of an equation; one for which none is left is not read."""
+    return dict(zip(by_name(formula.atoms(sy.Moment)), UNKNOWNS[1], strict=False))
+
+
+def _put_for(
+    known: Mapping[sympy.Symbol, RationalFunction], weight: RationalFunction
+) -> RationalFunction:
+    """Values of names of which a weight is a polynomial."""
+    for name, one in known.items():
+        total = FIELD.zero
+        for coefficient in reversed(weight.coefficients(name)):
+            total = total * one + coefficient
+        weight = total
+    return weight
+
+
+@lru_cache(maxsize=256)
+def _apart(formula: sympy.Eq, facts: Facts, where: Where) -> LinearForm:
+    """Left less right side, facts put in beside the moments, which are named."""
+    named = (side.xreplace(_named(formula)) for side in formula.args)
+    sides = [put_in(side, facts, where, facts) for side in named]
+    forms = Normal(where, *sides).difference(equation(*sides))
+    if len(forms) != 1:
+        raise NotProvedError("a moment is no vector")
+    return forms[0]
+
+
+def without_moments(
+    formula: sympy.Eq, facts: Facts, where: Where, part: Where | None = None
+) -> sympy.Eq:
+    """An equation on a part of a domain, moments worked out, and facts put in elsewhere.
 
     Raises:
         NotProvedError: one of them can't be.
     """
-    found = by_name(formula.atoms(sy.Moment))
-    try:
-        image = {one: worked_out(one, facts, where, alone) for one in found}
-    except UndeterminedError as reason:
-        raise NotProvedError(f"two places may be one: {reason}") from None
+    moments = by_name(formula.atoms(sy.Moment))
+    image = {one: worked_out(one, facts, where, part) for one in moments}
     sides = (side.xreplace(image) for side in formula.args)
     return equation(*(put_in(side, facts, where, facts) for side in sides))
 
 
-@lru_cache(maxsize=1024)
-def worked_out(one: sy.Moment, facts: Facts, where: Where, alone: Alone = ()) -> sympy.Expr:
+@lru_cache(maxsize=256)
+def worked_out(one: sy.Moment, facts: Facts, where: Where, part: Where | None = None) -> sympy.Expr:
     """The same as ``value``, in factors."""
-    return value(one, facts, where, alone).to_sympy()
+    return value(one, facts, where, part).to_sympy()
 
 
 @lru_cache(maxsize=1024)
-def value(one: sy.Moment, facts: Facts, where: Where, alone: Alone = ()) -> RationalFunction:
-    """A moment at finite size, exact to leading order in the deviations of the radii.
+def value(
+    one: sy.Moment, facts: Facts, where: Where, part: Where | None = None, alone: Alone = ()
+) -> RationalFunction:
+    """A moment on a part of a domain, exact to leading order in the deviations of the radii.
 
     Raises:
-        NotProvedError: it holds what is not known.
-        UndeterminedError: it is not one function on all of the domain.
+        NotProvedError: it holds what is not known, or is not one function on all of the part.
     """
-    sigma = FIELD.generator(sy.sigma) ** 2
-    if isinstance(one, sy.Variance) and (mean := _neighbours(one.args[0], facts, where, alone)):
-        return mean.variance(where) * sigma
-    forms = tuple(in_the_radii(argument, facts, where) for argument in one.args)
-    if isinstance(one, sy.Mean):
-        return forms[0].at_zero
-    return _products(forms[0], forms[-1], where) * sigma
+    part, sigma = part or where, FIELD.generator(sy.sigma) ** 2
+    try:
+        if isinstance(one, sy.Variance) and (mean := _neighbours(one.args[0], facts, where, alone)):
+            fixed = {symbol: FIELD.from_sympy(at) for symbol, at in part.solved.items()}
+            return mean.variance(part).substitute(fixed) * sigma
+        forms = [_on_part(partial(in_the_radii, side, facts), where, part) for side in one.args]
+        if isinstance(one, sy.Mean):
+            return forms[0].at_zero
+        if isinstance(one, sy.Variance | sy.Covariance):
+            return _products(forms[0], forms[-1], part) * sigma
+    except UndeterminedError as reason:
+        raise NotProvedError(f"two places may be one: {reason}") from None
+    raise NotProvedError(f"{text(one)} is not worked out")
 
 
 def _products(one: LinearForm, other: LinearForm, where: Where) -> RationalFunction:
@@ -147,6 +205,15 @@ def _agreed(
     return found[0]
 
 
+def _on_part(read: Callable[[Where], LinearForm], where: Where, part: Where) -> LinearForm:
+    """What is read on a domain, on a part of it where some indices have one value."""
+    further = {symbol: at for symbol, at in part.solved.items() if symbol not in where.solved}
+    if not all(at.is_Integer for at in further.values()):
+        return read(part)
+    return read(where).put_in({one: affine.constant(int(at)) for one, at in further.items()})
+
+
+@lru_cache(maxsize=256)
 def in_the_radii(expression: sympy.Expr, facts: Facts, where: Where) -> LinearForm:
     """A number as a linear form in the deviations of the radii, facts put in.
 
@@ -226,17 +293,17 @@ class _Neighbours:
         if not spare:
             raise NotProvedError("no index is left for the distance of two neighbours")
         apart, beads = spare[0], self._of_beads(where)
-        total = FIELD.from_sympy(count) * _apart(self._one, sympy.S.Zero, beads)
+        total = FIELD.from_sympy(count) * _between(self._one, sympy.S.Zero, beads)
         for low, high in zip((sympy.S.Zero, *near), (*near, None), strict=True):
             domain, last = (where, count - 1) if high is None else (beads, high - 1)
             between = domain.also(apart >= low + 1, apart <= last, indices=(apart,))
-            if not between.is_empty and not _apart(self._one, apart, between).is_zero():
+            if not between.is_empty and not _between(self._one, apart, between).is_zero():
                 raise NotProvedError(f"covariances beyond {text(low)} places are not zero")
             if high is not None:
                 weight = FIELD.from_sympy(2 * (count - high))
                 reached = sympy.Le(high, count - 1, evaluate=False)
                 counted = self._of_beads(where.also(reached))
-                total = total + weight * _apart(self._one, high, counted)
+                total = total + weight * _between(self._one, high, counted)
         return total * FIELD.from_sympy(self.factor**2)
 
     @property
@@ -249,7 +316,7 @@ class _Neighbours:
 
 
 @lru_cache(maxsize=1024)
-def _apart(
+def _between(
     one: tuple[sympy.Expr, sympy.Symbol, Facts, Where], places: sympy.Expr, domain: Where
 ) -> RationalFunction:
     """Covariance over σ² with the neighbour so many places away, on a part of the domain of one.
@@ -260,14 +327,11 @@ def _apart(
     first, across, facts, beads = one
     at = {symbol: affine.from_sympy(place) for symbol, place in domain.solved.items()}
     further = {across: affine.from_sympy(sympy.expand(across + 2 * places))}
-    form = _read(first, facts, beads)
+    form = in_the_radii(first, facts, beads)
     found = _products(form.put_in(at), form.put_in(further).put_in(at), domain)
     if found.holds(across):
         raise NotProvedError("covariances are not the same along the layer")
     return found
-
-
-_read = lru_cache(maxsize=64)(in_the_radii)
 
 
 def _neighbours(side: sympy.Expr, facts: Facts, where: Where, alone: Alone) -> _Neighbours | None:

@@ -34,6 +34,7 @@ from force_diffusion.symbolic.search.values import (
     NoSumError,
     NoValueError,
     UnreadableError,
+    WithoutValue,
 )
 
 READS = 300_000
@@ -111,17 +112,28 @@ def _packing(world: World, name: str | None, place: tuple[int, ...]) -> Packing:
     return Packing(world.geometry, world.given(name, place))
 
 
-def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = None) -> str | None:
-    """Words for values at which a statement is false or has no value; None where none is found.
+def counterexample(
+    statement: sympy.Eq,
+    where: Where,
+    *,
+    at_most: int | None = None,
+    force: sympy.Eq | None = None,
+) -> str | None:
+    """Words for values at which a statement is false; None where none is found.
+
+    Where it has no value at all they are ``WithoutValue``.
 
     All points of ``points`` are tried, or ``at_most`` so many of them. Points at which it speaks of
     a bead below the base say nothing, unless all do. A statement in a limit is looked at where the
-    indices are large; its moments have to be worked out before.
+    indices are large; its moments have to be worked out before, and ``force`` says what the force
+    is that it is about.
 
     What can't be evaluated is not refuted: unknown symbols, floats and roots, a number beside a
     vector, a sum whose upper bound is below its lower one by more than one, what is too large.
     """
     try:
+        if where.limit:
+            return limits.counterexample(statement, where, force)
         return _search(statement, where, at_most)
     except Exception:  # whatever the tree, also one that is too deep for Python: nothing is found
         return None
@@ -130,8 +142,6 @@ def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = N
 def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> str | None:
     if not isinstance(statement, sympy.Eq) or where.dimension != 2:
         return None
-    if where.limit:
-        return limits.counterexample(statement, where)
     free = _free_symbols(statement)
     budget, below, compared = Budget(READS), None, False
     for at, world in islice(_drawn(_with_all_indices(where, free)), at_most):
@@ -141,7 +151,7 @@ def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> st
         except (NoSumError, TooLargeError):
             continue
         except BelowError as reason:
-            below = below or (at, values, str(reason))
+            below = below or (at, values, WithoutValue(reason))
             continue
         compared = True
         if found:
@@ -154,7 +164,8 @@ def _words(
 ) -> str:
     named = [one for one in values if one in at or one in free or one == sy.phi]
     shown = (f"{text(one)} = {_exact(values[one])}" for one in named)
-    return f"at {', '.join(shown)}: {found}"
+    words = f"at {', '.join(shown)}: {found}"
+    return WithoutValue(words) if isinstance(found, WithoutValue) else words
 
 
 def _drawn(where: Where) -> Iterator[tuple[Point, World]]:
@@ -192,7 +203,7 @@ def _at(
     except BelowError:
         raise
     except (AbsentError, NoValueError) as reason:
-        return str(reason)
+        return WithoutValue(reason)
     left, right = _beside(left, right), _beside(right, left)
     if isinstance(left, Vector) != isinstance(right, Vector):
         raise UnreadableError("a number is set equal to a vector")

@@ -6,7 +6,7 @@ size and its square; both are far beyond the coefficients of any formula. Of sum
 variance is a polynomial in the height, whose differences tell how it grows.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise, product
@@ -15,7 +15,9 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.where import Limit, Where
+from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search.values import WithoutValue
 
 HIGHEST_POWER = 20
 SIZES = (10**100, 10**200)
@@ -86,7 +88,7 @@ def parts_in_the_limit(
             try:
                 found = explicit.number(candidate, values)
             except explicit.DivisionError:
-                return f"it has no value at {where}"
+                return WithoutValue(f"it has no value at {where}")
             except explicit.AmbiguousError:
                 return None
             true = _number(exact, tuple(values.items()))
@@ -96,21 +98,35 @@ def parts_in_the_limit(
     return None
 
 
-def counterexample(statement: sympy.Eq, where: Where) -> str | None:
-    """Where the sides of a statement in a limit, all moments put in, part; or None."""
+def counterexample(statement: sympy.Eq, where: Where, force: sympy.Eq | None = None) -> str | None:
+    """Where the sides of a statement in a limit, all moments put in, part; or None.
+
+    ``force`` gives f⁺_ij in units of f_load/2n_y, in the radii, for what drops a part of it.
+    """
     limit = where.limit
+    if limit and limit.relation == "≈" and force is not None:
+        return varies_too_much(force.rhs, statement)
     left, right = (side.xreplace(where.solved) for side in statement.args)
+    if limit and limit.relation == "∝":
+        return not_proportional(right, left / right)
     if limit is None or limit.relation != "∼" or not _is_rational(left):
         return None
-    return parts_in_the_limit(left, right, _places(limit))
+    return parts_in_the_limit(left, right, _places(limit), where.dimension)
+
+
+_RATIOS: Mapping[int, tuple[tuple[Fraction | int, ...], ...]] = {
+    1: ((1,),),
+    2: tuple((one, 1 - one) for one in HEIGHTS),
+    3: ((1, 1, 1), (2, 1, 1), (3, 1, 2), (1, 2, 3), (1, 100, 1), (1, 1, 100)),
+}
+"""How what is positive in a limit stands to each other, by how many there are."""
 
 
 @cache
 def _places(limit: Limit) -> tuple[Place, ...]:
     """How the indices grow, as multiples of one size: what is positive in some fixed ratios."""
-    ratios = [(one, 1 - one) for one in HEIGHTS] if len(limit.positive) == 2 else [(Fraction(1),)]
     found = []
-    for ratio in ratios:
+    for ratio in _RATIOS[len(limit.positive)]:
         rows = (one - sympy.Rational(c) for one, c in zip(limit.positive, ratio, strict=True))
         (at,) = sympy.linsolve(list(rows), *limit.growing)
         multiples = (Fraction(int(c.p), int(c.q)) for c in at)
@@ -149,10 +165,10 @@ def not_proportional(side: sympy.Expr, ratio: sympy.Expr) -> str | None:
             where = ", ".join(
                 f"{text(one)} = {float(values[one]):.6g}" for one in (sy.phi, *changed)
             )
-            if value.free_symbols:
+            if value.free_symbols or share.free_symbols:
                 return None
             if value.has(sympy.zoo, sympy.nan, sympy.oo):
-                return f"it has no value at {where}"
+                return WithoutValue(f"it has no value at {where}")
             if not value.is_positive:
                 return f"it is {value.evalf(3)}, which is not positive, at {where}"
             found.append((share, where))
@@ -192,6 +208,8 @@ def varies_too_much(exact: sympy.Expr, candidate: sympy.Eq) -> str | None:
                 return None
             if mean := total.pop(("", 0, 0), 0):
                 return f"at {where} the two sides differ by {mean} in the ordered packing"
+            if not factor:
+                return None
             dropped.append(sum((w**2 for w in total.values()), Fraction(0)))
             factors.append(factor)
             kept = 3 + 2 * _degree(factors)
@@ -213,7 +231,7 @@ def _undefined(candidate: sympy.Eq) -> str | None:
         try:
             explicit.weights(side, values)
         except explicit.DivisionError:
-            return f"it has no value at φ = {cosine}"
+            return WithoutValue(f"it has no value at φ = {cosine}")
         except explicit.AmbiguousError:
             continue
     return None
@@ -234,17 +252,26 @@ def _is_polynomial(candidate: sympy.Eq) -> bool:
 def _in_radii(
     exact: sympy.Expr, candidate: sympy.Eq, values: explicit.Values
 ) -> tuple[explicit.Weights, Fraction]:
-    """Weights of left less right side, the force put in; and the factor of that force."""
+    """Weights of left less right side, the force put in; and its factor, 0 where there is none."""
     left, right = (explicit.weights(side, values) for side in candidate.args)
     total = {key: left.get(key, 0) - right.get(key, 0) for key in {**left, **right}}
-    forces = [key for key in total if key[0] in ("ForcePlus", "ForceMinus") and total[key]]
-    if [key[0] for key in forces] != ["ForcePlus"]:
-        raise explicit.AmbiguousError("it is not about one force f⁺")
-    (_, across, layer), factor = forces[0], total.pop(forces[0]) / (2 * values[sy.n_y])
+    forces = [key for key in total if key[0] in _BRANCHES and total[key]]
+    if not forces:
+        return {key: Fraction(w) for key, w in total.items() if w}, Fraction(0)
+    if len(forces) != 1:
+        raise explicit.AmbiguousError("it is about several forces")
+    (branch, across, layer), factor = forces[0], total.pop(forces[0]) / (2 * values[sy.n_y])
     frozen = tuple(sorted(({**values, sy.i: across, sy.j: layer}).items(), key=str))
-    for key, weight in _force(exact, frozen).items():
+    for key, weight in _force(_BRANCHES[branch](exact), frozen).items():
         total[key] = total.get(key, Fraction(0)) + Fraction(factor) * weight
     return {key: Fraction(w) for key, w in total.items() if w}, Fraction(factor)
+
+
+_BRANCHES: dict[str, Callable[[sympy.Expr], sympy.Expr]] = {
+    "ForcePlus": lambda exact: exact,
+    "ForceMinus": cache(mirror),
+}
+"""What a force of either branch is, by that along n⁺."""
 
 
 @cache

@@ -14,6 +14,7 @@ from force_diffusion.symbolic.search.dual import (
     NOWHERE,
     ZERO,
     Dual,
+    Number,
     Slope,
     TooLargeError,
     Vector,
@@ -221,6 +222,9 @@ def given(
                 ),
                 lambda *at: NOWHERE if at == place else _any_load(*at),
             )
+        if name == "point":
+            down = Vector(ZERO, Dual(-f_load))
+            return Given(place[1], lambda *_: ZERO, lambda *at: down if at == place else NOWHERE)
         if name == "entering":
             entry = (place[0] - 1, place[1] - 1)
             return Given(
@@ -255,6 +259,8 @@ class Packing:
     geometry: Geometry
     given: Given
     _below: dict[Site, tuple[Dual, Dual]] = field(default_factory=dict, repr=False, compare=False)
+    moments: dict[object, Number] = field(default_factory=dict, repr=False, compare=False)
+    """What moments were found to be, by what they are of and the values of its symbols."""
 
     @cached_property
     def by_radius(self) -> "Packing":

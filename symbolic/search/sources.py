@@ -2,28 +2,51 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 from sympy import Add, Eq, Mul, Pow, Rational, Sum
 
 Change = Callable[[sympy.Expr], sympy.Expr]
+Made = Iterator[tuple[str, sympy.Eq]]
+"""Why it is false, or true, and the statement."""
 Zeros = Iterator[tuple[str, sympy.Expr]]
 """A place of the domain, in words, and what vanishes there."""
 
 COSINES = tuple(Rational(*c) for c in ((1, 4), (-1, 4), (0, 1), (1, 3), (-49, 100), (49, 100)))
+_HIGHEST = 10  # of layers and heights that are looked at
 HEIGHTS = tuple(Rational(*z) for z in ((1, 2), (1, 3), (3, 4), (1, 100)))
+
+
+class Form(NamedTuple):
+    """An exact form of what is printed, and whether it is for one layer alone."""
+
+    name: str
+    expression: sympy.Expr
+    of_one_layer: bool
 
 
 @dataclass(frozen=True)
 class Source:
-    """A printed equation and its sign: "=", "≈", "∼" or "∝"; ``low`` is a layer of its domain."""
+    """A printed equation and its sign: "=", "≈", "∼" or "∝".
+
+    Attributes:
+        printed: the equation.
+        relation: its sign.
+        exact: forms at finite size of the same quantity.
+        where: the domain, where the kernel proves it.
+        dimension: of the packing.
+    """
 
     printed: sympy.Eq
     relation: str
-    low: int = 2
+    exact: tuple[Form, ...] = ()
+    where: Where | None = None
+    dimension: int = 2
 
     @property
     def free(self) -> set[sympy.Symbol]:
@@ -33,7 +56,9 @@ class Source:
     @property
     def is_vector(self) -> bool:
         """Whether it equates vectors."""
-        return bool(getattr(self.printed.lhs, "is_vector", False) or self.printed.rhs == 0)
+        factors = Mul.make_args(self.printed.lhs)
+        found = any(getattr(one, "is_vector", False) for one in factors)
+        return found or self.printed.rhs == 0
 
     @property
     def size(self) -> sympy.Symbol:
@@ -70,7 +95,8 @@ class Source:
 
     def radii(self) -> list[sympy.Expr]:
         """The radius of the bead that it is about, and two on the base; none for statistics."""
-        beads = by_name(self.printed.atoms(sy.SiteFunction))[:1]
+        found = by_name(self.printed.atoms(sy.SiteFunction))
+        beads = [one for one in found if one.free_symbols <= self.free]  # none within a sum
         if not beads:
             return []
         across, layer = beads[0].args
@@ -88,11 +114,24 @@ class Source:
         if self.relation == "=":
             for layer in (sy.j, sy.l, sy.site_s):
                 if layer in self.free:
-                    yield f"{text(layer)} = {self.low + 1}", layer - self.low - 1
+                    at = self.within(layer, 3)
+                    yield f"{text(layer)} = {at}", layer - at
             if sy.M in self.free:
-                yield f"M = {2 * self.low}", sy.M - 2 * self.low
-                yield f"M = j + {self.low}", sy.M - sy.j - self.low
+                at, above = self.within(sy.M, 4), self.within(sy.M - sy.j, 2)
+                yield f"M = {at}", sy.M - at
+                yield f"M = j + {above}", sy.M - sy.j - above
         yield from self.heights()
+
+    def within(self, index: sympy.Expr, least: int) -> int:
+        """The first whole number from ``least`` on that an index has in the domain."""
+        if self.where is None or not index.free_symbols <= {*self.where.indices}:
+            return least
+        found = (at for at in range(least, _HIGHEST) if not self._misses(index, at))
+        return next(found, least)
+
+    def _misses(self, index: sympy.Expr, at: int) -> bool:
+        assert self.where is not None
+        return self.where.also(Eq(index, at, evaluate=False)).is_empty
 
     def heights(self) -> Zeros:
         """Yield relative heights, with what vanishes there."""

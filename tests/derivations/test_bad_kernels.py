@@ -8,7 +8,6 @@ from typing import Any
 
 import pytest
 import sympy
-from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
@@ -27,7 +26,15 @@ Plant = pytest.MonkeyPatch
 
 @pytest.fixture(autouse=True)
 def _nothing_is_remembered() -> Iterator[None]:
-    remembering = (signs.sign, read_with, moments.value, moments.worked_out, theorem._instance_of)
+    remembering = (
+        signs.sign,
+        read_with,
+        moments.value,
+        moments.worked_out,
+        moments.in_the_radii,
+        moments._between,
+        theorem._instance_of,
+    )
     for one in remembering:
         one.cache_clear()
     yield
@@ -123,14 +130,19 @@ def test_vectors_are_compared_in_part(
 
 
 def test_eq_12_keeps_an_order_too_many(derive: Callable[..., Any], monkeypatch: Plant) -> None:
-    kept = eq12.variance_kept
-    monkeypatch.setattr(eq12, "variance_kept", lambda candidate: kept(candidate) + 1)
+    one_force = limits._one_force
+
+    def larger(*about: Any) -> Any:
+        force, factor = one_force(*about)
+        return force, factor * FIELD.generator(sy.M)
+
+    monkeypatch.setattr(limits, "_one_force", larger)
     status, _, said = derive(12)
     assert status == 1
     assert said.startswith(FAULT)
 
 
-@pytest.mark.parametrize("number", [13])
+@pytest.mark.parametrize("number", [13, 14])
 def test_an_order_too_many(derive: Callable[..., Any], monkeypatch: Plant, number: int) -> None:
     """Of what something is to be small against: the printed form holds φ in its divisor alone."""
     order, phi = limits.order, FIELD.position[sy.phi]
