@@ -47,13 +47,8 @@ def _in_place(node: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
     args = [_in_place(one, what, image) for one in node.args]
     if isinstance(what, type) and isinstance(node, what):
         result = image(*args)
-    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow | sympy.Eq) and _divides(node):
+    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow | sympy.Eq):
         result = node.func(*args, evaluate=False)
     else:
         result = node.func(*args)
     return result
-
-
-def _divides(node: sympy.Basic) -> bool:
-    """Whether something is divided there."""
-    return any(one.exp.is_negative for one in node.atoms(sympy.Pow))

@@ -270,7 +270,7 @@ class Load:
                 _shown(change),
                 self.facts,
                 loading,
-                by=self.sheared() if factor else None,
+                by=self.sheared if factor else None,
                 said_as=_shown(self.changes[symbol]) + factor * SHEAR,
             )
         return found
@@ -280,8 +280,11 @@ class Load:
         """Their closed forms."""
         return {symbol: one.forms for symbol, one in self.layered.items()}
 
+    @cached_property
     def sheared(self) -> By:
         """A statement about SHEAR, both sides times 1 − t, in which S_xy vanishes."""
+
+        sheared = _shown(self.changes[SHEAR])
 
         def without_shear(formula: sympy.Eq) -> sympy.Eq:
             apart = formula.lhs - formula.rhs
@@ -289,7 +292,7 @@ class Load:
             if slope.has(SHEAR):
                 raise ValueError("it is not linear in the shear stress")
             rest = apart.xreplace({SHEAR: sympy.S.Zero})
-            return equation(slope * _shown(self.changes[SHEAR]) + (1 - t) * rest, sympy.S.Zero)
+            return equation(slope * sheared + (1 - t) * rest, sympy.S.Zero)
 
         def rule(_: tuple[Theorem, ...]) -> Rule:
             def prove(formula: sympy.Eq, where: Where) -> Theorem:
@@ -524,7 +527,7 @@ def shear_steps() -> Lines:
     lines = Lines(OF_SURFACE.where())
     mean = _show_moments(lines, (2,))
     both: dict[str, Any] = {
-        "by": tuple(load.sheared() for load in LOADS),
+        "by": tuple(load.sheared for load in LOADS),
         "where": tuple(load.where() for load in LOADS),
         "meaning": tuple(load.meaning for load in LOADS),
     }

@@ -1,6 +1,7 @@
 """Attacks on averages over the layers, on what they go to, and on heights and integrals."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -120,7 +121,9 @@ for tried, layers, left, right, where, false, refused in (
      VARIANCE * INVERSES / M, HEIGHTS, "1/M is missing", "is another one"),
     ("a sum of inverse squares", lambda: _covariance(1 / (M - j) ** 2), over_layers(
         Covariance(AT_M, AT_M / (M - m) ** 2)), VARIANCE / M * Sum(1 / n, (n, 1, M)), HEIGHTS,
-     "it is below 2", "only one power"),
+     "it is below 2", "stands in a denominator"),
+    ("what is about no layer", lambda: told(rules.rewrite(), S.One, 1, LAYERS), OVER, M * VARIANCE,
+     HEIGHTS, "nothing is known", "nothing is known of layer 0"),
 ):  # fmt: skip
 
     @attack("total", tried, false, refused)
@@ -188,9 +191,10 @@ for tried, left, right, false, refused in (
     ("a length too much", ROOT_OVER, M * sigma / r, "it holds no r", "depends on r"),
     ("a length too few", ROOT_OVER, M, "it goes as σ", "depends on σ"),
     ("a negative root", ROOT_OVER, -M * sigma, "a root is positive", "not shown to be positive"),
-    ("what vanishes at φ = 0", ROOT_OVER, phi**2 * M * sigma, "it is 0 at φ = 0", "may vanish"),
+    ("what vanishes at φ = 0", ROOT_OVER, phi**2 * M * sigma, "it is 0 at φ = 0",
+     "not shown to be positive"),
     ("a leading part that vanishes at φ = 0", ROOT_OVER, (phi * M + 1) * sigma,
-     "it stays at φ = 0", "may vanish"),
+     "it stays at φ = 0", "not shown to be positive"),
     ("0/0", ROOT_OVER, times(M * sigma, phi, Pow(phi, -1)), "0/0 at φ = 0", "not shown to differ"),
     ("an unknown number", ROOT_OVER, M * sigma * (1 + UNKNOWN**2), "it may grow",
      "not a rational function"),
@@ -247,6 +251,8 @@ for tried, order, left, right, where, false, refused in (
      "not the height that is defined"),
     ("of what is only in proportion", _of_proportion, UNIT, 1 / (sqrt(2) * sigma), AS_IT_IS,
      "it is √3/σ", "another limit"),
+    ("of what is known at finite size", _exact, UNIT, IS_ONE, AS_IT_IS, "it is less there",
+     "another limit"),
     ("of what does not grow", _constant, UnitHeight(S.One), Integer(5), AS_IT_IS,
      "any height is one", "not one height"),
     ("in another packing", _leading, UNIT, IS_ONE, AS_IT_IS.loaded(SURFACE), "it is another one",
@@ -260,6 +266,10 @@ for tried, order, left, right, where, false, refused in (
         order: Premise = order, left: Expr = left, right: Expr = right, where: Where = where
     ) -> object:
         return told(averages.unit_height(order()), left, right, where)
+
+
+def _one() -> Theorem:
+    return told(averages.expansion(), S.One, 1, LARGE)
 
 
 AT_Z = LAYERS.in_the_limit(at_fixed_height("∼"))
@@ -277,7 +287,7 @@ for tried, theorem, left, right, where, false, refused in (
      "about something else"),
     ("a root of a square", _negative, 1 - M, power(power(-M, 2), S.Half), LARGE,
      "it is −M", "may be negative"),
-    ("a root left out", _constant, S.One, power(M, S.Half), LARGE, "√M grows",
+    ("a root left out", _one, S.One, power(M, S.Half), LARGE, "√M grows",
      "is left"),
     ("0/0", _leading, OVER, times(M**2 * VARIANCE / 3, phi, Pow(phi, -1)), LARGE, "0/0 at φ = 0",
      "not shown to differ"),
@@ -290,14 +300,17 @@ for tried, theorem, left, right, where, false, refused in (
         return told(averages.restated(theorem()), left, right, where)
 
 
-@attack(
-    "restated",
-    "what holds at finite size",
-    "nothing is said of a limit",
-    "it is not one in a limit",
-)
+@attack("restated", "what holds at finite size", "nothing is said of a limit", "not one in a limit")
 def _() -> object:
     return told(averages.restated(_exact()), OVER, (M + 1) * (2 * M + 1) * VARIANCE / 6, HEIGHTS)
+
+
+@attack("restated", "what is only supposed", "nothing is proved", "supposed")
+def _() -> object:
+    again = told(averages.restated(_supposed(M, 2 * M, LARGE)), M, M + M, LARGE)
+    if again.supposed:
+        raise NotProvedError("it rests on what is supposed")
+    return again
 
 
 # integrals
@@ -318,6 +331,10 @@ def _step() -> Theorem:
     """A step at z = ½ has no slope beside it."""
     leap = sympy.Piecewise((0, z < S.Half), (1, True))
     return told(rules.differentiate(ROOT, 1 + z), Derivative(z + leap, z), 1, Where())
+
+
+def _twice() -> Theorem:
+    return told(rules.differentiate(ROOT, 1 + z), Derivative(z**2 / 2, z, z), 1, Where())
 
 
 def _of_another() -> Theorem:
@@ -345,6 +362,9 @@ for tried, slope, left, right, false, refused in (
     ("another root", _slope, _mean(sqrt(2 + z)), VALUE, "it is larger", "no antiderivative"),
     ("a negative root", _slope, _mean(-sqrt(1 + z)), VALUE, "it is negative", "no antiderivative"),
     ("a step", _step, _mean(S.One), 2, "it is 1", "may not be continuous"),
+    ("a second derivative", _twice, _mean(S.One), S.Half, "it is 1", "another variable"),
+    ("no derivative of what is integrated", lambda: told(rules.rewrite(), z, z, Where()), _mean(z),
+     1, "it is ½", "another variable"),
     ("an antiderivative by another variable", _of_another, OF_ROOT, VALUE,
      "nothing is known of z", "another variable"),
 ):  # fmt: skip
@@ -390,7 +410,8 @@ for tried, several, left, right, where, false, refused in (
      "its root has another mean", "the rest is of order 2"),
     ("a sum in place of a mean", _every, M * ROOTS, _of_profile(PROFILE), LARGE,
      "it is M times that", "no mean over the layers"),
-    ("a few layers", _every, Sum(sqrt(Variance((M - m) * AT_M)), (m, 0, 1)) / M,
+    ("a few layers", lambda: layer(M - j, Where.of(j >= 0, j <= 1, M >= 3)),
+     Sum(sqrt(Variance((M - m) * AT_M)), (m, 0, 1)) / M,
      _of_profile(PROFILE), LARGE, "it goes as 2σ", "no mean over the layers"),
     ("another factor of the integral", _every, ROOTS, 2 * _of_profile(PROFILE), LARGE,
      "it is half of it", "no mean over 0 < z < 1"),
@@ -443,8 +464,8 @@ RATIO = M / UnitHeight(FORCE_VARIANCE)
 
 
 @cache
-def _forces() -> Theorem:
-    return told(moments.moment(), Variance(1 + j * HERE), j**2 * VARIANCE, LAYERS)
+def _forces(mean: int = 1) -> Theorem:
+    return told(moments.moment(), Variance(mean + j * HERE), j**2 * VARIANCE, LAYERS)
 
 
 @cache
@@ -485,9 +506,10 @@ def _tensile(
     means: Theorem | None = None,
     height: Theorem | None = None,
     below: Theorem | None = None,
+    of: int = 1,
 ) -> Theorem:
     rule = averages.tensile(
-        below or _below(), height or _force_height(), [_forces()], [means or _ones()]
+        below or _below(), height or _force_height(), [_forces(of)], [means or _ones()]
     )
     return told(rule, left, _half(_error(ARGUMENT)) if right is None else right, where)
 
@@ -504,12 +526,13 @@ for tried, how, false, refused in (
      "not shown to be positive"),
     ("another factor before erfc", {"right": _mean(_error(ARGUMENT))}, "it is half of it",
      "no mean of ½ erfc"),
+    ("no erfc", {"right": _half(S.One)}, "it is less", "no mean of ½ erfc"),
     ("a square of erfc", {"right": _half(_error(ARGUMENT) ** 2)}, "it is less", "no mean of ½"),
     ("a fixed σ", {"where": HEIGHTS.in_the_limit(at_large_height("="))}, "all go to ½",
      "not about tensile forces at fixed"),
     ("twice the probability", {"left": over_layers(2 * Tensile(1 + m * AT_M))},
      "it is twice that", "not about tensile forces"),
-    ("another mean", {"means": "two", "left": over_layers(Tensile(2 + m * AT_M))},
+    ("another mean", {"means": "two", "left": over_layers(Tensile(2 + m * AT_M)), "of": 2},
      "two are farther from zero", "the mean is not one"),
     ("σ in the argument", {"right": _half(_error(1 / (sqrt(2) * M * sigma * z)))},
      "it is not about M/M*", "more than M/M*"),
@@ -565,3 +588,43 @@ for tried, left, right, false, refused in (
     @attack("density", tried, false, refused)
     def _(left: Expr = left, right: Expr = right) -> object:
         return averages.density(equation(left, right), Where())
+
+
+# what is supposed stays supposed; other packings; too many names
+
+
+def _only_supposed(theorem: Theorem) -> Theorem:
+    if theorem.supposed:
+        raise NotProvedError("it rests on what is supposed")
+    return theorem
+
+
+@attack("proportional", "an order that is only supposed", "nothing is proved", "supposed")
+def _() -> object:
+    order = _supposed(OVER, M**4 * VARIANCE, LARGE)
+    right = M**2 * sigma
+    return _only_supposed(told(averages.proportional(order), ROOT_OVER, right, IN_PROPORTION))
+
+
+@attack("unit_height", "an order that is only supposed", "nothing is proved", "supposed")
+def _() -> object:
+    order = _supposed(OVER, M**2 * VARIANCE, LARGE)
+    return _only_supposed(told(averages.unit_height(order), UNIT, 1 / sigma, AS_IT_IS))
+
+
+@attack("integral", "a slope that is only supposed", "nothing is proved", "supposed")
+def _() -> object:
+    slope = _supposed(Derivative(2 * z, z), S.One, Where())
+    return _only_supposed(told(averages.integral(slope), _mean(S.One), 2, Where()))
+
+
+@attack("proportional", "the height of a packing in space", "nothing is known", "another packing")
+def _() -> object:
+    where = replace(IN_PROPORTION, dimension=3)
+    return told(averages.proportional(_height()), UNIT, 1 / sigma, where)
+
+
+@attack("expansion", "more harmonic sums than have names", "they count", "too many harmonic")
+def _() -> object:
+    every = sum((Sum(1 / n, (n, first, M + 9)) for first in range(1, 9)), S.Zero)
+    return told(averages.expansion(), M + every, M, LARGE)

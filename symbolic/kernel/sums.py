@@ -86,10 +86,8 @@ class Sums:
         below = [one for one in factors if one[0].degrees()[place]]
         if not below:
             return sum_polynomial(value, index, low, high)
-        ((factor, power), *others) = below
-        if others or power != 1:
-            raise NotProvedError(f"only one power of a number stands below in a sum over {index}")
-        k, low, high, back = self._counted(factor, index, low, high)
+        k, low, high, back = self._counted(below[0][0], index, low, high)
+        # refuses what still stands below: of a harmonic sum that is the index alone
         over, *powers = (value.substitute({index: back}) * k).coefficients(index)
         total = over * self._harmonic(low, high)
         for exponent, weight in enumerate(powers):
@@ -119,6 +117,8 @@ class Sums:
 
     def _harmonic(self, low: RationalFunction, high: RationalFunction) -> RationalFunction:
         ends = _affine(low), _affine(high)
+        if ends not in self._names and len(self._names) == len(UNKNOWNS[0]):
+            raise NotProvedError("too many harmonic sums in one statement")
         if ends not in self._names:
             name = self._names[ends] = UNKNOWNS[0][len(self._names)]
             self.lengths[name] = high - low + FIELD.one
