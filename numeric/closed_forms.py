@@ -461,9 +461,9 @@ def contacts_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any)
     """Exact variance of the mean over N neighbouring f^±/⟨f⟩, surface load (Eq. B7).
 
     Args:
-        M: height of the packing in layers, a whole number ≥ j + 3.
+        M: height of the packing in layers, a whole number ≥ j + 2.
         j: layer of the contact's lower bead, or of the bead, a whole number ≥ N + 1.
-        N: how many neighbours, a whole number ≥ 3.
+        N: how many neighbours, a whole number ≥ 2.
         phi: n⁺·n⁻, without unit; −1/2 < φ < 1/2 in a packing without overlaps (not checked).
         sigma: standard deviation σ_δr of the radii, a length.
         r: mean radius, in the same unit; not 0.
@@ -471,9 +471,9 @@ def contacts_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any)
     Raises:
         ValueError: M, j or N is not allowed, or an array.
     """
-    N = _whole("N", N, 3)
+    N = _whole("N", N, 2)
     j = _whole("j", j, N + 1)
-    M, phi = _whole("M", M, j + 3), _endless(phi)
+    M, phi = _whole("M", M, j + 2), _endless(phi)
     k = M - j
     return (N*(phi*(phi*(phi*(phi*(phi*(3*phi - 6) - 3) + 12) - 3) - 6) + 3) + j*(k*(k*(phi*(24*phi + 48) + 24) + phi*(-24*phi - 48) - 24) + phi*(phi*(phi*(12*phi + 24) + 24) + 24) + 12) + k*(k*(k*(phi*(8*phi + 16) + 8) + phi*(-6*phi - 12) - 6) + phi*(phi*(phi*(30*phi + 48) + 10) - 4) + 4) + phi*(phi*(phi*(phi*(12*phi - 12) - 30) + 12) + 6) - 12) / (6 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 4) * (sigma / r) ** 2
 
@@ -482,9 +482,9 @@ def beads_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) ->
     """Exact variance of the mean over N neighbouring p/f_load, surface load (Eq. B8).
 
     Args:
-        M: height of the packing in layers, a whole number ≥ j + N + 2.
+        M: height of the packing in layers, a whole number ≥ j + N + 1.
         j: layer of the contact's lower bead, or of the bead, a whole number ≥ N + 2.
-        N: how many neighbours, a whole number ≥ 3.
+        N: how many neighbours, a whole number ≥ 2.
         phi: n⁺·n⁻, without unit; −1/2 < φ < 1/2 in a packing without overlaps (not checked).
         sigma: standard deviation σ_δr of the radii, a length.
         r: mean radius, in the same unit; not 0.
@@ -492,9 +492,9 @@ def beads_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) ->
     Raises:
         ValueError: M, j or N is not allowed, or an array.
     """
-    N = _whole("N", N, 3)
+    N = _whole("N", N, 2)
     j = _whole("j", j, N + 2)
-    M, phi = _whole("M", M, j + N + 2), _endless(phi)
+    M, phi = _whole("M", M, j + N + 1), _endless(phi)
     k = M - j
     return (24*j*k**2 + k*(k*(8*k - 6) + phi*(6*phi + 24) - 2) + phi*(3*phi - 6) + 3) / (12 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2) * (sigma / r) ** 2
 

@@ -39,7 +39,7 @@ N = Symbol("N", integer=True, positive=True)  # neighbouring contacts or beads o
 d = Symbol("d", integer=True, positive=True)  # dimensions, and supports of a bead
 kappa = Symbol("kappa", r"\kappa", "κ", positive=True)  # squared length of a reciprocal vector
 
-INDICES = (i, j, k, l, m, n, p, q, site_r, site_s, M)
+INDICES = (i, j, k, l, m, n, p, q, site_r, site_s, M, N)
 """All index symbols, in the fixed order that normal forms use."""
 
 PARAMETERS = (phi, n_x, n_y, r, spacing, sigma, epsilon, f_load, m_g, z, L_plus, L_minus, t)

@@ -3,9 +3,9 @@
 import sympy
 from force_diffusion.symbolic.algebra.exact import Domain, NotExactError
 from force_diffusion.symbolic.kernel.decisions import Ruling, decide_identity, undecided
-from force_diffusion.symbolic.symbols import INDICES, PARAMETERS, N
+from force_diffusion.symbolic.symbols import INDICES, PARAMETERS
 
-SYMBOLS = Domain((*INDICES, *PARAMETERS, N))
+SYMBOLS = Domain((*INDICES, *PARAMETERS))
 """What a candidate may be a rational function of."""
 
 

@@ -16,12 +16,10 @@ import sympy
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations import eq16_response as eq16
-from force_diffusion.derivations.beyond import b7_neighbouring_contacts as b7
-from force_diffusion.derivations.beyond import b8_neighbouring_beads as b8
-from force_diffusion.derivations.beyond import b12_between_layers as b12
 from force_diffusion.derivations.beyond import t2_variance as t2
 from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.beyond import t5_stress as t5
+from force_diffusion.derivations.beyond import t6_correlations as t6
 from force_diffusion.derivations.beyond import t8_any_dimension as t8
 from force_diffusion.derivations.beyond import t9_spheres_response as t9
 from force_diffusion.derivations.framework.catalogue import Number
@@ -172,7 +170,7 @@ def {name}(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) -> Any:
     Args:
         M: height of the packing in layers, a whole number ≥ j + {above}.
         j: layer of the contact's lower bead, or of the bead, a whole number ≥ N + {below}.
-        N: how many neighbours, a whole number ≥ 3.
+        N: how many neighbours, a whole number ≥ 2.
         phi: n⁺·n⁻, without unit; −1/2 < φ < 1/2 in a packing without overlaps (not checked).
         sigma: standard deviation σ_δr of the radii, a length.
         r: mean radius, in the same unit; not 0.
@@ -180,7 +178,7 @@ def {name}(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) -> Any:
     Raises:
         ValueError: M, j or N is not allowed, or an array.
     """
-    N = _whole("N", N, 3)
+    N = _whole("N", N, 2)
     j = _whole("j", j, N + {below})
     M, phi = _whole("M", M, j + {above}), _endless(phi)
     k = M - j
@@ -487,17 +485,17 @@ def source() -> str:
     sinking = t4.SETTLING.rhs.doit().xreplace({n_y: sympy.Integer(1)})
     parts.append(SETTLING.format(sinking=_code(sinking, j)))
     for name, what, label, average, below, above in (
-        ("contacts_mean_variance", "f^±/⟨f⟩", "B7", b7, "1", "3"),
-        ("beads_mean_variance", "p/f_load", "B8", b8, "2", "N + 2"),
+        ("contacts_mean_variance", "f^±/⟨f⟩", "B7", t6.CONTACT_MEAN, "1", "2"),
+        ("beads_mean_variance", "p/f_load", "B8", t6.BEAD_MEAN, "2", "N + 1"),
     ):
-        in_k = sympy.expand(average.PRINTED.rhs.doit()).xreplace({M: j + k})
+        in_k = sympy.expand(average.rhs.doit()).xreplace({M: j + k})
         code = _code(in_k, j, k, N)
         parts.append(
             NEIGHBOURS.format(
                 name=name, what=what, number=label, code=code, below=below, above=above
             )
         )
-    in_k = sympy.expand(b12.PRINTED.rhs.doit()).xreplace({M: l + k}).xreplace({l: j + p})
+    in_k = sympy.expand(t6.LAYERS.rhs.doit()).xreplace({M: l + k}).xreplace({l: j + p})
     parts.append(LAYERS.format(code=_code(in_k, j, k, p)))
     printed = eq16.PRINTED.rhs.doit().xreplace({sigma: sympy.Integer(1), r: sympy.Integer(1)})
     parts.append(

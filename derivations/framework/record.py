@@ -185,16 +185,18 @@ class Derivation:
     def source(self, part: int) -> Source:
         """One of ``printed``, as other statements are made from it."""
         printed = self.printed[part]
+        where = None
+        if self.decide is None:
+            line = self._line(printed)
+            where = line.domain(line.equations.index(printed))
         cases = self.exact() if self.exact else {}
         forms = (
             Form(name, case.expression, any(isinstance(one, sympy.Eq) for one in case.domain))
             for name, case in cases.items()
             if case.quantity == printed.lhs
+            # at finite size, forms of other layers may be the same there, or not
+            and (where is None or where.limit or all(map(where.implies, case.domain)))
         )
-        where = None
-        if self.decide is None:
-            line = self._line(printed)
-            where = line.domain(line.equations.index(printed))
         return Source(printed, self.relation, tuple(forms), where, self.dimension)
 
     def rule_on(self, part: int, candidate: sympy.Eq, where: Where | None = None) -> Ruling:

@@ -57,9 +57,14 @@ def without(value: Affine, symbol: sympy.Symbol) -> Affine:
     return (*value[:place], 0, *value[place + 1 :])
 
 
-def fixed(value: Affine, symbol: sympy.Symbol, at: int) -> Affine:
-    """The expression with a whole number in place of an index symbol."""
-    return shifted(without(value, symbol), at * coefficient(value, symbol))
+def put_in(value: Affine, image: Mapping[sympy.Symbol, Affine]) -> Affine:
+    """The expression with others in place of index symbols."""
+    found = value
+    for symbol in image:
+        found = without(found, symbol)
+    for symbol, other in image.items():
+        found = add(found, other, coefficient(value, symbol))
+    return found
 
 
 def from_sympy(expression: sympy.Expr) -> Affine:

@@ -12,7 +12,7 @@ normal forms are (what is normal in them is unique). Sums follow Karr's conventi
 Σ_{n=a}^{b} + Σ_{n=b+1}^{c} = Σ_{n=a}^{c}; :mod:`symbolic.algebra.reading` asserts the bounds.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import sympy
@@ -153,6 +153,23 @@ class LinearForm:
             result.add_site(site, change(weight))
         for ray, weight in self.rays.items():
             result.add_ray(ray, change(weight))
+        return result
+
+    def put_in(self, image: Mapping[sympy.Symbol, Affine]) -> "LinearForm":
+        """The form at other indices, for which it has been read as well.
+
+        Rays stay where they start: moved to the normal form, they would leave single sites behind,
+        and these more coincidences to tell apart.
+        """
+        result = LinearForm()
+        numbers = {symbol: affine.to_field(value) for symbol, value in image.items()}
+        for site, weight in self.sites.items():
+            i, j = (affine.put_in(index, image) for index in (site.i, site.j))
+            result.add_site(Site(site.family, i, j), weight.substitute(numbers))
+        for ray, weight in self.rays.items():
+            line, start = (affine.put_in(index, image) for index in (ray.line, ray.start))
+            moved = Ray(ray.family, ray.slope, line, start)
+            result.rays[moved] = result.rays.get(moved, FIELD.zero) + weight.substitute(numbers)
         return result
 
     def is_zero(self) -> bool:

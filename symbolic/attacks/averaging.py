@@ -4,7 +4,7 @@ import sympy
 from force_diffusion.symbolic.attacks.attack import BEADS, HERE, attack, told
 from force_diffusion.symbolic.kernel import limits, moments, rules
 from force_diffusion.symbolic.kernel.theorem import Theorem
-from force_diffusion.symbolic.kernel.where import SURFACE, Limit, Where, at_fixed_height
+from force_diffusion.symbolic.kernel.where import LOADED, SURFACE, Limit, Where, at_fixed_height
 from force_diffusion.symbolic.symbols import (
     Covariance,
     DeltaNPlus,
@@ -12,6 +12,7 @@ from force_diffusion.symbolic.symbols import (
     ForcePlus,
     M,
     Mean,
+    N,
     Variance,
     epsilon,
     f_load,
@@ -20,7 +21,9 @@ from force_diffusion.symbolic.symbols import (
     k,
     l,
     m,
+    p,
     phi,
+    q,
     r,
     sigma,
     z,
@@ -63,6 +66,43 @@ for tried, left, right, where, false, refused in (
     @attack("moment", tried, false, refused)
     def _(left: sympy.Expr = left, right: sympy.Expr | int = right, where: Where = where) -> object:
         return told(moments.moment(), left, right, where)
+
+
+def _summed(one: sympy.Expr, count: sympy.Expr = N) -> sympy.Expr:
+    """A sum over neighbours of one layer."""
+    return Sum(one.xreplace({i: i + 2 * m, k: k + 2 * m}), (m, 0, count - 1))
+
+
+TWO = HERE + DeltaR(i + 2, j)  # what it shares a radius with has the next one
+MANY, THREE = Where.of(j >= 0, N >= 2), Where.of(j >= 0, N >= 3)
+for tried, of, right, where, false, refused in (
+    ("neighbours that share a radius", _summed(TWO), 2 * N, MANY, "it is (4N − 2)σ²",
+     "two places may be one"),
+    ("two neighbours that share a radius", _summed(TWO), 4, MANY.also(Eq(N, 2)), "it is 6σ²",
+     "covariances beyond 0 places are not zero"),
+    ("neighbours with a known place", _summed(HERE), N, MANY.also(i >= j),
+     "further ones may be of another kind", "says something of i"),
+    ("neighbours below a loaded bead", _summed(DeltaR(k, l)), N,
+     Where.of(l >= 0, N >= 2, loading=LOADED), "only one of them is below it",
+     "says something of k"),
+    ("neighbours that differ", _summed(i * HERE), N * i**2, MANY, "it is Σ(i + 2m)²σ²",
+     "not the same along the layer"),
+    ("neighbours times what may fluctuate", UNKNOWN * _summed(HERE), N * UNKNOWN**2, MANY,
+     "nu may depend on the radii", "depends on the radii is not known"),
+    ("neighbours times a radius", HERE * _summed(HERE), 0, MANY, "it is no first order",
+     "depends on the radii is not known"),
+    ("neighbours where every index has a meaning", _summed(HERE), N,
+     MANY.also(indices=(p, q)), "none is left for their distance", "no index is left"),
+    ("every second bead, taken for neighbours", Sum(TWO.xreplace({i: i + 4 * m}), (m, 0, N - 1)),
+     4 * N - 2, MANY, "it is 2Nσ²", "leaves the lattice diagonals"),
+    ("a covariance left out", _summed(TWO + DeltaR(i + 4, j)), 9 * N - 4, THREE,
+     "it is (9N − 8)σ²", "both sides differ"),
+):  # fmt: skip
+
+    @attack("moment", tried, false, refused)
+    def _(left: sympy.Expr = of, right: sympy.Expr = right, where: Where = where) -> object:
+        alone = (sympy.Integer(1), sympy.Integer(2)) if where is THREE else ()
+        return told(moments.moment(alone=alone), Variance(left), right * SQUARE, where)
 
 
 for tried, small, right, where, false, refused in (

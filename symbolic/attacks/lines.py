@@ -18,9 +18,9 @@ TWO_BEADS = Where.of(j >= 0, l >= 0)
 
 for tried, total, where, number, false, refused in (
     ("two lines that may be one", _below(i, j, 1) + _below(k, l, 1), TWO_BEADS, j + l,
-     "it is more where k − l = i − j", "are one"),
+     "it is more where k − l = i − j", "two places may be one"),
     ("two lines that may be one, to the left", _below(i, j, -1) + _below(k, l, -1), TWO_BEADS,
-     j + l, "it is more where k + l = i + j", "are one"),
+     j + l, "it is more where k + l = i + j", "two places may be one"),
     ("two lines that may cross", _below(i, j, 1) + _below(k, l, -1), TWO_BEADS, j + l,
      "it is more where they share a bead", "two places may be one"),
     ("one line, twice", _below(i, j, 1) + 2 * _below(i, j, 1), BEADS, 5 * j,

@@ -72,7 +72,8 @@ for name, facts, left, right, where, false, refused in (
     ("more forces than can be told apart", (), sympy.Add(*(ForcePlus(i + 2 * a, j) for a in
      range(9))), 0, BEADS, "they act", "too many unknown"),
     ("a sum where all indices of sums are taken", (SPLIT,), Load(i, j), Load(i, j),
-     BEADS.also(indices=(m, n, p, q)), "one of them would have two meanings", "two meanings"),
+     BEADS.also(m >= 0, n >= 0, indices=(m, n, p, q)), "one of them would have two meanings",
+     "two meanings"),
     ("a number added to a vector", (), HERE + DeltaX(i, j), 0, BEADS, "one is a vector", "added"),
     ("a product of positions", (), Dot(Position(i, j), Position(i, j)), 0, BEADS,
      "positions are of order 0", "order 0"),

@@ -3,14 +3,18 @@
 The radii are independent, of mean zero and variance σ². So a form that is an ordered value plus
 weights times deviations of radii has that value as its mean, and σ² times the sum of its squared
 weights as its variance, if each radius is met once: every coincidence of two sites is decided on
-the domain, or nothing is proved.
+the domain, or nothing is proved. Where one is not decided the domain is parted, and the value has
+to be the same on all of its parts.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache, partial
+from math import gcd
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.exact import FIELD, UNKNOWNS, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm
 from force_diffusion.symbolic.as_printed import equation
@@ -26,20 +30,30 @@ from force_diffusion.symbolic.kernel.theorem import (
     made,
     put_in,
 )
-from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.kernel.where import LATTICE, Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.variances.cases import at_value
-from force_diffusion.symbolic.variances.weights import Pieces, take_apart
+from force_diffusion.symbolic.variances.weights import (
+    Pieces,
+    UndeterminedError,
+    sum_of_products,
+    take_apart,
+)
 
 _KNOWN = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS} - {sy.epsilon}
 _RADII = (sy.DeltaR, sy.SecondDifference)
+_ACROSS = {across for across, _ in LATTICE}
+_MOST_RELATIONS = 16  # of a domain that is parted further
+
+Alone = tuple[sympy.Expr, ...]
+"""Distances of neighbours whose covariance is looked at by itself; between them it is zero."""
 
 
 def moment(
     *facts: Theorem | tuple[Theorem, ...],
     whole: Where | None = None,
     cases: Sequence[Iterable[sympy.Basic]] = ((),),
+    alone: Alone = (),
 ) -> Rule:
     """Both sides are the same once facts are put in and the moments are worked out.
 
@@ -48,6 +62,7 @@ def moment(
         whole: a domain on which that is done once, for statements on parts of it.
         cases: parts that leave no integer point of a statement's domain out: sums of squares are
             taken apart on each, as places that are two elsewhere may be one there.
+        alone: of a sum over neighbours, at which distances two of them may be correlated.
     """
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
@@ -63,7 +78,7 @@ def moment(
             if part.is_empty:
                 continue
             apart = _on_part(partial(_apart, formula, facts), where, part)
-            found = {name: value(one, facts, domain, part) for one, name in names.items()}
+            found = {name: value(one, facts, domain, part, alone) for one, name in names.items()}
             if not apart.mapped(partial(_put_for, found)).is_zero():
                 raise NotProvedError("the moments of both sides differ")
         return made(formula, where, "moment", flat(facts))
@@ -119,29 +134,82 @@ def worked_out(one: sy.Moment, facts: Facts, where: Where, part: Where | None = 
     return value(one, facts, where, part).to_sympy()
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=1024)
 def value(
-    one: sy.Moment, facts: Facts, where: Where, part: Where | None = None
+    one: sy.Moment, facts: Facts, where: Where, part: Where | None = None, alone: Alone = ()
 ) -> RationalFunction:
-    """A moment on a part of a domain, exact to leading order in the deviations of the radii."""
-    part = part or where
+    """A moment on a part of a domain, exact to leading order in the deviations of the radii.
+
+    Raises:
+        NotProvedError: it holds what is not known, or is not one function on all of the part.
+    """
+    part, sigma = part or where, FIELD.generator(sy.sigma) ** 2
     if one.has(*sy.CONTACTS):
         return any_dimension.value(one, part)
     if isinstance(one, sy.Shift):
         inside = one.args[0].xreplace(part.solved)
         found = second_order.shift(inside, part, lambda of, there: value(of, facts, there))
         return found.reduced()
-    if isinstance(one, sy.Covariance):
-        first, second = one.args
-        of = (sy.Variance(first + second), sy.Variance(first), sy.Variance(second))
-        both, left, right = (value(single, facts, where, part) for single in of)
-        return (both - left - right) / FIELD.constant(2)
-    form = _on_part(partial(in_the_radii, one.args[0], facts), where, part)
-    if isinstance(one, sy.Mean):
-        return form.at_zero
-    if isinstance(one, sy.Variance):
-        return _sum_of_squares(form, part) * FIELD.generator(sy.sigma) ** 2
+    try:
+        if isinstance(one, sy.Variance) and (mean := _neighbours(one.args[0], facts, where, alone)):
+            fixed = {symbol: FIELD.from_sympy(at) for symbol, at in part.solved.items()}
+            return mean.variance(part).substitute(fixed) * sigma
+        forms = [_on_part(partial(in_the_radii, side, facts), where, part) for side in one.args]
+        if isinstance(one, sy.Mean):
+            return forms[0].at_zero
+        if isinstance(one, sy.Variance | sy.Covariance):
+            return _products(forms[0], forms[-1], part) * sigma
+    except UndeterminedError as reason:
+        raise NotProvedError(f"two places may be one: {reason}") from None
     raise NotProvedError(f"{text(one)} is not worked out")
+
+
+def _products(one: LinearForm, other: LinearForm, where: Where) -> RationalFunction:
+    """Σ weight · weight′ of the radii of two forms, one function on all of the domain."""
+    try:
+        return sum_of_products(fluctuation(one), fluctuation(other), where)
+    except UndeterminedError as reason:
+        parts = _parts(where, reason)
+        found = []
+        for part in parts:
+            at = {symbol: affine.from_sympy(place) for symbol, place in part.solved.items()}
+            found.append(_products(one.put_in(at), other.put_in(at), part))
+        return _agreed(parts, found, reason)
+    except NotExactError as reason:
+        raise NotProvedError(str(reason)) from None
+
+
+def _parts(where: Where, reason: UndeterminedError) -> tuple[Where, ...]:
+    """The parts of a domain where a number whose sign was undecided is > 0, < 0 and 0."""
+    refused = NotProvedError(f"two places may be one: {reason}")
+    if reason.apart is None or len(where.relations) > _MOST_RELATIONS:
+        raise refused from reason
+    divisor = gcd(*reason.apart)
+    number = affine.to_sympy(tuple(c // divisor for c in reason.apart))
+    if not number.free_symbols <= {*where.indices}:
+        raise refused from reason
+    parts = [
+        where.also(kind(number, sympy.Integer(side), evaluate=False))
+        for kind, side in ((sympy.Ge, 1), (sympy.Le, -1), (sympy.Eq, 0))
+    ]
+    if where in parts:
+        raise refused from reason
+    return tuple(one.tightened() for one in parts if not one.is_empty)
+
+
+def _agreed(
+    parts: Sequence[Where], found: Sequence[RationalFunction], reason: UndeterminedError
+) -> RationalFunction:
+    """The value of the first part, if those of all others are the same there.
+
+    Raises:
+        UndeterminedError: they are not; the sum that they stand in may be, on the same parts.
+    """
+    for part, other in zip(parts[1:], found[1:], strict=True):
+        known = {index: FIELD.from_sympy(at) for index, at in part.solved.items()}
+        if not (found[0] - other).substitute(known).is_zero():
+            raise UndeterminedError(str(reason), reason.apart)
+    return found[0]
 
 
 def _on_part(read: Callable[[Where], LinearForm], where: Where, part: Where) -> LinearForm:
@@ -149,10 +217,7 @@ def _on_part(read: Callable[[Where], LinearForm], where: Where, part: Where) -> 
     further = {symbol: at for symbol, at in part.solved.items() if symbol not in where.solved}
     if not all(at.is_Integer for at in further.values()):
         return read(part)
-    form = read(where)
-    for symbol, at in further.items():
-        form = at_value(form, symbol, int(at))
-    return form
+    return read(where).put_in({one: affine.constant(int(at)) for one, at in further.items()})
 
 
 @lru_cache(maxsize=256)
@@ -180,14 +245,160 @@ def fluctuation(form: LinearForm) -> LinearForm:
     return LinearForm(sites, dict(form.rays))
 
 
-def _sum_of_squares(form: LinearForm, where: Where) -> RationalFunction:
-    """Σ weight² of the radii of a form, each met once."""
-    return pieces(form, where).sum_of_squares()
-
-
 def pieces(form: LinearForm, where: Where) -> Pieces:
     """The weights of the radii of a form, each met once."""
     try:
         return take_apart(fluctuation(form), where)
     except NotExactError as reason:
         raise NotProvedError(f"two places may be one: {reason}") from None
+
+
+# sums over neighbours
+
+
+@dataclass(frozen=True)
+class _Neighbours:
+    """A sum over neighbours of one layer, all that it is about two columns further each time.
+
+    Attributes:
+        factor: of the sum.
+        first: what is summed, at its first place.
+        across: the index across the packing.
+        count: how many are summed.
+        alone: how many places apart two of them may be correlated.
+        facts: what gives it in the radii.
+        beads: the domain, as far as it does not speak of N.
+    """
+
+    factor: sympy.Expr
+    first: sympy.Expr
+    across: sympy.Symbol
+    count: sympy.Expr
+    alone: Alone
+    facts: Facts
+    beads: Where
+
+    def variance(self, where: Where) -> RationalFunction:
+        """Variance over σ² on a domain, which is parted as far as it takes."""
+        try:
+            return self._on(where)
+        except UndeterminedError as reason:
+            parts = _parts(where, reason)
+            return _agreed(parts, [self.variance(part) for part in parts], reason)
+
+    def _on(self, where: Where) -> RationalFunction:
+        """Factor² [count C₀ + 2 Σ (count − p) C_p].
+
+        C_p is the covariance of two that are p places apart, the same for all such pairs, since
+        the domain leaves the place along the layer free. It is zero but for p in ``alone``.
+        """
+        count, *places = (
+            sympy.expand(one.xreplace(where.solved)) for one in (self.count, *self.alone)
+        )
+        near = _in_order([one for one in places if _reached(one, count, where)], where)
+        spare = [one for one in (sy.p, sy.q) if one not in where.indices]
+        if not spare:
+            raise NotProvedError("no index is left for the distance of two neighbours")
+        apart, beads = spare[0], self._of_beads(where)
+        total = FIELD.from_sympy(count) * _between(self._one, sympy.S.Zero, beads)
+        for low, high in zip((sympy.S.Zero, *near), (*near, None), strict=True):
+            domain, last = (where, count - 1) if high is None else (beads, high - 1)
+            between = domain.also(apart >= low + 1, apart <= last, indices=(apart,))
+            if not between.is_empty and not _between(self._one, apart, between).is_zero():
+                raise NotProvedError(f"covariances beyond {text(low)} places are not zero")
+            if high is not None:
+                weight = FIELD.from_sympy(2 * (count - high))
+                reached = sympy.Le(high, count - 1, evaluate=False)
+                counted = self._of_beads(where.also(reached))
+                total = total + weight * _between(self._one, high, counted)
+        return total * FIELD.from_sympy(self.factor**2)
+
+    @property
+    def _one(self) -> tuple[sympy.Expr, sympy.Symbol, Facts, Where]:
+        return self.first, self.across, self.facts, self.beads
+
+    def _of_beads(self, where: Where) -> Where:
+        found = where.without({sy.N} - self.first.free_symbols)
+        return self.beads if found.rows == self.beads.rows else found
+
+
+@lru_cache(maxsize=1024)
+def _between(
+    one: tuple[sympy.Expr, sympy.Symbol, Facts, Where], places: sympy.Expr, domain: Where
+) -> RationalFunction:
+    """Covariance over σ² with the neighbour so many places away, on a part of the domain of one.
+
+    Raises:
+        NotProvedError: it depends on the place along the layer.
+    """
+    first, across, facts, beads = one
+    at = {symbol: affine.from_sympy(place) for symbol, place in domain.solved.items()}
+    further = {across: affine.from_sympy(sympy.expand(across + 2 * places))}
+    form = in_the_radii(first, facts, beads)
+    found = _products(form.put_in(at), form.put_in(further).put_in(at), domain)
+    if found.holds(across):
+        raise NotProvedError("covariances are not the same along the layer")
+    return found
+
+
+def _neighbours(side: sympy.Expr, facts: Facts, where: Where, alone: Alone) -> _Neighbours | None:
+    """What is a sum over neighbours, times a factor.
+
+    Raises:
+        NotProvedError: its domain says something of the place along the layer, or the factor
+            may depend on the radii.
+    """
+    factors = sympy.Mul.make_args(side)
+    sums = [one for one in factors if isinstance(one, sympy.Sum)]
+    if len(sums) != 1 or len(sums[0].limits) != 1:
+        return None
+    index, low, high = sums[0].limits[0]
+    factor = sympy.Mul(*(one for one in factors if one is not sums[0]))
+    first = sums[0].function.xreplace({index: low})
+    for across in by_name(_ACROSS & {*where.indices}):
+        if first.xreplace({across: across + 2 * (index - low)}) == sums[0].function:
+            break
+    else:
+        return None
+    if factor.free_symbols - _KNOWN or factor.has(sy.SiteFunction):
+        raise NotProvedError(f"whether {text(factor)} depends on the radii is not known")
+    place = where.loading.place if where.loading else ()
+    if any(across in one.free_symbols for one in (*where.relations, *place)):
+        raise NotProvedError(f"its domain says something of {text(across)}")
+    beads = where.without({sy.N} - first.free_symbols)
+    return _Neighbours(factor, first, across, high - low + 1, alone, facts, beads)
+
+
+def _in_order(places: Sequence[sympy.Expr], where: Where) -> list[sympy.Expr]:
+    """Those of the distances that are positive, each once, in the order of the domain."""
+    found: list[sympy.Expr] = []
+    for place in places:
+        if not _is_positive(place, where):
+            continue
+        before = [one for one in found if _is_positive(place - one, where)]
+        if len(before) == len(found) or _is_positive(found[len(before)] - place, where):
+            found.insert(len(before), place)
+    return found
+
+
+def _reached(place: sympy.Expr, count: sympy.Expr, where: Where) -> bool:
+    """Whether a distance is below ``count``, or just that, where nothing of it is counted."""
+    return not _at_least(place, count, where) and _is_positive(count - place + 1, where)
+
+
+def _at_least(number: sympy.Expr, least: sympy.Expr, where: Where) -> bool:
+    return where.nonnegative(affine.from_sympy(sympy.expand(number - least)))
+
+
+def _is_positive(number: sympy.Expr, where: Where) -> bool:
+    """Whether a whole number is positive on all of the domain, or nowhere.
+
+    Raises:
+        UndeterminedError: neither is known.
+    """
+    value = affine.from_sympy(sympy.expand(number))
+    if where.nonnegative(affine.shifted(value, -1)):
+        return True
+    if where.nonnegative(affine.times(value, -1)):
+        return False
+    raise UndeterminedError(f"the sign of {text(number)}", value)

@@ -234,6 +234,33 @@ class Where:
         """The domain of the terms of a sum."""
         return self.also(sympy.Ge(index, low), sympy.Le(index, high), indices=(index,))
 
+    def without(self, given: Iterable[sympy.Symbol]) -> "Where":
+        """What it says of the other indices alone, by elimination."""
+        given = [one for one in self.indices if one in {*given}]
+        kept = tuple(one for one in self.relations if not one.free_symbols & {*given})
+        if len(kept) == len(self.relations):
+            more: list[sympy.Basic] = []
+        else:
+            rows = set(self.rows)
+            for one in given:
+                rows = _eliminated(rows, sy.INDICES.index(one))
+            more = [sympy.Ge(affine.to_sympy(row), 0, evaluate=False) for row in sorted(rows)]
+        indices = tuple(one for one in self.indices if one not in given)
+        even = tuple(one for one in self.even if not one.free_symbols & {*given})
+        domain = replace(self, indices=indices, relations=kept, even=even)
+        further = [one for one in more if not domain.implies(one)]
+        return domain.also(*further)
+
+    def tightened(self) -> "Where":
+        """The same, with the equations that follow from its inequalities."""
+        tight = (row for row in self.rows if self.nonnegative(affine.times(row, -1)))
+        zero = (sympy.Eq(affine.to_sympy(row), 0, evaluate=False) for row in sorted(tight))
+        return self.also(*(one for one in zero if not self._fixes(one)))
+
+    def _fixes(self, one: sympy.Eq) -> bool:
+        """Whether an equation is one of what ``solved`` puts in."""
+        return bool(sympy.expand(one.lhs.xreplace(self.solved)) == 0)
+
     def put_in(self, image: Mapped, indices: Iterable[sympy.Symbol]) -> "Where":
         """The domain of other indices, in terms of which these are given."""
         relations = tuple(
@@ -408,7 +435,8 @@ class Where:
                 value = _tightened(
                     affine.from_sympy(sympy.expand((one.lhs - one.rhs).xreplace(image)))
                 )
-                for symbol in (*(s for s in self.indices if s == one.lhs), *self.indices):
+                first = [s for s in (sy.N, one.lhs) if s in self.indices]
+                for symbol in (*first, *self.indices):
                     c = affine.coefficient(value, symbol)
                     if abs(c) == 1:
                         rest = affine.to_sympy(affine.times(affine.without(value, symbol), -c))
@@ -484,12 +512,18 @@ def _infeasible(rows: frozenset[Affine]) -> bool:
             (place for place in range(len(sy.INDICES)) if any(row[place] for row in left)),
             key=lambda p: sum(row[p] > 0 for row in left) * sum(row[p] < 0 for row in left),
         )
-        above = [row for row in left if row[place] > 0]
-        below = [row for row in left if row[place] < 0]
-        left = {row for row in left if not row[place]}
-        for a, b in product(above, below):
-            both = affine.add(affine.times(a, -b[place]), b, a[place])
-            left.add(_tightened(both))
+        left = _eliminated(left, place)
+
+
+def _eliminated(rows: Iterable[Affine], place: int) -> set[Affine]:
+    """What follows of the other indices."""
+    rows = list(rows)
+    above = [row for row in rows if row[place] > 0]
+    below = [row for row in rows if row[place] < 0]
+    left = {row for row in rows if not row[place]}
+    for a, b in product(above, below):
+        left.add(_tightened(affine.add(affine.times(a, -b[place]), b, a[place])))
+    return left
 
 
 def _reduced(value: Affine, known: Iterable[Affine]) -> Affine:

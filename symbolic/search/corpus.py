@@ -153,11 +153,11 @@ def _up_to(highest: int, layer: sympy.Symbol) -> sympy.Expr:
 def _near_the_base(source: Source) -> Made:
     for layer in (sy.j, sy.l, sy.site_s):
         if source.relation == "=" and layer in source.free:
-            at = source.layer(layer)
-            before = _up_to(at - 1, layer) if at > 2 else 1
-            once = 2 * _up_to(at, layer) - _up_to(at + 1, layer) - before  # zero in all others
+            place = source.within(layer, 2)
+            below, at, above = (_up_to(place + one, layer) for one in (-1, 0, 1))
+            once = 2 * at - above - below  # 1 in that layer, and 0 in all others
             wrong = source.right(plus(source.term(_MILLIONTH) * once))
-            yield f"wrong at {text(layer)} = {at} alone", wrong
+            yield f"wrong at {text(layer)} = {place} alone", wrong
 
 
 def _as_large_somewhere(source: Source) -> Made:

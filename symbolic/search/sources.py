@@ -18,6 +18,7 @@ Zeros = Iterator[tuple[str, sympy.Expr]]
 """A place of the domain, in words, and what vanishes there."""
 
 COSINES = tuple(Rational(*c) for c in ((1, 4), (-1, 4), (0, 1), (1, 3), (-49, 100), (49, 100)))
+_HIGHEST = 10  # of layers and heights that are looked at
 HEIGHTS = tuple(Rational(*z) for z in ((1, 2), (1, 3), (3, 4), (1, 100)))
 
 
@@ -51,13 +52,6 @@ class Source:
     def cosines(self) -> list[Rational]:
         """Values of φ, which is above −1/d."""
         return [one for one in COSINES if one * self.dimension > -1]
-
-    def layer(self, index: sympy.Symbol) -> int:
-        """A layer of the domain, above the first."""
-        found = 2
-        while self.where and found < 9 and self.where.implies(index >= found + 1):
-            found += 1
-        return found
 
     @property
     def free(self) -> set[sympy.Symbol]:
@@ -125,11 +119,24 @@ class Source:
         if self.relation == "=":
             for layer in (sy.j, sy.l, sy.site_s):
                 if layer in self.free:
-                    yield f"{text(layer)} = 3", layer - 3
+                    at = self.within(layer, 3)
+                    yield f"{text(layer)} = {at}", layer - at
             if sy.M in self.free:
-                yield "M = 4", sy.M - 4
-                yield "M = j + 2", sy.M - sy.j - 2
+                at, above = self.within(sy.M, 4), self.within(sy.M - sy.j, 2)
+                yield f"M = {at}", sy.M - at
+                yield f"M = j + {above}", sy.M - sy.j - above
         yield from self.heights()
+
+    def within(self, index: sympy.Expr, least: int) -> int:
+        """The first whole number from ``least`` on that an index has in the domain."""
+        if self.where is None or not index.free_symbols <= {*self.where.indices}:
+            return least
+        found = (at for at in range(least, _HIGHEST) if not self._misses(index, at))
+        return next(found, least)
+
+    def _misses(self, index: sympy.Expr, at: int) -> bool:
+        assert self.where is not None
+        return self.where.also(Eq(index, at, evaluate=False)).is_empty
 
     def heights(self) -> Zeros:
         """Yield relative heights, with what vanishes there."""

@@ -178,7 +178,7 @@ def _reaches(value: sympy.Expr, least: sympy.Expr, where: Where) -> bool:
         return True
     if where.below(apart, affine.ZERO):
         return False
-    raise UndeterminedError(f"whether {value} ≥ {least}", affine.to_sympy(apart))
+    raise UndeterminedError(f"whether {value} ≥ {least}", apart)
 
 
 def _height(layer: sympy.Expr, where: Where, most: int) -> int:

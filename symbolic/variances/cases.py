@@ -12,7 +12,7 @@ import sympy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
-from force_diffusion.symbolic.algebra.linear_forms import LinearForm, Ray, Site
+from force_diffusion.symbolic.algebra.linear_forms import LinearForm
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.variances.weights import UndeterminedError
 
@@ -36,23 +36,6 @@ class Case:
     def put_in(self, value: RationalFunction) -> RationalFunction:
         """Another function of the indices, with the values that they have here."""
         return value.substitute({symbol: FIELD.constant(n) for symbol, n in self.at.items()})
-
-
-def at_value(form: LinearForm, symbol: sympy.Symbol, at: int) -> LinearForm:
-    """The form with a whole number in place of an index.
-
-    Rays stay where they start: moved to the normal form, they would leave single sites behind,
-    and these more coincidences to tell apart.
-    """
-    result, image = LinearForm(), {symbol: FIELD.constant(at)}
-    for site, weight in form.sites.items():
-        i, j = (affine.fixed(index, symbol, at) for index in (site.i, site.j))
-        result.add_site(Site(site.family, i, j), weight.substitute(image))
-    for ray, weight in form.rays.items():
-        line, start = (affine.fixed(index, symbol, at) for index in (ray.line, ray.start))
-        moved = Ray(ray.family, ray.slope, line, start)
-        result.rays[moved] = result.rays.get(moved, FIELD.zero) + weight.substitute(image)
-    return result
 
 
 Forms = tuple[LinearForm, ...]
@@ -81,7 +64,7 @@ def by_case(
             raise
     bound = lower[symbol]
     others = {index: least for index, least in lower.items() if index != symbol}
-    fixed = tuple(at_value(form, symbol, bound) for form in forms)
+    fixed = tuple(form.put_in({symbol: affine.constant(bound)}) for form in forms)
     yield from by_case(fixed, others, generic, value, {**at, symbol: bound})
     yield from by_case(forms, {**lower, symbol: bound + 1}, generic, value, at)
 

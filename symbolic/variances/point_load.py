@@ -126,8 +126,7 @@ class Weights:
             return True
         if self.where.below(value, affine.ZERO):
             return False
-        number = affine.to_sympy(value)
-        raise UndeterminedError(f"whether {number} ≥ 0", number)
+        raise UndeterminedError(f"whether {affine.to_sympy(value)} ≥ 0", value)
 
     def _equal(self, one: Affine, other: Affine) -> bool:
         apart = affine.add(one, other, -1)
@@ -136,7 +135,7 @@ class Weights:
         if self.where.differ(one, other):
             return False
         above = self._holds(apart)
-        number = affine.to_sympy(affine.shifted(apart, -1 if above else 1))
+        number = affine.shifted(apart, -1 if above else 1)
         raise UndeterminedError(f"whether {affine.to_sympy(apart)} = 0", number)
 
     def _same(self, one: Bead, other: Bead) -> bool:

@@ -41,12 +41,19 @@ class Order(Protocol):
 class UndeterminedError(NotExactError):
     """An order relation between layers does not hold throughout the region.
 
-    ``number`` is ≥ 0 on one part of it and below on the other, where that is known.
+    Args:
+        reason: which, in words.
+        apart: whose sign is not known; None for what no sign decides.
     """
 
-    def __init__(self, words: str, number: sympy.Expr | None = None) -> None:
-        super().__init__(words)
-        self.number = number
+    def __init__(self, reason: str, apart: Affine | None = None):
+        super().__init__(reason)
+        self.apart = apart
+
+    @property
+    def number(self) -> sympy.Expr | None:
+        """The same in SymPy."""
+        return None if self.apart is None else affine.to_sympy(self.apart)
 
 
 @dataclass(frozen=True)
@@ -57,6 +64,10 @@ class Run:
     first: Affine
     last: Affine
     weight: RationalFunction
+
+    def at(self, layer: Affine) -> RationalFunction:
+        """The weight of one of the layers."""
+        return self.weight.substitute({LAYER: affine.to_field(layer)})
 
 
 @dataclass(frozen=True)
@@ -104,16 +115,88 @@ def take_apart(form: LinearForm, region: Order) -> Pieces:
     _assert_lines_apart(runs, region)
     special = {}
     for site in sites:
-        counted = tuple(
-            run.weight.substitute({LAYER: affine.to_field(site.j)})
-            for run in runs
-            if _meets(site, run, region)
-        )
+        counted = tuple(run.at(site.j) for run in runs if _meets(site, run, region))
         full = form.sites.get(site, FIELD.zero)
         for part in counted:
             full = full + part
         special[site] = full, counted
     return Pieces(runs, special)
+
+
+def sum_of_products(one: LinearForm, other: LinearForm, region: Order) -> RationalFunction:
+    """Σ weight · weight′ over all sites of two forms: their covariance, in the same unit.
+
+    Single sites and runs of one form meet those of the other in one site, on a line, or nowhere.
+
+    Raises:
+        UndeterminedError: when the region does not fix which.
+        NotExactError: when a form has a constant term or an endless ray.
+    """
+    forms = (one,) if one is other else (one, other)
+    if any(site.family == CONSTANT for form in forms for site in form.sites):
+        raise NotExactError("a constant has no variance: subtract it first")
+    runs = [[run for line in _lines(form) for run in _runs(line, form, region)] for form in forms]
+    total = FIELD.zero
+    for a, (site, weight) in enumerate(one.sites.items()):
+        for b, (place, factor) in enumerate(other.sites.items()):
+            if one is other and b > a:
+                break
+            if _are_one(site, place, region):
+                total = total + weight * factor
+    for form, against in ((one, runs[-1]), (other, runs[0])):
+        for site, weight in form.sites.items():
+            for run in against:
+                if _meets(site, run, region):
+                    total = total + weight * run.at(site.j)
+    for run in runs[0]:
+        for line in runs[-1]:
+            total = total + _shared(run, line, region)
+    return total
+
+
+def _are_one(one: Site, other: Site, region: Order) -> bool:
+    if one == other:
+        return True
+    if one.family != other.family or region.differ(one.i, other.i) or region.differ(one.j, other.j):
+        return False
+    raise UndeterminedError(
+        f"sites ({affine.to_sympy(one.i)}, {affine.to_sympy(one.j)}) and "
+        f"({affine.to_sympy(other.i)}, {affine.to_sympy(other.j)})",
+        affine.add(*((one.i, other.i) if one.i != other.i else (one.j, other.j)), -1),
+    )
+
+
+def _shared(one: Run, other: Run, region: Order) -> RationalFunction:
+    """Σ of the products of two runs' weights."""
+    if region.below(one.last, other.first) or region.below(other.last, one.first):
+        return FIELD.zero
+    crossing = _crossing(one.ray, other.ray)
+    if crossing is not None:
+        if not all(_inside(crossing, run, region) for run in (one, other)):
+            return FIELD.zero
+        return one.at(crossing.j) * other.at(crossing.j)
+    if (one.ray.family, one.ray.slope) != (other.ray.family, other.ray.slope):
+        return FIELD.zero
+    if one.ray.line != other.ray.line:
+        _assert_lines_apart((one, other), region)
+        return FIELD.zero
+    first = one.first if _is_last(one.first, other.first, region) else other.first
+    last = other.last if _is_last(one.last, other.last, region) else one.last
+    if not _is_last(affine.shifted(last, 1), first, region):
+        return FIELD.zero
+    return sum_polynomial(
+        one.weight * other.weight, LAYER, affine.to_field(first), affine.to_field(last)
+    )
+
+
+def _is_last(layer: Affine, other: Affine, region: Order) -> bool:
+    """Whether a layer is the other one or above it."""
+    apart = affine.add(layer, other, -1)
+    if region.nonnegative(apart):
+        return True
+    if region.nonnegative(affine.times(apart, -1)):
+        return False
+    raise UndeterminedError(f"layers {affine.to_sympy(layer)} and {affine.to_sympy(other)}", apart)
 
 
 def _lines(form: LinearForm) -> list[tuple[str, int, Affine]]:
@@ -129,7 +212,8 @@ def _runs(line: tuple[str, int, Affine], form: LinearForm, region: Order) -> lis
         if region.nonnegative(affine.add(one.start, other.start, -1)):
             return 1
         raise UndeterminedError(
-            f"layers {affine.to_sympy(one.start)} and {affine.to_sympy(other.start)}"
+            f"layers {affine.to_sympy(one.start)} and {affine.to_sympy(other.start)}",
+            affine.add(one.start, other.start, -1),
         )
 
     rays.sort(key=cmp_to_key(order))
@@ -166,7 +250,8 @@ def _meets(site: Site, run: Run, region: Order) -> bool:
         return False
     raise UndeterminedError(
         f"whether ({affine.to_sympy(site.i)}, {affine.to_sympy(site.j)}) lies on the line "
-        f"({affine.to_sympy(on_line.i)}, {affine.to_sympy(site.j)})"
+        f"({affine.to_sympy(on_line.i)}, {affine.to_sympy(site.j)})",
+        affine.add(site.i, on_line.i, -1),
     )
 
 
@@ -185,7 +270,8 @@ def _assert_lines_apart(runs: tuple[Run, ...], region: Order) -> None:
             if not apart:
                 raise UndeterminedError(
                     f"whether the lines {affine.to_sympy(one.ray.line)} and "
-                    f"{affine.to_sympy(other.ray.line)} are one"
+                    f"{affine.to_sympy(other.ray.line)} are one",
+                    affine.add(one.ray.line, other.ray.line, -1),
                 )
 
 
@@ -202,17 +288,12 @@ def _inside(site: Site, run: Run, region: Order) -> bool:
         return False
     raise UndeterminedError(
         f"layer {affine.to_sympy(site.j)} against "
-        f"{affine.to_sympy(run.first)} … {affine.to_sympy(run.last)}"
+        f"{affine.to_sympy(run.first)} … {affine.to_sympy(run.last)}",
+        below if region.nonnegative(above) else above,
     )
 
 
 def _assert_distinct(sites: list[Site], region: Order) -> None:
     for a, one in enumerate(sites):
         for other in sites[:a]:
-            if one.family == other.family and not (
-                region.differ(one.i, other.i) or region.differ(one.j, other.j)
-            ):
-                raise UndeterminedError(
-                    f"sites ({affine.to_sympy(one.i)}, {affine.to_sympy(one.j)}) and "
-                    f"({affine.to_sympy(other.i)}, {affine.to_sympy(other.j)})"
-                )
+            _are_one(one, other, region)

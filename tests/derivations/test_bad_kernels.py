@@ -32,6 +32,7 @@ def _nothing_is_remembered() -> Iterator[None]:
         moments.value,
         moments.worked_out,
         moments.in_the_radii,
+        moments._between,
         theorem._instance_of,
     )
     for one in remembering:

@@ -233,8 +233,8 @@ def test_means_of_neighbours_are_those_of_exact_packings(
     for quantity, form in forms.items():
         true = neighbours.mean_variance(quantity, height, layer, count, n)
         assert form(height, layer, count, phi, ONE, ONE) == true
-        with pytest.raises(ValueError, match="N = 2"):
-            form(height, layer, 2, phi, ONE, ONE)
+        with pytest.raises(ValueError, match="N = 1"):
+            form(height, layer, 1, phi, ONE, ONE)
         with pytest.raises(ValueError, match=r"j = .*allowed"):
             form(height, count, count, phi, ONE, ONE)
 

@@ -11,8 +11,13 @@ from force_diffusion.symbolic.algebra.exact import LAYER, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
 from force_diffusion.symbolic.algebra.reading import Reader, UnsafeBoundsError
 from force_diffusion.symbolic.kernel.decisions import GEOMETRIES, Verdict, decide_linear
-from force_diffusion.symbolic.variances.weights import UndeterminedError, take_apart
+from force_diffusion.symbolic.variances.weights import (
+    UndeterminedError,
+    sum_of_products,
+    take_apart,
+)
 from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.symbolic.strategies import REGION, expressions, points
 
@@ -101,6 +106,47 @@ def test_sum_of_squares(expression: sympy.Expr, point: Point) -> None:
         return  # the region leaves an order open, which is said and never guessed
     weights = explicit.weights(expression, {**VALUES, **point})
     assert evaluate(closed, point) == sum((w**2 for w in weights.values()), Fraction(0))
+
+
+@given(expressions, expressions, points(), st.booleans())
+def test_sum_of_products(
+    one: sympy.Expr, other: sympy.Expr, point: Point, is_variance: bool
+) -> None:
+    forms = [Reader(None).scalar(one)]
+    forms.append(forms[0] if is_variance else Reader(None).scalar(other))
+    try:
+        closed = sum_of_products(*forms, REGION)
+    except UndeterminedError:
+        return
+    left, right = (
+        explicit.weights(side, {**VALUES, **point}) for side in (one, one if is_variance else other)
+    )
+    total = sum((w * right.get(site, 0) for site, w in left.items()), Fraction(0))
+    assert evaluate(closed, point) == total
+
+
+@pytest.mark.parametrize("slope", [1, -1])
+def test_runs_that_share_some_layers_are_summed_over_these(slope: int) -> None:
+    """Layers 1 … j and 2 … M of one line, with weights 1 and the layer."""
+    lines = [
+        sympy.Sum(weight * sy.DeltaR(sy.i + slope * sy.m, sy.m), (sy.m, low, high))
+        for weight, low, high in ((sympy.Integer(1), 1, sy.j), (sy.m, 2, sy.M))
+    ]
+    found = sum_of_products(*map(Reader(None).scalar, lines), Region({sy.j: 3, sy.M: sy.j + 2}))
+    assert evaluate(found, {sy.j: 5, sy.M: 8}) == 2 + 3 + 4 + 5
+    with pytest.raises(UndeterminedError):  # which of the two ends first is open
+        sum_of_products(*map(Reader(None).scalar, lines), Region({sy.j: 2, sy.M: 2}))
+
+
+@given(expressions, points(), st.integers(-2, 2))
+def test_other_indices_are_put_in(expression: sympy.Expr, point: Point, across: int) -> None:
+    """M = j + 2, so many places to the right."""
+    image = {sy.i: sy.i + 2 * across, sy.M: sy.j + 2}
+    form = Reader(None).scalar(expression)
+    moved = form.put_in({symbol: affine.from_sympy(value) for symbol, value in image.items()})
+    at = {**point, sy.M: point[sy.j] + 2}
+    there = explicit.weights(expression, {**VALUES, **at, sy.i: at[sy.i] + 2 * across})
+    assert unfold(moved, at, 3 * at[sy.M] + 12) == there
 
 
 def test_a_shifted_start_gives_one_normal_form() -> None:
