@@ -199,7 +199,7 @@ DERIVATION = Derivation(
         (m, "layer of a bead on the diagonal through the contact along n⁺"),
     ),
     assumptions=("first order in δr", "M → ∞ at fixed z = j/M, 0 < z < 1"),
-    premises=(eq05.DERIVATION, eq11.DERIVATION),
+    premises=(eq04.DERIVATION, eq05.DERIVATION, eq11.DERIVATION),
     printed=(PRINTED,),
     loads=("surface",),
     relation="≈",

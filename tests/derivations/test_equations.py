@@ -45,7 +45,7 @@ def test_mutants_are_refuted(derivation: Derivation) -> None:
     for part, equation in enumerate(derivation.printed):
         for _, change, mutant in mutants(equation):
             ruling = derivation.rule_on(part, mutant)
-            assert ruling.verdict in (Verdict.REFUTED, Verdict.PROVED), (change, ruling.note)
+            assert ruling.verdict is not Verdict.UNDECIDED, (change, ruling.note)
             assert ruling.note
             if ruling.verdict is Verdict.PROVED:
                 equivalent.append(change)

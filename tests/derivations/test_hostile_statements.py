@@ -226,8 +226,8 @@ def test_a_sum_without_terms_is_no_way_to_write_zero_unless_it_is_one(number: in
 
 
 CASES = [(number, case) for number in NUMBERS for case in fd.equation(number).cases]
-EDGES = ("base", "base+1", "surface", "bulk-base", "bulk-base+1", "bulk-surface")
-"""Forms of a layer at an edge: false of the layers that the printed equation is about."""
+EDGES = ("base", "base+1", "surface")
+"""How forms of a layer at an edge end: false of the layers that the printed equation is about."""
 
 
 @pytest.mark.parametrize(("number", "case"), CASES)
@@ -239,7 +239,7 @@ def test_an_exact_form_is_proved_and_a_millionth_more_is_not(number: int | str, 
     assert equation.decide(more).verdict != "proved"
     assert equation.decide(less).verdict != "proved"
     found = equation.decide(form)
-    if case in EDGES:
+    if case.endswith(EDGES):
         assert found.verdict != "proved"
     elif any(sympy.expand(form.lhs - line.lhs) == 0 for line in lines(number)):
         assert found.verdict == "proved", str(found)
@@ -249,7 +249,7 @@ def test_an_exact_form_is_proved_and_a_millionth_more_is_not(number: int | str, 
 
 
 def test_exact_forms_of_both_kinds_were_tried() -> None:
-    proved = {n for n, case in CASES if case not in EDGES}
+    proved = {n for n, case in CASES if not case.endswith(EDGES)}
     assert proved == {13, 14, 15, 16, *(f"B{n}" for n in (2, 3, 5, 6, 10, *range(13, 20)))}
 
 
