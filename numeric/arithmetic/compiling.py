@@ -4,10 +4,12 @@ No fast-math, and LLVM is not given leave to fuse a product with a sum, so that 
 those of NumPy to the bit. Import it only where work repays loading the compiler (half a second).
 """
 
+import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache
 from itertools import pairwise
+from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import llvmlite.binding
@@ -17,6 +19,8 @@ from numba.extending import intrinsic
 from .machine import cores
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+# Where recorded code lies, and beside it what was compiled of it.
+CODES = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "force-diffusion"
 
 # Rows never overlap, but LLVM has to check; it gives up vectorising at 8 comparisons by default.
 llvmlite.binding.set_option("force-diffusion", "--runtime-memory-check-threshold=512")
@@ -57,6 +61,17 @@ borrowed: Any = intrinsic(_borrowed_code)
 
 Counting costs as much as thirty beads for each run of them. The caller must hold the array.
 """
+
+
+def _fma_code(typing: Any, a: Any, b: Any, c: Any) -> Any:
+    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.fma(*arguments)
+
+    return numba.float64(numba.float64, numba.float64, numba.float64), code
+
+
+fma: Any = intrinsic(_fma_code)
+"""a b + c, rounded once."""
 
 
 @lru_cache(maxsize=1)

@@ -8,12 +8,13 @@ q of layer j is i = 2q + (j mod 2), 0 ≤ i < 2W. Lengths are in units of the me
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import isqrt
 from typing import Any, TypeVar, overload
 
 import numpy as np
 
 from ..arithmetic.systems import Array
-from .branch import Site
+from .branch import Axis, AxisContact, Branch, Contact, Direction, Site
 
 T = TypeVar("T")
 
@@ -48,6 +49,22 @@ def bead_of(site: Site, width: int) -> Bead:
     """Name a bead (p, q, j), of a site of the row of W² beads."""
     i, j = site
     return (*divmod((i - j % 2) // 2 % width**2, width), j)
+
+
+def lower_bead(upper: Bead, axis: Direction, width: int) -> Bead:
+    """Give the bead below a contact."""
+    p, q, j = upper
+    return (p - (axis == Axis.FIRST)) % width, (q - (axis == Axis.SECOND)) % width, j - 1
+
+
+def lower_beads(upper: dict[str, Array], axes: Array, width: int) -> dict[str, Array]:
+    """Do so for columns p, q and j of beads, and the names of axes."""
+    first, second = axes == Axis.FIRST.value, axes == Axis.SECOND.value
+    return {
+        "p": (upper["p"] - first) % width,
+        "q": (upper["q"] - second) % width,
+        "j": upper["j"] - 1,
+    }
 
 
 def bead_of_number(number: int, width: int) -> Bead:
@@ -124,10 +141,15 @@ def starts(rows: Sequence[Layer]) -> Array:
 
 @dataclass(frozen=True)
 class Region:
-    """Rows of beads, one a layer from the base (``rows[0]``) up; ``width`` None: infinite slab."""
+    """Rows of beads, one a layer from the base (``rows[0]``) up; ``width`` None: infinite slab.
+
+    In three dimensions a row is a whole layer of W² beads, and ``width`` their number: a step along
+    e_1 (e_2) is one of p (q), and one along e_3 keeps both.
+    """
 
     width: int | None
     rows: tuple[Layer, ...]
+    dimension: int = 2
 
     @property
     def top(self) -> int:
@@ -141,11 +163,65 @@ class Region:
 
     def site(self, bead: int) -> tuple[int, int]:
         """Give (i, j) of a bead by its number, row after row."""
-        for row in self.rows:
-            if bead < row.count:
-                return row.first + 2 * bead, row.j
-            bead -= row.count
-        raise LookupError("the region has no such bead")
+        row = int(np.searchsorted(self.starts, bead, "right")) - 1
+        layer = self.rows[row]
+        return layer.first + 2 * (bead - int(self.starts[row])), layer.j
+
+    @property
+    def side(self) -> int:
+        """W, in three dimensions."""
+        return isqrt(self.width or 0)
+
+    def bead(self, layer: Layer, column: int) -> tuple[int, ...]:
+        """Name a bead of a row: (i, j), or (p, q, j)."""
+        site = layer.first + 2 * column, layer.j
+        return site if self.dimension == 2 else bead_of(site, self.side)
+
+    def contact_below(self, layer: Layer, branch: Direction, column: int) -> Contact | AxisContact:
+        """Name the contact below a bead of a row."""
+        if self.dimension == 2:
+            return Contact(layer.first + 2 * column - branch.side, layer.j - 1, Branch(branch))
+        p, q, j = bead_of((layer.first + 2 * column, layer.j), self.side)
+        return AxisContact(*lower_bead((p, q, j), branch, self.side), Axis(branch))
+
+    def below(self, values: Array, source: Layer, layer: Layer, axis: int) -> Array:
+        """Read the values of the row below at x − e_axis, for each x of ``layer``."""
+        return self.moved(values, source, layer, self.step(axis, -1))
+
+    def above(self, values: Array, source: Layer, layer: Layer, axis: int, zero: Any) -> Array:
+        """Read the values of the row above at x + e_axis; what it lacks reads ``zero``."""
+        return self.moved(values, source, layer, self.step(axis, 1), zero)
+
+    def here(self, values: Array, source: Layer, layer: Layer) -> Array:
+        """Read the values of a row at the sites of a part of it."""
+        return values if source == layer else pick(values, source, layer, self.width)
+
+    def step(self, axis: int, count: int) -> tuple[int, ...]:
+        """Give so many steps along one base vector."""
+        return tuple(count if a == axis else 0 for a in range(self.dimension))
+
+    def moved(
+        self,
+        values: Array,
+        source: Layer,
+        layer: Layer,
+        steps: tuple[int, ...],
+        zero: Any = None,
+    ) -> Array:
+        """Read the values of row ``source`` at x + Σ steps_a e_a, for each x of ``layer``.
+
+        Shapes: (…, source.count) → (…, layer.count). Sites that ``source`` lacks read ``zero``;
+        without a ``zero`` they raise ``LookupError``.
+        """
+        if self.dimension == 2:
+            first = layer.first + steps[0] - steps[1]
+            wanted = Layer(layer.j + sum(steps), first, layer.count)
+            return pick(values, source, wanted, self.width, zero)
+        if not any(steps[:2]):
+            return values
+        shape = values.shape
+        square = values.reshape(*shape[:-1], self.side, self.side)
+        return np.roll(square, (-steps[0], -steps[1]), (-2, -1)).reshape(shape)
 
     @cached_property
     def starts(self) -> Array:
@@ -167,9 +243,9 @@ class Region:
         return all(r.count == self.width and r.first == lowest_column(r.j) for r in self.rows)
 
 
-def whole(width: int, height: int) -> Region:
-    """Give all (M + 1) W beads of a periodic packing."""
-    return Region(width, tuple(full_layer(j, width) for j in range(height + 1)))
+def whole(width: int, height: int, dimension: int = 2) -> Region:
+    """Give all beads of a periodic packing, (M + 1) rows of ``width``."""
+    return Region(width, tuple(full_layer(j, width) for j in range(height + 1)), dimension)
 
 
 def standing_on_base(rows: Sequence[Layer], width: int | None) -> Region:

@@ -3,16 +3,15 @@
 Signs of forces are those of the arithmetic that solved them: with balls they are certified.
 """
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..arithmetic.systems import Array, as_floats
-from ..lattice.branch import AxisContact, Contact, Site
-from .forces import Forces, pulling
-from .gaps import NEIGHBOURS, RESOLUTION, gaps
-from .packing import CompiledPacking, SolvedPacking
+from ..lattice.branch import AxisContact, Contact
+from .gaps import gaps, named
+from .sweep import Forces, SolvedPacking, pulling
 
 PHYSICAL = "check that it is physical"
 
@@ -62,92 +61,22 @@ class Physicality:
         return self.smallest_gap, upper[-1] - lower[-1], lower[-1]
 
     def look_at_gaps(self, packing: SolvedPacking, layers: range | None = None) -> None:
-        """Measure the gaps of every pair of near neighbours within the region.
+        """Measure the gaps of all pairs of beads that could meet within the region.
 
         Of the lower bead's ``layers`` only, if some are given.
         """
-        top = packing.region.top
-        layers = range(top + 1) if layers is None else layers
-        if isinstance(packing, CompiledPacking):
-            from . import compiled_gaps
+        layers = range(packing.region.top + 1) if layers is None else layers
+        found = gaps(packing, layers)
+        self.overlaps += found.overlaps
+        self.undecided_gaps += found.undecided + found.unseen
+        if found.between is not None and not found.smallest >= self._smallest:
+            lower, upper = found.between
+            self.smallest_gap, self.smallest_in = found.smallest, self.looks_at[found.packing]
+            self.between = named(packing, lower), named(packing, upper)
 
-            region, width = packing.region, packing.region.width
-            period = None if width is None else 2 * width
-
-            def named(bead: int) -> Site:
-                i, j = region.site(bead)
-                return _home(i, period), j
-
-            if self.took(compiled_gaps.gaps(packing, layers), named):
-                return
-        rows = range(layers.start, min(layers.stop + 3, top + 1))
-        c_plus = {j: as_floats(packing.c.plus[j]) for j in rows}
-        c_minus = {j: as_floats(packing.c.minus[j]) for j in rows}
-        rho = {j: as_floats(packing.rho[j]) for j in rows}
-        for dj in (0, 1, 2, 3):
-            for j in range(layers.start, min(layers.stop, top + 1 - dj)):
-                for di, dj_of in NEIGHBOURS:
-                    if dj_of == dj:
-                        self._pairs(packing, (c_plus, c_minus, rho), j, (di, dj))
-
-    def took(
-        self,
-        found: tuple[float, tuple[int, int, int] | None, int, int] | None,
-        named: Callable[[int], tuple[int, ...]],
-    ) -> bool:
-        """Take in what ``compiled_gaps`` found; ``named`` names a bead. Say whether it could."""
-        if found is None:
-            return False
-        smallest, beads, overlaps, undecided = found
-        self.overlaps += overlaps
-        self.undecided_gaps += undecided
-        if beads is not None and (self.smallest_gap is None or not smallest >= self.smallest_gap):
-            self.smallest_gap, self.smallest_in = smallest, self.looks_at[beads[2]]
-            self.between = named(beads[0]), named(beads[1])
-        return True
-
-    def _pairs(
-        self,
-        packing: SolvedPacking,
-        values: tuple[dict[int, Array], dict[int, Array], dict[int, Array]],
-        j: int,
-        offset: tuple[int, int],
-    ) -> None:
-        di, dj = offset
-        width = packing.region.width
-        here, there = packing.region.rows[j], packing.region.rows[j + dj]
-        index = np.arange(here.count) + (here.first + di - there.first) // 2
-        if width is not None:
-            index %= width
-        inside = (index >= 0) & (index < there.count)
-        if width == 1 and dj == 0:
-            return  # a bead beside its own image
-        if not inside.any():
-            return
-        c_plus, c_minus, rho = values
-        other = index[inside]
-        up = c_plus[j + dj][..., other] - c_plus[j][..., inside]
-        um = c_minus[j + dj][..., other] - c_minus[j][..., inside]
-        both = rho[j][..., inside] + rho[j + dj][..., other]
-        period = 2 * width if width is not None else None
-
-        def pair(bead: int) -> tuple[Site, Site]:
-            i = here.first + 2 * int(np.flatnonzero(inside)[bead])
-            return (_home(i, period), here.j), (_home(i + di, period), there.j)
-
-        self.count_gaps(gaps(packing.n_x, offset, up, um, both), pair)
-
-    def count_gaps(
-        self, gap: Array, pair: Callable[[int], tuple[tuple[int, ...], tuple[int, ...]]]
-    ) -> None:
-        """Take in gaps, shape (…, beads); ``pair`` names the two beads of one."""
-        self.overlaps += int(np.count_nonzero(gap < -RESOLUTION))
-        self.undecided_gaps += int(np.count_nonzero(np.abs(gap) <= RESOLUTION))
-        smallest = float(gap.min())
-        if self.smallest_gap is None or not smallest >= self.smallest_gap:
-            *batch, at = np.argwhere(gap == gap.min())[0]
-            self.smallest_in = self.looks_at[int(batch[0]) if batch else 0]
-            self.smallest_gap, self.between = smallest, pair(int(at))
+    @property
+    def _smallest(self) -> float:
+        return math.inf if self.smallest_gap is None else self.smallest_gap
 
     def look_at_forces(self, forces: Forces, layers: range | None = None) -> None:
         """Count the contacts that surely pull and those whose sign stays open.
@@ -171,7 +100,3 @@ class Physicality:
                     *batch, q = map(int, np.argwhere(pulls)[0])
                     self.first_tensile_in = self.looks_at[batch[0] if batch else 0]
                     self.first_tensile = forces.contact(layer, branch, q)
-
-
-def _home(i: int, period: int | None) -> int:
-    return i if period is None else i % period

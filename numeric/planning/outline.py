@@ -165,7 +165,6 @@ def outline(
         scene.effects.protocol if route == Route.UNILATERAL else "",
         scene.effects.most_events,
         scene.effects.most_seconds,
-        dimension=scene.packing.dimension,
     )
     return Outline(scene, quantity, problem, tuple(skipped), limit, closed, tolerance)
 

@@ -10,10 +10,9 @@ from ..arithmetic.systems import NumberSystem
 from ..disorder.radii import ArrayRadii, RadiusError
 from ..lattice.branch import AxisContact, Contact
 from ..mechanics.engine import chunk_size, packings
-from ..mechanics.forces import NotStandingError
-from ..mechanics.packing import UnbuildableError
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route
+from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Work
 from ..unilateral.network import Network, Relaxed, UnfinishedError
 from .base import RATIO, Quantity, Table

@@ -19,10 +19,9 @@ from ..lattice.branch import Branch, Direction, PerAxis, PerBranch
 from ..lattice.layers import Layer, Region, pick, standing_on_base, whole
 from ..lattice.regions import Rows
 from ..mechanics import plain
-from ..mechanics.forces import Forces
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Route, Solved
-from ..mechanics.three_dimensions import side
+from ..mechanics.sweep import Forces
 from ..scene.scene import Scene
 from ..theory.first_order import std_of_spheres, stds_of_discs
 
@@ -277,11 +276,16 @@ class ContactQuantity(Quantity):
 
     def ordered_blocks(self, problem: Problem) -> list[list[Fraction]]:
         """Give the ordered forces, block by block; nothing above the highest load."""
+        return self.ordered_of(problem, self.blocks(problem))
+
+    def ordered_of(self, problem: Problem, blocks: "Sequence[Block]") -> list[list[Fraction]]:
+        """Give the ordered forces of some blocks."""
         load, rows = problem.load, problem.force_rows
-        forces = load.ordered_forces(rows, load.strength(problem.n_x, FLOAT64), FLOAT64)
+        strength = load.strength(problem.n_x, FLOAT64)
+        forces = load.ordered_forces(problem.region, rows, strength, FLOAT64)
         return [
             [Fraction(float(F)) for F in forces.ordered[branch][row.j]] if row.j < len(rows) else []
-            for branch, row in self.blocks(problem)
+            for branch, row in blocks
         ]
 
 
@@ -339,7 +343,7 @@ def has_theory(problem: Problem) -> bool:
     if not drawn or load.loaded is not None:
         return False
     if problem.dimension == 3:
-        return not load.angle_deg and side(problem) > problem.height + 1
+        return not load.angle_deg and problem.side > problem.height + 1
     return problem.width is None or problem.width > problem.height
 
 
