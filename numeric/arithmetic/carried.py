@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from .systems import FLOAT64, Array, midpoint
+from .systems import FLOAT64, LONGDOUBLE, Array, BigFloat, NumberSystem, midpoint
 
 _SPLIT = 2.0**27 + 1
 
@@ -212,3 +212,60 @@ class Carrying:
 
 
 CARRYING = Carrying()
+
+
+@dataclass(frozen=True)
+class Pairs(BigFloat):
+    """Numbers that float64 gave with their errors, both together: about 31 digits of each."""
+
+    dps: int = 35
+
+    @property
+    def name(self) -> str:
+        """How plans and results call it."""
+        return "float64 pairs"
+
+    @property
+    def bits(self) -> int:
+        """Bits of a value and its error."""
+        return 106
+
+
+PAIRS = Pairs()
+# What answers are gathered in beside float64, to compare: a longer significand, where there is one.
+LONGER: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """The largest errors that a sweep carried: of c, of δn and of changes; the largest force.
+
+    Of a force in units of the load; of all beads, since errors may cancel on the way.
+    """
+
+    moved: float = 0.0
+    turned: float = 0.0
+    changed: float = 0.0
+    force: float = 0.0
+
+    def __or__(self, other: "Sizes") -> "Sizes":
+        """Give the larger ones."""
+        return Sizes(
+            max(self.moved, other.moved),
+            max(self.turned, other.turned),
+            max(self.changed, other.changed),
+            max(self.force, other.force),
+        )
+
+    def unseen(self, height: int) -> tuple[float, float]:
+        """Allow for what the carried errors leave out: of forces, and of displacements.
+
+        These are the roundings of the errors themselves, a few in each layer, and products of two
+        errors: a changed direction changes how all others go on.
+        """
+        unit = height * 2.0**-52
+        again = height**2 * self.turned
+        force = self.changed * (unit + again) + self.force * self.turned * again
+        moved = self.moved * (unit + again) + self.turned * again
+        least = 64 * height * 2.0**-1074  # where errors are below what a float can hold
+        return force + least, moved + least

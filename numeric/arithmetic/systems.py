@@ -397,6 +397,10 @@ def system_of(name: str) -> NumberSystem:
     >>> [system_of(name).name for name in ("float64", "mpmath 50", "balls 50")]
     ['float64', 'mpmath, 50 digits', 'arb balls, 167 bits']
     """
+    if name == "pairs":
+        from .carried import PAIRS
+
+        return PAIRS
     kind, _, digits = str(name).partition(" ")
     if name in (FLOAT64.name, LONGDOUBLE.name):
         return FLOAT64 if name == FLOAT64.name else LONGDOUBLE
@@ -405,6 +409,6 @@ def system_of(name: str) -> NumberSystem:
             return BigFloat(int(digits))
         return Balls(math.ceil(int(digits) * math.log2(10)))
     raise ValueError(
-        'must be "float64", "longdouble", "mpmath N" or "balls N" with N decimal digits, '
+        'must be "float64", "pairs", "longdouble", "mpmath N" or "balls N" with N decimal digits, '
         f"from 15 to {MOST_DIGITS}"
     )

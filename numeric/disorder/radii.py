@@ -18,7 +18,7 @@ import numpy as np
 
 from ..arithmetic.decimals import short
 from ..arithmetic.errors import ForceDiffusionError
-from ..arithmetic.systems import Array, NumberSystem, array, from_floats, zeros
+from ..arithmetic.systems import Array, Hardware, NumberSystem, array, from_floats, zeros
 from ..lattice.layers import Layer, Stack
 from .normal import normal_deviates
 
@@ -297,7 +297,7 @@ def rows_of(
     """Give δr/r of several rows, one array a row; rows of equal length lie in one block."""
     rows = []
     block = None
-    if system.dtype is not object and len({layer.count for layer in layers}) == 1:
+    if isinstance(system, Hardware) and len({layer.count for layer in layers}) == 1:
         batch = (len(realisations),) if len(realisations) > 1 else ()
         block = np.empty((*batch, len(layers), layers[0].count), dtype=system.dtype)
     for n, layer in enumerate(layers):

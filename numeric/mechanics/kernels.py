@@ -164,7 +164,12 @@ def memory(batch: int, quantities: int, size: int) -> Array:
     It is one piece, since the system hands out big pieces faster. Quantities at distances that are
     multiples of 4096 bytes would compete for the same places of the cache.
     """
-    return np.empty((batch, quantities, size + (72 - size) % 512))
+    return np.empty((batch, *padded(quantities, size)))
+
+
+def padded(quantities: int, size: int) -> tuple[int, int]:
+    """Give the shape of ``memory`` of one packing."""
+    return quantities, size + (72 - size) % 512
 
 
 def layers_of(region: Region, rows: Sequence[Layer], starts: Array) -> Array:
@@ -236,6 +241,11 @@ class Deposition:
         self.quantities = d + d * d
         self.block = np.empty((0, 0, 0))
         self._check()
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Quantities, and the numbers of each, in memory."""
+        return padded((1 + self.carried) * self.quantities, self.region.beads)
 
     def _check(self) -> None:
         """Raise ``LookupError`` where the region lacks a support."""
@@ -321,6 +331,11 @@ class Descent:
         self.turns = np.stack([turns_of(region, one) for one in steps])
         self.g = self.lost = np.empty((0, 0, 0))
         self.set(loads)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Quantities, and the numbers of each, in memory."""
+        return padded((1 + self.carried) * self.region.dimension, int(self.starts[-1]))
 
     def set(self, loads: Loads) -> None:
         """Take other loads."""

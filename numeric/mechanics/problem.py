@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arithmetic.carried import Sizes
 from ..arithmetic.systems import FLOAT64, NumberSystem, from_floats
 from ..disorder.radii import Radii
 from ..lattice.branch import Contact, PerBranch, Site, per_direction
@@ -89,7 +90,7 @@ class Solved:
 
     ``single`` is the (force, change) of the one contact, or the (c⁺, c⁻) of the one bead, that
     line sums give alone. Where the sweep carried errors, all numbers are rounded only once, and
-    ``rest`` holds what that left of them, number by number.
+    ``rest`` holds what that left of them, number by number, and ``sizes`` how large errors were.
     """
 
     system: NumberSystem
@@ -97,6 +98,7 @@ class Solved:
     forces: Forces | None
     single: tuple[Any, Any] | None
     rest: "Solved | None" = None
+    sizes: Sizes = Sizes()
 
     def one(self, number: int) -> "Solved":
         """Give the ``number``-th realisation of those that were solved together."""
@@ -176,7 +178,7 @@ class Solved:
             g = None if forces.g is None else forces.g[part]
             forces = replace(forces, change=each(forces.change), g=g)
         rest = None if self.rest is None else self.rest._at(at)
-        return Solved(self.system, packing, forces, self.single, rest)
+        return Solved(self.system, packing, forces, self.single, rest, self.sizes)
 
 
 def rounded(solved: Solved) -> Solved:
@@ -210,4 +212,30 @@ def rounded(solved: Solved) -> Solved:
             single = part(tuple(single), which)
         return Solved(FLOAT64, packing, forces, single)
 
-    return replace(parts(0), rest=parts(1))
+    return replace(parts(0), rest=parts(1), sizes=_sizes(solved))
+
+
+def _sizes(solved: Solved) -> Sizes:
+    """Give the largest errors, of rows of numbers that carry theirs."""
+
+    def error(values: Any) -> float:
+        return float(np.abs(values.error).max(initial=0))
+
+    packing, forces, single = solved.packing, solved.forces, solved.single
+    found = Sizes()
+    if packing is not None and packing.memory is None:
+        found |= Sizes(
+            max(error(row) for _, rows in packing.c for row in rows),
+            max(error(x) for _, rows in packing.dn for row in rows for x in row),
+        )
+    if forces is not None:
+        rows = [pair for j in range(len(forces.rows)) for pair in forces.below(j)]
+        largest = [np.abs((F + g).value).max(initial=0) for _, F, g in rows]
+        found |= Sizes(
+            changed=max((error(g) for _, _, g in rows), default=0.0),
+            force=float(max(largest, default=0.0)),
+        )
+    if single is not None:
+        errors = [abs(float(one.error or 0)) for one in single]
+        found |= Sizes(max(errors), 0.0, max(errors), max(abs(float(s.value)) for s in single))
+    return found

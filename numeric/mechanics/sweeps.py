@@ -5,11 +5,12 @@ Import it only for work that repays loading the compiler.
 
 from collections.abc import Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from ..arithmetic.carried import CARRYING, Carried
+from ..arithmetic.carried import CARRYING, Carried, Sizes
 from ..arithmetic.compiling import on_all_cores
 from ..arithmetic.systems import FLOAT64, Array
 from ..disorder import compiled as drawing
@@ -45,6 +46,11 @@ class Drawing:
             of = slice(region.starts[j], region.starts[j + 1])
             self._put(rho, of, self.radii.row(row, realisations, system))
         return rho
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Parts, and the numbers of each, in memory."""
+        return 1 + self.carried, self.region.beads
 
     def _memory(self, batch: int) -> Array:
         if len(self.rho) < batch:
@@ -115,20 +121,45 @@ class Sweeps:
 
     def told(self, rho: Array, block: Array, descent: Descent | None, g: Array | None) -> Solved:
         """Tell what was solved row by row, with what rounding left if that is known."""
-        d, phi, region = self.problem.dimension, self.problem.phi, self.problem.region
-        values = told(phi, region, rho[:, 0], block[:, : d + d * d])
-        if not self.carried:
-            forces = None if g is None or descent is None else descent.told(descent.F, g)
-            return Solved(FLOAT64, values, forces, None)
-        errors = told(phi, region, rho[:, 1], block[:, d + d * d :])
-        found = rounded(Solved(FLOAT64, _paired(values, errors), None, None))
-        if g is None or descent is None:
-            return found
-        F, g_of = Carried(descent.F[:d], descent.F[d:]), Carried(g[:, :d], g[:, d:])
-        ordered, changes = F.nearest, g_of.nearest
-        near, rest = (descent.told(*pair) for pair in zip(ordered, changes, strict=True))
-        assert found.rest is not None
-        return replace(found, forces=near, rest=replace(found.rest, forces=rest))
+        return tell(self.problem.phi, self.problem.region, rho, block, descent, g)
+
+
+def tell(
+    phi: Fraction,
+    region: Region,
+    rho: Array,
+    block: Array,
+    descent: Descent | None = None,
+    g: Array | None = None,
+) -> Solved:
+    """Tell what loops have filled row by row; where numbers carry errors, rounded once."""
+    d, carried = region.dimension, rho.shape[1] == 2
+    at, beads, first = d + d * d, region.beads, region.rows[0].count
+    values = told(phi, region, rho[:, 0], block[:, :at])
+    balanced = g is not None and descent is not None
+    if not carried:
+        return Solved(FLOAT64, values, descent.told(descent.F, g) if balanced else None, None)
+    errors = told(phi, region, rho[:, 1], block[:, at:])
+    found = rounded(Solved(FLOAT64, _paired(values, errors), None, None))
+    sizes = Sizes(largest(block[:, at : at + d, :beads]), largest(block[:, at + d :, first:beads]))
+    if not balanced:
+        return replace(found, sizes=sizes)
+    ordered, changes = Carried(descent.F[:d], descent.F[d:]), Carried(g[:, :d], g[:, d:])
+    near, rest = (
+        descent.told(*pair) for pair in zip(ordered.nearest, changes.nearest, strict=True)
+    )
+    own = slice(descent.starts[descent.lowest], descent.starts[-1])
+    sizes |= Sizes(
+        changed=largest(g[:, d:, own]),
+        force=largest(descent.F[:d]) + largest(g[:, :d, own]),
+    )
+    assert found.rest is not None
+    return replace(found, forces=near, rest=replace(found.rest, forces=rest), sizes=sizes)
+
+
+def largest(values: Array) -> float:
+    """Give the largest absolute value."""
+    return float(max(values.max(initial=0), -values.min(initial=0)))
 
 
 def _paired(values: SolvedPacking, errors: SolvedPacking) -> SolvedPacking:

@@ -7,6 +7,7 @@ and adds nothing but the measured cost.
 from collections.abc import Sequence
 from fractions import Fraction
 
+from ..arithmetic.carried import LONGER, Pairs
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.machine import memory_limit as free_memory
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
@@ -18,7 +19,7 @@ from . import budget
 from .choice import choose
 from .expected_error import initial_bits
 from .outline import Outline, outline
-from .plan import LONGER, Method, Plan
+from .plan import Method, Plan
 
 # Realisations that are solved twice to estimate the error: four of packings that are small.
 FEW, SMALL = 4, 20_000
@@ -78,7 +79,9 @@ def _plan(
         return outlines[0].plan(Method(Balls(initial_bits(tolerance or TOUCHING, 1))))
     if tolerance is None:
         few = FEW if first.region.beads < SMALL else 1
-        return outlines[0].plan(_method(system, min(first.realisations, few)))
+        all_listed = _method(system, 1).carries and not outlines[0].quantity.merged
+        few = first.realisations if all_listed else min(first.realisations, few)
+        return outlines[0].plan(_method(system, few))
     return choose(outlines, tolerance, certified=certified)
 
 
@@ -86,6 +89,8 @@ def _method(system: NumberSystem, repeated: int) -> Method:
     """Say how the error of an answer in this arithmetic becomes known."""
     if isinstance(system, Balls):
         return Method(system)
+    if isinstance(system, Pairs):
+        return Method(system, system, repeated)
     return Method(system, LONGER if system is FLOAT64 else Balls(system.bits + 128), repeated)
 
 

@@ -18,9 +18,9 @@ from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import Branch, Contact
 from ..lattice.layers import full_layer
 from ..mechanics.physicality import PHYSICAL, Physicality
-from ..mechanics.work import Work
+from ..mechanics.work import ESTIMATE, Work
 from ..planning import planner, segments
-from ..planning.plan import ESTIMATE, Plan
+from ..planning.plan import Plan
 from ..quantities.answer import Answer, at_home, in_units
 from ..quantities.base import Block, Listed, Table, contact_changes
 from ..quantities.histogram import Histogram

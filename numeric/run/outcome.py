@@ -15,7 +15,8 @@ from ..arithmetic.systems import Array, as_floats
 from ..lattice.branch import AxisContact, Contact
 from ..mechanics.physicality import PHYSICAL, Physicality
 from ..mechanics.work import Work
-from ..planning.plan import ESTIMATE, Plan, plan_lines
+from ..mechanics.work import ESTIMATE
+from ..planning.plan import Plan, plan_lines
 from ..quantities.answer import Answer
 from ..statistics import histogram
 from ..tables import SHOWN, Row, html_table, rows_of
