@@ -191,8 +191,12 @@ def _progress(
 
 
 def _matrix_text(covariance: dict[str, Any]) -> str:
-    """The matrix as CSV: a column a row of the result, under that row's label."""
+    """The matrix as CSV: a column a row of the result, under that row's label.
+
+    A histogram has one group of all that is counted; without a label it is called what it is of.
+    """
     labels = [":".join(map(str, one)) for one in zip(*covariance["labels"].values(), strict=True)]
+    labels = labels or [covariance["of"]]
     rows = [dict(zip(labels, map(repr, row), strict=True)) for row in covariance["matrix"]]
     return csv_text(rows)
 

@@ -10,14 +10,20 @@ deletes nothing. It refuses to replace a file that this program did not write, o
 since, and the answer to another question, unless ``--overwrite`` is given. ``manifest.json`` of the
 folder knows which is which. Each file is written aside and renamed, the manifest last, so that none
 is ever half-written.
+
+Commands that run at once may share a folder. Each locks the names that it will write until it
+ends, and the manifest while it adds to it: one that would write what another one is about to write
+is refused before it solves anything. A lock is that of an open file, and dies with its process,
+however that ends. Where the system or the disk has no such locks, there are none.
 """
 
+import errno
 import hashlib
 import os
 import secrets
 import stat
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -35,6 +41,12 @@ from force_diffusion.derivations.export.manifest import (
     read_manifest,
 )
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
+
+# Locks are on files beside those that are written: a dot, the name, and this.
+LOCK = ".fd-lock"
+NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP}
+# How often a folder is made that others take away at once.
+ATTEMPTS = 100
 
 
 class OutputError(ForceDiffusionError):
@@ -123,15 +135,26 @@ class Folder:
         there. Raises ``OutputError`` as ``check`` does, and ``OSError`` that names
         the file where one can't be written.
         """
-        self.manifest = read_manifest(self.path)  # another command may have written meanwhile
-        self.check(files)
         contents = {
             name: content if isinstance(content, bytes) else content.encode()
             for name, content in files.items()
         }
+        with _locked(self.path / MANIFEST, wait=True):
+            self._write(contents, equations, seed, inputs or {})
+
+    def _write(
+        self,
+        contents: dict[str, bytes],
+        equations: Sequence[FoundEquation] | None,
+        seed: int | None,
+        inputs: Mapping[str, str],
+    ) -> None:
+        """Write files and the manifest, while no other command reads it to write it anew."""
+        self.manifest = read_manifest(self.path)  # another command may have written meanwhile
+        self.check(contents)
         before = self.manifest or Manifest(program=PROGRAM, files={})
         kept = {name: made for name, made in before.files.items() if self.holds(name)}
-        made = {n: self._made(content, seed, inputs or {}) for n, content in contents.items()}
+        made = {n: self._made(content, seed, inputs) for n, content in contents.items()}
         contents[MANIFEST] = (
             Manifest(
                 program=PROGRAM,
@@ -188,13 +211,15 @@ def output(
     """Give the folder to write into, or None without ``--out``; it is made if it is not there.
 
     ``names`` are the files that will be written, as far as they are known: whether they may be is
-    found out now. ``result_of`` is the question that they answer, such as "run scene.toml". Raises
-    ``OutputError`` where ``out`` can't be used, and ``OSError`` where it can't be written to.
+    found out now, and until the end no other command may. ``result_of`` is the question that they
+    answer, such as "run scene.toml". Raises ``OutputError`` where ``out`` can't be used, and
+    ``OSError`` where it can't be written to.
     """
     if out is None:
         yield None
         return
-    with _standing(out):
+    names = list(dict.fromkeys(names))
+    with _standing(out, names):
         folder = Folder(out, result_of, overwrite)
         folder.check(names)
         yield folder
@@ -222,8 +247,11 @@ def copied(contents: Mapping[str, bytes], folder: Path, overwrite: bool) -> list
 
 
 @contextmanager
-def _standing(folder: Path) -> Iterator[None]:
-    """See to it that a folder is there and can be written to; one that stays empty goes again."""
+def _standing(folder: Path, names: Sequence[str] = ()) -> Iterator[None]:
+    """See to it that a folder is there and can be written to, and lock names in it.
+
+    One that stays empty goes again.
+    """
     missing = []
     for one in (folder, *folder.parents):
         if one.is_dir():
@@ -236,11 +264,74 @@ def _standing(folder: Path) -> Iterator[None]:
             raise OutputError(f"'{one}' is a file. Give a folder.")
         missing.append(one)
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with TemporaryFile(dir=folder):  # whether it can be written to
-            pass
-        yield
+        with ExitStack() as locks:
+            for left in reversed(range(ATTEMPTS)):
+                try:
+                    folder.mkdir(parents=True, exist_ok=True)
+                    with TemporaryFile(dir=folder):  # whether it can be written to
+                        pass
+                    for name in names:
+                        locks.enter_context(_locked(folder / name, wait=False))
+                    break
+                except FileNotFoundError:  # another command took its empty folder away meanwhile
+                    locks.close()
+                    if not left:
+                        raise
+            yield
     finally:
         for one in missing:
             with suppress(OSError):  # not empty, or never made
                 one.rmdir()
+
+
+@contextmanager
+def _locked(path: Path, *, wait: bool) -> Iterator[None]:
+    """Keep other commands from writing a file; raise ``OutputError`` where one does, or wait.
+
+    The lock is on a hidden file beside it, which goes when the lock does.
+    """
+    try:
+        import fcntl
+    except ImportError:  # not on this system
+        yield
+        return
+    beside = path.with_name(f".{path.name}{LOCK}")
+    while True:
+        number = _opened(beside, path)
+        try:
+            try:
+                fcntl.flock(number, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+            except BlockingIOError:
+                raise OutputError(
+                    f"'{path}' is about to be written by another command, which still runs. Wait "
+                    "for it, or give another folder."
+                ) from None
+            except OSError as failure:
+                if failure.errno not in NO_LOCKS:
+                    raise
+            if not _is_at(number, beside):  # who had the lock took it away with the file
+                continue
+            try:
+                yield
+            finally:
+                beside.unlink(missing_ok=True)
+            return
+        finally:
+            os.close(number)
+
+
+def _opened(beside: Path, path: Path) -> int:
+    """Open the file that locks another; raise ``OSError`` that names the other."""
+    try:
+        return os.open(beside, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
+    except OSError as failure:
+        failure.filename = str(path)
+        raise
+
+
+def _is_at(number: int, path: Path) -> bool:
+    """Say whether an open file still has its name."""
+    try:
+        return os.path.samestat(os.fstat(number), path.lstat())
+    except FileNotFoundError:
+        return False

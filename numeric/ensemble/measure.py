@@ -30,6 +30,8 @@ REACH = 6
 FORCES = 8
 # Variables of a covariance matrix, whose numbers grow with their square.
 MOST_VARIABLES = 2048
+# Magnitude of a load up to which, and down to whose inverse, fourth powers of forces are float64.
+MOST_MAGNITUDE = 10**60
 KNOWN = ("profile", "contact", "contact_forces", "response", "histogram")
 
 
@@ -183,6 +185,14 @@ def measurement(
         made = replace(made, edges=_edges(made, reach))
     elif reach is not None:
         raise SceneError("ask.quantity", ask.quantity, 'only a "histogram" has bins that reach')
+    magnitude = scene.load.magnitude
+    if covariance and not 1 <= magnitude * MOST_MAGNITUDE <= MOST_MAGNITUDE**2:
+        raise SceneError(
+            "load.magnitude",
+            magnitude,
+            "a covariance of forces leaves the range of float64: give a magnitude from 1e-60 to "
+            "1e60, or leave the covariance out",
+        )
     if made.variables > MOST_VARIABLES:
         raise SceneError(
             "ask.quantity",

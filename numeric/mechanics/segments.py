@@ -27,6 +27,13 @@ from .work import Work
 T = TypeVar("T", Drawing, Deposition, Descent)
 # Layers above a segment that are deposited, too: beads look for gaps so far up.
 OVER = 3
+# Names under which a segment's number follows: positions below it, and forces on its lowest layer.
+KEPT = ("c", "g", "F")
+
+
+def count(problem: Problem, layers: int) -> int:
+    """Give how many segments of so many layers a problem has."""
+    return max(1, -(-problem.region.top // layers))
 
 
 class Kept(Protocol):
@@ -95,7 +102,7 @@ class Segments:
         self.problem, self.realisation, self.work, self.kept = problem, realisation, work, kept
         self.again = again
         self.layers, self.top = layers, problem.region.top
-        self.count = max(1, -(-self.top // layers))
+        self.count = count(problem, layers)
         self._parts: dict[type, Any] = {}
         self._strength = problem.load.strength(problem.n_x, CARRYING)
 

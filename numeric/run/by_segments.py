@@ -75,11 +75,13 @@ def by_segments(plan: Plan, work: Work, checkpoint: Path | None = None) -> tuple
 
     Raises ``CheckpointError``, and what the sweeps raise for a packing that can't be built.
     """
-    from ..mechanics.segments import InMemory, Segments
+    from ..mechanics.segments import KEPT, InMemory, Segments, count
 
     problem = plan.problem
     work.uses(FLOAT64.name)
-    opened = None if checkpoint is None else Checkpoint(checkpoint, _key(plan))
+    numbers = range(count(problem, problem.segment))
+    names = {f"{kind}{n}" for kind in (*KEPT, "numbers", "words", "counts") for n in numbers}
+    opened = None if checkpoint is None else Checkpoint(checkpoint, _key(plan), names)
     with FLOAT64.active(), opened or nullcontext():
         kept: Kept = opened or InMemory()
         counts = isinstance(plan.quantity, Histogram)

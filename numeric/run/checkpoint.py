@@ -1,41 +1,59 @@
 """The file that a long run of one packing goes on from: arrays by name, one after the other.
 
-Each is a line of JSON and its bytes, with a checksum; whatever was cut off at the end is forgotten.
-Nothing is ever changed, so that a run may be killed at any moment.
+Its first line says what run it is of. A record is a header (its name, its shape and the SHA-256 of
+its array, as JSON filled up with spaces), the SHA-256 of the mark before and this header, which is
+its own mark, and the array. So a mark covers all that stands before it, names and order included:
+what was changed, moved, repeated or put in is noticed, and refused. Nothing is ever changed, so
+that a run may be killed at any moment: a file that ends early is gone on from. Against whoever
+computes marks anew it is no safeguard.
 """
 
 import json
-import zlib
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from contextlib import suppress
 from hashlib import sha256
+from math import prod
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..arithmetic.errors import ForceDiffusionError, NotReachedError
 from ..arithmetic.systems import Array
 
-_MAGIC = "force-diffusion checkpoint 1"
+_MAGIC, _FORMAT = "force-diffusion checkpoint", 2
 LONGEST_LINE = 10_000
+HEADER, MARK = 160, 32
+"""Bytes of a record before its array."""
 
 
 class CheckpointError(ForceDiffusionError, ValueError):
     """A file can't serve as a checkpoint: the message says why, and what to do."""
 
 
+class _Kept(NamedTuple):
+    """Where an array begins, its shape and its SHA-256."""
+
+    at: int
+    shape: tuple[int, ...]
+    digest: str
+
+
 class Checkpoint:
     """An open file of arrays, for a run that ``key`` describes; a context manager closes it.
 
-    Raises ``CheckpointError`` for a file of something else, of another run, or in use.
+    ``names`` are those that arrays of this run may have. Raises ``CheckpointError`` for a file of
+    something else, of another run, damaged, or in use.
     """
 
-    def __init__(self, path: Path, key: Mapping[str, Any]) -> None:
+    def __init__(self, path: Path, key: Mapping[str, Any], names: Collection[str]) -> None:
         """Open or make it."""
         self.path = path
-        self._places: dict[str, tuple[int, tuple[int, ...]]] = {}
-        about = {"is": _MAGIC, "key": sha256(json.dumps(key).encode()).hexdigest()}
+        self._names = names
+        self._places: dict[str, _Kept] = {}
+        run = sha256(json.dumps(key).encode()).hexdigest()
+        own = json.dumps({"is": _MAGIC, "format": _FORMAT, "key": run}).encode() + b"\n"
         if path.exists() and not path.is_file():  # a device or a pipe may have no end
             raise CheckpointError(f"{path} is no ordinary file: give another name")
         try:
@@ -44,47 +62,73 @@ class Checkpoint:
             raise CheckpointError(f"{path} can't be opened ({error.strerror})") from None
         try:
             _lock(self._file, path)
-            self._read(about)
+            self._read(own)
         except BaseException:
             self._file.close()
             raise
 
-    def _read(self, about: dict[str, str]) -> None:
+    def _read(self, own: bytes) -> None:
         """Find what is there; begin anew behind the last array that is whole."""
         self._file.seek(0)
-        own = json.dumps(about).encode() + b"\n"
+        self._mark = sha256(own).digest()
         first = self._file.readline(LONGEST_LINE)
         if first != own and own.startswith(first):  # empty, or killed at its first line
             self._file.seek(0)
             self._file.truncate()
             self._write(own)
             return
-        found = _record(first)
-        if found.get("is") != _MAGIC:
-            raise CheckpointError(f"{self.path} is no checkpoint: give another name")
-        if found != about:
+        if first != own:
+            if not first.startswith(f'{{"is": "{_MAGIC}'.encode()):
+                raise CheckpointError(f"{self.path} is no checkpoint: give another name")
             raise CheckpointError(
                 f"{self.path} is the checkpoint of another scene, or of another version of the "
                 "program: give another name, or delete it"
             )
         end = self._file.tell()
-        while record := _record(self._file.readline()):
-            at, shape = self._file.tell(), tuple(record["shape"])
-            content = self._file.read(8 * int(np.prod(shape)))
-            if zlib.crc32(content) != record["crc"]:
+        while len(header := self._file.read(HEADER)) == HEADER:
+            mark = self._file.read(MARK)
+            if len(mark) < MARK:
                 break
-            self._places[record["name"]] = at, shape
+            if mark != sha256(self._mark + header).digest():
+                raise self._damaged(end)
+            record = json.loads(header)
+            name, kept = record["name"], _Kept(self._file.tell(), record["shape"], record["sha256"])
+            if name in self._places or name not in self._names:
+                raise self._damaged(end)
+            content = self._content(kept)
+            if content is None:
+                break
+            self._places[name], self._mark = kept, mark
             end = self._file.tell()
         self._file.seek(end)
         self._file.truncate()
 
+    def _content(self, kept: _Kept) -> bytes | None:
+        """Read the bytes of an array; None where the file ends before they do."""
+        self._file.seek(kept.at)
+        size = 8 * prod(kept.shape)
+        content: bytes = self._file.read(size)
+        if len(content) < size:
+            return None
+        if sha256(content).hexdigest() != kept.digest:
+            raise self._damaged(kept.at)
+        return content
+
+    def _damaged(self, at: int) -> CheckpointError:
+        return CheckpointError(
+            f"{self.path} is damaged: what stands from byte {at} on is not what was written; "
+            "delete it, and the same command begins anew"
+        )
+
     def get(self, name: str) -> Array | None:
-        """Give what was kept under a name, or None."""
+        """Give what was kept under a name, or None; raise ``CheckpointError`` if it was changed."""
         if name not in self._places:
             return None
-        at, shape = self._places[name]
-        self._file.seek(at)
-        return np.frombuffer(self._file.read(8 * int(np.prod(shape))), "<f8").reshape(shape)
+        kept = self._places[name]
+        content = self._content(kept)
+        if content is None:
+            raise self._damaged(kept.at)
+        return np.frombuffer(content, "<f8").reshape(kept.shape)
 
     def put(self, name: str, values: Array) -> None:
         """Keep an array of float64. Raises ``NotReachedError`` where the disk is full.
@@ -93,12 +137,17 @@ class Checkpoint:
         """
         if name in self._places:
             return
+        assert name in self._names
         content = np.ascontiguousarray(values, dtype="<f8").tobytes()
-        record = {"name": name, "shape": list(values.shape), "crc": zlib.crc32(content)}
+        digest = sha256(content).hexdigest()
+        record = {"name": name, "shape": list(values.shape), "sha256": digest}
+        header = json.dumps(record).encode().ljust(HEADER)
+        assert len(header) == HEADER
+        mark = sha256(self._mark + header).digest()
         self._file.seek(0, 2)
-        at = self._write(json.dumps(record).encode() + b"\n")
+        at = self._write(header + mark)
         self._write(content)
-        self._places[name] = at, values.shape
+        self._places[name], self._mark = _Kept(at, values.shape, digest), mark
 
     def drop(self, name: str) -> None:
         """Nothing is ever forgotten: another run may need it."""
@@ -124,18 +173,10 @@ class Checkpoint:
         trace: TracebackType | None,
     ) -> None:
         """Close it; who interrupts is told that nothing is lost."""
-        self._file.close()
+        with suppress(OSError):  # what a full disk did not take was said before
+            self._file.close()
         if isinstance(error, KeyboardInterrupt):
             error.add_note(f"{self.path} holds what is done; the same command goes on from there.")
-
-
-def _record(line: bytes) -> dict[str, Any]:
-    """Read a line of JSON; an empty one where it is cut off, or nothing of the kind."""
-    try:
-        found = json.loads(line) if line.endswith(b"\n") else {}
-    except ValueError:
-        return {}
-    return found if isinstance(found, dict) else {}
 
 
 def _lock(file: Any, path: Path) -> None:

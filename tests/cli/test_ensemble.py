@@ -15,6 +15,8 @@ import pytest
 
 from force_diffusion.__main__ import main
 from tests.cli.test_terminal import on_a_terminal, plain
+from tests.numeric.ensemble.cases import CASES
+from tests.numeric.scenes import toml
 
 ROOT = Path(__file__).parents[2]
 SCENE = ROOT / "scenes" / "ensemble.toml"
@@ -67,6 +69,34 @@ def test_kept_in_a_file_and_written_out(
     held = json.loads(capsys.readouterr().out)
     assert held["ranges"] == [[0, 32], [32, 40]]
     assert held["ensemble"]["disorder"]["seed"] == 1
+
+
+@pytest.mark.parametrize("written", ["csv", "npz", "parquet"])
+@pytest.mark.parametrize("name", CASES)
+def test_covariances_of_every_quantity_are_written_and_printed(
+    name: str, written: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    if written == "parquet":
+        pytest.importorskip("pyarrow")
+    path = tmp_path / "scene.toml"
+    path.write_text(toml(CASES[name]))
+    few = [path, "--realisations", 3, "--covariance", "--workers", 1]
+    status, shown, err = call(capsys, *few, "--json")
+    assert (status, err) == (0, "")
+    data = json.loads(shown)
+    matrix = data["covariance"]["matrix"]
+    for printed in ([], ["--json"]):
+        out = tmp_path / f"out{len(printed)}"
+        status, shown, err = call(capsys, *few, "--out", out, "--format", written, *printed)
+        assert (status, err) == (0, "")
+        assert not printed or json.loads(shown) == data
+        assert (out / f"{CASES[name]['ask']['quantity']}.{written}").is_file()
+        assert json.loads((out / "result.json").read_text())["covariance"] == data["covariance"]
+        head, *lines = (out / "covariance.csv").read_text().splitlines()
+        assert [[float(number) for number in line.split(",")] for line in lines] == matrix
+        names = head.split(",")
+        assert len(names) == len(set(names)) == len(matrix)
+        assert all(names)
 
 
 def test_more_are_added_and_a_rule_stops_early(
@@ -124,6 +154,22 @@ def test_wrong_usage(
     assert says in err
     assert "Traceback" not in err
     assert SCENE.read_bytes() == before
+
+
+@pytest.mark.parametrize("magnitude", ["1e160", "1e61", "1e-61", "1e-160"])
+def test_covariances_beyond_the_range_of_float64_are_refused_before_solving(
+    magnitude: str, small: Path, tmp_path: Path,
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    with small.open("a") as file:
+        file.write(f'load = {{kind = "surface", magnitude = {magnitude}}}\n')
+    assert call(capsys, small, "--out", tmp_path / "without")[0] == 0
+    monkeypatch.setattr("force_diffusion.numeric.ensemble.ensemble.run", None)
+    status, shown, err = call(capsys, small, "--out", tmp_path / "out", "--covariance")
+    assert (status, shown) == (2, "")
+    assert f"load.magnitude = {float(magnitude):g}" in err
+    assert "covariance" in err
+    assert not (tmp_path / "out").exists()
 
 
 def test_scenes_without_an_ensemble(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -4,6 +4,7 @@ import errno
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -17,7 +18,7 @@ import pytest
 from force_diffusion.derivations.commands import output as module
 from force_diffusion.derivations.commands.cli import _GIVEN
 from force_diffusion.derivations.commands.output import OutputError, output
-from force_diffusion.derivations.export.manifest import LARGEST, read_manifest
+from force_diffusion.derivations.export.manifest import LARGEST, Manifest, read_manifest
 
 import force_diffusion as fd
 from force_diffusion.__main__ import main
@@ -168,6 +169,145 @@ def test_two_at_once_keep_each_others_files(tmp_path: Path) -> None:
     assert listed(tmp_path) == {"a": "derive", "b": "figures"}
 
 
+def at_once(root: str, kind: str) -> list[list[str]]:
+    """Start two processes, have them begin together; give what they print."""
+    program = "from tests.cli.test_output import rounds; rounds()"
+    programs = [
+        subprocess.Popen(
+            [sys.executable, "-c", program, root, kind, k],
+            env=ENVIRONMENT, cwd=ROOT, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        )
+        for k in "ab"
+    ]  # fmt: skip
+    for one in programs:
+        assert one.stdout is not None
+        assert one.stdout.readline() == "ready\n"
+    start = time.time() + 0.1
+    for one in programs:
+        assert one.stdin is not None
+        print(start, file=one.stdin, flush=True)
+    found = [one.communicate(timeout=60)[0].splitlines() for one in programs]
+    assert [one.returncode for one in programs] == [0, 0]
+    return found
+
+
+ROUNDS, APART, SLOW = 40, 0.15, 0.02
+
+
+def rounds() -> None:
+    """Write into one folder after the other, each at a fixed moment; print how it went.
+
+    The disk is slow: what a manifest said is old by the time that it is written anew.
+    """
+    root, kind, own = sys.argv[1:]
+    _GIVEN.set([])
+
+    def slow(folder: Path) -> Manifest | None:
+        found = read_manifest(folder)
+        time.sleep(SLOW)
+        return found
+
+    module.read_manifest = slow  # type: ignore[assignment]
+    print("ready", flush=True)
+    start = float(sys.stdin.readline())
+    for turn in range(ROUNDS):
+        folder = Path(root) / str(turn)
+        time.sleep(max(0, start + turn * APART - time.time()))
+        try:
+            if kind == "one fails" and own == "b":
+                with output(folder, "run b.toml", ["b"]):
+                    print("failed")
+            else:
+                name = "result.json" if kind == "one name" else own
+                write(folder, {name: own * 5000}, f"run {own}.toml")
+                print("written")
+        except OutputError as error:
+            known = ("is the result of 'run", "is about to be written by another command")
+            print("refused" if any(word in str(error) for word in known) else error)
+
+
+@pytest.mark.parametrize("kind", ["two names", "one name", "one fails"])
+def test_commands_at_the_same_moment_lose_no_answer(kind: str, tmp_path: Path) -> None:
+    """What is written is listed; one that could not write its file was told before it solved."""
+    found = at_once(str(tmp_path), kind)
+    expected = {
+        "two names": {("written", "written")},
+        "one name": {("written", "refused"), ("refused", "written")},
+        "one fails": {("written", "failed")},
+    }[kind]
+    turns = list(zip(*found, strict=True))
+    assert len(turns) == ROUNDS
+    assert set(turns) <= expected
+    for turn, said in enumerate(turns):
+        folder = tmp_path / str(turn)
+        own = [k for k, word in zip("ab", said, strict=True) if word == "written"]
+        names = {"result.json" if kind == "one name" else k: k for k in own}
+        assert listed(folder) == {name: f"run {k}.toml" for name, k in names.items()}
+        there = contents(folder)
+        del there["manifest.json"]
+        assert there == {name: k * 5000 for name, k in names.items()}
+        for name, k in names.items():
+            write(folder, {name: "new"}, f"run {k}.toml")  # its hash is that of the file
+
+
+def test_a_name_is_kept_from_others_until_its_command_ends(tmp_path: Path) -> None:
+    with output(tmp_path, "run a.toml", ["result.json", "a"]):
+        for question, overwrite in (("run b.toml", False), ("run a.toml", True)):
+            with pytest.raises(OutputError, match=r"'.*/a' is about to be written by another"):
+                write(tmp_path, {"a": "other"}, question, overwrite)
+        write(tmp_path, {"b": "other"}, "run b.toml")
+    assert set(contents(tmp_path)) == {"b", "manifest.json"}
+    write(tmp_path, {"a": "one"}, "run a.toml")
+    assert set(contents(tmp_path)) == {"a", "b", "manifest.json"}
+
+
+def test_a_lock_dies_with_its_process(tmp_path: Path) -> None:
+    program = textwrap.dedent(
+        """
+        import sys
+        from pathlib import Path
+        from tests.cli.test_output import output
+
+        with output(Path(sys.argv[1]), "run a.toml", ["a"]):
+            print("solving", flush=True)
+            sys.stdin.read()
+        """
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", program, str(tmp_path)],
+        env=ENVIRONMENT, cwd=ROOT, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+    ) as process:  # fmt: skip
+        assert process.stdout is not None
+        assert process.stdout.readline() == "solving\n"
+        with pytest.raises(OutputError, match="is about to be written"):
+            write(tmp_path, {"a": "two"}, "run b.toml")
+        process.send_signal(signal.SIGKILL)
+    write(tmp_path, {"a": "two"}, "run b.toml")
+    assert set(contents(tmp_path)) == {"a", "manifest.json"}
+
+
+def test_two_runs_at_once_into_one_folder(tmp_path: Path) -> None:
+    """One answers; the other is refused, in words, and may be given another folder."""
+    for name in "ab":
+        (tmp_path / f"{name}.toml").write_text(SCENE)
+    for turn in range(4):
+        runs = [
+            subprocess.Popen(
+                [sys.executable, "-m", "force_diffusion", "run", f"{k}.toml", "--out", f"{turn}"],
+                env=ENVIRONMENT, cwd=tmp_path, text=True, stderr=subprocess.PIPE,
+                stdout=subprocess.DEVNULL,
+            )
+            for k in "ab"
+        ]  # fmt: skip
+        told = [one.communicate(timeout=60)[1] for one in runs]
+        assert sorted(one.returncode for one in runs) == [0, 2]
+        winner = runs[1].returncode == 0
+        assert told[winner] == ""
+        words = f"'{turn}/result.json' is (the result of|about to be written by another command)"
+        assert re.search(words, told[not winner])
+        assert set(listed(tmp_path / f"{turn}").values()) == {f"run {'ab'[winner]}.toml"}
+
+
 GOOD = {"result_of": "derive", "command": "", "version": "", "sha256": ""}
 NOT_OURS = {
     "not JSON": "not JSON",
@@ -284,10 +424,11 @@ def killed_at_random(folder: Path, moments: random.Random) -> None:
         from tests.cli.test_output import _GIVEN, write
 
         _GIVEN.set([])
-        print("writing", flush=True)
         for turn in range(10**9):
             text = str(turn % 10) * 300_000
             write(Path(sys.argv[1]), {"a": text, "b": text}, overwrite=True)
+            if turn == 0:
+                print("writing", flush=True)
         """
     )
     with subprocess.Popen(

@@ -222,3 +222,11 @@ def test_a_checkpoint_that_was_needed_is_removed_with_the_answer(
     assert out.startswith(usual[1])
     assert "three times, 10 of 601 layers at a time" in out
     assert not checkpoint.exists()
+    fd.read_scene(path).run(checkpoint=checkpoint)
+    damaged = checkpoint.read_bytes().replace(b'"words4"', b'"words5"')
+    checkpoint.write_bytes(damaged)
+    status, out, err = call(capsys, "run", path, "--checkpoint", checkpoint)
+    assert (status, out) == (2, "")
+    assert f"{checkpoint} is damaged" in err
+    assert "delete it, and the same command begins anew" in err
+    assert checkpoint.read_bytes() == damaged
