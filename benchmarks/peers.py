@@ -17,9 +17,9 @@ from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, NumberSys
 from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
 from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics import plain
-from force_diffusion.numeric.mechanics.forces import Forces, Loads, sweep_down
+from force_diffusion.numeric.mechanics.sweep import Forces, Loads, sweep_down
 from force_diffusion.numeric.mechanics.loads import LoadSpec
-from force_diffusion.numeric.mechanics.packing import SolvedPacking, deposit, metric
+from force_diffusion.numeric.mechanics.sweep import SolvedPacking, deposit, metric
 
 SEED = 1
 

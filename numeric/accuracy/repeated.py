@@ -14,11 +14,8 @@ import numpy as np
 
 from ..arithmetic.systems import (
     FLOAT64,
-    Balls,
-    Hardware,
     NumberSystem,
     as_ball,
-    as_floats,
     midpoint,
 )
 from ..mechanics.work import ESTIMATE, Work
@@ -64,30 +61,36 @@ def repeated(plan: Plan, work: Work) -> tuple[Answer, Accuracy]:
 
 
 def of_carried(found: Answer, plan: Plan) -> Accuracy:
-    """State the error of an answer whose sweeps carried it.
-
-    What one rounding left, and what the carried errors leave out themselves (``Sizes.unseen``).
-    """
-    system, table = plan.system, found.table
-    apart, unit = Fraction(0), Fraction(1, 2**system.bits)
+    """State the error of an answer whose sweeps carried it, from the table that holds both."""
+    system, table, apart = plan.system, found.table, Fraction(0)
     for name in table.small if found.exact is not None else ():
         assert found.exact is not None
         one = _apart(table.numbers[name], found.exact.numbers[name], system)
         if one is None:
             return Accuracy(math.inf, False, system.name, float(system.bits))
         apart = max(apart, one)
+    return stated(found, apart, plan)
+
+
+def stated(found: Answer, apart: Fraction, plan: Plan) -> Accuracy:
+    """State the error of an answer whose sweeps carried it.
+
+    ``apart`` is what one rounding left; to it comes what the carried errors leave out themselves
+    (``Sizes.unseen``).
+    """
+    system, table = plan.system, found.table
     largest = max((_largest(table.numbers[name]) for name in table.small), default=Fraction(0))
     unseen = _unseen(found, plan, largest)
     if unseen is None:
         return Accuracy(math.inf, False, system.name, float(system.bits))
     if not largest:
-        if not apart and not unseen:
+        if not apart and not found.sizes.changed and not found.sizes.moved:
             return Accuracy(0.0, False, system.name, 0.0, CARRIED)
         note = "every change is zero here, and only balls can tell whether that is exact"
         return Accuracy(math.inf, False, system.name, 0.0, note)
     ratio = (apart + unseen) / largest
     if plan.tolerance is not None:
-        ratio = PRINTED * max(ratio, unit)
+        ratio = PRINTED * max(ratio, Fraction(1, 2**system.bits))
     lost = max(system.bits + _log2(ratio), 0.0) if ratio else 0.0
     return Accuracy(_bound(ratio), False, system.name, round(lost, 1), CARRIED)
 
@@ -111,7 +114,8 @@ def _unseen(found: Answer, plan: Plan, largest: Fraction) -> Fraction | None:
         size = Fraction(moved) * scene.packing.radius / plan.problem.n_x
         scale = scene.packing.radius
     terms = max(largest, scale * plan.problem.radii.relative_std())
-    return 2 * size + usual_units(longer, 1) * terms / 2**longer.bits
+    rounding: Fraction = usual_units(longer, 1) * terms / 2**longer.bits
+    return 2 * size + rounding
 
 
 def shortfall(found: Answer, accuracy: Accuracy, tolerance: Fraction) -> str:

@@ -1,4 +1,6 @@
-"""Numbers in float64 that carry their rounding error, of first order and signed: true ≈ value + error.
+"""Numbers in float64 that carry their rounding error along: true ≈ value + error.
+
+Errors are signed, and of first order.
 
 The error of every operation is known exactly, by two-sum and by a product's residual (Dekker, or a
 fused multiply-add), and is added to what the operands carry along. What is left out are products
@@ -74,16 +76,16 @@ class Carried:
         return Carried(-self.value, None if self.error is None else -self.error)
 
     def __radd__(self, other: Any) -> "Carried":
-        return Carried(other) + self
+        return Carried(other).__add__(self)
 
     def __rsub__(self, other: Any) -> "Carried":
-        return Carried(other) - self
+        return Carried(other).__sub__(self)
 
     def __rmul__(self, other: Any) -> "Carried":
-        return self * other
+        return self.__mul__(other)
 
     def __rtruediv__(self, other: Any) -> "Carried":
-        return Carried(other) / self
+        return Carried(other).__truediv__(self)
 
     def __len__(self) -> int:
         return len(self.value)
@@ -269,3 +271,6 @@ class Sizes:
         moved = self.moved * (unit + again) + self.turned * again
         least = 64 * height * 2.0**-1074  # where errors are below what a float can hold
         return force + least, moved + least
+
+
+NONE = Sizes()

@@ -58,7 +58,7 @@ class Name:
         return self if isinstance(other, int) and other == 1 else self._with("*", other)
 
     def __rmul__(self, other: Any) -> "Name":
-        return self * other
+        return self.__mul__(other)
 
     def __truediv__(self, other: Any) -> "Name":
         if isinstance(other, int) and other > 0 and other & (other - 1) == 0:

@@ -61,10 +61,16 @@ class NumberSystem(Protocol):
         """Set the global precision, if any, and put it back at the end."""
 
 
+def like_array(values: Any) -> Array:
+    """Say that numbers are an array to whoever calculates with them, also ``Carried`` ones."""
+    found: Array = values
+    return found
+
+
 def array(system: NumberSystem, values: Iterable[Fraction]) -> Array:
     """Turn rationals into a one-dimensional array of the number system."""
-    if hasattr(system, "array"):
-        return system.array(values)
+    if hasattr(system, "array"):  # numbers that carry their errors
+        return like_array(system.array(values))
     listed = [system.number(value) for value in values]
     result = np.empty(len(listed), dtype=system.dtype)
     for q, value in enumerate(listed):  # one by one: a power series looks like a sequence to NumPy
@@ -75,7 +81,7 @@ def array(system: NumberSystem, values: Iterable[Fraction]) -> Array:
 def zeros(system: NumberSystem, *shape: int) -> Array:
     """Give an array of exact zeros."""
     if hasattr(system, "zeros"):
-        return system.zeros(*shape)
+        return like_array(system.zeros(*shape))
     result = np.empty(shape, dtype=system.dtype)
     result.fill(system.number(Fraction(0)))
     return result
@@ -84,7 +90,7 @@ def zeros(system: NumberSystem, *shape: int) -> Array:
 def from_floats(system: NumberSystem, values: Array) -> Array:
     """Turn float64 values into the number system, exactly (balls: of radius zero)."""
     if hasattr(system, "from_floats"):
-        return system.from_floats(values)
+        return like_array(system.from_floats(values))
     if system.dtype is not object:
         return values.astype(system.dtype)
     result = np.empty(values.shape, dtype=object)

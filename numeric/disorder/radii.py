@@ -18,7 +18,15 @@ import numpy as np
 
 from ..arithmetic.decimals import short
 from ..arithmetic.errors import ForceDiffusionError
-from ..arithmetic.systems import Array, Hardware, NumberSystem, array, from_floats, zeros
+from ..arithmetic.systems import (
+    Array,
+    Hardware,
+    NumberSystem,
+    array,
+    from_floats,
+    like_array,
+    zeros,
+)
 from ..lattice.layers import Layer, Stack
 from .normal import normal_deviates
 
@@ -133,7 +141,7 @@ class DrawnRadii:
             for row in deviates:
                 self._check_sites(row, [(i, layer.j) for i in layer.sites()])
         values = deviates[0] if len(deviates) == 1 else deviates
-        return _any(from_floats(system, values) * system.scalar(self.std))
+        return like_array(from_floats(system, values) * system.scalar(self.std))
 
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
         """Put all counters through Philox at once: a generator for each bead would be slow."""
@@ -145,7 +153,7 @@ class DrawnRadii:
         deviates = self._deviates(*philox(low, high, (self.seed, realisation)))
         if deviates.size and deviates.min() * float(self.std) < -0.999:
             self._check_sites(deviates, sites)
-        return _any(from_floats(system, deviates) * system.scalar(self.std))
+        return like_array(from_floats(system, deviates) * system.scalar(self.std))
 
     def _check_sites(self, deviates: Array, sites: Sequence[tuple[int, int]]) -> None:
         for site, u in zip(sites, deviates, strict=True):
@@ -251,13 +259,7 @@ class ArrayRadii:
         deltas = from_floats(system, values)
         if self.origin:
             deltas = deltas - system.scalar(self.origin)
-        return _any(deltas / system.scalar(self.radius))
-
-
-def _any(values: Any) -> Array:
-    """Say that numbers of any system are an array, also those that carry their errors."""
-    found: Array = values
-    return found
+        return like_array(deltas / system.scalar(self.radius))
 
 
 def philox(low: Array, high: Array, key: tuple[int, int]) -> tuple[Array, Array]:

@@ -86,9 +86,10 @@ def packings(
     Gives what was solved together and its realisations: the first axis of arrays, which a single
     one lacks. The next ones take the memory of the last: what is to stay has to be copied. The
     caller activates ``system``. ``physical`` looks at every packing. ``plainly`` takes the plain
-    form, and with ``carried`` numbers carry their errors: ``system`` is float64, and ``Solved.rest``
-    holds what one rounding left of them. With ``any_number`` more may come together, so that all cores have some. Raises what the
-    sweeps raise for a packing that can't be built, or not be decided.
+    form. With ``carried`` numbers carry their errors: ``system`` is float64, and ``Solved.rest``
+    holds what one rounding left of them. With ``any_number`` more may come together, so that all
+    cores have some. Raises what the sweeps raise for a packing that can't be built, or not be
+    decided.
     """
     work = Work() if work is None else work
     size = chunk_size(problem, system)
@@ -176,39 +177,30 @@ def _solved(
     work.did_rows("radii", region.rows, region.beads * n)
     block = None
     with work.timed("line sums" if linear else "deposit"):
-        if sweeps is not None and not linear:
+        if sweeps is not None:
             block = sweeps.deposit(rho)
-            if block is not None:
-                work.did_rows("deposited", region.rows, region.beads * n)
         if block is None:
             beads = rho if sweeps is None else _rows(problem, rho, carried=carried)
             packing = deposit(problem.phi, region, beads, own, work, linear=linear)
-    quick = sweeps is not None and block is not None
-    if loads is None:
-        found = Solved(own, packing, None, None) if block is None else None
-        if quick and block is not None and sweeps is not None:
+        else:
+            work.did_rows("deposited", region.rows, region.beads * n)
+    if sweeps is not None and block is not None:
+        if loads is None:
             return sweeps.told(rho, block, None, None)
-        assert found is not None
-        return rounded(found) if carried else found
-    with work.timed("balance forces"):
-        if quick and sweeps is not None and block is not None:
-            told = None
-            if not problem.stop_at_tension:
-                descent = sweeps.descent(rows, loads)
-                g = descent(block)
-                if g is not None:
-                    work.did_rows("balanced", rows[:0:-1], descent.beads * n)
-                    return sweeps.told(rho, block, descent, g)
-            told = sweeps.told(rho, block, None, None)
-            assert told.packing is not None
-            packing = (
-                told.packing
-                if not carried
-                else deposit(problem.phi, region, _rows(problem, rho, carried=True), own)
-            )
-        forces = sweep_down(
-            packing, rows, loads, linear=linear, stop_at_tension=problem.stop_at_tension, work=work
-        )
+        with work.timed("balance forces"):
+            descent = sweeps.descent(rows, loads)
+            g = None if problem.stop_at_tension else descent(block)
+        if g is not None:
+            work.did_rows("balanced", rows[:0:-1], descent.beads * n)
+            return sweeps.told(rho, block, descent, g)
+        packing = sweeps.swept(rho, block)
+    forces = None
+    if loads is not None:
+        with work.timed("balance forces"):
+            forces = sweep_down(
+                packing, rows, loads, linear=linear, stop_at_tension=problem.stop_at_tension,
+                work=work,
+            )  # fmt: skip
     found = Solved(own, packing, forces, None)
     return rounded(found) if carried else found
 

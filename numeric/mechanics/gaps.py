@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arithmetic.recording import STRIP
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.layers import Layer
 from . import local
@@ -94,7 +95,11 @@ def gaps(packing: "SolvedPacking", layers: range) -> Gaps:
     # √d/(2√λ) steps are the most of a distance of 1, λ the least eigenvalue of the Gram matrix
     slack = 1 - turn * sqrt(d / float(min(1 - phi, 1 + (d - 1) * phi))) / 2
     compiled = None if packing.memory is None else _Compiled(packing)
+    # no two beads of a part of the slab are farther apart; elsewhere each has images
+    farthest = inf if region.width is not None else 4 * region.widest + 8 * region.top + 8
     for distance, steps in by_distance(d, phi):
+        if distance > farthest:
+            return found
         nearest = max(distance * slack, distance - moved) - thick
         if nearest > found.matters or not layers:
             return found
@@ -182,7 +187,7 @@ class _Compiled:
         self.kernels, self.packing, region = kernels, packing, packing.region
         self.layers = kernels.layers_of(region, region.rows, region.starts)
         self.m = kernels.constants(region.dimension, packing.phi, carried=False)
-        self.strip = np.empty((2 * region.dimension + 3) * kernels.STRIP)
+        self.strip = np.empty((2 * region.dimension + 3) * STRIP)
         self.loop = kernels.kernels(region.dimension).gaps
 
     def measure(self, found: Gaps, steps: Steps, phi: Fraction, layers: range) -> None:

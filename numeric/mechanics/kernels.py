@@ -1,4 +1,4 @@
-"""The sweep compiled: ``local`` recorded, and the loops around it; bitwise the numbers of ``sweep``.
+"""The sweep compiled: ``local`` recorded, and ``loops`` around it; bitwise that of ``sweep``.
 
 The source that is compiled is put together when it is first needed, from what is recorded and from
 ``loops``, and lies in a file whose name is made from its content: so machine code that was kept of
@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..arithmetic import compiling
 from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.compiling import CODES, on_all_cores
 from ..arithmetic.recording import STRIP, Code, module, positive_root
@@ -55,12 +56,15 @@ def source(dimension: int, *, carried: bool) -> str:
     imports = (
         "from math import inf, sqrt\nfrom force_diffusion.numeric.arithmetic.compiling import fma"
     )
+    # what compiles them has no part in the text, but in what comes of it
+    with_what = hashlib.sha256(Path(compiling.__file__).read_text(encoding="utf-8").encode())
+    loops = f"{loops}\n# compiled as said in {with_what.hexdigest()[:24]}"
     return module(recorded, f"{loops}\n\n{imports}\n{names}")
 
 
 @lru_cache(maxsize=8)
 def kernels(dimension: int, *, carried: bool = False) -> Kernels:
-    """Give the compiled loops; what was compiled in an earlier run is kept where that is possible."""
+    """Give the compiled loops; what an earlier run compiled is kept where that is possible."""
     text = source(dimension, carried=carried)
     name = f"force_diffusion_sweeps_{hashlib.sha256(text.encode()).hexdigest()[:24]}"
     found = ModuleType(name)
@@ -176,7 +180,10 @@ def layers_of(region: Region, rows: Sequence[Layer], starts: Array) -> Array:
     """Give each layer's first bead, beads, and beads in a row."""
     side = region.side if region.dimension == 3 else 0
     return np.array(
-        [(start, row.count, side or max(row.count, 1)) for start, row in zip(starts, rows)],
+        [
+            (start, row.count, side or max(row.count, 1))
+            for start, row in zip(starts[: len(rows)], rows, strict=True)
+        ],
         dtype=np.int64,
     ).reshape(-1, 3)
 

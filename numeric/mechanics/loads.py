@@ -131,20 +131,27 @@ class LoadSpec:
         return [self.at] if self.at is not None else sorted(self.single)
 
     def strength(self, n_x: Fraction, system: NumberSystem) -> Strength:
-        """Give (L^a) of the unit load, or of each loaded bead: (cos θ/n_y ∓ sin θ/n_x)/2 of discs."""
+        """Give (L^a) of the unit load, or of each loaded bead.
+
+        Of discs it is (cos θ/n_y ∓ sin θ/n_x)/2.
+        """
         exact = _exact(system)
         with exact.active():
             sin, cos = self._turn()
-            forces = {site: tuple(map(exact.number, force)) for site, force in self.single.items()}
+            forces: dict[Site, Components] = {
+                site: tuple(map(exact.number, force)) for site, force in self.single.items()
+            }
+            single: dict[Site, Components]
             if self.dimension == 2:
                 nx, ny = plain.axes(n_x, exact)
                 unit = components(sin, -cos, nx, ny)
-                single = {site: components(*force, nx, ny) for site, force in forces.items()}
+                single = {site: components(fx, fy, nx, ny) for site, (fx, fy) in forces.items()}
             else:
                 nx, root = exact.number(n_x), exact.root(3 - 4 * n_x**2)
                 unit = components_of_spheres(sin, 0 * sin, -cos, nx, root)
                 single = {
-                    site: components_of_spheres(*force, nx, root) for site, force in forces.items()
+                    site: components_of_spheres(fx, fy, fz, nx, root)
+                    for site, (fx, fy, fz) in forces.items()
                 }
         return Strength(
             tuple(map(system.from_ball, unit)),

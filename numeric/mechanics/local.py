@@ -132,7 +132,7 @@ def rest(
     apart = [less(under[last], under[a]) for a in range(last)]  # p^a − p
     tilts = [m.raised(u) for u in apart]
     # p = guess − lift − A step, where lift is of second order; p_d = R^d − A by its own contact
-    guess = tuple(reach[a] - apart[a][a] for a in range(last)) + (reach[last],)
+    guess = (*(reach[a] - apart[a][a] for a in range(last)), reach[last])
     matrix = [[tilts[a][b] / 2 for b in range(last)] for a in range(last)]
     second = [dot(t, plus(guess, tuple(x / 2 for x in u))) / 2
               for t, u in zip(tilts, apart, strict=True)]  # fmt: skip

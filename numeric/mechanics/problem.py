@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.carried import Sizes
+from ..arithmetic.carried import NONE, Sizes
 from ..arithmetic.systems import FLOAT64, NumberSystem, from_floats
 from ..disorder.radii import Radii
 from ..lattice.branch import Contact, PerBranch, Site, per_direction
@@ -98,7 +98,7 @@ class Solved:
     forces: Forces | None
     single: tuple[Any, Any] | None
     rest: "Solved | None" = None
-    sizes: Sizes = Sizes()
+    sizes: Sizes = NONE
 
     def one(self, number: int) -> "Solved":
         """Give the ``number``-th realisation of those that were solved together."""
@@ -221,6 +221,9 @@ def _sizes(solved: Solved) -> Sizes:
     def error(values: Any) -> float:
         return float(np.abs(values.error).max(initial=0))
 
+    def size(values: Any) -> float:
+        return float(np.abs(values.value).max(initial=0))
+
     packing, forces, single = solved.packing, solved.forces, solved.single
     found = Sizes()
     if packing is not None and packing.memory is None:
@@ -230,10 +233,10 @@ def _sizes(solved: Solved) -> Sizes:
         )
     if forces is not None:
         rows = [pair for j in range(len(forces.rows)) for pair in forces.below(j)]
-        largest = [np.abs((F + g).value).max(initial=0) for _, F, g in rows]
+        largest = [size(F + g) for _, F, g in rows]
         found |= Sizes(
             changed=max((error(g) for _, _, g in rows), default=0.0),
-            force=float(max(largest, default=0.0)),
+            force=max(largest, default=0.0),
         )
     if single is not None:
         errors = [abs(float(one.error or 0)) for one in single]

@@ -187,9 +187,7 @@ class Segments:
         load, d = self.problem.load, self.problem.dimension
         if load.kind in {"surface", "bulk"}:
             first = rows[0].j if load.kind == "bulk" else load.height
-            on = on_layers(
-                self._strength.unit, rows, range(first - rows[0].j, len(rows)), CARRYING
-            )
+            on = on_layers(self._strength.unit, rows, range(first - rows[0].j, len(rows)), CARRYING)
         else:
             single = self._strength.single if load.kind == "file" else {}
             low = rows[0].j
@@ -202,10 +200,8 @@ class Segments:
         above = self.kept.get(f"F{number + 1}")
         if above is None:
             return on
-        shares = [of for _, of in on]
-        return per_direction(
-            [(*shares[a][:-1], Carried(above[a], above[d + a])) for a in range(d)]
-        )
+        shares: list[tuple[Any, ...]] = [of for _, of in on]
+        return per_direction([(*shares[a][:-1], Carried(above[a], above[d + a])) for a in range(d)])
 
     def _ready(self, part: T, *memory: str) -> T:
         """Give a part the memory of the last of its kind, if that fits."""

@@ -10,6 +10,7 @@ f⁺_(i−1, j−1), ``minus`` is f⁻_(i+1, j−1).
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -33,7 +34,7 @@ class UnbuildableError(ForceDiffusionError, ValueError):
 
 
 class NotStandingError(ForceDiffusionError, ValueError):
-    """No forces can hold a bead up, since its contacts lie in a line or plane; ``site`` names it."""
+    """No forces hold a bead up, since its contacts lie in a line or plane; ``site`` names it."""
 
     def __init__(self, site: tuple[int, ...]) -> None:
         """Name the bead."""
@@ -140,7 +141,8 @@ def deposit(
         under = region.rows[j - 1]
 
         def at(values: Any, axis: int, under: Layer = under, layer: Layer = layer) -> Any:
-            return _moved(lambda v: region.below(v, under, layer, axis), values)
+            look = partial(region.below, source=under, layer=layer, axis=axis)
+            return _moved(look, values)
 
         found = rest(
             [tuple(at(v, a) for v in c[-1]) for a in range(d)],
@@ -201,7 +203,7 @@ def sweep_down(
         layer = rows[j]
         if not layer.count:
             break
-        above = []
+        above: list[tuple[Any, Any, tuple[Any, ...], Any]] = []
         for a in range(d):
             if j == top:
                 none = zeros(system, layer.count)
@@ -209,7 +211,8 @@ def sweep_down(
                 continue
 
             def get(values: Any, source: Layer, a: int = a, layer: Layer = layer) -> Any:
-                return _moved(lambda v: region.above(v, source, layer, a, zero), values)
+                look = partial(region.above, source=source, layer=layer, axis=a, zero=zero)
+                return _moved(look, values)
 
             own, packed = rows[j + 1], region.rows[j + 1]
             above.append(
@@ -224,11 +227,9 @@ def sweep_down(
             above[a][0] if share[j] is None else above[a][0] + share[j]
             for a, share in enumerate(shares)
         )
+        here = region.rows[j]
         below = [
-            tuple(
-                _moved(lambda v: region.here(v, region.rows[layer.j], layer), x)  # noqa: B023
-                for x in dn[a][j]
-            )
+            tuple(_moved(partial(region.here, source=here, layer=layer), x) for x in dn[a][j])
             for a in range(d)
         ]
         found = balance(above, F, below, linear=linear, compensated=compensated)
@@ -266,10 +267,8 @@ def straight_down(
         for a, (_, share) in enumerate(loads):
             F = zeros(system, layer.count)
             if j < top:
-                F = _moved(
-                    lambda v, a=a, j=j: region.above(v, rows[j + 1], rows[j], a, zero),
-                    found[j + 1][a],
-                )
+                look = partial(region.above, source=rows[j + 1], layer=layer, axis=a, zero=zero)
+                F = _moved(look, found[j + 1][a])
             parts.append(F if share[j] is None else F + share[j])
         found[j] = tuple(parts)
     return found

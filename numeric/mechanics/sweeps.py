@@ -38,7 +38,7 @@ class Drawing:
             return found
         system, region = (CARRYING if self.carried else FLOAT64), self.region
         rho = self._memory(len(realisations))
-        if isinstance(self.radii, ArrayRadii) and region.is_whole:
+        if isinstance(self.radii, ArrayRadii) and region.is_whole and not region.rows[0].j:
             parts = self.radii.layers(len(region.rows), realisations, system)
             self._put(rho, slice(None), parts)
             return rho
@@ -119,6 +119,15 @@ class Sweeps:
         block = None if rho is None else self._deposit(rho)
         return None if block is None else descent(block)
 
+    def swept(self, rho: Array, block: Array) -> SolvedPacking:
+        """Tell a packing as ``sweep`` would, for the NumPy sweep of forces."""
+        at, phi, region = self._deposit.quantities, self.problem.phi, self.problem.region
+        values = told(phi, region, rho[:, 0], block[:, :at])
+        if not self.carried:
+            return values
+        errors = told(phi, region, rho[:, 1], block[:, at:])
+        return replace(_paired(values, errors), system=CARRYING, memory=None)
+
     def told(self, rho: Array, block: Array, descent: Descent | None, g: Array | None) -> Solved:
         """Tell what was solved row by row, with what rounding left if that is known."""
         return tell(self.problem.phi, self.problem.region, rho, block, descent, g)
@@ -136,13 +145,13 @@ def tell(
     d, carried = region.dimension, rho.shape[1] == 2
     at, beads, first = d + d * d, region.beads, region.rows[0].count
     values = told(phi, region, rho[:, 0], block[:, :at])
-    balanced = g is not None and descent is not None
     if not carried:
-        return Solved(FLOAT64, values, descent.told(descent.F, g) if balanced else None, None)
+        forces = None if g is None or descent is None else descent.told(descent.F, g)
+        return Solved(FLOAT64, values, forces, None)
     errors = told(phi, region, rho[:, 1], block[:, at:])
     found = rounded(Solved(FLOAT64, _paired(values, errors), None, None))
     sizes = Sizes(largest(block[:, at : at + d, :beads]), largest(block[:, at + d :, first:beads]))
-    if not balanced:
+    if g is None or descent is None:
         return replace(found, sizes=sizes)
     ordered, changes = Carried(descent.F[:d], descent.F[d:]), Carried(g[:, :d], g[:, d:])
     near, rest = (

@@ -39,8 +39,8 @@ def expected(method: Method, height: int, realisations: int, lost: int = 0) -> F
     """
     bits = method.system.bits
     if method.carries and method.repeated >= realisations:
-        units = 4 if method.system is FLOAT64 else 8 * height
-        return (PRINTED * Fraction(units) + merging(method, realisations)) / 2**bits
+        few = 4 if method.system is FLOAT64 else 8 * height
+        return Fraction(PRINTED * few + merging(method, realisations), 2**bits)
     if method.certified:
         return Fraction(max(height, 4) ** 2 * 2**12, 2 ** (bits - lost))
     seen = method.repeated >= realisations

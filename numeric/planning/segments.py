@@ -10,16 +10,14 @@ from ..lattice.layers import Region
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
-from ..scene.sections import Ask
 from . import budget
 from .plan import Method, Step
 
 # Quantities whose answer comes from one segment after the other; of a response some layers do.
 KNOWN = ("profile", "contact", "base_reactions", "histogram")
-# Columns of the packing, as high, whose error stands for that of the whole.
-COLUMNS = 16
-# Bytes of a bead of a segment (δr, positions, δn, forces), and of one that is kept on the way up.
-_BEAD, _KEPT = 96, 16
+# Bytes of a bead of a segment (δr, positions, δn, forces, with their errors, and forces rounded),
+# and of one that is kept on the way up.
+_BEAD, _KEPT = 240, 32
 # Layers that are solved beside those of a segment.
 _BESIDE = 5
 # Seconds of a bead, all steps together, in whole layers and in others.
@@ -76,7 +74,6 @@ def memory(problem: Problem, quantity: Quantity) -> int:
     rows = quantity.answer_rows(region, 1)
     return (
         beads_bytes(widest, problem.region.top)
-        + 2 * budget.FLOAT_BEAD * COLUMNS * len(problem.region.rows)
         + rows * budget.FLOAT_ROW
         + len(problem.region.rows) * budget.PLAN_LAYER
         + budget.INTERPRETER
@@ -102,7 +99,6 @@ def steps(
         f"{often}, {k} of {all_layers} layers at a time, because {sizes}: on the way up every "
         f"{k}-th layer is kept, and those between are deposited again on the way down{last}"
     )
-    again = f"{COLUMNS} columns of as many layers, and again with a longer significand"
     changed = []
     for step in found:
         if step.step in {"draw radii", "deposit"}:
@@ -111,24 +107,6 @@ def steps(
         elif step.step == "balance forces" and counts:
             reason = "twice: the bins lie between the smallest and the largest change"
             changed.append(replace(step, reason=reason, beads=2 * step.beads))
-        elif step is found[-1]:
-            beads = 2 * step.beads * COLUMNS * all_layers // max(problem.region.beads, 1)
-            changed.append(replace(step, reason=again, beads=beads))
         else:
             changed.append(step)
     return tuple(changed)
-
-
-def narrow(scene: Scene) -> Scene:
-    """Give the scene of a packing as high and so narrow that it is solved quickly."""
-    width = min(scene.packing.width or COLUMNS, COLUMNS)
-    packing = scene.packing.model_copy(update={"width": width, "allow_images": True})
-
-    def home(at: object) -> object:
-        if not isinstance(at, list | tuple):
-            return at
-        return type(at)((at[0] % (2 * width), *at[1:]))
-
-    load = scene.load.model_copy(update={"at": home(scene.load.at)})
-    ask: Ask = scene.ask.model_copy(update={"at": home(scene.ask.at)})
-    return scene.model_copy(update={"packing": packing, "load": load, "ask": ask})

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from ..arithmetic.carried import Pairs, Sizes
+from ..arithmetic.carried import NONE, Pairs, Sizes
 from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import ArrayRadii, RadiusError
 from ..lattice.branch import AxisContact, Contact
@@ -38,7 +38,7 @@ class Answer:
     stopped: Contact | AxisContact | None
     networks: tuple[Network, ...] = ()
     exact: Table | None = None
-    sizes: Sizes = Sizes()
+    sizes: Sizes = NONE
 
 
 def answer(
@@ -65,10 +65,10 @@ def answer(
     networks: list[Network] = []
     pairs, carried = isinstance(system, Pairs), longer is not None or isinstance(system, Pairs)
     own = FLOAT64 if carried else system
-    sizes = Sizes()
+    sizes = NONE
     with system.active(), own.active():
         gatherer = quantity.gatherer(problem, system)
-        exact = None if longer is None else quantity.gatherer(problem, longer)
+        beside = None if longer is None else quantity.gatherer(problem, longer)
         if problem.route == Route.UNILATERAL:
             from ..unilateral.relaxation import packings as relaxed  # SciPy's solvers take 35 MB
 
@@ -85,9 +85,9 @@ def answer(
                 if isinstance(solved, Relaxed):
                     networks.append(solved.network)
                 gatherer.add(solved.longer(system) if pairs else solved, chunk)
-                if exact is not None and longer is not None:
+                if beside is not None and longer is not None:
                     with work.timed(ESTIMATE):
-                        exact.add(solved.longer(longer), chunk)
+                        beside.add(solved.longer(longer), chunk)
                 sizes |= solved.sizes
                 done += len(chunk)
         except (*UNBUILDABLE, UnfinishedError) as error:
@@ -98,9 +98,9 @@ def answer(
             raise
         table = in_units(quantity, gatherer.table().sorted(), system)
         again = None
-        if exact is not None and longer is not None:
+        if beside is not None and longer is not None:
             with work.timed(ESTIMATE):
-                again = in_units(quantity, exact.table().sorted(), longer)
+                again = in_units(quantity, beside.table().sorted(), longer)
         bins = None if work.repeating else quantity.bins_of(table, system)
     if physical is not None and physical.first_tensile is not None:
         physical.first_tensile = at_home(quantity, physical.first_tensile)

@@ -14,8 +14,7 @@ from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import Array, as_floats
 from ..lattice.branch import AxisContact, Contact
 from ..mechanics.physicality import PHYSICAL, Physicality
-from ..mechanics.work import Work
-from ..mechanics.work import ESTIMATE
+from ..mechanics.work import ESTIMATE, Work
 from ..planning.plan import Plan, plan_lines
 from ..quantities.answer import Answer
 from ..statistics import histogram

@@ -13,7 +13,7 @@ import pytest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.disorder.radii import RadiusError
-from force_diffusion.numeric.mechanics.packing import UnbuildableError
+from force_diffusion.numeric.mechanics.sweep import UnbuildableError
 from force_diffusion.numeric.quantities.answer import answer as answered
 from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.run.running import run

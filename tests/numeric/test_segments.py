@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.mechanics import engine
-from force_diffusion.numeric.mechanics.packing import UnbuildableError
 from force_diffusion.numeric.mechanics.physicality import Physicality
+from force_diffusion.numeric.mechanics.sweep import UnbuildableError
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning import budget, segments
 from force_diffusion.numeric.planning.plan import Plan
