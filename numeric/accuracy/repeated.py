@@ -63,6 +63,10 @@ def repeated(plan: Plan, work: Work) -> tuple[Answer, Accuracy]:
 def of_carried(found: Answer, plan: Plan) -> Accuracy:
     """State the error of an answer whose sweeps carried it, from the table that holds both."""
     system, table, apart = plan.system, found.table, Fraction(0)
+    if found.left is not None:
+        if not math.isfinite(found.left):
+            return Accuracy(math.inf, False, system.name, float(system.bits))
+        return stated(found, Fraction(found.left), plan)
     for name in table.small if found.exact is not None else ():
         assert found.exact is not None
         one = _apart(table.numbers[name], found.exact.numbers[name], system)
@@ -111,11 +115,12 @@ def _unseen(found: Answer, plan: Plan, largest: Fraction) -> Fraction | None:
         size = Fraction(force) * scene.load.magnitude
         scale = max(Fraction(found.sizes.force), Fraction(1)) * scene.load.magnitude
     else:
-        size = Fraction(moved) * scene.packing.radius / plan.problem.n_x
+        size = Fraction(moved * float(1 / plan.problem.n_x)) * scene.packing.radius
         scale = scene.packing.radius
     terms = max(largest, scale * plan.problem.radii.relative_std())
     rounding: Fraction = usual_units(longer, 1) * terms / 2**longer.bits
-    return 2 * size + rounding
+    unseen: Fraction = 2 * size + rounding
+    return unseen
 
 
 def shortfall(found: Answer, accuracy: Accuracy, tolerance: Fraction) -> str:

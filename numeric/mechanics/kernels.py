@@ -25,9 +25,9 @@ from ..arithmetic import compiling
 from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.compiling import CODES, on_all_cores
 from ..arithmetic.recording import STRIP, Code, module, positive_root
-from ..arithmetic.systems import FLOAT64, Array
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..lattice.branch import per_direction
-from ..lattice.layers import Layer, LazyRows, Region
+from ..lattice.layers import Layer, LazyRows, Region, whole
 from . import local
 from .gaps import RESOLUTION
 from .sweep import Forces, Loads, Memory, SolvedPacking, straight_down
@@ -313,6 +313,17 @@ def told(phi: Fraction, region: Region, rho: Array, block: Array) -> SolvedPacki
     )
 
 
+def _one_of_all(load: Any) -> Any:
+    """Give the load of one bead of a row whose beads are loaded alike; False where they are not."""
+    parts: tuple[Array, ...] = () if load is None else (load,)
+    if isinstance(load, Carried):
+        parts = load.value, load.error
+    if any(part.size and part.min() != part.max() for part in parts):
+        return False
+    ends = [part[:1] for part in parts]
+    return Carried(*ends) if isinstance(load, Carried) else ends[0] if ends else None
+
+
 class Descent:
     """Carries loads down through packings of one region, in memory that is used again."""
 
@@ -349,9 +360,16 @@ class Descent:
         d, parts = self.region.dimension, 1 + self.carried
         self.loads = loads
         self.F = np.zeros((parts * d, self.starts[-1]))
-        ordered = straight_down(
-            self.rows, self.region, loads, CARRYING if self.carried else FLOAT64
-        )
+        system: NumberSystem = CARRYING if self.carried else FLOAT64
+        rows, region = self.rows, self.region
+        alike = region.has_whole(rows)
+        if alike:  # of a whole packing where beads of a layer are loaded alike, one bead tells all
+            first = per_direction([tuple(map(_one_of_all, of)) for _, of in loads])
+            alike = all(one is not False for _, of in first for one in of)
+        if alike:
+            bead = whole(1, len(rows) - 1, d)
+            rows, region, loads = bead.rows, bead, first
+        ordered = straight_down(rows, region, loads, system)
         for j in range(self.lowest, len(self.rows)):
             of = slice(self.starts[j], self.starts[j + 1])
             for a, F in enumerate(ordered[j]):
@@ -409,5 +427,6 @@ class Descent:
             self.rows,
             per_direction([rows(F[a]) for a in range(d)]),
             per_direction([rows(one) for one in changes]),
-            g=g,
+            F=F[:, self.starts[self.lowest] :],
+            g=g[..., self.starts[self.lowest] : self.starts[-1]],
         )

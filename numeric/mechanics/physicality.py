@@ -85,6 +85,12 @@ class Physicality:
         """
         self.forces_known = True
         top = len(forces.rows) - 1
+        if layers is None and forces.F is not None and forces.g is not None:
+            # where all surely hold, there is no need to look at one layer after the other
+            room = 2.0**-40 * float(max(forces.g.max(initial=0), -forces.g.min(initial=0)))
+            if forces.g.size and (forces.F + forces.g).min() > room:
+                self.contacts += forces.g.size
+                return
         layers = range(top + 1) if layers is None else layers
         for j in range(layers.start, min(layers.stop, top + 1)):
             layer = forces.rows[j]

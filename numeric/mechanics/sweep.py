@@ -84,8 +84,8 @@ class Forces:
 
     ``ordered``: F^a, ``change``: g^a = f^a − F^a; per layer arrays of shape (count,), changes of a
     batch of packings (…, count). ``stopped`` names the first tensile contact where a sweep was
-    asked to stop at one: the layers below it are then empty. ``g``: all changes of compiled loops,
-    (batch, d, …).
+    asked to stop at one: the layers below it are then empty. ``F`` (d, …) and ``g`` (batch, d, …)
+    hold all of compiled loops, from the lowest row that forces reach on.
     """
 
     system: NumberSystem
@@ -94,6 +94,7 @@ class Forces:
     ordered: PerBranch[Sequence[Array]]
     change: PerBranch[Sequence[Array]]
     stopped: Contact | AxisContact | None = None
+    F: Array | None = None
     g: Array | None = None
 
     def below(self, j: int) -> Iterator[tuple[Direction, Array, Array]]:

@@ -29,7 +29,8 @@ class Answer:
     ``physical``: None where nothing exact was solved, or the same packings a second time.
     ``stopped``: the contact at which a sweep stopped, if it was asked to. ``networks``: where beads
     came to rest, one a realisation, under unilateral contacts. Where sweeps carried their errors,
-    ``exact`` is the table with them, in a longer arithmetic, and ``sizes`` how large they were.
+    ``exact`` is the table with them, in a longer arithmetic, and ``sizes`` how large they were;
+    or ``left`` says how far changes are from those in it.
     """
 
     table: Table
@@ -39,6 +40,7 @@ class Answer:
     networks: tuple[Network, ...] = ()
     exact: Table | None = None
     sizes: Sizes = NONE
+    left: float | None = None
 
 
 def answer(
@@ -85,7 +87,7 @@ def answer(
                 if isinstance(solved, Relaxed):
                     networks.append(solved.network)
                 gatherer.add(solved.longer(system) if pairs else solved, chunk)
-                if beside is not None and longer is not None:
+                if beside is not None and longer is not None and gatherer.left() is None:
                     with work.timed(ESTIMATE):
                         beside.add(solved.longer(longer), chunk)
                 sizes |= solved.sizes
@@ -98,14 +100,15 @@ def answer(
             raise
         table = in_units(quantity, gatherer.table().sorted(), system)
         again = None
-        if beside is not None and longer is not None:
+        left = gatherer.left() if beside is not None else None
+        if beside is not None and longer is not None and left is None:
             with work.timed(ESTIMATE):
                 again = in_units(quantity, beside.table().sorted(), longer)
         bins = None if work.repeating else quantity.bins_of(table, system)
     if physical is not None and physical.first_tensile is not None:
         physical.first_tensile = at_home(quantity, physical.first_tensile)
     stopped = None if stopped is None else at_home(quantity, stopped)
-    return Answer(table, bins, physical, stopped, tuple(networks), again, sizes)
+    return Answer(table, bins, physical, stopped, tuple(networks), again, sizes, left)
 
 
 def in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:

@@ -42,13 +42,14 @@ class Table:
     ``index`` names the rows (sites, branches, realisations), ``numbers`` are in the arithmetic of
     the run. ``small`` columns are the deviations from the ordered packing: accuracy is judged by
     their error, relative to the largest of them. ``errors`` are standard errors of the columns that
-    are statistics over packings.
+    are statistics over packings. ``in_order``: rows are as ``sorted`` gives them.
     """
 
     index: dict[str, Array]
     numbers: dict[str, Array]
     small: tuple[str, ...]
     errors: dict[str, Array] = field(default_factory=dict)
+    in_order: bool = False
 
     @property
     def rows(self) -> int:
@@ -57,6 +58,8 @@ class Table:
 
     def sorted(self) -> "Table":
         """Give the rows by realisation, j, i (or p, q) and branch, as numbers, "+" before "-"."""
+        if self.in_order:
+            return self
         names = ("branch", "q", "p", "i", "j", "realisation")
         keys = [self.index[name] for name in names if name in self.index]
         if not keys:
@@ -79,6 +82,13 @@ class Gatherer(ABC):
     @abstractmethod
     def table(self) -> Table:
         """Give the answer."""
+
+    def left(self) -> float | None:
+        """Give how far numbers are, at the most, from those that their sweeps' errors belong to.
+
+        None where the rows have to be gathered with them to know that.
+        """
+        return None
 
 
 class Quantity(ABC):
@@ -210,6 +220,8 @@ class Listing(Gatherer):
     def table(self) -> Table:
         """Put the realisations below each other."""
         first = self.parts[0]
+        if len(self.parts) == 1:
+            return first
         return Table(
             {k: np.concatenate([part.index[k] for part in self.parts]) for k in first.index},
             {k: np.concatenate([part.numbers[k] for part in self.parts]) for k in first.numbers},

@@ -214,7 +214,7 @@ def test_small_disorder_is_first_order() -> None:
 @pytest.mark.usefixtures("digits")
 def test_the_smallest_gap_is_that_of_all_pairs() -> None:
     asked = scene("positions", height=3, width=4, std=5e-2)
-    outcome = asked.run(tolerance="1e-20")
+    outcome = asked.run(tolerance="1e-40")
     lattice, radii = Lattice(asked, outcome), drawn(asked)
     physical = outcome.physical
     assert physical is not None
