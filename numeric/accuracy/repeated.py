@@ -31,7 +31,7 @@ from ..quantities.answer import Answer, answer
 from ..quantities.base import Table
 from .accuracy import Accuracy
 
-CARRIED = "as carried by the sweep, not certified"
+CARRIED = "estimated, as the sweep carried it, not certified"
 
 
 def repeated(plan: Plan, work: Work) -> tuple[Answer, Accuracy]:

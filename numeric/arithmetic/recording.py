@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 # Numbers of a strip that lie one after the other; the next quantity begins so much further on.
-STRIP = 256
+STRIP = 512
 
 
 class Recorder:

@@ -28,9 +28,9 @@ if TYPE_CHECKING:
     from .sweeps import Sweeps
 
 # Beads from which on the compiled sweeps repay loading the compiler (half a second). A row of a
-# packing, which NumPy draws by a call of its own, counts for so many beads; once the compiler is
-# loaded, a small part of them is enough.
-COMPILED_FROM, OF_ROW, ONCE_LOADED = 2_000_000, 40, 1 / 50
+# packing, which NumPy draws by a call of its own, counts for so many beads, and one that carries its
+# error for so many; what is compiled already is always taken.
+COMPILED_FROM, OF_ROW, OF_ERRORS = 2_000_000, 40, 10
 # Beads of diagonals that are drawn together.
 BLOCK = 10_000
 # Beads that are swept together: their arrays still fit into a cache.
@@ -256,18 +256,22 @@ def _loads(problem: Problem, system: NumberSystem) -> Loads | None:
     return problem.load.on(problem.force_rows, strength, system)
 
 
-def worth_compiling(problem: Problem, system: NumberSystem, *, loaded: bool = False) -> bool:
+def worth_compiling(problem: Problem, system: NumberSystem, *, carried: bool = False) -> bool:
     """Say whether there is so much to do that compiled sweeps are taken, where numba is."""
+    if problem.route != Route.EXACT or system is not FLOAT64:
+        return False
     region = problem.region
     beads = (region.beads + OF_ROW * len(region.rows)) * problem.realisations
-    much = beads >= COMPILED_FROM * (ONCE_LOADED if loaded else 1)
-    return much and problem.route == Route.EXACT and system is FLOAT64
+    return beads * (OF_ERRORS if carried else 1) >= COMPILED_FROM
 
 
-def compiles(problem: Problem, system: NumberSystem) -> bool:
+def compiles(problem: Problem, system: NumberSystem, *, carried: bool = False) -> bool:
     """Say whether compiled sweeps are taken: for much work in float64, where numba is."""
-    loaded = f"{__package__}.sweeps" in sys.modules
-    if not worth_compiling(problem, system, loaded=loaded):
+    kernels = sys.modules.get(f"{__package__}.kernels")
+    exact = problem.route == Route.EXACT and system is FLOAT64
+    if kernels is not None and exact and (problem.dimension, carried) in kernels.LOADED:
+        return True
+    if not worth_compiling(problem, system, carried=carried):
         return False
     try:
         import_module(".sweeps", __package__)
@@ -278,7 +282,7 @@ def compiles(problem: Problem, system: NumberSystem) -> bool:
 
 def _compiled(problem: Problem, system: NumberSystem, *, carried: bool) -> "Sweeps | None":
     """Give the compiled sweeps, same numbers, if they are taken."""
-    if not compiles(problem, system):
+    if not compiles(problem, system, carried=carried):
         return None
     from .sweeps import Sweeps
 

@@ -83,10 +83,11 @@ def by_distance(dimension: int, phi: Fraction) -> Iterator[tuple[float, Steps]]:
         reach, given = 2 * reach, len(shell)
 
 
-def gaps(packing: "SolvedPacking", layers: range) -> Gaps:
+def gaps(packing: "SolvedPacking", layers: range, *, more: bool = False) -> Gaps:
     """Measure gaps, of pairs whose lower bead lies in the rows ``layers``.
 
-    Of packings of any arithmetic, in float64 from the deviations.
+    Of packings of any arithmetic, in float64 from the deviations. ``more``: there are rows above
+    the region.
     """
     region, found = packing.region, Gaps()
     d, phi = region.dimension, packing.phi
@@ -107,7 +108,7 @@ def gaps(packing: "SolvedPacking", layers: range) -> Gaps:
             continue
         on = sum(steps)
         own = range(layers.start, min(layers.stop, region.top + 1 - on))
-        found.unseen |= len(own) < len(layers) and layers.stop <= region.top
+        found.unseen |= more and len(own) < len(layers)
         if compiled is not None:
             compiled.measure(found, steps, phi, own)
             continue

@@ -62,6 +62,10 @@ def source(dimension: int, *, carried: bool) -> str:
     return module(recorded, f"{loops}\n\n{imports}\n{names}")
 
 
+LOADED: set[tuple[int, bool]] = set()
+"""Dimensions, and whether errors are carried, whose loops are compiled in this process."""
+
+
 @lru_cache(maxsize=8)
 def kernels(dimension: int, *, carried: bool = False) -> Kernels:
     """Give the compiled loops; what an earlier run compiled is kept where that is possible."""
@@ -70,6 +74,7 @@ def kernels(dimension: int, *, carried: bool = False) -> Kernels:
     found = ModuleType(name)
     found.__file__ = _kept(text, name)
     sys.modules[name] = found  # machine code that was kept asks for it
+    LOADED.add((dimension, carried))
     exec(compile(text, found.__file__, "exec"), vars(found))
     return Kernels(*(vars(found)[field] for field in Kernels._fields))
 

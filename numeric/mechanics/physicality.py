@@ -60,13 +60,15 @@ class Physicality:
         lower, upper = self.between
         return self.smallest_gap, upper[-1] - lower[-1], lower[-1]
 
-    def look_at_gaps(self, packing: SolvedPacking, layers: range | None = None) -> None:
+    def look_at_gaps(
+        self, packing: SolvedPacking, layers: range | None = None, *, more: bool = False
+    ) -> None:
         """Measure the gaps of all pairs of beads that could meet within the region.
 
-        Of the lower bead's ``layers`` only, if some are given.
+        Of the lower bead's ``layers`` only, if some are given; ``more``: rows above are not there.
         """
         layers = range(packing.region.top + 1) if layers is None else layers
-        found = gaps(packing, layers)
+        found = gaps(packing, layers, more=more)
         self.overlaps += found.overlaps
         self.undecided_gaps += found.undecided + found.unseen
         if found.between is not None and not found.smallest >= self._smallest:

@@ -54,7 +54,7 @@ class Outline:
         images = problem.route == Route.UNILATERAL or sees_images(
             problem, self.quantity.lowest_layer
         )
-        if method.system.dtype is not object:
+        if method.carries or method.system.dtype is not object:
             float_range.check(scene, problem.radii, problem.load)
         steps = steps_of(self.quantity, problem, method)
         visited = max((step.beads for step in steps), default=0)

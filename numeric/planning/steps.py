@@ -67,7 +67,7 @@ def _judging(one: list[Step], problem: Problem, method: Method) -> Step:
         return Step(CERTIFY, why, 0, method.system.name)
     if method.carries and method.repeated == problem.realisations:
         why = "the sweep carried the rounding error of every number along"
-        return Step(ESTIMATE, why, 0, method.longer.name)
+        return Step(ESTIMATE, why, 0, method.system.name)
     passes = 1 if method.repeated == problem.realisations else 2
     visits = sum(step.beads for step in one if step.step != PHYSICAL)
     longer = method.longer.name
@@ -76,7 +76,11 @@ def _judging(one: list[Step], problem: Problem, method: Method) -> Step:
         ESTIMATE,
         f"the first realisations again with {again}",
         passes * method.repeated * visits,
-        longer if passes == 1 else f"{method.system.name}, then {longer}",
+        longer
+        if passes == 1
+        else method.system.name
+        if method.carries
+        else f"{method.system.name}, then {longer}",
     )
 
 

@@ -166,7 +166,9 @@ def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
     physical = Physicality()
     with work.timed(PHYSICAL):
         low = packing.region.rows[0].j
-        physical.look_at_gaps(packing, range(layers.start - low, layers.stop - low))
+        more = packing.region.rows[-1].j < problem.region.top
+        there = range(layers.start - low, layers.stop - low)
+        physical.look_at_gaps(packing, there, more=more)
         physical.look_at_forces(forces, layers)
     rows = problem.region.rows[layers.start : layers.stop]
     work.did_rows("checked", rows, sum(row.count for row in rows))

@@ -178,7 +178,8 @@ class Outcome:
             name = step["step"]
             clock = "radii" if name in {"read radii", "draw radii"} else name
             step["seconds"] = round(work.seconds.get(clock, 0.0), 6)
-            names = work.arithmetic_again if name == ESTIMATE else work.arithmetic
+            again = work.arithmetic_again if name == ESTIMATE else []
+            names = again or work.arithmetic
             step["arithmetic"] = ", then ".join(names)
             step["beads"] = visited.get(name, 0)
         data["results"] = {self.quantity: self.decimals() if rows else []}
