@@ -39,14 +39,6 @@ def compiled(function: Function) -> Function:
         return cast(Function, numba.njit(**options)(function))
 
 
-def inlined(function: Function) -> Function:
-    """Compile into each of the functions of its file that call it, before LLVM sees any of them.
-
-    What it made of a function alone it could no longer take four numbers at a time.
-    """
-    return cast(Function, numba.njit(inline="always", error_model="numpy")(function))
-
-
 def _borrowed_code(typing: Any, array: Any) -> Any:
     def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         given = context.make_array(signature.args[0])(context, builder, arguments[0])

@@ -67,16 +67,6 @@ def lower_beads(upper: dict[str, Array], axes: Array, width: int) -> dict[str, A
     }
 
 
-def bead_of_number(number: int, width: int) -> Bead:
-    """Name a bead by its number, layer after layer.
-
-    >>> bead_of_number(29, 5)
-    (0, 4, 1)
-    """
-    j, column = divmod(number, width**2)
-    return (*divmod(column, width), j)
-
-
 def site_of(bead: Bead, width: int) -> Site:
     """Give the site in the row of W² beads.
 
@@ -160,12 +150,6 @@ class Region:
     def beads(self) -> int:
         """How many beads the region holds."""
         return int(self.starts[-1])
-
-    def site(self, bead: int) -> tuple[int, int]:
-        """Give (i, j) of a bead by its number, row after row."""
-        row = int(np.searchsorted(self.starts, bead, "right")) - 1
-        layer = self.rows[row]
-        return layer.first + 2 * (bead - int(self.starts[row])), layer.j
 
     @property
     def side(self) -> int:
@@ -317,8 +301,3 @@ def pick(values: Array, source: Layer, wanted: Layer, width: int | None, zero: A
     picked[...] = zero
     picked[..., ~missing] = values[..., index[~missing]]
     return picked
-
-
-def shifted(layer: Layer, by: int) -> Layer:
-    """Give the row one step up (by = +1) or down (by = −1) and right: sites (i + 1, j + by)."""
-    return Layer(layer.j + by, layer.first + 1, layer.count)

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from .sweeps import Sweeps
 
 # Beads from which on the compiled sweeps repay loading the compiler (half a second). A row of a
-# packing, which NumPy draws by a call of its own, counts for so many beads, and one that carries its
-# error for so many; what is compiled already is always taken.
+# packing, which NumPy draws by a call of its own, counts for so many beads, and a bead that carries
+# its errors for so many; what is compiled already is always taken.
 COMPILED_FROM, OF_ROW, OF_ERRORS = 2_000_000, 40, 10
 # Beads of diagonals that are drawn together.
 BLOCK = 10_000

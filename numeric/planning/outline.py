@@ -96,9 +96,12 @@ class Outline:
         elif problem.route == Route.ORDERED and problem.dimension == 2:
             at_once = 0
         at_once += self.quantity.gathered(region, min(n, together))
-        systems = [s for s in (method.system, method.longer) if s is not None]
+        longer = None if method.carries else method.longer  # only gathered in
+        systems = [s for s in (method.system, longer) if s is not None]
         most = max(_memory(self.scene, self.quantity, region, at_once, n, s) for s in systems)
-        return most + budget.COMPILED * worth_compiling(problem, method.system)
+        return most + budget.COMPILED * worth_compiling(
+            problem, method.system, carried=method.carries
+        )
 
 
 def _memory(
