@@ -241,6 +241,8 @@ def compare(exact: RationalFunction, candidate: sympy.Expr) -> Ruling:
     names = [text(symbol) for symbol in FIELD.generators if _is_strange(difference, symbol)]
     if names:
         return refuted(f"exact − candidate depends on {', '.join(names)}")
+    if difference.is_zero():
+        return proved("equal at every order")
     size = order(difference, *cone.SIZES)
     shown = text(in_layers(leading(difference, *cone.SIZES)).to_sympy())
     if size < order(exact, *cone.SIZES):
@@ -378,7 +380,8 @@ DERIVATION = Derivation(
         (LEG_MAGNITUDE, "variance of its magnitude over the squared mean"),
         (f_load, "the load on bead (k, l), downwards"),
         (l, "layer of the loaded bead, j that of the one looked at"),
-        (p, "steps along n⁺ from (k, l) down to (i, j); q along n⁻ (p is no force there)"),
+        (p, "steps along n⁺ from (k, l) down to (i, j) (p is no force there)"),
+        (q, "steps along n⁻"),
         *usual(sigma, r, phi),
     ),
     assumptions=(

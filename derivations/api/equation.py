@@ -268,6 +268,15 @@ class Equation(Formula):
         """
         return recorded(self._derivation)
 
+    @property
+    def _domain(self) -> str:
+        """Where the printed form holds, in words: "N ≥ 3, j ≥ N + 1, M ≥ j + 3"; or none."""
+        return ", ".join(text(relation) for relation in self._derivation.domain)
+
+    def _told(self, line: sympy.Eq) -> str:
+        told = super()._told(line)
+        return f"{told}, for {self._domain}" if self._domain else told
+
     @cached_property
     def _vocabulary(self) -> dict[str, Any]:
         named = [symbol for symbol, _ in self._derivation.symbols]
@@ -354,7 +363,7 @@ base+1 or surface.
             if not holds(relation, values):
                 at = sorted(relation.free_symbols, key=str)
                 raise ArgumentError(
-                    f"Eq. {self.number} is for {text(relation)}, not for {told(at, values)}"
+                    f"Eq. {self.number} is for {self._domain}, not for {told(at, values)}"
                 )
         found = [value_of(side, values, exact=exact) for side in sides]
         return found[0] if len(found) == 1 else tuple(found)

@@ -73,7 +73,7 @@ PRINTED = equation(
     ),
 )
 
-KAPPA = (1 + (d - 2) * phi) / ((1 - phi) * (1 + (d - 1) * phi))
+KAPPA: sympy.Expr = (1 + (d - 2) * phi) / ((1 - phi) * (1 + (d - 1) * phi))
 """b^a·b^a of the reciprocal vectors of d base vectors with the mutual dot product φ."""
 CROSSED = -phi / ((1 - phi) * (1 + (d - 1) * phi))
 """b^a·b^c of two of them."""
@@ -210,8 +210,9 @@ def to_leading_order(subject: sympy.Symbol, lines: Callable[[], sympy.Expr]) -> 
         if candidate.lhs != subject:
             return undecided("the left-hand side is not σ_f²/⟨f⟩²")
         right = candidate.rhs.xreplace({z: j / M}) if candidate.rhs.has(j) else candidate.rhs
+        known = {kappa: KAPPA} if right.has(phi) else {}
         try:
-            left = _order_in_M(along_lines(lines()) - right)
+            left = _order_in_M((along_lines(lines()) - right).xreplace(known))
         except NotExactError as reason:
             return undecided(str(reason))
         if left >= 3:
@@ -230,9 +231,10 @@ def parting(subject: sympy.Symbol, lines: Callable[[], sympy.Expr]) -> Search:
         if candidate.lhs != subject:
             return None
         for dimension in (2, 3, 5):
-            at = {d: sympy.Integer(dimension), kappa: sympy.Rational(7, 5)}
+            at = {d: sympy.Integer(dimension)}
+            at |= {kappa: KAPPA.xreplace(at)}
             exact, right = (side.xreplace(at) for side in (along_lines(lines()), candidate.rhs))
-            if found := parts_in_the_limit(exact, right, LAYERS):
+            if found := parts_in_the_limit(exact, right, LAYERS, dimension):
                 return f"d = {dimension}, {found}"
         return None
 

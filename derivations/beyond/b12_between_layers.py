@@ -144,27 +144,79 @@ def to_leading_order(exact: RationalFunction, subject: sympy.Expr) -> Decide:
 
 
 FAR = Symbol("far", r"C_{p}", "C_p")
-"""Covariance of contacts whose diagonals are p ≥ 3 places apart."""
+"""Covariance of contacts whose diagonals are p ≥ 3 places apart, away from ``LEFT_OVER``."""
+
+Split = tuple[sympy.Expr, dict[sympy.Symbol, sympy.Expr], dict[sympy.Symbol, int]]
+"""Places to the right, indices in terms of others, and the lower bounds of these; l = j + k."""
+
+FAR_PLACES: tuple[Split, ...] = (
+    (p, {j: p + q, M: p + q + k + l}, {p: 3, q: 2, k: 2, l: 2}),
+    (j + 3 + q, {M: j + k + l}, {j: 2, q: 0, k: 2, l: 2}),
+    (-p, {k: p + q, M: j + p + q + l}, {p: 3, q: 2, j: 2, l: 2}),
+    (-(k + q), {j: q + 2 + l, M: q + 2 + l + k + p}, {k: 2, q: 2, l: 0, p: 2}),
+    (-(j + k + 3 + q), {M: j + k + l}, {j: 2, q: 0, k: 2, l: 2}),
+)
+"""Where they are uncorrelated, for 2 ≤ j ≤ l − 2 and l ≤ M − 2."""
+
+
+def _ends(above: sympy.Expr) -> tuple[sympy.Expr, ...]:
+    """What is left at p = j − 1, …, j + 2, ``above`` layers of the other contact's path up."""
+    return (
+        3 * phi * above / 4,
+        phi * (3 - 5 * above) / 4,
+        phi * (above - 2) / 4,
+        phi * (above - 1) / 4,
+    )
+
+
+LEFT_OVER = {
+    **dict(zip((j - 1, j, j + 1, j + 2), _ends(M - j - k), strict=True)),
+    **dict(zip((1 - j - k, -j - k, -1 - j - k, -2 - j - k), _ends(M - j), strict=True)),
+    1 - k: -(phi**2) * (4 * j + 3 - 2 * phi) / 4,
+    -k: phi**2 * (4 * j + 1) / 2,
+    -1 - k: -(phi**2) * (4 * j - 1 + 2 * phi) / 4,
+}
+"""Places to the right where two contacts, l = j + k, are correlated after all, in ``UNIT``."""
+
+
+def _none(lower: sympy.Expr, upper: sympy.Expr, splits: tuple[Split, ...]) -> Ruling:
+    """No covariance of two contacts in any case of the splits."""
+    count = 0
+    for places, at, bounds in splits:
+        left, right = lower.xreplace(at), apart(upper, places).xreplace(at)
+        for case in covariances_by_case(left, right, bounds, generic=3):
+            count += 1
+            if not case.value.is_zero():
+                return from_test(False, "", f"not {places} places away, {case.at}, {case.lower}")
+    return from_test(True, f"no covariance in any of {count} cases, which cover all such contacts")
+
+
+@cache
+def _none_far() -> Ruling:
+    own = eq11.in_radii(FORCE)
+    return _none(own, own.xreplace({i: i + k, j: j + k}), FAR_PLACES)
 
 
 def _far(_: int, candidate: sympy.Eq) -> Ruling:
-    """Zero, to the right and to the left, where the layers are farther apart than p or nearer."""
+    """Zero at all places but ``LEFT_OVER``."""
     if candidate.lhs != FAR:
         return undecided(f"the left-hand side is not {text(FAR)}")
+    return all_of(decide_identity(candidate.rhs, sympy.Integer(0)), _none_far())
+
+
+def _left_over() -> Ruling:
+    """At the other places, away from base and surface: of order M, with a factor φ."""
     own = eq11.in_radii(FORCE)
     higher = own.xreplace({i: i + k, j: j + k})
-    regions = (
-        Region({p: 3, k: p + 5, j: p + 5, M: j + k + p + 5}),
-        Region({k: 3, p: k + 5, j: k + p + 5, M: j + k + p + 5}),
-    )
-    found = [
-        covariance(own, apart(higher, side * p), region) for region in regions for side in (1, -1)
-    ]
-    return all_of(
-        decide_identity(candidate.rhs, sympy.Integer(0)),
-        from_test(
-            all(one.is_zero() for one in found), "the products of the weights add up to zero"
+    deep = Region({j: 6, k: 6, M: j + k + 6})
+    return from_test(
+        all(
+            (
+                covariance(own, apart(higher, places), deep) - FIELD.from_sympy(value * UNIT)
+            ).is_zero()
+            for places, value in LEFT_OVER.items()
         ),
+        f"the covariances at {len(LEFT_OVER)} places are linear in M and j, with a factor φ or φ²",
     )
 
 
@@ -216,7 +268,10 @@ def steps() -> Iterator[Step]:
         relation="∼",
     )
     yield Step(
-        "Contacts of layer l whose diagonals are p ≥ 3 places away, on either side:",
+        "Contacts of layer l whose diagonals are p ≥ 3 places away: to the right, where p is none "
+        "of j − 1, …, j + 2; to the left, where it is none of l − 1, …, l + 2, nor of l − j − 1, "
+        "…, l − j + 1. At those places a line of one contact's tilt meets the other's path where "
+        "that begins or ends.",
         equation(FAR, 0),
         _far,
         ("Eq. 11",),
@@ -294,24 +349,20 @@ def _beside() -> Ruling:
     )
 
 
+CROSSINGS: tuple[Split, ...] = (
+    (-p, {j: p + q, M: p + q + k + l}, {p: 4, q: 4, k: 0, l: 1}),
+    (p, {k: p + q, M: j + p + q + l}, {p: 4, q: 4, j: 0, l: 1}),
+    (k + q, {j: q + p, M: q + p + k + q + l}, {q: 4, p: 4, k: 0, l: 4}),
+    (k + q, {q: j + p, M: j + k + j + p + l}, {j: 0, p: 4, k: 0, l: 4}),
+)
+"""How many layers above (i, j) the diagonals of f⁺ and of f⁻, k layers higher, cross."""
+
+
 def _other_branch() -> Ruling:
     """f⁺_ij with f⁻ of the layer k higher, whose diagonal crosses it in some layer."""
     own = eq11.in_radii(FORCE)
-    other = mirror(own).xreplace({j: j + k})
-    crossings = (
-        (-p, Region({p: 4, j: p + 4, k: 4, M: j + k + 4})),
-        (p, Region({j: 4, p: 4, k: p + 4, M: j + k + 4})),
-        (k + q, Region({k: 4, q: 4, j: q + 4, M: j + k + q + 4})),
-        (k + q, Region({k: 4, j: 4, q: j + 4, M: j + k + q + 4})),
-    )
-    found = [
-        covariance(own, other.xreplace({i: i + 2 * above - k}), region)
-        for above, region in crossings
-    ]
-    return from_test(
-        all(one.is_zero() for one in found),
-        "zero where the diagonals cross below both contacts, between them, and above both",
-    )
+    other = mirror(own).xreplace({j: j + k, i: i - k})
+    return _none(own, other, CROSSINGS)
 
 
 def _to_the_surface() -> Ruling:
@@ -396,8 +447,15 @@ DERIVATION = Derivation(
             _beside,
         ),
         Claim(
+            "where the diagonal is p = j − 1, …, j + 2 places to the right, or to the left "
+            "l − 1, …, l + 2 or l − j − 1, …, l − j + 1, a covariance of order M is left, for "
+            "j, l − j and M − l from 6 on, and none for φ = 0",
+            _left_over,
+        ),
+        Claim(
             "f⁺ and f⁻ are uncorrelated, exactly, where their diagonals cross four layers or more "
-            "from both, from the base and from the surface",
+            "from both, from the base and from the surface, and, if q layers above both, where q "
+            "and j differ by four or more",
             _other_branch,
         ),
         Claim(

@@ -256,7 +256,7 @@ COSINE = Fraction(1, 5)
 def search(candidate: sympy.Eq) -> str | None:
     """Squared weights of a small pyramid, by the recursion from bead to bead."""
     for layer, first, second in ((3, 2, 2), (3, 2, 3), (4, 3, 2)):
-        other = 0 if candidate.lhs == ON_LEG else second
+        other = 0 if candidate.lhs in (ON_LEG, LEG_MAGNITUDE) else second
         level = layer + first + other
         at: explicit.Values = {j: layer, p: first, q: other, l: level, phi: COSINE, sigma: 1, r: 1}
         true = _exact(candidate.lhs, level, first, other, COSINE)
@@ -525,7 +525,8 @@ DERIVATION = Derivation(
         (LEG_MAGNITUDE, "variance of its magnitude over the squared mean"),
         (f_load, "the load on one bead, downwards"),
         (l, "layer of the loaded bead, j that of the bead below the contact"),
-        (q, "steps of that contact from the leg where its path turns; p steps down the leg"),
+        (q, "steps of that contact from the leg where its path turns"),
+        (p, "steps down the leg"),
         *usual(sigma, r),
         (phi, "mutual dot product of the three base vectors, −1/3 < φ < ½"),
     ),

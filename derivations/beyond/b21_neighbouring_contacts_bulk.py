@@ -12,6 +12,7 @@ from force_diffusion.derivations.beyond.neighbours import (
     COVARIANCES,
     FAR,
     OF_MEAN,
+    add_up_to_zero,
     correlated,
     decided,
     far_is_zero,
@@ -27,7 +28,7 @@ from force_diffusion.derivations.framework.follows import identity
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step
 from force_diffusion.symbolic.algebra.exact import RationalFunction
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling, from_test
+from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test
 from force_diffusion.symbolic.symbols import M, N, j, phi, r, sigma, z
 
 _RADII = power(times(sigma, 1 / r), 2)
@@ -108,9 +109,12 @@ def _leading() -> Ruling:
 
 
 def _spread() -> Ruling:
-    return from_test(
-        (spread(covariances()) - spread(b7.covariances())).is_zero(),
-        "C₀ + 2C₁ + 2C₂ is that of Eq. B7",
+    return all_of(
+        from_test(
+            (spread(covariances()) - spread(b7.covariances())).is_zero(),
+            "C₀ + 2C₁ + 2C₂ is that of Eq. B7",
+        ),
+        add_up_to_zero(_form()),
     )
 
 
@@ -138,7 +142,11 @@ DERIVATION = Derivation(
             "second 1/6: of Eq. 14 the mean keeps 2/(3N²)",
             _leading,
         ),
-        Claim("the part that falls as 1/N is that of a surface load", _spread),
+        Claim(
+            "the part that falls as 1/N is that of a surface load, and stays from N = j on, as "
+            "in Eq. B7",
+            _spread,
+        ),
     ),
     witnesses=(witnessed("bulk", PRINTED, PLACES),),
 )

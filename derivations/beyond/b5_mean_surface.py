@@ -106,7 +106,7 @@ def steps() -> Iterator[Step]:
         MEAN - 1, exact_forms(), "the three covariances there", "step 3", "step 4"
     )
     yield Step(
-        "To leading order the shift is −φ at the base and changes its sign at z = φ:",
+        "To leading order at fixed z, where the shift changes its sign at z = φ:",
         equation(terms(MEAN, -1), shift()),
         shifted(exact_forms(), MEAN),
         ("step 5",),
@@ -141,8 +141,9 @@ DERIVATION = Derivation(
             lambda: leading_is(exact_forms(), shift()),
         ),
         Claim(
-            "next to the base two layers of contacts go their own way: forces rise at j = 0 and "
-            "fall at j = 1, by shares of order M(σ/r)² that z → 0 does not give",
+            "next to the base two layers of contacts go their own way: forces rise at j = 0; at "
+            "j = 1 they fall for φ > −3/8 and rise for φ < −3/8, by shares of order M(σ/r)² that "
+            "z → 0 does not give",
             lambda: edges_are(
                 exact_forms(),
                 base=3 * M * (1 - 2 * phi) / 4,

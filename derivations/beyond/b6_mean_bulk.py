@@ -88,7 +88,7 @@ def steps() -> Iterator[Step]:
         MEAN - 1, exact_forms(), "the three covariances there", "step 1", "step 2"
     )
     yield Step(
-        "To leading order the shift changes its sign at z = φ/(2 − φ):",
+        "To leading order at fixed z, where the shift changes its sign at z = φ/(2 − φ):",
         equation(terms(MEAN, -1), shift()),
         shifted(exact_forms(), MEAN),
         ("step 3",),
@@ -131,7 +131,8 @@ DERIVATION = Derivation(
             lambda: leading_is(exact_forms(), shift()),
         ),
         Claim(
-            "next to the base two layers of contacts go their own way, as under a surface load",
+            "next to the base two layers of contacts go their own way, as under a surface load: "
+            "forces rise at j = 0; at j = 1 they fall for φ > −3/8 and rise for φ < −3/8",
             lambda: edges_are(
                 exact_forms(),
                 base=3 * M * (1 - 2 * phi) / 8,

@@ -11,6 +11,7 @@ from force_diffusion.derivations.beyond.neighbours import (
     FAR,
     OF_MEAN,
     Split,
+    add_up_to_zero,
     correlated,
     decided,
     far_is_zero,
@@ -131,13 +132,17 @@ def _leading() -> Ruling:
 
 
 def _momentum() -> Ruling:
-    """What N contacts add is what the momentum balance of a layer leaves to one branch."""
+    """What N contacts add is what the momentum balance of a layer leaves to one branch.
+
+    From N = j on, beyond what is printed, covariances join in whose sum is zero.
+    """
     stated = FIELD.from_sympy((1 - phi) ** 4 / 2 * UNIT)
     return all_of(
         from_test(
             (spread(covariances()) - stated).is_zero(),
             "C₀ + 2C₁ + 2C₂ = (1−φ)²/[2(1+φ)²] (σ/r)², which knows neither j nor M",
-        )
+        ),
+        add_up_to_zero(eq11.in_radii(FORCE)),
     )
 
 
@@ -170,7 +175,9 @@ DERIVATION = Derivation(
             _leading,
         ),
         Claim(
-            "the part that falls as 1/N has no M in it: it takes over from N of order M³ on",
+            "the part that falls as 1/N has no M in it, and stays from N = j on, where covariances "
+            "for k = j − 1, …, j + 2 join in and add up to zero: it takes over from N of order M³ "
+            "on",
             _momentum,
         ),
     ),

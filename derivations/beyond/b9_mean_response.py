@@ -373,24 +373,25 @@ DERIVATION = Derivation(
     assumptions=(
         "the radii are independent, of zero mean and variance σ², of whatever law",
         "second order in δr",
-        "j ≥ 2; inside: not on the two lines of contacts that start at the bead straight below "
-        "the load; leg: j ≤ l − 2",
+        "inside: 2 ≤ j ≤ l − 3, and not on the two lines of contacts that start at the bead "
+        "straight below the load; leg: 2 ≤ j ≤ l − 2",
     ),
     premises=(eq11.DERIVATION, eq16.DERIVATION, b4.DERIVATION),
     printed=PRINTED,
+    domain=(sympy.Ge(j, 2), sympy.Ge(l, j + 3)),  # where both lines have a contact
     steps=steps,
     decide=decide,
     search=search,
     claims=(
         Claim("the parts of a vector along b⁺", _unit_vectors),
         Claim(
-            "what enters the cone is the same at every height, and forces pass through the beads "
-            "inside unchanged: the mean response inside is a plateau",
+            "what enters the cone is the same at every height j ≥ 2, and forces pass through the "
+            "beads inside unchanged: the mean response inside is a plateau",
             _constant,
         ),
         Claim(
             "on the two lines of contacts that start at the bead straight below the load it is "
-            "¼(7φ² + 14φ − 5)(σ/r)²/(1−φ²)²",
+            "¼(7φ² + 14φ − 5)(σ/r)²/(1−φ²)² for 2 ≤ j ≤ l − 2",
             _first_lines,
         ),
         Claim(
@@ -408,7 +409,8 @@ DERIVATION = Derivation(
         "the response to N equal loads, averaged over N contacts, has the mean of this equation "
         "for each load and contact. Neither gives anything but two rays at order σ⁰; at order σ² "
         "both give the plateau between them.",
-        "The plateau does not depend on the height, the depth or the place: the response does not "
+        "The plateau does not depend on the height, the depth or the place, but for the two layers "
+        "of contacts next to the base, j = 0 and 1, which go their own way: the response does not "
         "spread as a diffusing ray would, and it does not decay away from the legs.",
     ),
 )

@@ -21,7 +21,7 @@ from force_diffusion.symbolic.kernel.decisions import (
 )
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.symbols import M, N, i, j, k, phi, q, r, sigma
+from force_diffusion.symbolic.symbols import M, N, i, j, k, p, phi, q, r, sigma
 from force_diffusion.symbolic.variances.means import covariance, covariances_by_case
 from force_diffusion.symbolic.variances.variance import leading
 
@@ -99,6 +99,22 @@ def far_is_zero(form: sympy.Expr, splits: tuple[Split, ...]) -> Ruling:
             if not case.value.is_zero():
                 return from_test(False, "", f"not at {case.at}, {case.lower}")
     return from_test(True, f"no covariance in any of {count} cases, which cover all places")
+
+
+def add_up_to_zero(form: sympy.Expr) -> Ruling:
+    """Covariances of f^± at k = j − 1, …, j + 2 places add up to zero; those beyond are zero."""
+    at: dict[sympy.Symbol, sympy.Expr] = {M: j + q}
+    ends = sum((apart(form, j + places) for places in (-1, 0, 1, 2)), sympy.Integer(0))
+    beyond = apart(form, j + 3 + p)
+    cases = [
+        *covariances_by_case(form.xreplace(at), ends.xreplace(at), {j: 4, q: 1}, generic=3),
+        *covariances_by_case(form.xreplace(at), beyond.xreplace(at), {j: 4, q: 1, p: 0}, generic=3),
+    ]
+    return from_test(
+        all(case.value.is_zero() for case in cases),
+        f"{len(cases)} cases, which cover all j ≥ 4 and M ≥ j + 1: those of k = j − 1, …, j + 2 "
+        "add up to zero, and those of k ≥ j + 3 are zero",
+    )
 
 
 def same_at(form: sympy.Expr, general: RationalFunction, places: int, split: Split) -> bool:

@@ -134,7 +134,7 @@ def parting(load: str, quantity: sympy.Symbol, candidate: sympy.Eq) -> str | Non
         return None
     exact = exact_forms(load)["interior"].expression
     right = candidate.rhs.xreplace({kappa: KAPPA})
-    return parts_in_the_limit(exact, right, LAYERS)
+    return parts_in_the_limit(exact, right, LAYERS, 3)
 
 
 def claims(load: str, at_base: sympy.Expr) -> tuple[Claim, ...]:

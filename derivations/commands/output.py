@@ -12,9 +12,9 @@ folder knows which is which. Each file is written aside and renamed, the manifes
 is ever half-written.
 
 Commands that run at once may share a folder. Each locks the names that it will write until it
-ends, and the manifest while it adds to it: one that would write what another one is about to write
-is refused before it solves anything. A lock is that of an open file, and dies with its process,
-however that ends. Where the system or the disk has no such locks, there are none.
+ends, and the manifest while it reads or adds to it: one that would write what another one is about
+to write is refused before it solves anything. A lock is that of an open file, and dies with its
+process, however that ends. Where the system or the disk has no such locks, there are none.
 """
 
 import errno
@@ -220,8 +220,9 @@ def output(
         return
     names = list(dict.fromkeys(names))
     with _standing(out, names):
-        folder = Folder(out, result_of, overwrite)
-        folder.check(names)
+        with _locked(out / MANIFEST, wait=True):
+            folder = Folder(out, result_of, overwrite)
+            folder.check(names)
         yield folder
 
 
@@ -254,14 +255,15 @@ def _standing(folder: Path, names: Sequence[str] = ()) -> Iterator[None]:
     """
     missing = []
     for one in (folder, *folder.parents):
-        if one.is_dir():
+        mode = _mode(one)
+        if mode is not None and stat.S_ISDIR(mode):
             break
-        if one.is_symlink() and not one.exists():
+        if mode is not None:
+            raise OutputError(f"'{one}' is a file. Give a folder.")
+        if one.is_symlink():
             raise OutputError(
                 f"'{one}' is a link to '{os.readlink(one)}', which is not there. Give a folder."
             )
-        if one.exists():
-            raise OutputError(f"'{one}' is a file. Give a folder.")
         missing.append(one)
     try:
         with ExitStack() as locks:
@@ -273,7 +275,7 @@ def _standing(folder: Path, names: Sequence[str] = ()) -> Iterator[None]:
                     for name in names:
                         locks.enter_context(_locked(folder / name, wait=False))
                     break
-                except FileNotFoundError:  # another command took its empty folder away meanwhile
+                except (FileNotFoundError, FileExistsError):  # others make it, and take it away
                     locks.close()
                     if not left:
                         raise
@@ -282,6 +284,16 @@ def _standing(folder: Path, names: Sequence[str] = ()) -> Iterator[None]:
         for one in missing:
             with suppress(OSError):  # not empty, or never made
                 one.rmdir()
+
+
+def _mode(path: Path) -> int | None:
+    """Give what a path leads to, looked at once; None where that is nothing."""
+    try:
+        return path.stat().st_mode
+    except OSError as failure:
+        if failure.errno not in {errno.ENOENT, errno.ENOTDIR, errno.ELOOP}:
+            raise
+        return None
 
 
 @contextmanager

@@ -150,7 +150,7 @@ class Derivation:
     # mechanical changes that say the same at the order decided, each with the reason why
     equivalent: Mapping[str, str] = field(default_factory=dict)
     # false statements, and true ones in another form, that the procedure is tried on
-    tries: Callable[[sympy.Eq, str, int], Iterable[Statement]] = statements
+    tries: Callable[[sympy.Eq, str, int | None, int], Iterable[Statement]] = statements
 
     def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
         """Rule on a candidate for one of ``printed``: decided, in the language, and searched.
@@ -158,7 +158,8 @@ class Derivation:
         Raises:
             KernelError: it was proved, and explicit values refute it.
         """
-        if reason := unreadable(candidate, self.printed, [symbol for symbol, _ in self.symbols]):
+        named = [symbol for symbol, _ in self.symbols]
+        if reason := unreadable(candidate, self.printed, named, self.dimension):
             return undecided(reason)
         candidate = usual_form(candidate, self.printed)
         try:

@@ -138,7 +138,9 @@ def tried(derivation: Derivation, watch: Watch = _silent, rule: Rule = _rule) ->
     watch(derivation, "false and true statements")
     turn = sum(map(ord, str(derivation.number)))
     for place, equation in enumerate(derivation.printed):
-        for statement in derivation.tries(equation, derivation.relation, turn):
+        for statement in derivation.tries(
+            equation, derivation.relation, turn, derivation.dimension
+        ):
             ruling = rule(derivation, place, statement.reason, statement.equation)
             wrong = Verdict.REFUTED if statement.holds else Verdict.PROVED
             if ruling.verdict is wrong:

@@ -160,10 +160,10 @@ def _evaluate(expression: sympy.Expr, truth: Truth, at: Values) -> Dual | Vector
         return base ** int(expression.exp)
     if isinstance(expression, sympy.Sum):
         index, low, high = expression.limits[-1]
-        first, last = (int(explicit.number(bound, values)) for bound in (low, high))
+        bounds = (explicit.number(bound, values) for bound in (low, high))
         terms = [
             evaluate(expression.function, truth, {**at, index: value})
-            for value in range(first, last + 1)
+            for value in explicit.terms_of(*bounds)
         ]
         return _total(*terms)
     if isinstance(expression, sy.Dot):
@@ -292,6 +292,8 @@ def _compare(
             left, right = (evaluate(side, truth, at) for side in equation.args)
         except NoSiteError:
             raise
+        except explicit.ReversedError:
+            continue  # the equation has no one meaning there
         except AbsentError:
             if where_it_is:
                 continue

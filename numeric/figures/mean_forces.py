@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 HEIGHT = 12
 SPACINGS = (Fraction(12, 5), Fraction(3))
-"""s in units of r: φ = 7/25, where forces fall below z = φ, and φ = −1/8, where all rise."""
+"""s in units of r: φ = 7/25, where forces fall below z = φ; −1/8, where all rise but at j = 1."""
 LOADS: tuple[Literal["surface", "bulk"], ...] = ("surface", "bulk")
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..accuracy.accuracy import Accuracy
 from ..accuracy.repeated import stated
-from ..arithmetic.carried import LONGER, NONE, Sizes
+from ..arithmetic.carried import NONE, Sizes
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import Branch, Contact
 from ..lattice.layers import full_layer
@@ -172,7 +172,8 @@ def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
         physical.look_at_forces(forces, layers)
     rows = problem.region.rows[layers.start : layers.stop]
     work.did_rows("checked", rows, sum(row.count for row in rows))
-    longer = solved.longer(LONGER)
+    assert plan.method.longer is not None
+    longer = solved.longer(plan.method.longer)
     if isinstance(quantity, Histogram):
         apart, extremes = 0.0, []
         both = zip(*(_changes(plan, segment, one) for one in (solved, longer)), strict=True)

@@ -3,9 +3,9 @@
 The gaps of the backbone are as many equations as its beads have coordinates. Newton and
 Kantorovich: where β = ‖A⁻¹‖, K bounds the change of the Jacobian A a unit of distance, and
 h = β² K |g| ≤ 1/2, an exact solution lies within 2 β |g|, one alone near there. Its forces, of
-AᵀF + load = 0, are enclosed from residuals. If all of them are positive and all other gaps too, the
-packing is a strict local minimum of the load's energy: gaps serve as coordinates there, the energy
-rises with each of them, and A can be inverted.
+AᵀF + load = 0, are enclosed from residuals. If all of them are positive and all other gaps too, and
+no bead outside of the backbone bears a load, the packing is a strict local minimum of the load's
+energy: gaps serve as coordinates there, the energy rises with each of them, and A can be inverted.
 
 Norms are bounded from floating-point inverses whose own error is bounded: rounding to nearest, at
 most 2⁻⁵³ an operation.
@@ -18,12 +18,14 @@ import flint
 import numpy as np
 
 from ..arithmetic.errors import UndecidedError
-from ..arithmetic.systems import Array, Balls
+from ..arithmetic.systems import Array, Balls, as_floats
 from .grains import Grains, Pairs
-from .network import Frame
+from .network import Frame, UnfinishedError
 
 # Columns of the inverse that are found together.
 TOGETHER = 256
+# Gaps are measured of pairs up to this far apart, in units of r; those of all others are larger.
+FAR = 0.5
 # Nine roundings, the most that an entry of A times a vector takes, and some room.
 ROUNDED = 1e-15
 
@@ -47,9 +49,12 @@ def certify(
     """Enclose the exact packing near ``grains`` in which ``contacts`` touch.
 
     ``contacts``: twice as many as ``backbone``, the numbers of its free beads. Beads outside of it
-    stay where they are. The caller activates ``system``. Raises ``UndecidedError`` where more bits
-    may help, and ``UnfinishedError`` where they don't.
+    stay where they are, and bear no load. The caller activates ``system``. Raises
+    ``UndecidedError`` where more bits may help, and ``UnfinishedError`` where they don't.
     """
+    for bead in np.setdiff1d(np.arange(grains.fixed, len(grains.radii)), backbone):
+        if not all(load == 0 for load in known.load[bead]):
+            raise UnfinishedError(f"bead {bead} bears a load, and no contact holds it")
     place = grains.coordinates(backbone)
     A = grains.jacobian(contacts)[:, place].tocsc()
     factors = grains.factors(contacts, place)
@@ -85,6 +90,41 @@ def certify(
         for k in (0, 1):
             enclosed[bead, k] = enclosed[bead, k] + radius
     return Certificate(enclosed, forces, reach, h)
+
+
+def smallest_gap(x: Array, known: Frame, touching: Pairs) -> float:
+    """Bound from below the gaps of all pairs but those that touch, by ``FAR`` at most.
+
+    ``x``: centres in balls. Pairs of two base beads and of nearest images are among them; with a
+    period above four radii (see ``Frame``) all other images are further apart. Raises
+    ``UnfinishedError`` unless no bead lies below the base and all those gaps are positive.
+    """
+    fixed = len(known.base)
+    fallen = [k for k in range(fixed, len(x)) if not x[k, 1] > known.base[0, 1]]
+    if fallen:
+        more = f", and {len(fallen) - 1} more" if len(fallen) > 1 else ""
+        raise UnfinishedError(f"bead {fallen[0]} fell through the base{more}")
+    radii = as_floats(known.radii)
+    grains = Grains(as_floats(x), radii, float(known.period), np.zeros(x.shape), fixed)
+    near = grains.near(FAR, base=True)
+    others = near[~np.isin(grains.named(near), grains.named(touching))]
+    gaps = grains.gaps(others)
+    # radii of the balls: of two beads' coordinates, √2 · 2 < 3, and of two radii of beads; then
+    # what float64 rounds, some ten operations on numbers of this size
+    off = 3 * _widest(x) + 2 * _widest(known.radii)
+    off += 1e-13 * (1 + float(np.abs(grains.x).max()) + grains.period)
+    smallest = min(float(gaps.min(initial=FAR)), FAR) - off
+    if not smallest > 0:
+        a, b = others[int(np.argmin(gaps))]
+        raise UnfinishedError(
+            f"beads {a} and {b} overlap, or can't be told from touching: "
+            f"the gap is {gaps.min():.2g} r"
+        )
+    return smallest
+
+
+def _widest(balls: Array) -> float:
+    return max((_upper(ball.rad()) for ball in balls.ravel()), default=0.0)
 
 
 def _positive(value: float) -> float:

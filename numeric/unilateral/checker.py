@@ -2,8 +2,10 @@
 
 A file holds radii, loads, centres and contacts. By Krawczyk's operator in balls, with an inverse of
 NumPy's, an exact packing is shown to touch at these contacts within a distance ρ of the centres;
-its forces are enclosed and shown to be positive, and all other gaps too. Then the packing is a
-strict local minimum of the load's energy. All pairs of beads are looked at, one by one.
+its forces are enclosed and shown to be positive, and all other gaps too, those between beads of
+the base included. No other bead bears a load, radii are positive, and no bead lies below the base.
+Then the packing is a strict local minimum of the load's energy. All pairs of beads are looked at,
+one by one; with a period above four radii one image of each is enough.
 """
 
 import json
@@ -19,6 +21,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from ..arithmetic.errors import ForceDiffusionError
 
 BITS = 256
+LARGEST = 1e100  # of all numbers: beyond, products of floats end
 LARGEST_FILE = 100_000_000
 Number = Annotated[str, Field(pattern=r"^-?[0-9]{1,400}(\.[0-9]{1,400})?(e-?[0-9]{1,4})?$")]
 Bead = Annotated[int, Field(ge=0)]
@@ -118,9 +121,10 @@ def _checked(packing: _Packing, name: str) -> Verdict:
     beads = len(packing.radii)
     if not len(packing.loads) == len(packing.centres) == beads > packing.fixed:
         raise PackingFileError(f"{name}: radii, loads and centres must be equally many")
+    highest = max((bead for pair in packing.contacts for bead in pair), default=0)
+    if highest >= beads:
+        raise PackingFileError(f"{name}: contacts name bead {highest} of {beads}")
     contacts = np.array(packing.contacts, dtype=np.int64).reshape(-1, 2)
-    if len(contacts) and int(contacts.max()) >= beads:
-        raise PackingFileError(f"{name}: contacts name bead {contacts.max()} of {beads}")
     if len({frozenset(pair) for pair in packing.contacts}) < len(contacts):
         raise PackingFileError(f"{name}: a contact stands there twice")
     free = sorted({int(b) for b in contacts.ravel() if b >= packing.fixed})
@@ -133,7 +137,9 @@ def _checked(packing: _Packing, name: str) -> Verdict:
         return no(f"{len(contacts)} contacts hold {len(free)} beads: twice as many are needed")
     if (contacts[:, 0] == contacts[:, 1]).any() or (contacts < packing.fixed).all(axis=1).any():
         return no("a contact joins a bead to itself, or two beads of the base")
-    return _Proof(packing, contacts, free).verdict(no, rattlers)
+    proof = _Proof(packing, contacts, free)
+    wrong = proof.impossible()
+    return no(wrong) if wrong else proof.verdict(no, rattlers)
 
 
 class _Proof:
@@ -145,6 +151,30 @@ class _Proof:
         self.loads = [[flint.arb(v) for v in load] for load in packing.loads]
         self.column = {bead: 2 * k for k, bead in enumerate(free)}
         self.directions: list[tuple[Any, Any]] = []  # of the contacts, over the box looked at last
+
+    def impossible(self) -> str:
+        """Say why no equilibrium of these contacts can exist, or be shown to; empty if it may."""
+        numbers = [self.period, *self.radii, *(v for pair in self.x + self.loads for v in pair)]
+        if not all(abs(value) < LARGEST for value in numbers):
+            return f"a number is not below {LARGEST:g}"
+        for bead, radius in enumerate(self.radii):
+            if not radius > 0:
+                return f"the radius of bead {bead} is not positive"
+            if not self.period > 4 * radius:
+                return f"the period is not above 4 radii of bead {bead}: images may meet"
+        for bead in range(self.fixed, len(self.radii)):
+            if bead not in self.column and not all(load == 0 for load in self.loads[bead]):
+                return f"bead {bead} bears a load, and no contact holds it"
+        return ""
+
+    def below(self, within: float) -> int | None:
+        """Give a bead that is not shown to lie above the lowest one of the base, if any does."""
+        lowest = min((self.x[bead][1] for bead in range(self.fixed)), key=float)
+        spread = flint.arb(0, within)
+        for bead in range(self.fixed, len(self.x)):
+            if not self.x[bead][1] + spread > lowest:
+                return bead
+        return None
 
     def difference(self, a: int, b: int, spread: Any) -> tuple[Any, Any]:
         """Give x_a − x_b, nearest image, each coordinate of a free bead being off by ``spread``."""
@@ -206,6 +236,9 @@ class _Proof:
             k = int(np.argmin(forces))
             a, b = self.contacts[k]
             return no(f"the force between beads {a} and {b}, {forces[k]:.3g}, may not be positive")
+        below = self.below(within)
+        if below is not None:
+            return no(f"bead {below} lies below the base, or is not shown to lie above it")
         gap, pair = self.smallest_gap(within)
         if not gap > 0:
             return no(f"beads {pair[0]} and {pair[1]} overlap, or are not shown to be apart")
@@ -229,13 +262,16 @@ class _Proof:
         return forces, norm * residual * (1 + 1e-9)
 
     def smallest_gap(self, within: float) -> tuple[float, tuple[int, int]]:
-        """Give the smallest gap of all pairs that are no contacts, less what it may be off."""
+        """Give the smallest gap of all pairs that are no contacts, less what it may be off.
+
+        Of nearest images: all others are half a period apart, or more, and so above two radii.
+        """
         x = np.array([[float(v) for v in centre] for centre in self.x])
         r, period = np.array([float(v) for v in self.radii]), float(self.period)
         touching = {(min(p), max(p)) for p in self.contacts.tolist()}
         least, pair = np.inf, (0, 0)
         for a in range(len(x)):
-            others = np.arange(max(a + 1, self.fixed), len(x))
+            others = np.arange(a + 1, len(x))
             d = x[others] - x[a]
             d[:, 0] -= period * np.round(d[:, 0] / period)
             gaps = np.hypot(d[:, 0], d[:, 1]) - r[others] - r[a]
@@ -248,4 +284,6 @@ class _Proof:
 
 
 def _upper(ball: Any) -> float:
-    return float(abs(ball).upper()) * (1 + 1e-12) + 1e-300
+    """Round the largest size of a ball up; infinite where it is no number."""
+    value = float(abs(ball).upper()) * (1 + 1e-12) + 1e-300
+    return value if value < np.inf else np.inf

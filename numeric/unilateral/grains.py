@@ -98,8 +98,11 @@ class Grains:
         other = moves[b : b + 2] if b >= 0 else 0.0
         return float(n @ (moves[a : a + 2] - other))
 
-    def near(self, reach: float) -> Pairs:
-        """List the pairs whose gaps are at most about ``reach``, but those of two base beads."""
+    def near(self, reach: float, *, base: bool = False) -> Pairs:
+        """List all pairs with gaps up to ``reach``, and some wider ones.
+
+        Those of two beads of the ``base`` only if asked for.
+        """
         low = self.x[:, 1].min()
         tall = float(self.x[:, 1].max() - low) + reach + 4 * float(self.radii.max())
         places = np.stack([self.x[:, 0] % self.period, self.x[:, 1] - low], axis=1)
@@ -107,7 +110,8 @@ class Grains:
         tree = cKDTree(places, boxsize=[self.period, 2 * tall])
         found = tree.query_pairs(2 * float(self.radii.max()) + reach, output_type="ndarray")
         found = np.sort(found.reshape(-1, 2), axis=1)[:, ::-1]
-        found = found[found[:, 0] >= self.fixed]
+        if not base:
+            found = found[found[:, 0] >= self.fixed]
         return np.asarray(found[np.lexsort((found[:, 1], found[:, 0]))])
 
     def named(self, pairs: Pairs) -> Array:

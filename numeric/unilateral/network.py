@@ -19,12 +19,26 @@ class UnfinishedError(ForceDiffusionError, ArithmeticError):
 
 @dataclass(frozen=True)
 class Frame:
-    """What is exactly known, in balls: ``radii`` (N,), ``base`` (fixed, 2), ``load`` (N, 2)."""
+    """What is exactly known, in balls: ``radii`` (N,), ``base`` (fixed, 2), ``load`` (N, 2).
+
+    Radii are positive, and the ``period`` is above four of any, so that no two images of one bead
+    are near another one: raises ``UnfinishedError`` where that is not sure.
+    """
 
     radii: Array
     base: Array
     period: Any
     load: Array
+
+    def __post_init__(self) -> None:
+        for bead, radius in enumerate(self.radii):
+            if not radius > 0:
+                raise UnfinishedError(f"the radius of bead {bead} is not positive")
+            if not self.period > 4 * radius:
+                raise UnfinishedError(
+                    f"bead {bead} is so large that others may touch it and its image at once: "
+                    f"its radius must be below a quarter of the period, {float(self.period):.4g} r"
+                )
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.sweep import UnbuildableError
 from ..mechanics.work import Work
 from . import event_driven, linear_programs
-from .certificate import Certificate, certify
+from .certificate import Certificate, certify, smallest_gap
 from .grains import Grains, Pairs
 from .linear_programs import NO_FORCE
 from .network import Frame, Network, Relaxed, UnfinishedError
@@ -166,12 +166,18 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None, int
 
 
 def _must_hold(grains: Grains) -> None:
-    """Raise where no packing can stand: the base can't push sideways as much as the load does.
+    """Raise where beads of the base overlap, or can't push sideways as much as the load does.
 
     A bead that touches a bead of the base is at its side the further the smaller it is, until it
     touches the next one too; between those two none can fall through.
     """
     base, s = grains.radii[: grains.fixed], grains.period / grains.fixed
+    wide = base + np.roll(base, -1) >= s
+    if wide.any():
+        q = int(np.argmax(wide))
+        raise UnfinishedError(
+            f"no packing can stand: beads {q} and {(q + 1) % grains.fixed} of the base overlap"
+        )
     smallest = grains.radii[grains.fixed :].min()
     one = base + smallest
     sines = []
@@ -305,30 +311,12 @@ def _certified(problem: Problem, realisation: int, settled: Settled, system: Bal
         if any(force < 0 for force in found.forces):
             raise UnfinishedError("a contact of the settled packing pulls")
         raise UndecidedError("the enclosures are too wide to tell whether all forces are positive")
-    smallest = _other_gaps(grains, contacts, found)
+    smallest = smallest_gap(found.x, known, contacts)
     assert problem.width is not None
     return Network(
         problem.width, found.x, contacts, found.forces, settled.rattlers, settled.events,
         settled.fall, smallest, known, found.kantorovich,
     )  # fmt: skip
-
-
-def _other_gaps(grains: Grains, contacts: Pairs, found: Certificate) -> float:
-    """Give the smallest gap of all other pairs, less all errors; raise unless it is positive."""
-    near = grains.near(0.5)
-    others = near[~np.isin(grains.named(near), grains.named(contacts))]
-    if not len(others):
-        return 0.5
-    x = np.array([[float(v.mid()) for v in row] for row in found.x])
-    gaps = grains.gaps(others, x)
-    # errors of the coordinates, of float64's gaps, and of radii rounded to float64
-    smallest = float(gaps.min()) - 3 * found.within - 1e-13 * (1 + float(np.abs(grains.x).max()))
-    if not smallest > 0:
-        a, b = others[int(np.argmin(gaps))]
-        raise UnfinishedError(
-            f"beads {a} and {b} can't be told from touching: the gap is {gaps.min():.2g} r"
-        )
-    return smallest
 
 
 def _base(problem: Problem, system: Balls) -> Array:
@@ -350,10 +338,11 @@ def _as_deposited(problem: Problem, realisation: int, system: Balls) -> Relaxed:
     assert forces is not None
     assert problem.width is not None
     seen = Physicality()
-    seen.look_at_gaps(packing)
     seen.look_at_forces(forces)
     if seen.tensile:
         raise UnfinishedError("a contact pulls by less than float64 tells")
+    if seen.undecided_signs:
+        raise UndecidedError("the enclosures are too wide to tell whether a contact pulls")
     width, nx, ny = problem.width, *plain.axes(problem.n_x, system)
     x = np.empty(((problem.height + 1) * width, 2), dtype=object)
     for j, row in enumerate(packing.region.rows):
@@ -375,8 +364,9 @@ def _as_deposited(problem: Problem, realisation: int, system: Balls) -> Relaxed:
     out[:] = values
     free = np.arange(width, (problem.height + 1) * width)
     rattlers = free[~np.isin(free, pairs_array)]
+    known = _frame(problem, realisation, system)
+    smallest = smallest_gap(x, known, _supports(width, problem.height))
     network = Network(
-        width, x, pairs_array, out[bearing], rattlers, 0, 0.0, seen.smallest_gap or 0.0,
-        _frame(problem, realisation, system),
+        width, x, pairs_array, out[bearing], rattlers, 0, 0.0, smallest, known
     )  # fmt: skip
     return Relaxed(system, packing, forces, None, network=network)

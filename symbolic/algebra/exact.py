@@ -208,7 +208,8 @@ class RationalFunction:
     def holds(self, symbol: sympy.Expr) -> bool:
         """Whether a generator occurs."""
         place = self.domain.position[symbol]
-        return bool(self.numerator.degrees()[place] or self.denominator.degrees()[place])
+        # of the zero polynomial every degree is −1
+        return any(side.degrees()[place] > 0 for side in (self.numerator, self.denominator))
 
     def degree(self, symbol: sympy.Expr) -> int:
         """Degree in ``symbol``, which the denominator must not hold."""

@@ -1,8 +1,7 @@
 """The same expressions on an explicit small packing, with Fractions: a second, plain reading.
 
-Nothing is shared with the normal form but SymPy's tree: vectors are Cartesian, sums are loops
-(empty when the upper bound is below the lower one), braces are looked up. It finds
-counterexamples, and the tests hold the normal form against it.
+Nothing is shared with the normal form but SymPy's tree: vectors are Cartesian, sums are loops,
+braces are looked up. It finds counterexamples, and the tests hold the normal form against it.
 """
 
 from collections.abc import Iterator, Mapping
@@ -46,6 +45,24 @@ def _of(values: frozenset[tuple[sympy.Symbol, Fraction | int]]) -> _Explicit:
 
 def _explicit(values: Values) -> _Explicit:
     return values if isinstance(values, _Explicit) else _of(frozenset(values.items()))
+
+
+class ReversedError(AmbiguousError):
+    """It has none because a sum's bounds are reversed here: empty in a loop, not so for SymPy."""
+
+
+def terms_of(low: Fraction, high: Fraction) -> range:
+    """The values of an index that is summed over; none where ``high`` is ``low`` less one.
+
+    Raises:
+        ReversedError: it is lower still.
+        AmbiguousError: one of them is no whole number.
+    """
+    if low.denominator != 1 or high.denominator != 1:
+        raise AmbiguousError(f"a sum from {low} to {high}")
+    if high < low - 1:
+        raise ReversedError(f"a sum from {low} to {high}")
+    return range(int(low), int(high) + 1)
 
 
 def geometry(n_x: Fraction, n_y: Fraction, radius: Fraction) -> dict[sympy.Symbol, Fraction | int]:
@@ -248,6 +265,5 @@ def _terms(series: sympy.Sum, values: _Explicit) -> Iterator[Weights | Vector]:
     index, low, high = series.limits[-1]
     inner_limits = series.limits[:-1]
     body = sympy.Sum(series.function, *inner_limits) if inner_limits else series.function
-    first, last = number(low, values), number(high, values)
-    for value in range(int(first), int(last) + 1):
+    for value in terms_of(number(low, values), number(high, values)):
         yield _read(body, _explicit({**values, index: value}))

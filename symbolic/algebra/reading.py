@@ -207,8 +207,6 @@ class Reader:
         self, form: LinearForm, index: sympy.Symbol, low: Affine, high: Affine
     ) -> LinearForm:
         if self.region is not None:
-            if self.region.below(high, low):
-                return LinearForm()  # empty everywhere in the region
             length = affine.shifted(affine.add(high, low, -1), 1)
             if not self.region.nonnegative(length):
                 raise UnsafeBoundsError(

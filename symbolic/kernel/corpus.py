@@ -140,10 +140,16 @@ def _in_one_component(direction: sympy.Expr) -> Rule:
     return rule
 
 
+def _up_to(highest: int, layer: sympy.Symbol) -> sympy.Expr:
+    """The layer, but no more than the highest, as a sum whose bounds are in order."""
+    one, zero, last = map(sympy.Integer, (1, 0, highest))
+    return Sum(sy.Braces(one, zero, sy.m, last), (sy.m, 1, layer))
+
+
 def _near_the_base(source: Source) -> Made:
     for layer in (sy.j, sy.l, sy.site_s):
         if source.relation == "=" and layer in source.free:
-            once = (layer - 1) * Sum(1, (sy.m, layer, 2))  # one in layer 2, an empty sum above it
+            once = 2 * _up_to(2, layer) - _up_to(3, layer) - 1  # zero in layer 1, and from 3 on
             wrong = source.right(plus(source.term(_MILLIONTH) * once))
             yield f"wrong at {text(layer)} = 2 alone", wrong
 
@@ -417,14 +423,16 @@ TRUE: dict[str, tuple[Rule, ...]] = {
 """Rules of what is true, by kind."""
 
 
-def statements(printed: sympy.Eq, relation: str, turn: int | None = None) -> Iterator[Statement]:
+def statements(
+    printed: sympy.Eq, relation: str, turn: int | None = None, dimension: int = 2
+) -> Iterator[Statement]:
     """Yield all statements, or, for a turn, one of each rule: another one for another turn."""
     source = Source(printed, relation)
     for holds, kinds in ((False, FALSE), (True, TRUE)):
         for kind, rules in kinds.items():
             for rule in rules:
                 made = list(rule(source))
-                if sy.d in source.free:  # n_x and n_y are of the plane
+                if sy.d in source.free or dimension != 2:  # n_x and n_y are of the plane
                     made = [one for one in made if not (holds and one[1].has(sy.n_x, sy.n_y))]
                 if turn is not None and made:
                     made = [made[turn % len(made)]]

@@ -98,11 +98,14 @@ def counterexample(
         )
     )
     for values in _samples(region, free):
-        if is_vector:
-            both = [explicit.vector_weights(side, values) for side in (left, right)]
-            pairs = list(zip(*both, strict=True))
-        else:
-            pairs = [(explicit.weights(left, values), explicit.weights(right, values))]
+        try:
+            if is_vector:
+                both = [explicit.vector_weights(side, values) for side in (left, right)]
+                pairs = list(zip(*both, strict=True))
+            else:
+                pairs = [(explicit.weights(left, values), explicit.weights(right, values))]
+        except explicit.ReversedError:
+            continue
         for one, other in pairs:
             if one != other:
                 key = min(k for k in one.keys() | other.keys() if one.get(k) != other.get(k))

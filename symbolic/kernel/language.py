@@ -22,8 +22,10 @@ HIGHEST_POWER, LARGEST_BOUND = 40, 1000
 """What is higher or larger is not read: it would take for ever."""
 
 _FORCES = (sy.ForcePlus, sy.ForceMinus)
-_COMMON = {sy.phi, sy.n_x, sy.n_y, sy.r, sy.spacing, *sy.VECTORS, *sy.INDICES}
+_OF_THE_PLANE = {sy.n_x, sy.n_y, sy.spacing, *sy.VECTORS}
+_GEOMETRY = {sy.phi, sy.r, *_OF_THE_PLANE}
 _LAYERS = (sy.j, sy.l, sy.site_s)
+_ACROSS = {sy.i, sy.k, sy.site_r}
 
 
 class OutsideError(ValueError):
@@ -31,20 +33,20 @@ class OutsideError(ValueError):
 
 
 def unreadable(
-    candidate: sympy.Eq, printed: Collection[sympy.Eq], named: Collection[sympy.Basic] = ()
+    candidate: sympy.Eq,
+    printed: Collection[sympy.Eq],
+    named: Collection[sympy.Basic] = (),
+    dimension: int = 2,
 ) -> str:
     """Why a candidate for one of the printed equations has no meaning; "" when it has.
 
-    ``named`` are further symbols of the derivation.
+    ``named`` are further symbols of the derivation, ``dimension`` is that of its packing.
     """
     own = set().union(*(line.free_symbols for line in printed))
-    known = _COMMON | own | {one for one in named if isinstance(one, sympy.Symbol)}
-    if sy.M in own:
-        known.add(sy.z)
-    if sy.d in own:  # the plane has n_x and n_y, other dimensions have not
-        known -= {sy.n_x, sy.n_y, sy.spacing}
-    if strange := next(_strangers(candidate, known), ""):
+    if strange := next(_strangers(candidate, _known(own, named, dimension)), ""):
         return strange
+    if across := by_name((_counting(candidate) & _ACROSS) - _counting(*printed)):
+        return f"{text(across[0])} says where a bead is, and is no number in this equation"
     try:
         sorts = [_sort(side) for side in candidate.args]
     except OutsideError as reason:
@@ -53,6 +55,30 @@ def unreadable(
         return "a number is set equal to a vector"
     free = own | candidate.free_symbols
     return next(chain(_sums(candidate, free), _indices(candidate)), "")
+
+
+def _known(
+    own: Collection[sympy.Basic], named: Collection[sympy.Basic], dimension: int
+) -> set[sympy.Basic]:
+    """What may stand free in a candidate: an index only in a role that the equation has for it."""
+    known = _GEOMETRY | set(own)
+    known |= {one for one in named if isinstance(one, sympy.Symbol) and one not in SUMMATION}
+    if sy.z not in own:  # it is averaged over, or there is no height
+        known.discard(sy.z)
+    if {sy.j, sy.M} <= known:
+        known.add(sy.z)
+    elif sy.z in known:
+        known.add(sy.j)
+    return known - _OF_THE_PLANE if sy.d in own or dimension != 2 else known
+
+
+def _counting(*nodes: sympy.Basic) -> set[sympy.Basic]:
+    """The symbols that are numbers there, and not only the place of a bead."""
+    found: set[sympy.Basic] = set()
+    for node in nodes:
+        if not isinstance(node, sy.SiteFunction):
+            found |= {node} if isinstance(node, sympy.Symbol) else _counting(*node.args)
+    return found
 
 
 def usual_form(candidate: sympy.Eq, printed: Collection[sympy.Eq]) -> sympy.Eq:
@@ -116,7 +142,7 @@ def says_less(candidate: sympy.Eq, printed: sympy.Eq) -> str:
 
     What is multiplied by a factor that vanishes somewhere says nothing there.
     """
-    known = _COMMON | {*sy.PARAMETERS} | printed.rhs.free_symbols
+    known = _GEOMETRY | {*sy.INDICES, *sy.PARAMETERS} | printed.rhs.free_symbols
     observed = by_name(printed.lhs.free_symbols - known)
     if candidate.lhs == printed.lhs or not observed:
         return ""
@@ -128,7 +154,8 @@ def says_less(candidate: sympy.Eq, printed: sympy.Eq) -> str:
 
 def _strangers(candidate: sympy.Basic, known: Collection[sympy.Basic]) -> Iterator[str]:
     names = {symbol.name for symbol in known}
-    for symbol in by_name(candidate.atoms(sympy.Symbol) - set(known)):
+    summed = {*SUMMATION} - candidate.free_symbols
+    for symbol in by_name(candidate.atoms(sympy.Symbol) - set(known) - summed):
         if symbol.name in names:
             yield (
                 f"{symbol.name}: not this equation's symbol, but another of the same name; take "

@@ -59,16 +59,17 @@ def _number(exact: sympy.Expr, values: tuple[tuple[sympy.Symbol, Fraction], ...]
 
 
 def parts_in_the_limit(
-    exact: sympy.Expr, candidate: sympy.Expr, places: tuple[Place, ...]
+    exact: sympy.Expr, candidate: sympy.Expr, places: tuple[Place, ...], dimension: int = 2
 ) -> str | None:
     """Where the candidate has no value, or its share of difference from ``exact`` stays.
 
-    Each place gives the symbols that grow, as multiples of one size. Nothing is found for what is
-    no rational function.
+    Each place gives the symbols that grow, as multiples of one size; in ``dimension`` d, φ is
+    above −1/d. Nothing is found for what is no rational function.
     """
     if not _is_rational(candidate):
         return None
-    for (a, geometry), (b, place) in product(enumerate(_geometries(candidate)), enumerate(places)):
+    geometries = [one for one in _geometries(candidate) if one[sy.phi] * dimension > -1]
+    for (a, geometry), (b, place) in product(enumerate(geometries), enumerate(places)):
         if min(a, b) > 1:
             continue  # every φ at two places, and every place at two φ
         shares = []
@@ -111,6 +112,8 @@ def not_proportional(side: sympy.Expr, ratio: sympy.Expr) -> str | None:
     The ratio has to be the same at one φ whatever else is put in, M being large: to 30 digits, of
     which three are compared.
     """
+    if side.has(sympy.Sum):
+        return None  # SymPy has a value of its own for reversed bounds
     for cosine in COSINES:
         found = []
         for changed in _APART:

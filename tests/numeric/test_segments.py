@@ -3,13 +3,13 @@
 import os
 from dataclasses import replace
 from fractions import Fraction
-from itertools import count
+from itertools import count, product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, BigFloat, as_ball
 from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.physicality import Physicality
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError
@@ -17,6 +17,7 @@ from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning import budget, segments
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import plan
+from force_diffusion.numeric.quantities.answer import answer
 from force_diffusion.numeric.run.checkpoint import CheckpointError
 from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.run.running import run
@@ -42,6 +43,9 @@ CASES: dict[str, dict[str, dict[str, Any]]] = {
     },
     "response": {
         "packing": STRIP, "load": POINT, "ask": {"quantity": "response", "layers": [16, 0, 9, 8]},
+    },
+    "response below the load": {
+        "packing": STRIP, "load": POINT, "ask": {"quantity": "response", "layers": [16]},
     },
     "response of a slab": {
         "packing": {"height": 19}, "load": {"kind": "point", "at": [-4, 18], "angle_deg": 7},
@@ -84,6 +88,62 @@ def test_segments_give_every_bit_of_the_sweep_in_memory(name: str, layers: int, 
     same(run(made), run(cut(made, layers)))
 
 
+def true_error(plan: Plan) -> float:
+    """Of the answer, relative to the largest change: what balls of the same radii say."""
+    system, one = Balls(160), range(1)
+    table = run(plan).answer.table
+    exact = answer(plan.quantity, plan.problem, one, system).table
+    with system.active():
+        pairs = [
+            (as_ball(b), as_ball(a))
+            for name in table.small
+            for a, b in zip(table.numbers[name], exact.numbers[name], strict=True)
+        ]
+        largest = max(float(abs(b).upper()) for b, _ in pairs)
+        return max(float(abs(b - a).upper()) for b, a in pairs) / largest
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_stated_error_covers_the_true_one(name: str) -> None:
+    for seed, std in product(range(10), ("=1e-8", "=1e-3")):
+        made = planned(sections(name, seed=seed, relative_std=std))
+        assert true_error(made) <= run(cut(made, 6)).accuracy.error_bound, (seed, std)
+
+
+@pytest.mark.parametrize("layers", [2, 8, 40])
+@pytest.mark.parametrize("name", CASES)
+def test_the_error_is_that_of_the_sweep_in_memory(name: str, layers: int) -> None:
+    for kind, seed in product(("uniform", "two-point"), range(3)):
+        made = planned(sections(name, kind=kind, seed=seed))
+        alike(run(cut(made, layers)), run(made))
+
+
+def alike(a: Outcome, b: Outcome) -> None:
+    """The error of parts is kept as a float, rounded up."""
+    assert a.accuracy.note == b.accuracy.note
+    assert a.accuracy.error_bound == pytest.approx(float(b.accuracy.error_bound), rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["contact", "base of a slab", "response", "histogram"])
+def test_without_a_long_double_big_floats_repeat_it(name: str) -> None:
+    made = planned(sections(name, seed=4))
+    made = replace(made, method=replace(made.method, longer=BigFloat(35)))
+    found = run(cut(made, 6))
+    alike(found, run(made))
+
+
+def test_one_contact_of_many_beads_has_its_own_error() -> None:
+    """An error of 16 columns in its place was a third of the true one."""
+    parts: dict[str, dict[str, Any]] = {
+        "packing": {"height": 400, "width": 802},
+        "disorder": {"kind": "uniform", "relative_std": "=1e-8", "seed": 4},
+        "ask": {"quantity": "contact", "at": [0, 0, "+"]},
+    }
+    by_parts = plan(scene(parts), memory_limit=22 * 10**7)
+    assert by_parts.problem.segment
+    alike(run(by_parts), run(plan(scene(parts), memory_limit=10**10)))
+
+
 def test_a_plan_that_the_memory_does_not_hold_is_made_of_segments() -> None:
     asked = scene(sections("profile") | {"packing": {"height": 1999, "width": 2002}})
     whole = plan(asked, memory_limit=4 * 10**9)
@@ -101,7 +161,7 @@ def test_a_plan_that_the_memory_does_not_hold_is_made_of_segments() -> None:
 
 @pytest.mark.parametrize("said", ["in the scene", "beside it"])
 def test_with_a_tolerance_it_is_refused_and_said_that_without_it_runs(said: str) -> None:
-    """Segments' error is that of some columns: no answer to a tolerance, wherever it stands."""
+    """Segments are swept in float64 alone: no answer to a tolerance, wherever it stands."""
     wanted: dict[str, dict[str, Any]] = sections("profile", relative_std="=1e-8")
     wanted |= {"packing": {"height": 1999, "width": 2002}}
     without = plan(scene(wanted), memory_limit=4 * 10**8)

@@ -328,7 +328,7 @@ def test_radii_are_listed_in_any_order(tmp_path: Path) -> None:
     """The drawn radii, listed exactly, as δr or as r in another unit."""
     asked = scene("contact_forces", height=3, width=4)
     values = drawn(asked)
-    before = asked.run(tolerance="1e-30")
+    before = asked.run(tolerance="1e-40")
     for name, unit in (("delta_r", Fraction(1)), ("r", Fraction(1, 8))):
         lines = [f"p,q,j,{name}"]
         for p, q, j in reversed([*beads(4, 3)]):
@@ -340,9 +340,9 @@ def test_radii_are_listed_in_any_order(tmp_path: Path) -> None:
         )
         disorder = fd.Disorder(kind="file", file="radii.csv")
         listed = {"packing": packing, "disorder": disorder, "folder": tmp_path}
-        again = asked.model_copy(update=listed).run(tolerance="1e-30")
+        again = asked.model_copy(update=listed).run(tolerance="1e-40")
         for a, b in zip(before.arrays["change"], again.arrays["change"], strict=True):
-            assert abs(float((a - b).mid())) < 1e-30
+            assert abs(float((a - b).mid())) < 1e-40
 
 
 @pytest.mark.parametrize(

@@ -183,23 +183,89 @@ def test_all_loads_come_to_rest(load: fd.Load, protocol: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("std", "width"), [(0.03, 16), (0.08, 16), (0.12, 16), (0.3, 16), (0.354, 5)]
+    ("std", "width", "seed"),
+    [(0.03, 16, 3), (0.08, 16, 3), (0.12, 16, 3), (0.3, 16, 1), (0.354, 5, 1)],
 )
 def test_what_cannot_be_deposited_starts_from_a_stretched_lattice(
-    std: float, width: int, tmp_path: Path
+    std: float, width: int, seed: int, tmp_path: Path
 ) -> None:
-    """Up to 4 M*; as deposited, seed 3 has overlaps or beads that can't rest."""
-    outcome = strip(std=std, seed=3, width=width).run()
+    """Up to 4 M*; as deposited, these have overlaps or beads that can't rest."""
+    outcome = strip(std=std, seed=seed, width=width).run()
     assert outcome.answer.networks[0].events > 0
     assert proved(outcome, tmp_path)
     with pytest.raises(UnfinishedError, match="linear-programs"):
-        strip(std=std, seed=3, width=width, protocol="event-driven").run()
+        strip(std=std, seed=seed, width=width, protocol="event-driven").run()
 
 
 def test_beads_that_fall_through_the_base_are_told() -> None:
-    """Radii down to 0.39 r, 3 r apart."""
-    with pytest.raises(UnfinishedError, match="fell through the base"):
-        strip(std=0.354, seed=3).run()
+    """Radii down to 0.48 r, 3 r apart: four weightless beads fall, all others come to rest."""
+    with pytest.raises(UnfinishedError, match=r"bead 23 fell through the base, and 3 more"):
+        strip(std=0.3, seed=3).run()
+
+
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+@pytest.mark.parametrize("second", [0.5, 0.6])
+def test_beads_of_the_base_that_overlap_or_touch_are_no_answer(
+    protocol: str, second: float
+) -> None:
+    """Their centres are 3 apart, their radii 1.5 and as much or more."""
+    with pytest.raises(UnfinishedError, match="beads 2 and 1 overlap, or can't be told"):
+        own({(0, 1): 0.5, (0, 2): second}, protocol=protocol).run()
+
+
+def test_beads_of_the_base_that_overlap_are_told_before_others_move() -> None:
+    """Of radii up to 1.56 two neighbours need more than 3."""
+    with pytest.raises(UnfinishedError, match="beads 3 and 4 of the base overlap"):
+        strip(std=0.354, seed=3, width=5).run()
+
+
+@pytest.mark.parametrize("radius", [1.9, 2.3])
+def test_beads_above_a_quarter_of_the_period_are_no_answer(radius: float) -> None:
+    """A period of 7.5: what touches such a bead may touch its image as well."""
+    with pytest.raises(UnfinishedError, match="bead 7 is so large"):
+        own({(2, 1): radius - 1}, width=3, spacing=2.5).run()
+
+
+def own(
+    deviations: dict[tuple[int, int], float], width: int = 5, spacing: float = 3, **effects: str
+) -> fd.Scene:
+    """Two layers of beads on the base, of radius 1 but for those named (layer, column)."""
+    delta = np.zeros((3, width))
+    for at, value in deviations.items():
+        delta[at] = value
+    return fd.Scene(
+        packing=fd.Packing(height=2, width=width, spacing=spacing, allow_images=True),
+        disorder=fd.GivenRadii(delta_r=delta),
+        load=fd.SurfaceLoad(),
+        effects=fd.Effects(contacts="unilateral", **effects),
+        ask=fd.Ask(quantity="contact_forces"),
+    )
+
+
+@pytest.mark.parametrize("tiny", ["1e-9", "1e-14", "1e-300"])
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+def test_a_bead_that_bears_next_to_nothing_is_held_or_is_no_answer(
+    protocol: str, tiny: str, tmp_path: Path
+) -> None:
+    """One bead of the surface bears so little that its contacts may count as bearing nothing."""
+    rows = [f"{i},8,0,{'-' + tiny if i == 6 else -1}" for i in range(0, 32, 2)]
+    (tmp_path / "loads.csv").write_text("\n".join(["i,j,fx,fy", *rows, ""]))
+    load = fd.Load(kind="file", file="loads.csv")
+    scene = strip(load=load, protocol=protocol).model_copy(update={"folder": tmp_path})
+    try:
+        outcome = scene.run()
+    except UnfinishedError as error:
+        assert "bead 131 bears a load, and no contact holds it" in str(error)  # noqa: PT017
+    else:
+        assert outcome.answer.networks[0].events > 0
+        assert 131 in outcome.answer.networks[0].pairs
+        assert proved(outcome, tmp_path)
+
+
+def test_under_no_pressure_to_speak_of_beads_are_no_equilibrium() -> None:
+    """The load sinks to the base; it was called a strict minimum with all others in the air."""
+    with pytest.raises(UnfinishedError, match="bears a load, and no contact holds it"):
+        strip(load=fd.PointLoad(at=[0, 8], pressure=1e-12)).run()
 
 
 @pytest.mark.parametrize("width", [3, 4])

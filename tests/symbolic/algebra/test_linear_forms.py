@@ -118,8 +118,15 @@ def test_bounds_out_of_order_are_not_read() -> None:
 
 
 def test_an_empty_sum_is_nothing() -> None:
-    series = sympy.Sum(sy.DeltaR(sy.i + sy.m, sy.m), (sy.m, 1, sy.j - sy.j - 1))
+    series = sympy.Sum(sy.DeltaR(sy.i + sy.m, sy.m), (sy.m, 1, sy.j - sy.j))
     assert Reader(Region({})).scalar(series).is_zero()
+
+
+def test_a_reversed_sum_is_not_read_as_empty() -> None:
+    """Σ from 1 to −1 is minus the term at 0 by SymPy's convention, which others do not share."""
+    series = sympy.Sum(sy.DeltaR(sy.i + sy.m, sy.m), (sy.m, 1, -1))
+    with pytest.raises(UnsafeBoundsError):
+        Reader(Region({})).scalar(series)
 
 
 @pytest.mark.parametrize(

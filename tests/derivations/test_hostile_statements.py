@@ -1,0 +1,282 @@
+"""Statements that nobody should get proved, of every equation, through ``fd.equation(n).decide``.
+
+The exact forms are the counterpart: true, and never refuted. Nothing here knows how a statement is
+decided.
+"""
+
+from collections.abc import Callable, Iterator
+from itertools import chain
+from typing import Any
+
+import pytest
+import sympy
+from sympy import Add, Eq, Integer, Mul, Pow, Rational, Sum
+
+import force_diffusion as fd
+
+NUMBERS: tuple[int | str, ...] = (*range(1, 17), *(f"B{n}" for n in range(1, 22)))
+VOCABULARY: dict[str, Any] = {}
+"""Every symbol and function of any equation, by its name."""
+for number in NUMBERS:
+    VOCABULARY |= fd.equation(number).symbols
+
+INDICES = ("i", "j", "k", "l", "m", "n", "p", "q", "site_r", "site_s", "M", "N", "d")
+QUANTITIES = ("z", "t", "kappa", "sigma", "f_load", "m_g", "L_plus", "L_minus")
+GEOMETRY = ("r", "spacing", "n_x", "n_y", "phi")
+"""What statements in the plane may be written in: n_x and n_y are functions of φ, s = 4rn_x."""
+IN_SPACE: tuple[int | str, ...] = ("B11", "B13", "B14", "B19", "B20")
+"""Not of the plane, whose cosines n_x and n_y have no meaning there."""
+
+MILLIONTH = Rational(1, 10**6)
+
+
+def lines(number: int | str) -> tuple[sympy.Eq, ...]:
+    printed = fd.equation(number).expr
+    return tuple(printed) if isinstance(printed, sympy.Tuple) else (printed,)
+
+
+def changed(line: sympy.Eq, change: Callable[[sympy.Expr], sympy.Expr]) -> sympy.Eq:
+    """The right-hand side changed; where that is zero, one term of the left-hand side."""
+    left, right = line.args
+    if right:
+        return Eq(left, change(right), evaluate=False)
+    first, *others = left.args
+    return Eq(Add(change(first), *others, evaluate=False), right, evaluate=False)
+
+
+def times(*factors: sympy.Expr) -> Callable[[sympy.Expr], sympy.Expr]:
+    return lambda side: Mul(*factors, side, evaluate=False)
+
+
+def plus(*terms: sympy.Expr) -> Callable[[sympy.Expr], sympy.Expr]:
+    return lambda side: Add(side, *terms, evaluate=False)
+
+
+def unit(number: int | str) -> sympy.Expr:
+    """A vector for an equation of vectors, else 1."""
+    of_vectors = {1: "n_plus", 2: "b_plus", 3: "b_plus", 4: "b_plus", 5: "b_plus", 6: "n_plus"}
+    return VOCABULARY[of_vectors[number]] if isinstance(number, int) and number < 7 else Integer(1)
+
+
+def over_itself(one: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
+    """Two factors that cancel, if they are read."""
+    return one, Pow(one, -1, evaluate=False)
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_what_is_printed_is_proved(number: int | str) -> None:
+    """So that what follows is not true of a checker that proves nothing."""
+    for line in lines(number):
+        assert fd.equation(number).decide(line).verdict == "proved"
+
+
+def meddled(number: int | str, symbol: sympy.Symbol) -> Iterator[sympy.Eq]:
+    """A symbol multiplied or added where the printed equation has none."""
+    for line in lines(number):
+        yield changed(line, times(symbol))
+        yield changed(line, times(1 + symbol))
+        yield changed(line, times(1 + MILLIONTH * symbol**2))
+
+
+def told_of(number: int | str, symbol: sympy.Symbol) -> Iterator[sympy.Eq]:
+    """The same where it may say nothing, or what is of lower order."""
+    for line in lines(number):
+        for term in (symbol * unit(number), MILLIONTH / symbol * unit(number)):
+            yield changed(line, plus(term))
+        yield changed(line, times(*over_itself(symbol)))
+        one = Mul(*over_itself(symbol), unit(number), evaluate=False)
+        yield changed(line, plus(one, -unit(number)))
+        yield Eq(*(times(symbol)(side) for side in line.args), evaluate=False)
+
+
+def names_known_to(number: int | str) -> set[str]:
+    """Indices and quantities that it declares; z is j/M wherever there are both."""
+    known = {*INDICES, *QUANTITIES} & {*fd.equation(number).symbols}
+    return known | {"z"} if {"j", "M"} <= known else known
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_a_symbol_that_is_not_the_equations_leaves_it_undecided(number: int | str) -> None:
+    strange = {*INDICES, *QUANTITIES} - names_known_to(number)
+    assert len(strange) >= 9
+    for name in sorted(strange):
+        symbol = VOCABULARY[name]
+        for candidate in chain(meddled(number, symbol), told_of(number, symbol)):
+            found = fd.equation(number).decide(candidate)
+            assert found.verdict == "undecided", (name, candidate, str(found))
+
+
+@pytest.mark.parametrize("number", [n for n in NUMBERS if n != 15])
+def test_a_factor_in_the_equations_own_symbols_is_not_proved(number: int | str) -> None:
+    """Eq. 15 is a proportion, in which factors that hold φ alone are free."""
+    for name in sorted({*names_known_to(number), *GEOMETRY}):
+        for candidate in meddled(number, VOCABULARY[name]):
+            found = fd.equation(number).decide(candidate)
+            assert found.verdict != "proved", (name, candidate, str(found))
+
+
+def test_a_proportion_has_no_factor_that_differs_from_layer_to_layer() -> None:
+    z, j, M = (VOCABULARY[name] for name in "zjM")
+    for line in lines(15):
+        for factor in (z, 1 + z, 1 + z**2, 1 / (1 + z), z / M + 1, j, 1 + j / M, 1 + j**2 / M**2):
+            found = fd.equation(15).decide(changed(line, times(factor)))
+            assert found.verdict == "undecided", (factor, str(found))
+
+
+@pytest.mark.parametrize("name", ["i", "k", "l", "n", "p", "q", "m", "site_r", "site_s"])
+def test_a_place_is_no_number_that_a_radius_is_multiplied_by(name: str) -> None:
+    """How large i is, against M, Eq. 12 does not say: what it multiplies is not of lower order."""
+    i, j, DeltaR = (VOCABULARY[name] for name in ("i", "j", "DeltaR"))
+    place, radius = VOCABULARY[name], DeltaR(i, j)
+    equation = fd.equation(12)
+    for term in (place**20 * radius, place * radius, place**2 * DeltaR(i - j, 0), radius / place):
+        for line in (changed(lines(12)[0], plus(term)), changed(lines(12)[0], plus(-term))):
+            found = equation.decide(line)
+            assert found.verdict == "undecided", (term, str(found))
+    if name not in ("m", "n"):
+        counted = Sum(DeltaR(i, j), (VOCABULARY["n"], 1, place))
+        assert equation.decide(changed(lines(12)[0], plus(counted))).verdict == "undecided"
+
+
+@pytest.mark.parametrize("number", IN_SPACE)
+def test_the_planes_cosines_mean_nothing_in_space(number: int | str) -> None:
+    n_x, n_y, spacing, r, phi = (VOCABULARY[n] for n in ("n_x", "n_y", "spacing", "r", "phi"))
+    for line in lines(number):
+        for change in (
+            times(n_x**2 + n_y**2),
+            times(4 * n_x**2 * n_y**2 / (1 - phi**2)),
+            times(2 * n_y**2 / (1 + phi)),
+            times(spacing / (4 * r * n_x)),
+            times(*over_itself(n_x)),
+            plus(n_y),
+            plus(n_x**2 + n_y**2, -Integer(1)),
+            plus(VOCABULARY["n_plus"] - VOCABULARY["n_plus"], spacing),
+        ):
+            found = fd.equation(number).decide(changed(line, change))
+            assert found.verdict == "undecided", (change, str(found))
+
+
+WITH_SUMS = [n for n in NUMBERS if any(line.has(Sum) for line in lines(n))]
+
+
+def sums(number: int | str) -> Iterator[tuple[sympy.Eq, sympy.Sum]]:
+    for line in lines(number):
+        for series in sorted(line.atoms(Sum), key=str):
+            yield line, series
+
+
+def test_there_are_sums_to_try() -> None:
+    assert WITH_SUMS == [3, 4, 5, 11, 12, "B1"]
+
+
+@pytest.mark.parametrize("number", WITH_SUMS)
+def test_a_reversed_sum_is_undecided(number: int | str) -> None:
+    """A loop reads it as empty; by SymPy's convention it is minus the terms in between."""
+    for line, series in sums(number):
+        (index, low, high), body = series.limits[0], series.function
+        whole = (index, high + 1, low - 1)
+        for other in (
+            -Sum(body, whole),
+            series + Sum(body, whole),
+            series + Sum(body, (index, high + 3, high)),
+            series + Sum(body, (index, low, low - 2)),
+            series + Sum(body, (index, 5, 1)),
+        ):
+            found = fd.equation(number).decide(line.xreplace({series: other}))
+            assert found.verdict == "undecided", (other, str(found))
+            assert "sum" in found.note
+
+
+@pytest.mark.parametrize("number", WITH_SUMS)
+def test_a_sum_whose_bounds_may_cross_is_not_proved(number: int | str) -> None:
+    """Three too many at an end, taken off again: in a low packing these are not in order."""
+    for line, series in sums(number):
+        (index, low, high), body = series.limits[0], series.function
+        for other in (
+            Sum(body, (index, low, high - 9)) + Sum(body, (index, high - 8, high)),
+            Sum(body, (index, low, low + 8)) + Sum(body, (index, low + 9, high)),
+            series + Sum(body, (index, low + 9, high)) - Sum(body, (index, low + 9, high)),
+        ):
+            twice = Add(*other.args, evaluate=False) if isinstance(other, Add) else other
+            if twice != series:
+                found = fd.equation(number).decide(line.xreplace({series: twice}))
+                assert found.verdict != "proved", (other, str(found))
+
+
+@pytest.mark.parametrize("number", [n for n in WITH_SUMS if n != 12])
+def test_other_bounds_are_not_proved(number: int | str) -> None:
+    """Of Eq. 12 a term at an end is of an order that it drops."""
+    for line, series in sums(number):
+        (index, low, high), body = series.limits[0], series.function
+        for first, last in ((1, 0), (-1, 0), (0, 1), (0, -1), (2, 0), (0, 2), (0, -2), (-1, -1)):
+            other = Sum(body, (index, low + first, high + last))
+            found = fd.equation(number).decide(line.xreplace({series: other}))
+            assert found.verdict != "proved", (other, str(found))
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_a_sum_without_terms_is_no_way_to_write_zero_unless_it_is_one(number: int | str) -> None:
+    m = VOCABULARY["m"]
+    for line in lines(number):
+        reversed_ = Sum(1, (m, 5, 1)) * unit(number)
+        assert fd.equation(number).decide(changed(line, plus(reversed_))).verdict == "undecided"
+        factor = 1 + Sum(m, (m, 7, 2))
+        assert fd.equation(number).decide(changed(line, times(factor))).verdict == "undecided"
+
+
+CASES = [(number, case) for number in NUMBERS for case in fd.equation(number).cases]
+EDGES = ("base", "base+1", "surface", "bulk-base", "bulk-base+1", "bulk-surface")
+"""Forms of a layer at an edge: false of the layers that the printed equation is about."""
+
+
+@pytest.mark.parametrize(("number", "case"), CASES)
+def test_an_exact_form_is_proved_and_a_millionth_more_is_not(number: int | str, case: str) -> None:
+    equation = fd.equation(number)
+    form = equation.exact(case).expr
+    more = Eq(form.lhs, form.rhs * (1 + MILLIONTH), evaluate=False)
+    less = Eq(form.lhs, form.rhs * (1 - MILLIONTH), evaluate=False)
+    assert equation.decide(more).verdict != "proved"
+    assert equation.decide(less).verdict != "proved"
+    found = equation.decide(form)
+    if case in EDGES:
+        assert found.verdict != "proved"
+    elif any(sympy.expand(form.lhs - line.lhs) == 0 for line in lines(number)):
+        assert found.verdict == "proved", str(found)
+        assert equation.decide(more).verdict == "refuted"
+    else:  # of another quantity than is printed
+        assert found.verdict == "undecided", str(found)
+
+
+def test_exact_forms_of_both_kinds_were_tried() -> None:
+    proved = {n for n, case in CASES if case not in EDGES}
+    assert proved == {13, 14, 15, 16, *(f"B{n}" for n in (2, 3, 5, 6, 10, *range(13, 20)))}
+
+
+def kappa_of(number: int | str) -> sympy.Expr:
+    """Its definition, as Eqs. B11, B13, B14 and B20 print it."""
+    d, phi = VOCABULARY["d"], VOCABULARY["phi"]
+    if number in ("B13", "B14"):
+        return (1 + phi) / ((1 - phi) * (1 + 2 * phi))
+    return (1 + (d - 2) * phi) / ((1 - phi) * (1 + (d - 1) * phi))
+
+
+@pytest.mark.parametrize("number", ["B11", "B13", "B14", "B20"])
+def test_the_printed_definition_of_kappa_may_be_put_in(number: int | str) -> None:
+    equation, kappa, phi = fd.equation(number), VOCABULARY["kappa"], VOCABULARY["phi"]
+    right, known = equation.rhs, kappa_of(number)
+    for same in (
+        right.xreplace({kappa: known}),
+        right * known / kappa,
+        right * kappa / known,
+        sympy.expand(right.xreplace({kappa: known})),
+    ):
+        found = equation.decide(same)
+        assert found.verdict == "proved", str(found)
+        assert equation.decide(same * (1 + MILLIONTH)).verdict == "refuted"
+    for wrong in (
+        right.xreplace({kappa: known * (1 + phi * MILLIONTH)}),
+        right.xreplace({kappa: 1 / (1 - phi**2)}),
+        right.xreplace({kappa: (1 + phi) / (1 - phi)}),
+        right * known,
+    ):
+        assert equation.decide(wrong).verdict == "refuted"

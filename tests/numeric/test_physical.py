@@ -1,0 +1,192 @@
+"""Every pair of beads that overlaps is found, own images and far neighbours included.
+
+What ``physical`` says against all pairs of the beads where they are said to be, one by one.
+"""
+
+from dataclasses import replace
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.mechanics import engine
+from force_diffusion.numeric.planning import segments
+from force_diffusion.numeric.planning.plan import Plan
+from force_diffusion.numeric.planning.planner import plan
+from force_diffusion.numeric.run.running import run
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+import force_diffusion as fd
+
+Array = np.ndarray[Any, Any]
+
+
+def scene(delta: Array, spacing: float, quantity: str = "positions") -> fd.Scene:
+    """Beads of radius 1 + ``delta``, (M + 1, W) discs or (M + 1, W, W) spheres."""
+    return fd.Scene(
+        packing=fd.Packing(
+            height=delta.shape[0] - 1,
+            width=delta.shape[1],
+            dimension=delta.ndim,
+            spacing=spacing,
+            allow_images=True,
+        ),
+        disorder=fd.GivenRadii(delta_r=delta),
+        ask=fd.Ask(quantity=quantity),  # type: ignore[arg-type]
+    )
+
+
+def every_gap(delta: Array, spacing: float, outcome: fd.Outcome) -> Array:
+    """Gaps of all pairs but contacts, each once, with all images that may be near.
+
+    Sites in steps of the base vectors, by a basis of their own: layer j of column p (and q) is
+    p e_1 (+ q e_2) + (j − p − q) e_d in three dimensions, i = 2 p + j mod 2 in two.
+    """
+    d, W = delta.ndim, delta.shape[1]
+    columns = outcome.arrays
+    names = ("x", "y") if d == 2 else ("x", "y", "z")
+    centres = np.stack([np.asarray(columns[name], dtype=float) for name in names], axis=-1)
+    if d == 2:
+        i, j = columns["i"], columns["j"]
+        sites = np.stack([(j + i) // 2, (j - i) // 2], axis=-1)
+        seams, shifts = [(W, -W)], [np.array([spacing * W, 0.0])]
+        radii = 1 + delta[j, (i - j % 2) // 2]
+    else:
+        p, q, j = columns["p"], columns["q"], columns["j"]
+        sites = np.stack([p, q, j - p - q], axis=-1)
+        # n^1 − n^3 along x; all base vectors of one mutual angle, z up: differences of length s
+        seams = [(W, 0, -W), (0, W, -W)]
+        shifts = [
+            np.array([spacing * W, 0.0, 0.0]),
+            np.array([spacing * W / 2, spacing * W * np.sqrt(3) / 2, 0.0]),
+        ]
+        radii = 1 + delta[j, p, q]
+    count = len(radii)
+    seams_of, shifts_of = np.array(seams), np.array(shifts)
+    flat = centres[:, None, : d - 1] - centres[None, :, : d - 1]
+    near = np.round(flat @ np.linalg.inv(shifts_of[:, : d - 1])).astype(int)
+    found = []
+    for images in product(range(-4, 5), repeat=d - 1):
+        around = near + images
+        step = sites[None] - sites[:, None] + around @ seams_of
+        apart = centres[None] - centres[:, None] + around @ shifts_of
+        gaps = np.sqrt((apart**2).sum(axis=-1)) - radii[:, None] - radii[None]
+        contact = (np.abs(step.sum(axis=-1)) == 1) & (np.abs(step).sum(axis=-1) == 1)
+        once = np.triu(np.ones((count, count), dtype=bool), k=0 if images > (0,) * (d - 1) else 1)
+        found.append(gaps[once & ~contact])
+    return np.concatenate(found)
+
+
+def agree(made: Plan, delta: Array, spacing: float) -> None:
+    positions = run(plan(scene(delta, spacing)))
+    gaps = every_gap(delta, spacing, positions)
+    assume(np.abs(gaps).min() > 1e-11)  # whether these overlap the centres' rounding hides
+    physical = run(made).physical
+    assert physical is not None
+    assert physical.overlaps == (gaps < 0).sum()
+    assert physical.undecided_gaps == 0
+    assert physical.smallest_gap == pytest.approx(gaps.min(), abs=1e-11)
+    assert physical.sound == (gaps.min() > 0 and not physical.tensile)
+
+
+@st.composite
+def radii(draw: st.DrawFn, *shape: Any) -> Array:
+    """Deviations of layers of one to four beads: small, or as large as beads themselves."""
+    largest = draw(st.sampled_from([1, 10, 30, 70]))
+    size = [draw(one) for one in shape]
+    if len(size) == 3:
+        size[2] = size[1]
+    count = int(np.prod(size))
+    values = draw(st.lists(st.integers(-largest, largest), min_size=count, max_size=count))
+    return np.array(values).reshape(size) / 101
+
+
+SPACINGS = st.sampled_from([2.03, 2.4, 3.0, 3.2, 3.45])
+discs = radii(st.integers(2, 6), st.integers(1, 4))
+spheres = radii(st.integers(2, 4), st.integers(1, 3), st.just(0))
+
+
+def buildable(delta: Array, spacing: float) -> None:
+    assume(delta.any())  # of equal radii nothing is solved
+    try:
+        run(plan(scene(delta, spacing)))
+    except fd.ForceDiffusionError:
+        assume(False)
+
+
+@pytest.mark.parametrize("way", ["numpy", "compiled", "balls"])
+@given(discs, SPACINGS)
+def test_discs(way: str, delta: Array, spacing: float) -> None:
+    tried(way, delta, spacing)
+
+
+@pytest.mark.parametrize("way", ["numpy", "compiled", "balls"])
+@given(spheres, st.sampled_from([2.03, 2.4, 2.9, 3.2]))
+def test_spheres(way: str, delta: Array, spacing: float) -> None:
+    tried(way, delta, spacing)
+
+
+@pytest.mark.parametrize(
+    ("delta", "spacing", "overlap"),
+    [
+        ([[0.0], [0.1], [0.0]], 2.05, 0.15),  # discs that are their own neighbours
+        ([[[0.0]], [[0.1]], [[0.0]]], 2.05, 0.15),
+        ([[0.0, 0.0], [1.3, 0.0]], 2.1, 0.4),  # two beads a layer: one reaches over the other
+    ],
+)
+def test_a_bead_that_overlaps_its_own_image(
+    delta: list[Any], spacing: float, overlap: float
+) -> None:
+    found = run(plan(scene(np.array(delta), spacing))).physical
+    assert found is not None
+    assert not found.sound
+    assert found.overlaps
+    assert found.smallest_gap is not None
+    assert found.smallest_gap <= -overlap + 1e-12
+
+
+def tried(way: str, delta: Array, spacing: float) -> None:
+    buildable(delta, spacing)
+    with pytest.MonkeyPatch.context() as patch:
+        if way == "compiled":
+            pytest.importorskip("numba")
+            patch.setattr(engine, "COMPILED_FROM", 1)
+        asked = scene(delta, spacing)
+        made = plan(asked, Fraction(1, 10**20), certified=True) if way == "balls" else plan(asked)
+        agree(made, delta, spacing)
+
+
+@given(
+    st.integers(3, 9),
+    st.integers(1, 4),
+    SPACINGS,
+    st.sampled_from([0.001, 0.01, 0.05, 0.1, 0.2, 0.3]),
+    st.integers(0, 99),
+)
+def test_segments_find_what_they_can_and_say_what_stays_open(
+    height: int, width: int, spacing: float, std: float, seed: int
+) -> None:
+    pytest.importorskip("numba")
+    asked = fd.Scene(
+        packing=fd.Packing(height=height, width=width, spacing=spacing, allow_images=True),
+        disorder=fd.Disorder(kind="uniform", relative_std=std, seed=seed),
+        ask=fd.Ask(quantity="profile"),
+    )
+    whole = plan(asked)
+    parts = segments.cut(whole.problem, whole.method, whole.scene, None)
+    assert parts is not None
+    try:
+        found = run(whole).physical
+    except fd.ForceDiffusionError:
+        assume(False)
+    physical = run(replace(whole, problem=replace(parts, segment=2))).physical
+    assert found is not None
+    assert physical is not None
+    if physical.undecided_gaps:
+        assert not physical.sound
+        assert physical.overlaps <= found.overlaps
+        assert std > 0.01  # beads have moved far
+    else:
+        assert physical == found
