@@ -65,11 +65,9 @@ class Outline:
             cut = segments.cut(problem, method, scene, self.tolerance)
         if cut is not None:
             steps = segments.steps(steps, cut, self.quantity, memory, self.limit)
-            longer = method.longer
-            assert longer is not None  # float64 is the one that is cut
-            memory = segments.memory(cut, self.quantity, longer)
+            memory = segments.memory(cut, self.quantity)
             memory += self.quantity.gathered(problem.region, 1) * budget.FLOAT_BEAD
-            problem, seconds = cut, segments.seconds(cut, self.quantity, longer)
+            problem, seconds = cut, segments.seconds(cut, self.quantity)
         budget.refuse_memory(scene, memory, self.limit)
         budget.refuse_seconds(scene, problem.realisations, seconds)
         return Plan(

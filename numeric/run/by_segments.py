@@ -188,12 +188,12 @@ def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
     table, exact_table = (_rows(plan, segment, one) for one in (solved, longer))
     if table is None or exact_table is None:
         return _Part(physical, {}, {}, sizes=solved.sizes)
-    distances = [
-        np.abs(exact_table.numbers[name] - table.numbers[name]).max(initial=0)
-        for name in table.small
-    ]
+    near = in_units(quantity, table, FLOAT64).numbers
+    exact_numbers = in_units(quantity, exact_table, longer.system).numbers
+    apart = max(
+        _above(np.abs(exact_numbers[name] - near[name]).max(initial=0)) for name in table.small
+    )
     index = {name: column.tolist() for name, column in table.index.items()}
-    apart = _above(max(distances)) * float(plan.scene.load.magnitude)
     return _Part(physical, index, table.numbers, apart, solved.sizes)
 
 
