@@ -37,7 +37,7 @@ def plan(
 ) -> Plan:
     """Plan a scene; ``tolerance`` and ``certified`` override the scene's own.
 
-    With a tolerance the first of float64, long double and balls is chosen that should meet it;
+    With a tolerance the first of float64, pairs and balls is chosen that should meet it;
     ``certified`` keeps the choice to balls. Without one ``system`` is the arithmetic. Reads the
     scene's files. Raises ``SceneError`` for a scene that is too large for the memory
     (``memory_limit`` bytes, by default most of what is free) or for a lifetime, and ``TableError``.
