@@ -19,8 +19,18 @@ from numba.extending import intrinsic
 from .machine import cores
 
 Function = TypeVar("Function", bound=Callable[..., Any])
-# Where recorded code lies, and beside it what was compiled of it.
-CODES = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "force-diffusion"
+
+
+def _codes() -> Path:
+    """Give a folder of the user's own: what was compiled is loaded from there again."""
+    try:
+        return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "force-diffusion"
+    except RuntimeError:  # nobody knows the user's home
+        return Path(__file__).parent / "__pycache__"
+
+
+CODES = _codes()
+"""Where recorded code lies, and beside it what was compiled of it."""
 
 # Rows never overlap, but LLVM has to check; it gives up vectorising at 8 comparisons by default.
 llvmlite.binding.set_option("force-diffusion", "--runtime-memory-check-threshold=512")

@@ -29,8 +29,9 @@ if TYPE_CHECKING:
 
 # Beads from which on the compiled sweeps repay loading the compiler (half a second). A row of a
 # packing, which NumPy draws by a call of its own, counts for so many beads, and a bead that carries
-# its errors for so many; what is compiled already is always taken.
-COMPILED_FROM, OF_ROW, OF_ERRORS = 2_000_000, 40, 10
+# its errors for so many. Once they are loaded, a small part of the beads is enough, and any number of
+# those that carry errors.
+COMPILED_FROM, OF_ROW, OF_ERRORS, ONCE_LOADED = 2_000_000, 40, 10, 1 / 50
 # Beads of diagonals that are drawn together.
 BLOCK = 10_000
 # Beads that are swept together: their arrays still fit into a cache.
@@ -256,22 +257,23 @@ def _loads(problem: Problem, system: NumberSystem) -> Loads | None:
     return problem.load.on(problem.force_rows, strength, system)
 
 
-def worth_compiling(problem: Problem, system: NumberSystem, *, carried: bool = False) -> bool:
+def worth_compiling(
+    problem: Problem, system: NumberSystem, *, carried: bool = False, loaded: bool = False
+) -> bool:
     """Say whether there is so much to do that compiled sweeps are taken, where numba is."""
     if problem.route != Route.EXACT or system is not FLOAT64:
         return False
     region = problem.region
     beads = (region.beads + OF_ROW * len(region.rows)) * problem.realisations
-    return beads * (OF_ERRORS if carried else 1) >= COMPILED_FROM
+    least = COMPILED_FROM * (ONCE_LOADED if loaded else 1)
+    return (carried and loaded) or beads * (OF_ERRORS if carried else 1) >= least
 
 
 def compiles(problem: Problem, system: NumberSystem, *, carried: bool = False) -> bool:
     """Say whether compiled sweeps are taken: for much work in float64, where numba is."""
     kernels = sys.modules.get(f"{__package__}.kernels")
-    exact = problem.route == Route.EXACT and system is FLOAT64
-    if kernels is not None and exact and (problem.dimension, carried) in kernels.LOADED:
-        return True
-    if not worth_compiling(problem, system, carried=carried):
+    loaded = kernels is not None and (problem.dimension, carried) in kernels.LOADED
+    if not worth_compiling(problem, system, carried=carried, loaded=loaded):
         return False
     try:
         import_module(".sweeps", __package__)

@@ -7,10 +7,10 @@ from ..scene.sections import SceneError
 
 # Bytes that a bead takes while it is solved, a row of the answer, a line of a file and a layer of
 # the plan; measured, rounded up. The rest is the interpreter with its libraries.
-FLOAT_BEAD, BALL_BEAD, FLOAT_ROW, BALL_ROW, FILE_LINE, PLAN_LAYER = 600, 2200, 1200, 2800, 600, 900
+FLOAT_BEAD, BALL_BEAD, FLOAT_ROW, BALL_ROW, FILE_LINE, PLAN_LAYER = 900, 2200, 1200, 2800, 600, 900
 INTERPRETER = 100_000_000
 # The compiler that the extra ``fast`` brings, and what it leaves behind.
-COMPILER, COMPILED = 100_000_000, 100_000_000
+COMPILER, COMPILED = 100_000_000, 150_000_000
 LONGEST = 24 * 3600.0
 
 
