@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 
 # Beads from which on the compiled sweeps repay loading the compiler (half a second). A row of a
 # packing, which NumPy draws by a call of its own, counts for so many beads, and a bead that carries
-# its errors for so many. Once they are loaded, a small part of the beads is enough, and any number of
-# those that carry errors.
+# its errors for so many. Once they are loaded, a small part of the beads is enough, and any number
+# of those that carry errors.
 COMPILED_FROM, OF_ROW, OF_ERRORS, ONCE_LOADED = 2_000_000, 40, 10, 1 / 50
 # Beads of diagonals that are drawn together.
 BLOCK = 10_000
