@@ -20,13 +20,12 @@ from ..arithmetic.recording import STRIP
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.layers import Layer
 from . import local
+from .local import RESOLUTION
 
 if TYPE_CHECKING:
     from .sweep import SolvedPacking
 
 Steps = tuple[int, ...]
-# Gaps smaller than this, in units of r, are below the rounding of float64.
-RESOLUTION = 1e-14
 # A number that bounds, and was rounded a few times.
 ROOM = 1 + 1e-9
 

@@ -29,7 +29,7 @@ from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..lattice.branch import per_direction
 from ..lattice.layers import Layer, LazyRows, Region, whole
 from . import local
-from .gaps import RESOLUTION
+from .local import RESOLUTION
 from .sweep import Forces, Loads, Memory, SolvedPacking, straight_down
 
 FINITE = "abs({0}) < inf"

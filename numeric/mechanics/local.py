@@ -21,6 +21,9 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
+# Gaps smaller than this, in units of r, are below the rounding of float64.
+RESOLUTION = 1e-14
+
 Vector = tuple[Any, ...]
 Sqrt = Callable[[Any], Any]
 

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from ..accuracy.accuracy import Accuracy
-from ..arithmetic.systems import FLOAT64, Array, as_floats, system_of
+from ..arithmetic.named import system_of
+from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Route
 from ..planning.planner import plan
