@@ -1,21 +1,26 @@
 """Eq. 1: where the beads of the ordered packing are, and for which spacings it is a packing."""
 
-from collections.abc import Iterator
+from functools import cache
 
 import sympy
-from force_diffusion.derivations.framework.follows import Known, identity, linear
-from force_diffusion.derivations.framework.record import Derivation, Step, Witness
-from force_diffusion.derivations.witnesses.both_sides import about, compare, each_contact, search
-from force_diffusion.symbolic.algebra.bases import CARTESIAN
-from force_diffusion.symbolic.as_printed import equation, terms, times
-from force_diffusion.symbolic.kernel.decisions import (
-    Ruling,
-    all_of,
-    cartesian,
-    decide_identity,
+from force_diffusion.derivations.framework.vocabulary import (
+    Derivation,
+    Lines,
+    Where,
+    axioms,
+    equation,
+    follows,
+    on_packings,
+    reach,
+    rewrite,
+    terms,
+    times,
 )
+from force_diffusion.derivations.witnesses.both_sides import each_contact
 from force_diffusion.symbolic.symbols import (
+    Dot,
     Position,
+    e_x,
     i,
     j,
     n_minus,
@@ -36,15 +41,9 @@ SQUARED_DISTANCE = sympy.Function("D")  # D(a, b) = |x_(i+a, j+b) − x_ij|²
 a, b = sympy.symbols("a b", integer=True)
 
 
-def positions(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
-    """x at a site, as a vector expression (Eq. 1)."""
-    return PRINTED.rhs.xreplace({i: across, j: layer})
-
-
-def ordered_separation(across: sympy.Expr | int, layer: sympy.Expr | int) -> sympy.ImmutableMatrix:
-    """x_(i+across, j+layer) − x_ij in Cartesian components."""
-    apart = sympy.expand(positions(i + across, j + layer) - positions(i, j))
-    return sympy.ImmutableMatrix([cartesian(apart, axis) for axis in range(2)])
+def separation(across: sympy.Expr | int, layer: sympy.Expr | int) -> sympy.Expr:
+    """x_(i+across, j+layer) − x_ij, Eq. 1 put in."""
+    return PRINTED.rhs.xreplace({i: i + across, j: j + layer}) - PRINTED.rhs
 
 
 TOUCHING = sympy.Tuple(
@@ -54,73 +53,64 @@ TOUCHING = sympy.Tuple(
 )
 """What the ordered packing is: its origin, and each bead touching the two above it."""
 
-IN_SPACING = {spacing: 4 * r * n_x}
+WHERE = Where.of(j >= 0)
 
 
 def _squared_distance(across: sympy.Expr, up: sympy.Expr) -> sympy.Expr:
-    separation = ordered_separation(across, up)
-    return separation.dot(separation)
+    return Dot(separation(across, up), separation(across, up))
 
 
-def _known() -> Known:
-    return {SQUARED_DISTANCE: _squared_distance, **IN_SPACING}
-
-
-def _spacing(_: int, candidate: sympy.Eq) -> Ruling:
-    """s is the horizontal distance of two beads of one layer, which are two indices apart."""
-    apart = ordered_separation(2, 0)
-    return all_of(
-        identity({spacing: apart[0]})(0, candidate), decide_identity(apart[1], sympy.Integer(0))
-    )
-
-
-def steps() -> Iterator[Step]:
+@cache
+def steps() -> Lines:
     """From touching along the two lattice directions to the range of the spacing."""
-    yield Step(
+    lines = Lines(WHERE)
+    touching = lines.show(
         "Bead (0, 0) is the origin; each bead touches the two above it, so one step up "
         "moves by a full diameter along n⁺ or n⁻. The printed positions do so.",
         TOUCHING,
-        linear({Position: positions}, is_vector=True, basis=CARTESIAN),
-        ("Eq. 1",),
+        tuple(map(follows, axioms.ordered())),
+        where=(Where(), WHERE, WHERE),
     )
-    yield Step(
+    printed = lines.show(
         "No other positions do: going (j+i)/2 steps along n⁺ and (j−i)/2 along n⁻ reaches bead "
         "(i, j).",
         PRINTED,
-        decide,
-        ("step 1",),
+        reach(touching),
     )
-    yield Step(
+    apart = lines.show(
         "Beads of one layer are two indices apart, which defines the spacing s.",
         equation(spacing, 4 * r * n_x),
-        _spacing,
-        ("Eq. 1",),
+        rewrite(printed),
+        meaning={spacing: Dot(e_x, Position(i + 2, j) - Position(i, j))},
     )
-    yield Step(
+    squared = {SQUARED_DISTANCE: _squared_distance}
+    in_spacing = {**squared, spacing: 4 * r * n_x}
+    distance = lines.show(
         "The squared distance of two beads that are (a, b) apart, a + b even.",
         equation(SQUARED_DISTANCE(a, b), 4 * r**2 * (a**2 * n_x**2 + b**2 * n_y**2)),
-        identity(_known()),
-        ("Eq. 1",),
+        rewrite(printed),
+        meaning=squared,
     )
-    yield Step(
+    lines.show(
         "The four contacts (±1, ±1) touch.",
         sympy.Tuple(
             equation(SQUARED_DISTANCE(1, 1), 4 * r**2), equation(SQUARED_DISTANCE(1, -1), 4 * r**2)
         ),
-        identity(_known()),
-        ("step 4",),
+        rewrite(printed),
+        meaning=squared,
+        after=(distance,),
     )
-    yield Step(
+    lines.show(
         "Every other pair has |a| ≥ 2 or |b| ≥ 2; the tightest are (2, 0) and (0, 2). They do "
         "not overlap when both of these are positive.",
         sympy.Tuple(
             equation(SQUARED_DISTANCE(2, 0) - 4 * r**2, spacing**2 - 4 * r**2),
             equation(SQUARED_DISTANCE(0, 2) - 4 * r**2, 12 * r**2 - spacing**2),
         ),
-        identity(_known()),
-        ("step 3", "step 4"),
+        rewrite(apart, distance),
+        meaning=in_spacing,
     )
-    yield Step(
+    lines.show(
         "All others are further apart: none of the terms is negative for |a| ≥ 2 (first) or "
         "|b| ≥ 2 (second), the last one being that of the tightest pair.",
         sympy.Tuple(
@@ -141,10 +131,10 @@ def steps() -> Iterator[Step]:
                 ),
             ),
         ),
-        identity(_known()),
-        ("step 4",),
+        rewrite(distance),
+        meaning=squared,
     )
-    yield Step(
+    lines.show(
         "Hence s lies between 2r and 2√3 r, and in terms of φ = n⁺·n⁻ both bounds together "
         "say |φ| < ½; and 1 − φ² is positive.",
         sympy.Tuple(
@@ -152,21 +142,10 @@ def steps() -> Iterator[Step]:
             equation(sympy.Rational(1, 2) + phi, (12 * r**2 - spacing**2) / (8 * r**2)),
             equation(1 - phi**2, 4 * n_x**2 * n_y**2),
         ),
-        identity(_known()),
-        ("step 3",),
+        rewrite(apart),
+        meaning=in_spacing,
     )
-
-
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """The candidate is Eq. 1 when it puts bead (0, 0) at the origin and steps by 2r n^±."""
-    if other := about(candidate, Position(i, j), "none", each_contact):
-        return other
-
-    def at(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
-        return candidate.rhs.xreplace({i: across, j: layer})
-
-    holds = linear({Position: at}, is_vector=True, basis=CARTESIAN)
-    return all_of(*(holds(part, one) for part, one in enumerate(TOUCHING)))
+    return lines
 
 
 DERIVATION = Derivation(
@@ -184,18 +163,13 @@ DERIVATION = Derivation(
         "all radii equal r",
         "bead (i, j) touches the beads (i±1, j±1)",
         "i + j is even; the base is j = 0",
+        *WHERE.in_words(),
     ),
     premises=(),
     printed=(PRINTED,),
     steps=steps,
-    decide=decide,
-    search=search("none", each_contact),
-    witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "none", each_contact),
-        ),
-    ),
+    where=WHERE,
+    witnesses=(on_packings(PRINTED, "none", each_contact),),
 )
 
 if __name__ == "__main__":

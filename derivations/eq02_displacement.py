@@ -1,23 +1,26 @@
 """Eq. 2: how far a deposited bead moves when its own and its supports' radii deviate."""
 
-from collections.abc import Iterator
 from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq01_ordered_positions as eq01
-from force_diffusion.derivations.framework.follows import linear
-from force_diffusion.derivations.framework.record import Derivation, Step, Witness
-from force_diffusion.derivations.witnesses.both_sides import about, compare, each_bead, search
-from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.algebra.bases import CARTESIAN
-from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.kernel.decisions import (
-    Ruling,
-    all_of,
-    cartesian,
-    decide_identity,
-    decide_linear,
+from force_diffusion.derivations.framework.vocabulary import (
+    Derivation,
+    Lines,
+    Part,
+    Where,
+    axioms,
+    equation,
+    follows,
+    inverse,
+    minus,
+    on_packings,
+    order,
+    solve,
+    terms,
+    times,
 )
+from force_diffusion.derivations.witnesses.both_sides import each_bead
 from force_diffusion.symbolic.mechanics import contacts
 from force_diffusion.symbolic.symbols import (
     DeltaR,
@@ -26,7 +29,6 @@ from force_diffusion.symbolic.symbols import (
     MatrixTimes,
     b_minus,
     b_plus,
-    e_y,
     i,
     j,
     n_minus,
@@ -36,6 +38,7 @@ from force_diffusion.symbolic.symbols import (
     r,
 )
 
+WHERE = Where.of(j >= 1)
 SUPPORTS = ((i - 1, j - 1), (i + 1, j - 1))
 LEFT, RIGHT = (DeltaX(*support) for support in SUPPORTS)
 half = sympy.Rational(1, 2)
@@ -62,99 +65,52 @@ def resting_on(left: sympy.Expr, right: sympy.Expr) -> sympy.Expr:
 @cache
 def constraints() -> tuple[contacts.Linearised, contacts.Linearised]:
     """What both contacts impose, SymPy differentiating: from the left support, from the right."""
-    left, right = (contacts.contact_constraint(eq01.ordered_separation(a, 1)) for a in (1, -1))
+    apart = [
+        sympy.ImmutableMatrix([n_x * 2 * r, n_y * 2 * r]),
+        sympy.ImmutableMatrix([-n_x * 2 * r, n_y * 2 * r]),
+    ]
+    left, right = map(contacts.contact_constraint, apart)
     return left, right
-
-
-@cache
-def solved() -> sympy.Expr:
-    """δx_ij from both constraints, SymPy inverting their matrix, as a vector expression."""
-    across, up = contacts.resting(constraints(), (i, j), SUPPORTS)
-    return across * contacts.E_X + up * e_y
 
 
 ROWS = sympy.ImmutableMatrix([[n_x, n_y], [-n_x, n_y]])
 
 
-def _at_zero(part: int, candidate: sympy.Eq) -> Ruling:
-    order_0 = constraints()[part].order_0
-    return all_of(
-        decide_identity(candidate.lhs - candidate.rhs, order_0),
-        decide_identity(order_0, sympy.Integer(0)),
-    )
+def _derivative(constraint: contacts.Linearised) -> sympy.Eq:
+    """That the derivative at ε = 0 vanishes, which is linear in Δx, Δy and ρ."""
+    parts = (contacts.dx, contacts.dy, contacts.radii)
+    slopes = (sympy.diff(constraint.order_1, one) / (4 * r) * one for one in parts)
+    return equation(times(4 * r, terms(*slopes)), 0)
 
 
-def _exact(part: int, candidate: sympy.Eq) -> Ruling:
-    return decide_identity(candidate.lhs - candidate.rhs, constraints()[part].exact)
-
-
-def _derivative(part: int, candidate: sympy.Eq) -> Ruling:
-    return decide_identity(candidate.lhs - candidate.rhs, constraints()[part].order_1)
-
-
-def _component(part: int, candidate: sympy.Eq) -> Ruling:
-    """The derivative is 4r times left less right side, Δx, Δy and ρ put in."""
-    return decide_linear(
-        4 * r * (candidate.lhs - candidate.rhs),
-        contacts.of_beads(constraints()[part].order_1, (i, j), SUPPORTS[part]),
-        Region({}),
-        basis=CARTESIAN,
-    )
-
-
-def _inverse(_: int, candidate: sympy.Eq) -> Ruling:
-    """The matrix of the derivatives over 4r; times what has the columns b^±, it is 1."""
-    matrix, exponent = candidate.lhs.as_base_exp()
-    derivatives = sympy.Matrix([constraint.order_1 for constraint in constraints()])
-    rows = derivatives.jacobian([contacts.dx, contacts.dy])
-    reciprocal = [[cartesian(b, axis) for b in (b_plus, b_minus)] for axis in range(2)]
-    compared = (
-        (4 * r * matrix, rows),
-        (matrix ** (-exponent) * candidate.rhs, sympy.eye(2)),
-        (candidate.rhs, sympy.Matrix(reciprocal)),
-    )
-    return all_of(
-        *(
-            decide_identity(one, other)
-            for left, right in compared
-            for one, other in zip(left, right, strict=True)
-        )
-    )
-
-
-def _follows(_: int, candidate: sympy.Eq) -> Ruling:
-    return linear({DeltaX(i, j): solved()}, is_vector=True, basis=CARTESIAN)(0, candidate)
-
-
-def steps() -> Iterator[Step]:
+@cache
+def steps() -> Lines:
     """Differentiate both contact constraints and invert the 2×2 system."""
-    yield Step(
+    lines = Lines(WHERE)
+    meaning = tuple(contacts.of_beads((i, j), support) for support in SUPPORTS)
+    exact = lines.show(
         "The bead touches both supports: the squared distance of the centres is the squared "
         "sum of the radii. With ε the strength of the disorder, Δx, Δy the difference of "
         "the two displacements and ρ the sum of the two δr, this vanishes, from the left support "
         "and from the right:",
         sympy.Tuple(*(equation(constraint.exact, 0) for constraint in constraints())),
-        _exact,
-        ("Eq. 1",),
+        (follows(axioms.contact(1)), follows(axioms.contact(-1))),
+        meaning=meaning,
+        after=(eq01.DERIVATION,),
     )
-    yield Step(
+    lines.show(
         "At ε = 0 it holds.",
         sympy.Tuple(*(equation(constraint.order_0, 0) for constraint in constraints())),
-        _at_zero,
-        ("step 1",),
+        (order(Part(exact, 0), 0), order(Part(exact, 1), 0)),
+        meaning=meaning,
     )
-    yield Step(
+    derivatives = lines.show(
         "So its derivative there must vanish too.",
-        sympy.Tuple(
-            *(
-                equation(times(4 * r, terms(across, n_y * contacts.dy, -contacts.radii)), 0)
-                for across in (n_x * contacts.dx, -n_x * contacts.dx)
-            )
-        ),
-        _derivative,
-        ("step 1",),
+        sympy.Tuple(*map(_derivative, constraints())),
+        (order(Part(exact, 0), 1), order(Part(exact, 1), 1)),
+        meaning=meaning,
     )
-    yield Step(
+    components = lines.show(
         "A contact fixes one component of the displacement.",
         sympy.Tuple(
             equation(
@@ -166,36 +122,30 @@ def steps() -> Iterator[Step]:
                 terms(DeltaR(i, j), DeltaR(i + 1, j - 1)),
             ),
         ),
-        _component,
-        ("step 3",),
+        (follows(Part(derivatives, 0)), follows(Part(derivatives, 1))),
     )
-    yield Step(
+    inverted = lines.show(
         "The matrix of the two contacts has the rows n⁺ and n⁻; the columns of its inverse "
         "are the reciprocal vectors b⁺ and b⁻.",
         equation(sympy.Pow(ROWS, -1, evaluate=False), ROWS.inv()),
-        _inverse,
-        ("step 3",),
-        positive=(ROWS,),
+        inverse(),
+        where=Where(),
+        after=(derivatives,),
     )
-    yield Step(
+    solved = solve(components, [DeltaX(i, j)])
+    lines.show(
         "Applied to both right-hand sides:",
         equation(DeltaX(i, j), resting_on(LEFT, RIGHT)),
-        _follows,
-        ("step 4", "step 5"),
+        solved,
+        after=(inverted,),
     )
-    yield Step(
+    lines.show(
         "Written out in Cartesian components, this is the printed form.",
         PRINTED,
-        decide,
-        ("step 4", "step 5"),
+        solved,
+        after=(inverted,),
     )
-
-
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Compare with the solved constraints, in Cartesian components."""
-    if other := about(candidate, DeltaX(i, j), "none", each_bead):
-        return other
-    return _follows(0, candidate)
+    return lines
 
 
 DERIVATION = Derivation(
@@ -210,20 +160,15 @@ DERIVATION = Derivation(
     ),
     assumptions=(
         "first order in δr",
-        "the bead rests on (i−1, j−1) and (i+1, j−1), j ≥ 1",
+        "the bead rests on (i−1, j−1) and (i+1, j−1)",
         "the contacts are those of the ordered packing",
+        *WHERE.in_words(),
     ),
     premises=(eq01.DERIVATION,),
     printed=(PRINTED,),
     steps=steps,
-    decide=decide,
-    search=search("none", each_bead),
-    witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "none", each_bead),
-        ),
-    ),
+    where=WHERE,
+    witnesses=(on_packings(PRINTED, "none", each_bead),),
 )
 
 if __name__ == "__main__":

@@ -1,17 +1,26 @@
 """Eq. 3: the displacement in terms of the radii alone, by induction from the base."""
 
-from collections.abc import Iterator
-from functools import cache
+from functools import cache, partial
 
 import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
-from force_diffusion.derivations.framework.follows import linear
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.vocabulary import (
+    SUPPOSED,
+    Derivation,
+    Lines,
+    Where,
+    Witness,
+    axioms,
+    equation,
+    induct,
+    on_packings,
+    rewrite,
+    supposing,
+    terms,
+    times,
+)
 from force_diffusion.derivations.witnesses import remainders
-from force_diffusion.derivations.witnesses.both_sides import about, compare, each_bead, search
-from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.as_printed import equation, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, decide_linear, proved
+from force_diffusion.derivations.witnesses.both_sides import each_bead
 from force_diffusion.symbolic.symbols import (
     DeltaR,
     DeltaX,
@@ -24,6 +33,8 @@ from force_diffusion.symbolic.symbols import (
     n_minus,
     n_plus,
 )
+
+WHERE = Where.of(j >= 1)
 
 PRINTED = equation(
     DeltaX(i, j),
@@ -47,63 +58,34 @@ PRINTED = equation(
     ),
 )
 
-NOTHING = sympy.Integer(0)
-
-
-@cache
-def displacement(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
-    """δx at a site of layer 1 or above, as a vector expression in the radii (Eq. 3)."""
-    return PRINTED.rhs.xreplace({i: across, j: layer})
-
-
-@cache
-def _at(candidate: sympy.Expr, across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
-    return candidate.xreplace({i: across, j: layer})
-
-
-def _resting(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
-    """δx of a bead on its supports (Eq. 2), and on the fixed base."""
-    if layer == 0:
-        return NOTHING
-    at = {i: across, j: layer}
-    return eq02.resting_on(eq02.LEFT, eq02.RIGHT).xreplace(at).replace(DeltaX, _held)
-
-
-def _held(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
-    return NOTHING if layer == 0 else DeltaX(across, layer)
-
-
 FIRST_LAYER = terms(
     times(terms(DeltaR(i, 1), DeltaR(i - 1, 0)), b_plus),
     times(terms(DeltaR(i, 1), DeltaR(i + 1, 0)), b_minus),
 )
 
 
-def _first_layer(_: int, candidate: sympy.Eq) -> Ruling:
-    """Eq. 2 on the fixed base, and the printed equation there."""
-    printed = {DeltaX(i, 1): _at(PRINTED.rhs, i, sympy.Integer(1))}
-    return all_of(
-        *(linear(known, is_vector=True)(0, candidate) for known in ({DeltaX: _resting}, printed))
-    )
-
-
 def _along(across: sympy.Expr, layer: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
     """n⁺·δx and n⁻·δx, as they are printed."""
-    along_plus, along_minus = (_at(term.args[0], across, layer) for term in PRINTED.rhs.args)
+    at = {i: across, j: layer}
+    along_plus, along_minus = (term.args[0].xreplace(at) for term in PRINTED.rhs.args)
     return along_plus, along_minus
 
 
-def steps() -> Iterator[Step]:
+@cache
+def steps() -> Lines:
     """Base case on the fixed base, then one step of Eq. 2 with symbolic i and j."""
-    yield Step(
+    lines = Lines(WHERE)
+    resting = eq02.DERIVATION
+    above = WHERE.also(j >= 2)
+    first = lines.show(
         "The base is held, δx_(i,0) = 0. A bead of layer 1 rests on two such beads. What Eq. 2 "
         "gives is the printed equation at j = 1, where both of its sums are empty.",
         equation(DeltaX(i, 1), FIRST_LAYER),
-        _first_layer,
-        ("Eq. 2",),
+        rewrite(resting, axioms.base()),
+        where=WHERE.put_in({j: sympy.Integer(1)}, (i,)),
     )
     left, right = _along(i - 1, j - 1)[0], _along(i + 1, j - 1)[1]
-    yield Step(
+    step = lines.show(
         "Suppose that it holds in layer j − 1 ≥ 1. The support to the left lies on the "
         "same diagonal towards the base, so that n⁺·δx gains the two radii of the new "
         "contact, and likewise to the right.",
@@ -111,51 +93,28 @@ def steps() -> Iterator[Step]:
             equation(Dot(n_plus, DeltaX(i, j)), terms(left, DeltaR(i, j), DeltaR(i - 1, j - 1))),
             equation(Dot(n_minus, DeltaX(i, j)), terms(right, DeltaR(i, j), DeltaR(i + 1, j - 1))),
         ),
-        linear({DeltaX(i, j): _from_the_layer_below(PRINTED.rhs)}, LAYERS_ABOVE),
-        ("Eq. 2",),
+        supposing(PRINTED, WHERE, j, rewrite(resting, SUPPOSED)),
+        where=above,
     )
-    yield Step(
+    lines.show(
         "The radius of the support is counted once by its own formula and once by the new "
         "contact: it joins the sum with the weight 2. This is the printed equation in "
         "layer j.",
         PRINTED,
-        decide,
-        ("step 1", "step 2"),
+        induct(j, 1, rewrite(resting, axioms.base()), rewrite(resting, SUPPOSED)),
+        after=(first, step),
     )
-
-
-LAYERS_ABOVE = Region({j: 2})
-
-
-def _from_the_layer_below(supposed: sympy.Expr) -> sympy.Expr:
-    """δx_ij by Eq. 2, its supports having what is supposed."""
-    return eq02.resting_on(_at(supposed, i - 1, j - 1), _at(supposed, i + 1, j - 1))
-
-
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Base case j = 1, and the inductive step for symbolic j ≥ 2."""
-    if other := about(candidate, DeltaX(i, j), "none", each_bead):
-        return other
-    one = sympy.Integer(1)
-    base = decide_linear(
-        _at(candidate.rhs, i, one),
-        _at(eq02.resting_on(NOTHING, NOTHING), i, one),
-        Region({}),
-        is_vector=True,
+    zero = sympy.Integer(0)
+    empty = dict.fromkeys(PRINTED.rhs.atoms(sympy.Sum), zero)
+    lines.claim(
+        "at j = 0 the printed sums, read as empty, would leave 2δr_(i,0)(b⁺ + b⁻), not 0",
+        equation(
+            PRINTED.rhs.xreplace(empty).xreplace({j: zero}), 2 * DeltaR(i, 0) * (b_plus + b_minus)
+        ),
+        rewrite(),
+        where=Where.of(j >= 0).put_in({j: zero}, (i,)),
     )
-    step = decide_linear(
-        candidate.rhs, _from_the_layer_below(candidate.rhs), LAYERS_ABOVE, is_vector=True
-    )
-    ruling = all_of(base, step)
-    if ruling.verdict is Verdict.PROVED:
-        return proved("base case j = 1 and inductive step with symbolic i and j ≥ 2")
-    return ruling
-
-
-def _at_the_base() -> Ruling:
-    """Its sums from 1 to −1 have no terms to be read; SymPy would take the layer 0 off."""
-    empty = displacement(i, NOTHING).replace(sympy.Sum, lambda *_: NOTHING)
-    return decide_linear(empty, 2 * DeltaR(i, 0) * (b_plus + b_minus), Region({}), is_vector=True)
+    return lines
 
 
 DERIVATION = Derivation(
@@ -172,27 +131,18 @@ DERIVATION = Derivation(
     assumptions=(
         "first order in δr",
         "the centres of the base beads are fixed: δx_(i,0) = 0",
-        "j ≥ 1; no horizontal boundary is met",
+        "no horizontal boundary is met",
+        *WHERE.in_words(),
     ),
     premises=(eq02.DERIVATION,),
     printed=(PRINTED,),
     steps=steps,
-    decide=decide,
-    search=search("none", each_bead),
-    claims=(
-        Claim(
-            "at j = 0 the printed sums, read as empty, would leave 2δr_(i,0)(b⁺ + b⁻), not 0",
-            _at_the_base,
-        ),
-    ),
+    where=WHERE,
     witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "none", each_bead),
-        ),
+        on_packings(PRINTED, "none", each_bead),
         Witness(
             "exact positions at 80 digits differ from it by a remainder of order ε²",
-            lambda packing: remainders.positions(PRINTED.rhs, packing),
+            partial(remainders.positions, PRINTED.rhs),
         ),
     ),
     remarks=(

@@ -1,29 +1,32 @@
 """Eq. 6: force balance of the loaded bead, from the constraints that its contacts impose."""
 
-from collections.abc import Iterator
+from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
-from force_diffusion.derivations.framework.follows import identity, linear, vector_identity
-from force_diffusion.derivations.framework.record import Derivation, Step, Witness
-from force_diffusion.derivations.witnesses.both_sides import compare, loaded_bead, search
-from force_diffusion.symbolic.algebra.signs import never_zero
-from force_diffusion.symbolic.as_printed import equation, terms, times
-from force_diffusion.symbolic.kernel.decisions import (
-    Ruling,
-    all_of,
-    cartesian,
-    decide_identity,
-    undecided,
-)
-from force_diffusion.symbolic.mechanics.balance import (
-    FORCES,
-    ORDER_0,
-    ORDER_1,
-    Solved,
+from force_diffusion.derivations.framework.proving import Line, Meaning, Source
+from force_diffusion.derivations.framework.vocabulary import (
+    Derivation,
+    Lines,
+    Where,
+    along,
+    axioms,
+    differentiate,
+    equation,
+    follows,
+    on_packings,
+    rewrite,
     solve,
+    terms,
+    times,
 )
+from force_diffusion.derivations.witnesses.both_sides import loaded_bead
+from force_diffusion.symbolic.kernel.rules import instance
+from force_diffusion.symbolic.kernel.theorem import Theorem
+from force_diffusion.symbolic.kernel.where import LOADED, Loading
+from force_diffusion.symbolic.mechanics.balance import FORCES, ORDER_0, ORDER_1, Solved
+from force_diffusion.symbolic.mechanics.balance import solve as solve_balance
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
@@ -40,8 +43,11 @@ from force_diffusion.symbolic.symbols import (
     n_plus,
     n_y,
     phi,
+    site_r,
+    site_s,
 )
 
+WHERE = Where.of(l >= 1, loading=LOADED)
 LEFT, RIGHT = (k - 1, l - 1), (k + 1, l - 1)
 
 PRINTED = equation(
@@ -61,23 +67,18 @@ DISTANCE = sympy.sqrt((x - X) ** 2 + (y - Y) ** 2)
 ROOT = sympy.Symbol("D", positive=True)
 
 
-def _differentiated(_: int, candidate: sympy.Eq) -> Ruling:
-    """SymPy differentiates; the root is taken out, as a symbol with (x − X)² + … as its square."""
-
-    def rational(side: sympy.Expr) -> sympy.Expr:
-        return side.doit().xreplace({DISTANCE: ROOT, 1 / DISTANCE: 1 / ROOT})
-
-    difference = rational(candidate.lhs) - rational(candidate.rhs)
-    if not all(power.exp.is_Integer for power in difference.atoms(sympy.Pow)):
-        return undecided("a root of another distance is left")
-    difference = sympy.together(difference)
-    return decide_identity(sympy.expand(difference).subs(ROOT**2, DISTANCE**2), sympy.Integer(0))
+@cache
+def _balance() -> Theorem:
+    """The balance of bead (k, l)."""
+    return instance(axioms.balance(), {site_r: k, site_s: l}, Where.of(l >= 1))
 
 
-def steps() -> Iterator[Step]:
+@cache
+def steps() -> Lines:
     """A frictionless contact pushes along the gradient of the distance of the two centres."""
+    lines = Lines(WHERE)
     gradient = [sympy.Derivative(DISTANCE, axis) for axis in (x, y)]
-    yield Step(
+    pushes = lines.show(
         "A frictionless contact opposes only a change of the distance of its two centres, (X, Y) "
         "for the support and (x, y): its force on the bead is f times the gradient of that "
         "distance, f ≥ 0 when compressive.",
@@ -87,101 +88,80 @@ def steps() -> Iterator[Step]:
                 for slope, apart in zip(gradient, (x - X, y - Y), strict=True)
             )
         ),
-        _differentiated,
-        positive=(DISTANCE**2,),
+        differentiate(ROOT, DISTANCE**2),
+        where=Where(),
     )
-    yield Step(
+    unit = lines.show(
         "That gradient points from the support to the bead, and is a unit vector: n⁺ + δn⁺ from "
         "(k−1, l−1), n⁻ + δn⁻ from (k+1, l−1).",
         equation(terms(*(slope**2 for slope in gradient)), 1),
-        _differentiated,
-        ("step 1",),
-        positive=(DISTANCE**2,),
+        differentiate(ROOT, DISTANCE**2, pushes),
+        where=Where(),
     )
-    yield Step("The load and the two forces add up to zero.", PRINTED, decide, ("step 1", "step 2"))
-    yield Step(
+    printed = lines.show(
+        "The load and the two forces add up to zero.",
+        PRINTED,
+        follows(_balance(), axioms.loads(LOADED)),
+        after=(pushes, unit),
+    )
+    lines.show(
         "In the ordered packing, with the load f_load downwards, both supports carry f_load/2n_y.",
         equation(f_load / (2 * n_y) * terms(n_plus, n_minus), f_load * e_y),
-        vector_identity(),
-        ("Eq. 6",),
+        rewrite(printed),
     )
-    yield Step(
+    lines.show(
         "The two directions enclose an angle with the cosine φ.",
         equation(Dot(n_plus, n_minus), phi),
-        linear(),
+        rewrite(),
     )
-
-
-def pushed(direction: tuple[sympy.Expr, sympy.Expr]) -> list[sympy.Expr]:
-    """Gradient of the distance, in Cartesian components, for a support in −``direction``.
-
-    The centres are D apart along the unit vector ``direction``; SymPy differentiates the
-    distance, then x − X = D N is put in.
-    """
-    gradient = [sympy.diff(DISTANCE, axis).xreplace({1 / DISTANCE: 1 / ROOT}) for axis in (x, y)]
-    placed = {x: X + ROOT * direction[0], y: Y + ROOT * direction[1]}
-    return [sympy.expand(part.xreplace(placed)) for part in gradient]
-
-
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Compare with load + Σ f ∇(distance) = 0, component by component, for any directions.
-
-    A multiple says the same when its factor vanishes nowhere: the factor of the load.
-    """
-    rulings = []
-    load, sides = cartesian(Load(k, l), 0), cartesian(candidate.lhs - candidate.rhs, 0)
-    factor = sympy.expand(sides).coeff(load)
-    if not never_zero(factor):
-        factor = sympy.Integer(1)
-    contacts = (
-        (ForcePlus(*LEFT), n_plus + DeltaNPlus(*LEFT)),
-        (ForceMinus(*RIGHT), n_minus + DeltaNMinus(*RIGHT)),
-    )
-    for axis in range(2):
-        balance = cartesian(Load(k, l), axis)
-        for force, unit in contacts:
-            balance += force * pushed((cartesian(unit, 0), cartesian(unit, 1)))[axis]
-        rulings.append(
-            decide_identity(cartesian(candidate.lhs - candidate.rhs, axis), factor * balance)
-        )
-    return all_of(*rulings)
+    return lines
 
 
 def solved(carried: sympy.Expr, across: sympy.Expr, layer: sympy.Expr) -> Solved:
     """The forces below bead (across, layer) when it has to carry ``carried`` (a vector)."""
     at = {k: across, l: layer}
     forces = (ForcePlus(*LEFT).xreplace(at), ForceMinus(*RIGHT).xreplace(at))
-    return solve(PRINTED.lhs.xreplace(at), forces, Load(k, l).xreplace(at), carried)
+    return solve_balance(PRINTED.lhs.xreplace(at), forces, Load(k, l).xreplace(at), carried)
 
 
-def solving(system: Solved, dotted: str, uses: tuple[str, ...]) -> Iterator[Step]:
-    """Three steps: the balance dotted with n⁺ and n⁻, solved, and expanded in ε."""
-    put_in = dict(zip(FORCES, system.solution, strict=True))
+def solving(
+    lines: Lines,
+    system: Solved,
+    dotted: str,
+    balance: Source,
+    unit: Meaning,
+    *facts: Source,
+    after: tuple[Derivation, ...] = (),
+) -> Line:
+    """Three lines: the balance dotted with n⁺ and n⁻, solved, and expanded in ε.
 
-    def is_row(part: int, candidate: sympy.Eq) -> Ruling:
-        return decide_identity(candidate.lhs - candidate.rhs, system.balance[part])
-
-    def is_solution(part: int, candidate: sympy.Eq) -> Ruling:
-        zero = sympy.Integer(0)
-        rows = (decide_identity(one.xreplace(put_in), zero) for one in system.balance)
-        return all_of(identity(put_in)(part, candidate), *rows)
-
+    ``unit`` says what the forces F^± of the system are; ``after`` names what the text refers to.
+    """
+    rows = lines.show(
+        dotted,
+        sympy.Tuple(*system.rows),
+        (along(balance, n_plus, *facts), along(balance, n_minus, *facts)),
+        meaning={**unit, **system.meaning, epsilon: sympy.Integer(1)},
+        after=after,
+    )
+    obeyed = Loading("system", "F⁺ and F⁻ obey the two equations", given=system.rows)
+    solution = lines.show(
+        "Solved, the adjugate of the matrix over its determinant:",
+        sympy.Tuple(*map(equation, FORCES, system.solution)),
+        solve(axioms.loads(obeyed), FORCES),
+        where=Where(loading=obeyed),
+        after=(rows,),
+    )
     at_zero = [one.subs(epsilon, 0) for one in system.solution]
     slopes = [sympy.diff(one, epsilon).subs(epsilon, 0) for one in system.solution]
     orders = dict(zip((*ORDER_0, *ORDER_1), (*at_zero, *slopes), strict=True))
-    yield Step(dotted, sympy.Tuple(*system.rows), is_row, uses)
-    yield Step(
-        "Solved, the adjugate of the matrix over its determinant:",
-        sympy.Tuple(*map(equation, FORCES, system.solution)),
-        is_solution,
-        ("step 1",),
-        positive=(system.determinant,),
-    )
-    yield Step(
+    return lines.show(
         "Expanded in ε, the values at ε = 0 and the derivatives there:",
         sympy.Tuple(*map(equation, orders, (*system.at_zero, *system.slope))),
-        identity(orders),
-        ("step 2",),
+        rewrite(),
+        where=Where(),
+        meaning=orders,
+        after=(solution,),
     )
 
 
@@ -196,20 +176,14 @@ DERIVATION = Derivation(
     ),
     assumptions=(
         "no friction; contacts push along the line of centres",
-        "bead (k, l) carries nothing but its load",
+        *WHERE.in_words(),
     ),
     premises=(eq04.DERIVATION, eq05.DERIVATION),
     printed=(PRINTED,),
     loads=("single",),
     steps=steps,
-    decide=decide,
-    search=search("single", loaded_bead),
-    witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "single", loaded_bead),
-        ),
-    ),
+    where=WHERE,
+    witnesses=(on_packings(PRINTED, "single", loaded_bead),),
 )
 
 if __name__ == "__main__":

@@ -1,15 +1,25 @@
 """Eq. 7: how a vertical load splits between the two supports."""
 
-from collections.abc import Iterator
 from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq06_force_balance as eq06
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
-from force_diffusion.derivations.witnesses.both_sides import about, compare, loaded_bead, search
-from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling, decide_linear
+from force_diffusion.derivations.framework.vocabulary import (
+    Derivation,
+    Lines,
+    Part,
+    Where,
+    axioms,
+    equation,
+    minus,
+    mirror_of,
+    on_packings,
+    solve,
+    terms,
+    times,
+)
+from force_diffusion.derivations.witnesses.both_sides import loaded_bead
+from force_diffusion.symbolic.kernel.where import LOADED_VERTICALLY
 from force_diffusion.symbolic.mechanics import balance
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.symbols import (
@@ -27,6 +37,7 @@ from force_diffusion.symbolic.symbols import (
     phi,
 )
 
+WHERE = Where.of(l >= 1, loading=LOADED_VERTICALLY)
 LEFT, RIGHT = eq06.LEFT, eq06.RIGHT
 TILT_PLUS = Dot(n_minus, DeltaNPlus(*LEFT))
 TILT_MINUS = Dot(n_plus, DeltaNMinus(*RIGHT))
@@ -55,7 +66,7 @@ def split_plus(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     return PRINTED[0].rhs.args[1].xreplace({k: across, l: layer})
 
 
-SUBJECTS = (ForcePlus(*LEFT), ForceMinus(*RIGHT))
+FORCES = (ForcePlus(*LEFT), ForceMinus(*RIGHT))
 
 
 @cache
@@ -64,27 +75,33 @@ def solved() -> balance.Solved:
     return eq06.solved(terms(n_plus, n_minus), k, l)
 
 
-def steps() -> Iterator[Step]:
+@cache
+def steps() -> Lines:
     """Dot the balance with n⁺ and n⁻, invert, and expand in the strength ε."""
-    yield from eq06.solving(
+    lines = Lines(WHERE)
+    loads = axioms.loads(LOADED_VERTICALLY)
+    expanded = eq06.solving(
+        lines,
         solved(),
         "A vertical load is −(f_load/2n_y)(n⁺ + n⁻). Dotted with n⁺ and n⁻, Eq. 6 is a "
         "2×2 system for the two forces in units of f_load/2n_y; ν⁺ = n⁻·δn⁺ and "
         "ν⁻ = n⁺·δn⁻ are all that δn^± holds, by Eqs. 4 and 5.",
-        ("Eq. 6",),
+        eq06.DERIVATION,
+        dict(zip(balance.FORCES, (one / ORDERED for one in FORCES), strict=True)),
+        loads,
     )
-    yield Step("In the paper's symbols:", sympy.Tuple(*PRINTED), decide, ("step 3",))
-
-
-def decide(part: int, candidate: sympy.Eq) -> Ruling:
-    """Compare with the inverted system, for any contact directions."""
-    if other := about(candidate, SUBJECTS[part], "single", loaded_bead):
-        return other
-    return decide_linear(candidate.rhs, ORDERED * solved().first_order(part), Region({}))
-
-
-def _mirror_image() -> Ruling:
-    return decide_linear(mirror(PRINTED[0].rhs), PRINTED[1].rhs, Region({}))
+    printed = lines.show(
+        "In the paper's symbols:",
+        sympy.Tuple(*PRINTED),
+        solve(eq06.DERIVATION, FORCES, loads),
+        after=(expanded,),
+    )
+    lines.claim(
+        "the second part is the mirror image of the first",
+        equation(mirror(PRINTED[0].lhs), mirror(PRINTED[0].rhs)),
+        mirror_of(Part(printed, 0)),
+    )
+    return lines
 
 
 DERIVATION = Derivation(
@@ -97,23 +114,15 @@ DERIVATION = Derivation(
         (ForcePlus(*LEFT), "force of the contact from (k−1, l−1)"),
         (ForceMinus(*RIGHT), "force of the contact from (k+1, l−1)"),
     ),
-    assumptions=("first order in δn^±", "the load is vertical"),
+    assumptions=("first order in δn^±", *WHERE.in_words()),
     premises=(eq06.DERIVATION,),
     printed=PRINTED,
     loads=("single",),
     steps=steps,
-    decide=decide,
-    search=search("single", loaded_bead),
-    claims=(Claim("the second part is the mirror image of the first", _mirror_image),),
+    where=WHERE,
     witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: first part",
-            lambda packing: compare(PRINTED[0], packing, "single", loaded_bead),
-        ),
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: second part",
-            lambda packing: compare(PRINTED[1], packing, "single", loaded_bead),
-        ),
+        on_packings(PRINTED[0], "single", loaded_bead, "first part"),
+        on_packings(PRINTED[1], "single", loaded_bead, "second part"),
     ),
 )
 

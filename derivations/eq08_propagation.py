@@ -1,16 +1,25 @@
 """Eq. 8: how a contact force passes through one bead."""
 
-from collections.abc import Iterator
 from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq06_force_balance as eq06
-from force_diffusion.derivations.framework.follows import states
-from force_diffusion.derivations.framework.record import Derivation, Step, Witness
-from force_diffusion.derivations.witnesses.both_sides import about, compare, left_edge, search
-from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling, decide_linear
+from force_diffusion.derivations.framework.vocabulary import (
+    Derivation,
+    Lines,
+    Part,
+    Where,
+    axioms,
+    equation,
+    minus,
+    mirror_of,
+    on_packings,
+    solve,
+    terms,
+    times,
+)
+from force_diffusion.derivations.witnesses.both_sides import left_edge
+from force_diffusion.symbolic.kernel.where import PASSING
 from force_diffusion.symbolic.mechanics import balance
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.symbols import (
@@ -26,6 +35,7 @@ from force_diffusion.symbolic.symbols import (
     site_s,
 )
 
+WHERE = Where.of(site_s >= 1, loading=PASSING)
 HERE = (site_r, site_s)
 LEFT, RIGHT = (site_r - 1, site_s - 1), (site_r + 1, site_s - 1)
 TURN = Dot(n_minus, terms(DeltaNPlus(*LEFT), minus(DeltaNPlus(*HERE))))
@@ -46,9 +56,6 @@ def branching(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     return PRINTED[1].rhs.xreplace({site_r: across, site_s: layer})
 
 
-SUBJECTS = (ForcePlus(*LEFT) / ForcePlus(*HERE), ForceMinus(*RIGHT) / ForcePlus(*HERE))
-
-
 @cache
 def solved(entering: str) -> balance.Solved:
     """Eq. 6 solved for an incoming unit force along n⁺ ("+") or n⁻ ("-")."""
@@ -56,36 +63,39 @@ def solved(entering: str) -> balance.Solved:
     return eq06.solved(along, site_r, site_s)
 
 
-def steps() -> Iterator[Step]:
+FORCES = (ForcePlus(*LEFT), ForceMinus(*RIGHT))
+
+
+@cache
+def steps() -> Lines:
     """The same 2×2 system with an incoming contact force in place of the load."""
-    yield from eq06.solving(
+    lines = Lines(WHERE)
+    loads = axioms.loads(PASSING)
+    expanded = eq06.solving(
+        lines,
         solved("+"),
         "Eq. 6 holds with the load replaced by the incoming force −f⁺_rs (n⁺ + δn⁺_rs). "
         "Dotted with n⁺ and n⁻, in units of f⁺_rs:",
-        ("Eq. 6",),
+        axioms.balance(),
+        dict(zip(balance.FORCES, (one / ForcePlus(*HERE) for one in FORCES), strict=True)),
+        loads,
+        after=(eq06.DERIVATION,),
     )
-    yield Step(
+    printed = lines.show(
         "The direction of the other support drops out, since nothing leaves along it at order 0.",
         sympy.Tuple(*PRINTED),
-        decide,
-        ("step 3",),
+        solve(axioms.balance(), FORCES, loads),
+        after=(expanded,),
     )
-    mirrored = [mirror(part) for part in PRINTED]
-    other = [solved("-").first_order(branch) for branch in (1, 0)]
-    yield Step(
+    lines.show(
         "For an incoming force along n⁻ the same system, solved in the same way, gives the mirror "
         "images.",
-        sympy.Tuple(*mirrored),
-        states(*(equation(one.lhs, side) for one, side in zip(mirrored, other, strict=True))),
-        ("Eq. 6", "Eq. 8"),
+        sympy.Tuple(*map(mirror, PRINTED)),
+        (mirror_of(Part(printed, 0)), mirror_of(Part(printed, 1))),
+        where=WHERE.mirrored(),
+        after=(eq06.DERIVATION,),
     )
-
-
-def decide(part: int, candidate: sympy.Eq) -> Ruling:
-    """Compare with the inverted system, for any contact directions."""
-    if other := about(candidate, SUBJECTS[part], "single", left_edge):
-        return other
-    return decide_linear(candidate.rhs, solved("+").first_order(part), Region({}))
+    return lines
 
 
 DERIVATION = Derivation(
@@ -98,22 +108,15 @@ DERIVATION = Derivation(
         (ForceMinus(*RIGHT), "force leaving it along n⁻: the branch"),
         (phi, "n⁺·n⁻"),
     ),
-    assumptions=("first order in δn^±", "bead (r, s) carries no load of its own"),
+    assumptions=("first order in δn^±", *WHERE.in_words()),
     premises=(eq06.DERIVATION,),
     printed=PRINTED,
     loads=("any",),
     steps=steps,
-    decide=decide,
-    search=search("single", left_edge),
+    where=WHERE,
     witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: first part",
-            lambda packing: compare(PRINTED[0], packing, "single", left_edge),
-        ),
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹: second part",
-            lambda packing: compare(PRINTED[1], packing, "single", left_edge),
-        ),
+        on_packings(PRINTED[0], "single", left_edge, "first part"),
+        on_packings(PRINTED[1], "single", left_edge, "second part"),
     ),
     remarks=("The paper leaves the incoming force along n⁻ to symmetry; it is solved for here.",),
 )

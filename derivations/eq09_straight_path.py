@@ -1,33 +1,47 @@
 """Eq. 9: the contribution of a contact force to a contact straight below it."""
 
-from collections.abc import Iterator
+from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq08_propagation as eq08
-from force_diffusion.derivations.framework.follows import at, identity, linear, states, walks
-from force_diffusion.derivations.framework.record import Derivation, Step, Witness
-from force_diffusion.derivations.witnesses.both_sides import about, compare, search, straight_below
-from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.kernel.decisions import (
-    Ruling,
-    Verdict,
-    all_of,
-    decide_linear,
-    proved,
+from force_diffusion.derivations.framework.vocabulary import (
+    SUPPOSED,
+    Derivation,
+    Lines,
+    Part,
+    Where,
+    axioms,
+    below,
+    equation,
+    in_terms_of,
+    induct,
+    minus,
+    on_packings,
+    rewrite,
+    terms,
+    times,
+    walk,
 )
+from force_diffusion.derivations.witnesses.both_sides import straight_below
+from force_diffusion.symbolic.kernel.where import ENTERING, PASSING
 from force_diffusion.symbolic.mechanics.paths import ENTRY, straight_end
 from force_diffusion.symbolic.symbols import (
     DeltaNPlus,
     Dot,
+    ForceMinus,
     ForcePlus,
     epsilon,
     i,
     j,
+    k,
+    l,
     n_minus,
+    p,
     phi,
     q,
 )
+
+WHERE = Where.of(sympy.Eq(k - i, l - j), l - j >= 1, j >= 0, loading=ENTERING)
 
 PRINTED = equation(
     ForcePlus(i, j) / ForcePlus(*ENTRY),
@@ -49,65 +63,93 @@ def after(candidate: sympy.Expr, steps_down: sympy.Expr) -> sympy.Expr:
     return candidate.xreplace({i: across, j: layer})
 
 
-NO_BEAD = sympy.Integer(0)
 FIRST, SECOND = sympy.symbols("A B")
 
+BY_BEADS = dict(zip((i, j), straight_end(q), strict=True))
+"""The contact reached after q beads."""
 
-def _step(ratio: sympy.Expr) -> sympy.Expr:
-    """What a ratio becomes at the next bead: Eq. 8, to first order."""
-    return first_order_product(after(ratio, q), eq08.straight(*straight_end(q)))
+PATH = Where.of(q >= 0, q <= l - 1, loading=ENTERING)
+"""Numbers q of beads passed, down to the base."""
 
 
-def steps() -> Iterator[Step]:
+def left_of(beads: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
+    """The bead ``beads`` places to the left of the path, in the layer that q beads lead to."""
+    across, layer = straight_end(q)
+    return across - 2 * beads, layer
+
+
+NOTHING_BESIDE = (
+    (equation(ForceMinus(*left_of(p)), 0), PATH.also(p >= 0, indices=(p,))),
+    (equation(ForcePlus(*left_of(p)), 0), PATH.also(p >= 1, indices=(p,))),
+)
+"""No force to the left of the path, nor along n⁻ on it: what is proved together with Eq. 9."""
+
+
+@cache
+def steps() -> Lines:
     """Induction on the number q of beads passed."""
-    yield Step(
+    lines = Lines(WHERE)
+    here = dict(zip(eq08.HERE, straight_end(q), strict=True))
+    reached = lines.show(
         "After q beads the contact reached has the lower bead (k−1−q, l−1−q).",
         sympy.Tuple(*map(equation, (i, j), straight_end(q))),
-        walks(ENTRY, dict(zip(eq08.HERE, eq08.LEFT, strict=True)), q),
-        ("Eq. 8",),
+        walk(
+            dict(zip((i, j), ENTRY, strict=True)),
+            {i: i - 1, j: j - 1},
+            q,
+            eq08.DERIVATION,
+        ),
+        where=Where.of(q >= 0, indices=(i, k)),
     )
-    yield Step(
+    next_bead = lines.show(
         "The next bead multiplies by Eq. 8.",
         equation(
             ForcePlus(*straight_end(q + 1)) / ForcePlus(*straight_end(q)),
             eq08.straight(*straight_end(q)),
         ),
-        states(at(eq08.PRINTED[0], dict(zip(eq08.HERE, straight_end(q), strict=True)))),
-        ("Eq. 8", "step 1"),
+        rewrite(Part(eq08.DERIVATION, 0)),
+        where=Where.of(q >= 0, q <= l - 2, loading=PASSING.put_in(here)),
+        after=(reached,),
     )
-    yield Step(
+    product = lines.show(
         "To first order the changes in a product add up.",
         equation(
             times(terms(1, epsilon * FIRST), terms(1, epsilon * SECOND)),
             terms(1, times(epsilon, terms(FIRST, SECOND)), epsilon**2 * FIRST * SECOND),
         ),
-        identity(),
+        rewrite(),
+        where=Where(),
     )
-    yield Step(
+    cancelled = lines.show(
         "The direction in between cancels: the printed ratio at q times Eq. 8 is that at q + 1.",
-        equation(_step(PRINTED.rhs), after(PRINTED.rhs, q + 1)),
-        linear(region=Region({q: 0})),
-        ("step 2", "step 3"),
+        equation(
+            first_order_product(after(PRINTED.rhs, q), eq08.straight(*straight_end(q))),
+            after(PRINTED.rhs, q + 1),
+        ),
+        rewrite(),
+        where=Where.of(q >= 0, q <= l - 2, indices=(k,)),
+        after=(next_bead, product),
     )
-    yield Step(
+    loads = axioms.loads(ENTERING)
+    lines.show(
         "At the entry itself, q = 0, the printed ratio is 1: no bead has been passed. So for every "
         "q the ends are left.",
         PRINTED,
-        decide,
-        ("step 4",),
+        in_terms_of(
+            BY_BEADS,
+            {q: l - 1 - j},
+            PATH,
+            induct(
+                q,
+                0,
+                rewrite(loads),
+                below(axioms.balance(), (SUPPOSED, loads)),
+                family=NOTHING_BESIDE,
+            ),
+        ),
+        after=(cancelled,),
     )
-
-
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Base case q = 0 and the inductive step with symbolic q."""
-    if other := about(candidate, ForcePlus(i, j) / ForcePlus(*ENTRY), "single", straight_below):
-        return other
-    base = decide_linear(after(candidate.rhs, NO_BEAD), sympy.Integer(1), Region({}))
-    step = decide_linear(after(candidate.rhs, q + 1), _step(candidate.rhs), Region({q: 0}))
-    ruling = all_of(base, step)
-    if ruling.verdict is Verdict.PROVED:
-        return proved("base case q = 0 and inductive step with a symbolic number q of beads")
-    return ruling
+    return lines
 
 
 DERIVATION = Derivation(
@@ -122,19 +164,13 @@ DERIVATION = Derivation(
         (phi, "n⁺·n⁻"),
         (q, "number of beads passed"),
     ),
-    assumptions=("first order in δn^±", "k − i = l − j ≥ 1", "the beads passed carry no load"),
+    assumptions=("first order in δn^±", *WHERE.in_words()),
     premises=(eq08.DERIVATION,),
     printed=(PRINTED,),
     loads=("single",),
     steps=steps,
-    decide=decide,
-    search=search("single", straight_below),
-    witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "single", straight_below),
-        ),
-    ),
+    where=WHERE,
+    witnesses=(on_packings(PRINTED, "single", straight_below),),
 )
 
 if __name__ == "__main__":

@@ -1,25 +1,42 @@
 """Eq. 10: the contribution of a contact force along a path with exactly one branch."""
 
-from collections.abc import Iterator
 from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq09_straight_path as eq09
-from force_diffusion.derivations.framework.follows import at, identity, states, walks
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.proving import Line
+from force_diffusion.derivations.framework.vocabulary import (
+    SUPPOSED,
+    By,
+    Claim,
+    Derivation,
+    Lines,
+    Part,
+    Where,
+    Witness,
+    axioms,
+    below,
+    equation,
+    in_cases,
+    in_terms_of,
+    induct,
+    minus,
+    on_packings,
+    rewrite,
+    terms,
+    times,
+    walk,
+)
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
-from force_diffusion.derivations.witnesses.both_sides import about, compare, inside_cone, search
-from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, decide_linear
+from force_diffusion.derivations.witnesses.both_sides import inside_cone
+from force_diffusion.symbolic.kernel.decisions import Ruling
+from force_diffusion.symbolic.kernel.where import ENTERING, PASSING
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.mechanics.paths import (
     BRANCH_COUNT,
-    BY_BRANCH,
     ENTRY,
     branched_end,
-    solve_for_path,
     straight_end,
 )
 from force_diffusion.symbolic.symbols import (
@@ -40,6 +57,8 @@ from force_diffusion.symbolic.symbols import (
     site_s,
 )
 
+WHERE = Where.of(n >= 1, n < l - j, sympy.Eq(2 * n, 2 * BRANCH_COUNT), j >= 0, loading=ENTERING)
+
 PRINTED = equation(
     ForceMinus(i, j) / ForcePlus(*ENTRY),
     minus(
@@ -56,25 +75,75 @@ def branched_plus(across: sympy.Expr, layer: sympy.Expr, count: sympy.Expr) -> s
     return mirror(PRINTED.rhs).xreplace({i: across, j: layer, n: count})
 
 
+def beside(places: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
+    """The lower bead ``places`` to the right of the straight path, q layers below the entry."""
+    return eq09.left_of(-places)
+
+
+BY_BRANCH = {i: beside(n)[0], j: beside(n)[1]}
+"""The contact that is reached n steps below the branch, q layers below the entry."""
+
+IN_CONE = eq09.PATH.also(n >= 1, n <= q, indices=(n,))
+
+FAMILY = (
+    (equation(*(side.xreplace(eq09.BY_BEADS) for side in eq09.PRINTED.args)), eq09.PATH),
+    *(
+        (equation(force(*beside(p)), 0), eq09.PATH.also(one, indices=(p,)))
+        for force, one in (
+            (ForcePlus, p <= -1),
+            (ForcePlus, p >= 1),
+            (ForceMinus, p <= 0),
+            (ForceMinus, p >= q + 1),
+        )
+    ),
+)
+"""All other forces that the entering one makes: those of Eq. 9 on the path, none beside."""
+
+
+def by_layers(family: tuple[tuple[sympy.Eq, Where], ...]) -> By:
+    """From layer to layer down, by the balance of each bead."""
+    loads = axioms.loads(ENTERING)
+    step = in_cases(
+        (n, ((sympy.Eq(n, 1),), (n >= 2,))),
+        (
+            p,
+            (
+                (p <= -1,),
+                (sympy.Eq(p, 0),),
+                (p >= 1, p <= q - 1),
+                (p >= 1, sympy.Eq(p, q)),
+                (p >= q + 1,),
+            ),
+        ),
+        by=below(axioms.balance(), (SUPPOSED, loads)),
+    )
+    return induct(q, 0, rewrite(loads), step, family=family)
+
+
 @cache
-def _on_path() -> dict[sympy.Symbol, sympy.Expr]:
-    """(p, q) by (i, j), SymPy solving, and the branching bead that they lead to."""
-    solution = solve_for_path()
-    bead = (index.xreplace(solution) for index in straight_end(p))
-    return {**solution, n: BRANCH_COUNT, **dict(zip(eq08.HERE, bead, strict=True))}
-
-
-def steps() -> Iterator[Step]:
+def steps() -> Lines:
     """Count the paths with one branch; only the branch itself is of first order."""
-    yield Step(
+    lines = Lines(WHERE)
+    ends = lines.show(
         "A branch is of first order in δn^± (Eq. 8), so that a first-order calculation "
         "needs the paths with no branch or with one. With p straight steps, a branch and "
         "q ≥ 1 steps along n⁻, the contact reached has the lower bead",
         sympy.Tuple(*map(equation, (i, j), branched_end())),
-        walks(straight_end(p), dict(zip(eq08.HERE, eq08.RIGHT, strict=True)), q),
-        ("Eq. 8", "Eq. 9"),
+        walk(
+            dict(zip((i, j), straight_end(p), strict=True)),
+            {i: i + 1, j: j - 1},
+            q,
+            eq08.DERIVATION,
+            eq09.DERIVATION,
+        ),
+        where=Where.of(p >= 0, q >= 0, indices=(i, k)),
     )
-    yield Step(
+    on_path = [
+        *map(sympy.Eq, (i, j), branched_end()),
+        *map(sympy.Eq, (site_r, site_s), straight_end(p)),
+        sympy.Eq(2 * n, 2 * BRANCH_COUNT),
+    ]
+    counted = lines.show(
         "This is (i, j) for exactly one pair (p, q): q is the paper's n, and a path exists when "
         "q ≥ 1 and p ≥ 0, so when 1 ≤ n < l − j.",
         sympy.Tuple(
@@ -82,91 +151,40 @@ def steps() -> Iterator[Step]:
             equation(q, times(sympy.Rational(1, 2), terms(l - j, minus(k - i)))),
             equation(p, terms(l - j, minus(n), -1)),
         ),
-        identity(_on_path()),
-        ("step 1",),
+        rewrite(),
+        where=Where.of(*on_path),
+        after=(ends,),
     )
-    yield Step(
+    branch = lines.show(
         "The branch is at the bead",
         sympy.Tuple(equation(site_r, i - n), equation(site_s, j + n)),
-        identity(_on_path()),
-        ("step 2",),
+        rewrite(),
+        where=Where.of(*on_path),
+        after=(counted,),
     )
-    yield Step(
+    leaving = lines.show(
         "There the force along n⁻ that leaves is, by Eq. 8,",
         equation(
             ForceMinus(i - n + 1, j + n - 1) / ForcePlus(i - n, j + n), eq08.branching(i - n, j + n)
         ),
-        states(at(eq08.PRINTED[1], {site_r: i - n, site_s: j + n})),
-        ("Eq. 8", "step 3"),
+        rewrite(Part(eq08.DERIVATION, 1)),
+        where=Where.of(n >= 1, j >= 0, loading=PASSING.put_in({site_r: i - n, site_s: j + n})),
+        after=(branch,),
     )
-    yield Step(
+    lines.show(
         "The straight pieces count at order 0, where they are 1 (Eq. 9).",
         PRINTED,
-        decide,
-        ("Eq. 9", "step 4"),
+        in_terms_of(BY_BRANCH, {q: l - 1 - j}, IN_CONE, by_layers(FAMILY)),
+        after=(eq09.DERIVATION, leaving),
     )
-
-
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Follow the path: the branching bead is where p straight steps have led."""
-    if other := about(candidate, ForceMinus(i, j) / ForcePlus(*ENTRY), "single", inside_cone):
-        return other
-    bead = tuple(index.xreplace(BY_BRANCH) for index in straight_end(p))
-    derived = eq08.branching(*bead)
-    return decide_linear(candidate.rhs.xreplace(BY_BRANCH), derived, Region({n: 1, p: 0}))
-
-
-def _response(
-    branches: int, straight: sympy.Expr, turned: sympy.Expr
-) -> tuple[tuple[sympy.Expr, sympy.Expr], tuple[sympy.Expr, sympy.Expr]]:
-    """Claimed ((order 0, order 1) of f⁺, the same of f⁻) over the entering force.
-
-    The contacts are those whose lower bead is reached by ``straight`` steps along n⁺ and
-    ``turned`` steps along n⁻; ``branches`` says whether ``turned`` is zero (0) or at least one
-    (1). On the straight path f⁺ is Eq. 9 and there is no f⁻; beside it f⁻ is Eq. 10 and f⁺ zero.
-    """
-    zero, one = sympy.Integer(0), sympy.Integer(1)
-    if branches == 0:
-        return (one, eq09.after(eq09.PRINTED.rhs, straight) - 1), (zero, zero)
-    across, layer = (index.xreplace({p: straight, q: turned}) for index in branched_end())
-    return (zero, zero), (zero, PRINTED.rhs.xreplace({i: across, j: layer, n: turned}))
-
-
-def _leaving(
-    entering: tuple[tuple[sympy.Expr, sympy.Expr], tuple[sympy.Expr, sympy.Expr]],
-    bead: tuple[sympy.Expr, sympy.Expr],
-) -> tuple[tuple[sympy.Expr, sympy.Expr], tuple[sympy.Expr, sympy.Expr]]:
-    """Send forces through a bead by Eq. 8 and its mirror image, order by order."""
-    (plus_0, plus_1), (minus_0, minus_1) = entering
-    at = {site_r: bead[0], site_s: bead[1]}
-    straight, branch = eq08.straight(*bead) - 1, eq08.branching(*bead)
-    mirrored, turned_back = (mirror(part.rhs).xreplace(at) for part in eq08.PRINTED)
-    return (
-        (plus_0, plus_1 + plus_0 * straight + minus_0 * turned_back),
-        (minus_0, minus_1 + minus_0 * (mirrored - 1) + plus_0 * branch),
-    )
+    return lines
 
 
 def balance_everywhere() -> Ruling:
-    """Eqs. 9 and 10, and zero elsewhere, pass through every bead by Eq. 8, to first order.
-
-    A bead that (p, q) steps lead to receives the two contacts that are named by it; what leaves
-    along n⁺ is named by (p + 1, q), what leaves along n⁻ by (p, q + 1). All other beads receive
-    nothing. p and q are symbols: beads on the straight path (q = 0), and beside it (q ≥ 1).
-    """
-    zero = sympy.Integer(0)
-    rulings = []
-    for branches, turned in ((0, zero), (1, q)):
-        bead = tuple(index.xreplace({q: turned}) for index in branched_end())
-        plus, minus = _leaving(_response(branches, p, turned), (bead[0], bead[1]))
-        claimed_plus = _response(branches, p + 1, turned)[0]
-        claimed_minus = _response(1, p, turned + 1)[1]
-        region = Region({p: 0, q: 1})
-        for left, right in ((plus, claimed_plus), (minus, claimed_minus)):
-            rulings += [
-                decide_linear(one, other, region) for one, other in zip(left, right, strict=True)
-            ]
-    return all_of(*rulings)
+    """All forces that one entering contact force makes: Eqs. 9 and 10, and none elsewhere."""
+    inside = equation(*(side.xreplace(BY_BRANCH) for side in PRINTED.args))
+    (first, domain), *others = FAMILY
+    return Line("", first, by_layers((*others, (inside, IN_CONE))), domain).ruling
 
 
 DERIVATION = Derivation(
@@ -179,13 +197,12 @@ DERIVATION = Derivation(
         (n, "steps from the branch down to (i, j): n = ½[(l − j) − (k − i)]"),
         (p, "straight steps before the branch"),
     ),
-    assumptions=("first order in δn^±", "n is whole and 1 ≤ n < l − j; zero otherwise"),
+    assumptions=("first order in δn^±", "n is whole", *WHERE.in_words()),
     premises=(eq08.DERIVATION, eq09.DERIVATION),
     printed=(PRINTED,),
     loads=("single",),
     steps=steps,
-    decide=decide,
-    search=search("single", inside_cone),
+    where=WHERE,
     claims=(
         Claim(
             "Eqs. 9 and 10, and zero elsewhere, balance every bead to first order",
@@ -193,10 +210,7 @@ DERIVATION = Derivation(
         ),
     ),
     witnesses=(
-        Witness(
-            "an exact packing obeys it, both sides at orders ε⁰ and ε¹",
-            lambda packing: compare(PRINTED, packing, "single", inside_cone),
-        ),
+        on_packings(PRINTED, "single", inside_cone),
         Witness("no force of first order left of the cone", witnesses.zero_outside),
     ),
 )

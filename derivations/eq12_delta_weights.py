@@ -310,6 +310,14 @@ EQUIVALENT = {
 }
 """The mechanical changes that say the same at leading order, and why."""
 
+
+def _mean() -> Ruling:
+    form = Reader(eq11.INTERIOR).scalar(eq11.in_radii(eq11.PRINTED.rhs))
+    constants = [weight for site, weight in form.sites.items() if site == NO_SITE]
+    is_one = len(constants) == 1 and (constants[0] - FIELD.one).is_zero()
+    return from_test(is_one, "the constant part is 1, all else is linear in radii of zero mean")
+
+
 DERIVATION = Derivation(
     number=12,
     name="delta_weights",
@@ -329,6 +337,7 @@ DERIVATION = Derivation(
     decide=decide,
     search=search,
     claims=(
+        Claim("the mean force of Eq. 11 is f_load/2n_y at every height", _mean),
         Claim("the end term of Eq. 11, which is dropped, has no weight that grows", _end_term),
         Claim(
             "the term n = M − j, which Eq. 11 does not have, is of dropped order", _one_more_term

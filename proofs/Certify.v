@@ -57,7 +57,7 @@ Lemma by_parts u v : x_of u = x_of v -> y_of u = y_of v -> u = v.
 Proof. destruct u, v. cbn. intros -> ->. reflexivity. Qed.
 
 Ltac prove_1 :=
-  intros G rho M X i j P H;
+  intros G rho M X i j P H Hj;
   unfold position; rewrite (ordered_position G M rho X P j) by site;
   apply by_parts; components; arithmetic G.
 
@@ -124,7 +124,7 @@ Ltac prove_6 :=
   lra.
 
 Ltac prove_7 :=
-  intros G rho M X k l F f_load P H Hf C; positive_things G;
+  intros G rho M X k l F f_load P H Hl Hf C; positive_things G;
   assert (L : bead M k l) by site;
   both_sides ltac:(fun _ => of_forces P ltac:(of_single P L C));
   where_it_is; try nonzero; same_values; arithmetic G.

@@ -54,6 +54,7 @@ n_minus = Symbol("n_minus", r"\hat{\mathbf{n}}^{-}", "n⁻")
 b_plus = Symbol("b_plus", r"\mathbf{b}^{+}", "b⁺")
 b_minus = Symbol("b_minus", r"\mathbf{b}^{-}", "b⁻")
 e_y = Symbol("e_y", r"\hat{\mathbf{e}}_{y}")  # the upward vertical unit vector
+e_x = n_x * (b_plus - b_minus)  # the horizontal unit vector, to the right
 
 VECTORS = (n_plus, n_minus, b_plus, b_minus, e_y)
 

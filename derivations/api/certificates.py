@@ -44,7 +44,7 @@ from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.derivations.framework.runner import SEEDS
 from force_diffusion.symbolic.kernel.decisions import Verdict as Proof
-from force_diffusion.symbolic.kernel.mutants import mutants as made_mutants
+from force_diffusion.symbolic.search.mutants import mutants as made_mutants
 
 MUTANT_LIMIT = 30  # seconds for one changed statement
 IN_ONE_FILE = 20  # changed statements

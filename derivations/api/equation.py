@@ -31,13 +31,13 @@ from force_diffusion.derivations.export.terminal import (
 from force_diffusion.derivations.framework.catalogue import Number as EquationNumber
 from force_diffusion.derivations.framework.catalogue import allowed, modules
 from force_diffusion.derivations.framework.loading import load, with_premises
+from force_diffusion.derivations.framework.proving import Shown
 from force_diffusion.derivations.framework.record import (
     Check,
     Derivation,
     ExactCase,
     Mutant,
     Outcome,
-    Step,
 )
 from force_diffusion.derivations.framework.runner import run, run_all
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
@@ -68,7 +68,7 @@ class Proof:
     >>> [(outcome.derivation.number, str(outcome.verdict)) for outcome in proof.outcomes]
     [(1, 'proved'), (2, 'proved')]
     >>> proof.checks[0].name, proof.checks[0].note
-    ('printed equation', 'the normal forms are equal')
+    ('printed equation', 'by the rule: solve')
     >>> sum(mutant.verdict == "refuted" for mutant in proof.mutants), len(proof.mutants)
     (64, 64)
 
@@ -134,7 +134,7 @@ class Proof:
         )
 
 
-class Steps(tuple[Step, ...]):
+class Steps(tuple[Shown, ...]):
     """The steps of a derivation, which print as a numbered list.
 
     >>> import force_diffusion as fd

@@ -460,7 +460,7 @@ DERIVATION = Derivation(
         ),
         Claim(
             "under a bulk load, over both means, it goes as M³(1−z′)Q (σ/r)²/(1−φ²)², where "
-            "10(1−z)Q = 3+6z′−15z²−6z′²+10z³+2z′³",
+            "10(1−z)Q = 3 + 6z′ − 15z² − 6z′² + 10z³ + 2z′³",
             _bulk,
         ),
         Claim(

@@ -35,7 +35,7 @@ UNIT = (sigma / r) ** 2 / ((1 - phi) ** 2 * (1 + 2 * phi) ** 2)
 LOADS = {"surface": SURFACE, "bulk": BULK}
 OF_SLICE = Symbol("slice_squares", r"\sum_{a=m} w^2", "Σw²(a = m)")
 SYMBOLS = (
-    (kappa, "b^a·b^a = (1+φ)/[(1−φ)(1+2φ)]"),
+    (kappa, "b^a·b^a = (1+φ)/(1+φ−2φ²)"),
     *usual(sigma, r, M, z),
     (phi, "mutual dot product of the three base vectors, −1/3 < φ < ½"),
 )

@@ -28,7 +28,7 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True)
 class Change:
-    """A printed equation with one mechanical change (``symbolic.kernel.mutants``), accepted by Coq.
+    """A printed equation with one mechanical change (``symbolic.search.mutants``), accepted by Coq.
 
     Attributes:
         part: which of the printed equations, from 0.

@@ -34,7 +34,12 @@ _RELATIONS = {"≤": "<=", "<": "<", "≥": ">=", ">": ">", "=": "="}
 
 
 def ranges(derivation: Derivation) -> Iterator[str]:
-    """What the assumptions say of the indices: every chain of inequalities in them."""
+    """What the domain says of the indices, or the assumptions' inequalities where it has none."""
+    if derivation.where is not None:
+        for relation in derivation.where.relations:
+            left, right = map(index, relation.args)
+            yield f"({left} {relation.rel_op.replace('==', '=')} {right})%Z"
+        return
     radius = any(symbol in derivation.printed[0].free_symbols for symbol in (sy.site_r, sy.site_s))
     for assumption in derivation.assumptions:
         for chain in _CHAIN.findall(assumption):

@@ -8,7 +8,8 @@ from typing import Any
 from force_diffusion.derivations.coq.record import recorded
 from force_diffusion.derivations.export.manifest import FoundCheck
 from force_diffusion.derivations.export.prose import both
-from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome, Step
+from force_diffusion.derivations.framework.proving import Shown
+from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
@@ -61,13 +62,13 @@ def statement_text(derivation: Derivation) -> str:
     return "\n".join(parts)
 
 
-def relation_of(derivation: Derivation, step: Step) -> str:
+def relation_of(derivation: Derivation, step: Shown) -> str:
     """The sign between the sides of a step; the printed equation has its own."""
     printed = all(one in derivation.printed for one in step.equations)
     return derivation.relation if printed else step.relation
 
 
-def follows_text(step: Step, verdict: str) -> str:
+def follows_text(step: Shown, verdict: str) -> str:
     """What was decided of a step, and what it follows from."""
     return f"{verdict}, from {both(step.uses)}" if step.uses else verdict
 

@@ -19,7 +19,6 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.symbols import i, j
 from force_diffusion.symbolic.variances.certified_sums import carried_out
 
 Decide = Callable[[int, sympy.Eq], Ruling]
@@ -143,28 +142,3 @@ def _normal_forms_first(
 def at(statement: sympy.Eq, place: Mapping[Any, Any]) -> sympy.Eq:
     """A known equation at another place."""
     return equation(*(side.xreplace(place) for side in statement.args))
-
-
-def walks(
-    start: tuple[sympy.Expr, sympy.Expr],
-    to_next: Mapping[sympy.Symbol, sympy.Expr],
-    count: sympy.Symbol,
-) -> Decide:
-    """The site (i, j) after a number of steps, by induction: where one starts, and each step.
-
-    ``to_next`` holds both indices of the site that follows, under the indices of the one before.
-    """
-
-    def decide(part: int, candidate: sympy.Eq) -> Ruling:
-        if candidate.lhs != (i, j)[part]:
-            return undecided(f"the left-hand side is not {text((i, j)[part])}")
-        (here, following) = list(to_next.items())[part]
-        reached = candidate.rhs
-        return all_of(
-            decide_identity(reached.xreplace({count: sympy.Integer(0)}), start[part]),
-            decide_identity(
-                reached.xreplace({count: count + 1}), following.xreplace({here: reached})
-            ),
-        )
-
-    return decide

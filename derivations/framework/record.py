@@ -2,17 +2,17 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.witnesses.both_sides import AbsentError
+from force_diffusion.derivations.framework.proving import Line, Lines, Shown, fixes_it
+from force_diffusion.derivations.witnesses.both_sides import AbsentError, Points, compare
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.algebra.explicit import AmbiguousError
-from force_diffusion.symbolic.kernel.corpus import Statement, statements
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
@@ -26,7 +26,11 @@ from force_diffusion.symbolic.kernel.language import (
     usual_form,
     without_value,
 )
+from force_diffusion.symbolic.kernel.theorem import Theorem
+from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search.corpus import Statement, statements
+from force_diffusion.symbolic.search.counterexample import counterexample
 
 
 class KernelError(ForceDiffusionError, RuntimeError):
@@ -34,6 +38,8 @@ class KernelError(ForceDiffusionError, RuntimeError):
 
     exit_status = 1
 
+
+_ALARM = 24  # points at which what was proved is looked at all the same
 
 Search = Callable[[sympy.Eq], str | None]
 """Looks for explicit values at which a candidate is false, and tells them."""
@@ -106,6 +112,12 @@ class Witness:
     run: Callable[[SmallPacking], Ruling]
 
 
+def on_packings(equation: sympy.Eq, load: str, points: Points, part: str = "") -> Witness:
+    """Compare both sides of an equation on exact packings, as fractions."""
+    name = "an exact packing obeys it, both sides at orders ε⁰ and ε¹" + (part and f": {part}")
+    return Witness(name, partial(compare, equation, load=load, points=points))
+
+
 _MEANINGS = {
     sy.sigma: "standard deviation σ_δr of the radii",
     sy.r: "mean radius",
@@ -124,9 +136,9 @@ def usual(*symbols: sympy.Symbol) -> tuple[tuple[sympy.Symbol, str], ...]:
 class Derivation:
     """One numbered equation: what is printed, why it holds, and how it is checked.
 
-    ``steps`` and ``decide`` are functions so that importing a derivation proves nothing and
-    costs nothing. ``decide`` rules on a candidate for the printed equations, one by one in
-    ``printed``; it is the same procedure for the true equation and for its mutants.
+    ``steps`` is a function so that importing a derivation proves nothing and costs nothing. One
+    of its lines is the printed equation: anything said in its place is proved by the same rule, or
+    not. Where the kernel does not prove it yet, ``decide`` rules on a candidate.
     """
 
     number: Number
@@ -136,12 +148,13 @@ class Derivation:
     assumptions: tuple[str, ...]
     premises: tuple["Derivation", ...]
     printed: tuple[sympy.Eq, ...]
-    steps: Callable[[], Iterable[Step]]
-    decide: Callable[[int, sympy.Eq], Ruling]
+    steps: Callable[[], Iterable[Shown]]
+    decide: Callable[[int, sympy.Eq], Ruling] | None = None  # none where the kernel proves it
     claims: tuple[Claim, ...] = ()
     witnesses: tuple[Witness, ...] = ()
     remarks: tuple[str, ...] = ()
     domain: tuple[sympy.Basic, ...] = ()  # relations of whole numbers, where the printed form holds
+    where: Where | None = None  # the same, with the load, of what the kernel proves
     dimension: int = 2  # of the packing: −1/d < φ < 1/2
     loads: tuple[str, ...] = ()  # "single", "surface", "bulk", or "any" but on the bead passed
     relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
@@ -162,6 +175,8 @@ class Derivation:
         if reason := unreadable(candidate, self.printed, named, self.dimension):
             return undecided(reason)
         candidate = usual_form(candidate, self.printed)
+        if self.decide is None:
+            return self._by_the_kernel(part, candidate)
         try:
             ruling = self.decide(part, candidate)
         except (NotExactError, AmbiguousError, RecursionError) as failure:
@@ -184,6 +199,50 @@ class Derivation:
             return refuted(found)
         if ruling.verdict is Verdict.REFUTED:
             return undecided("it differs from what is derived, yet no exact packing refutes it")
+        return ruling
+
+    @property
+    def words(self) -> str:
+        """How a line that rests on it names it."""
+        return f"Eq. {self.number}"
+
+    @property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """What the kernel proves of it, one theorem for each printed equation."""
+        return tuple(
+            line.theorems[line.equations.index(one)]
+            for one, line in ((one, self._line(one)) for one in self.printed)
+        )
+
+    @cached_property
+    def _lines(self) -> list[Line]:
+        return [line for line in self.steps() if isinstance(line, Line)]
+
+    @property
+    def all_claims(self) -> tuple[Claim, ...]:
+        """What else is claimed of it, by the kernel's lines and by procedures of its own."""
+        lines = self.steps() if self.decide is None else ()
+        further = lines.claims if isinstance(lines, Lines) else ()
+        return (*(Claim(one.reason, one.decide) for one in further), *self.claims)
+
+    def _line(self, printed: sympy.Eq) -> Line:
+        return next(line for line in self._lines if printed in line.equations)
+
+    def _by_the_kernel(self, part: int, candidate: sympy.Eq) -> Ruling:
+        printed = self.printed[part]
+        line = self._line(printed)
+        ruling = line.rule_on(line.equations.index(printed), candidate)
+        if ruling.verdict is not Verdict.PROVED:
+            return ruling
+        assert self.where is not None
+        if any(one.supposed for one in self.theorems):
+            return undecided("it rests on what is only supposed")
+        if less := fixes_it(candidate, printed, self.where):
+            return undecided(less)
+        if candidate == printed:
+            return ruling
+        if found := counterexample(candidate, self.where, at_most=_ALARM):
+            raise self.fault(candidate, f"proved, yet false: {found}")
         return ruling
 
     def _needs_packings(self, part: int, candidate: sympy.Eq) -> bool:

@@ -10,13 +10,13 @@ from time import perf_counter
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.proving import Shown
 from force_diffusion.derivations.framework.record import (
     Check,
     Derivation,
     KernelError,
     Mutant,
     Outcome,
-    Step,
     Tried,
     Witness,
 )
@@ -72,12 +72,12 @@ def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
     watch(derivation, "steps")
     for place, step in enumerate(derivation.steps(), start=1):
         yield _timed("step", f"step {place}", lambda s=step: _ruling(s, found))  # type: ignore[misc]
-    for claim in derivation.claims:
+    for claim in derivation.all_claims:
         watch(derivation, claim.name)
         yield _timed("proof", claim.name, claim.decide)
 
 
-def _ruling(step: Step, found: Mapping[sympy.Eq, Check]) -> Ruling:
+def _ruling(step: Shown, found: Mapping[sympy.Eq, Check]) -> Ruling:
     """What is decided of a step; a printed equation is ruled on once."""
     known = [found[one] for one in step.equations if one in found]
     if len(known) < len(step.equations):
@@ -113,7 +113,7 @@ def judged_mutants(
     Raises:
         KernelError: one is proved that is not listed as an equivalent rewriting.
     """
-    from force_diffusion.symbolic.kernel.mutants import mutants
+    from force_diffusion.symbolic.search.mutants import mutants
 
     watch(derivation, "mutants")
     for place, equation in enumerate(derivation.printed):
@@ -190,6 +190,21 @@ def _read(known: Iterable[tuple[int, str, Ruling]]) -> Rule:
     return rule
 
 
+def attacked() -> None:
+    """Try to prove by the rules of the kernel what is false.
+
+    Raises:
+        KernelError: one of the attacks is not refused.
+    """
+    from force_diffusion.symbolic.attacks.every import succeeded
+
+    for one in succeeded():
+        raise KernelError(
+            "the checker is at fault, and its verdicts count for nothing. It does not refuse an "
+            f"attack on {one.rule}: {one.tried} ({one.false})"
+        )
+
+
 def overall(
     checks: Iterable[Check], mutants: Iterable[Mutant] = (), on: Iterable[Tried] = ()
 ) -> Verdict:
@@ -254,12 +269,18 @@ def run_all(
     """Run derivations in their order, premises first, each with the verdicts found before.
 
     ``start`` calls functions in another process: of many derivations mutants and statements are
-    ruled on there, while proofs and witnesses are run here.
+    ruled on there, while proofs and witnesses are run here. Where the kernel proves one of them, it
+    is attacked first.
+
+    Raises:
+        KernelError: the checker is at fault.
     """
     wanted = list(derivations)
     known: dict[Number, Verdict] = {}
     ruled = [start(rulings, one.number) if start else Ruled for one in wanted]
     with _rarely_collected():
+        if any(one.decide is None for one in wanted):
+            attacked()
         for derivation, found in zip(wanted, ruled, strict=True):
             outcome = run(derivation, watch, known, found)
             known[derivation.number] = outcome.verdict

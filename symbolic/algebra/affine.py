@@ -11,6 +11,7 @@ from collections.abc import Mapping
 
 import sympy
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
+from force_diffusion.symbolic.algebra.signs import never_zero
 from force_diffusion.symbolic.symbols import INDICES
 
 Affine = tuple[int, ...]
@@ -136,6 +137,14 @@ class Region:
         for symbol, bound in self.lower_bounds.items():
             image[symbol] = bound.xreplace(image) + _EXCESS[symbol]
         return expression.xreplace(image), (), tuple(_EXCESS[symbol] for symbol in image)
+
+    def never_zero(self, expression: sympy.Expr) -> bool:
+        """Whether an expression without lattice quantities is shown to vanish nowhere in it."""
+        return never_zero(*self.in_excess(expression))
+
+    def within(self, index: sympy.Symbol, low: sympy.Expr, _high: sympy.Expr) -> "Region":
+        """The region of a sum's terms, too."""
+        return Region({**self.lower_bounds, index: low})
 
     def nonnegative(self, value: Affine) -> bool:
         """Decide value ≥ 0 everywhere in the region (unbounded symbols must be absent)."""

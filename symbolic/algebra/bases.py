@@ -18,17 +18,12 @@ def _pair(first: sympy.Expr, second: sympy.Expr) -> Pair:
 
 @dataclass(frozen=True, eq=False)  # each basis is one of its own
 class Basis:
-    """Components of the paper's vectors, and the dot product in these components."""
+    """Components of the paper's vectors, and the metric of dot products in these components."""
 
     name: str
     axes: tuple[str, str]
     vectors: dict[sympy.Symbol, Pair]
     metric: tuple[RationalFunction, RationalFunction]  # diagonal and off-diagonal entry
-
-    def dot(self, u: Pair, v: Pair) -> RationalFunction:
-        """u·v."""
-        diagonal, mixed = self.metric
-        return diagonal * (u[0] * v[0] + u[1] * v[1]) + mixed * (u[0] * v[1] + u[1] * v[0])
 
 
 _ONE, _ZERO = sympy.Integer(1), sympy.Integer(0)

@@ -343,5 +343,11 @@ def _ratio(value: int | Fraction | sympy.Rational) -> tuple[int, int]:
     return int(value.numerator), int(value.denominator)
 
 
-FIELD = Domain((LAYER, *INDICES, *PARAMETERS))
-"""The field of all the paper's symbols, used by linear forms."""
+UNKNOWNS = (
+    tuple(sympy.Dummy(f"positive_{place}", positive=True) for place in range(6)),
+    tuple(sympy.Dummy(f"real_{place}", real=True) for place in range(10)),
+)
+"""What stands for unknown numbers while two sides are compared: positive ones, and any."""
+
+FIELD = Domain((LAYER, *INDICES, *PARAMETERS, *UNKNOWNS[0], *UNKNOWNS[1]))
+"""The field of all the paper's symbols, and of some unknown numbers, used by linear forms."""

@@ -12,6 +12,7 @@ normal forms are (what is normal in them is unique). Sums follow Karr's conventi
 Σ_{n=a}^{b} + Σ_{n=b+1}^{c} = Σ_{n=a}^{c}; :mod:`symbolic.algebra.reading` asserts the bounds.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import sympy
@@ -28,6 +29,9 @@ from force_diffusion.symbolic.algebra.exact import (
 
 CONSTANT = ""
 """Family of the terms that hold no lattice quantity."""
+
+ORDERED = ("Position", "Load")
+"""Families of quantities that are no deviations: their products are not of second order."""
 
 
 @dataclass(frozen=True)
@@ -123,6 +127,33 @@ class LinearForm:
 
     def __sub__(self, other: "LinearForm") -> "LinearForm":
         return self + (-other)
+
+    @property
+    def at_zero(self) -> RationalFunction:
+        """The constant term: the form's value at order 0 in the deviations of the radii."""
+        return self.sites.get(NO_SITE, FIELD.zero)
+
+    def times(self, other: "LinearForm") -> "LinearForm":
+        """The product to first order: what is of first order in both is dropped.
+
+        Raises:
+            NotExactError: a quantity of order 0 is multiplied by one of the lattice.
+        """
+        for one, factor in ((self, other), (other, self)):
+            families = {*(site.family for site in one.sites), *(ray.family for ray in one.rays)}
+            if factor.constant_part() is None and any(f.startswith(ORDERED) for f in families):
+                raise NotExactError("a product of a quantity of order 0 is not read")
+        both = self.scaled(other.at_zero) + other.scaled(self.at_zero)
+        return both + LinearForm.constant(-(self.at_zero * other.at_zero))
+
+    def mapped(self, change: Callable[[RationalFunction], RationalFunction]) -> "LinearForm":
+        """The form with every weight changed."""
+        result = LinearForm()
+        for site, weight in self.sites.items():
+            result.add_site(site, change(weight))
+        for ray, weight in self.rays.items():
+            result.add_ray(ray, change(weight))
+        return result
 
     def is_zero(self) -> bool:
         """Decide whether the form vanishes for all values of the indices."""

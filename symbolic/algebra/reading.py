@@ -1,15 +1,15 @@
 """From a SymPy expression to its normal form: the only way in, for equations and mutants alike."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Protocol
 
 import sympy
 from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.affine import Affine, Region
+from force_diffusion.symbolic.algebra.affine import Affine
 from force_diffusion.symbolic.algebra.bases import LINE_SUM, Basis
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
-from force_diffusion.symbolic.algebra.signs import never_zero
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import (
     INDICES,
@@ -23,6 +23,22 @@ from force_diffusion.symbolic.symbols import (
 )
 
 Vector = tuple[LinearForm, LinearForm]
+
+
+class Bounds(Protocol):
+    """A domain of indices, in which bounds of sums are compared and divisors looked at."""
+
+    def nonnegative(self, value: Affine) -> bool:
+        """Whether value ≥ 0 everywhere."""
+
+    def below(self, left: Affine, right: Affine) -> bool:
+        """Whether left < right everywhere."""
+
+    def never_zero(self, expression: sympy.Expr) -> bool:
+        """Whether an expression is shown to vanish nowhere."""
+
+    def within(self, index: sympy.Symbol, low: sympy.Expr, high: sympy.Expr) -> "Bounds":
+        """The same for the terms of a sum."""
 
 
 class UnsafeDivisorError(NotExactError):
@@ -43,10 +59,13 @@ class Reader:
     Attributes:
         region: where every sum must satisfy low ≤ high + 1; None reads formally (Karr).
         basis: components of vectors.
+        first_order: whether products of two lattice quantities are of second order, and dropped;
+            where they are not, they are outside of what is read.
     """
 
-    region: Region | None
+    region: Bounds | None
     basis: Basis = LINE_SUM
+    first_order: bool = False
 
     def scalar(self, expression: sympy.Expr) -> LinearForm:
         """Read a scalar.
@@ -92,12 +111,22 @@ class Reader:
             return self._dot(*expression.args)
         if isinstance(expression, MatrixTimes):
             return self._matrix(*expression.args)
+        if isinstance(expression, sympy.Pow) and expression.atoms(SiteFunction):
+            return self._power(*expression.args)
         return LinearForm.constant(self._coefficient(expression))
+
+    def _power(self, base: sympy.Expr, exponent: sympy.Expr) -> LinearForm:
+        if not (isinstance(exponent, sympy.Integer) and 0 < exponent <= 4):
+            raise NotExactError(f"the power {exponent} of a lattice quantity is not read")
+        product = one = self.scalar(base)
+        for _ in range(int(exponent) - 1):
+            product = self._times(product, one)
+        return product
 
     def _coefficient(self, expression: sympy.Expr) -> RationalFunction:
         if self.region is not None:
             for power in expression.atoms(sympy.Pow):
-                if power.exp.is_negative and not never_zero(*self.region.in_excess(power.base)):
+                if power.exp.is_negative and not self.region.never_zero(power.base):
                     raise UnsafeDivisorError(f"{text(power.base)} may vanish")
         return FIELD.from_sympy(expression)
 
@@ -146,31 +175,34 @@ class Reader:
             constant = value.constant_part()
             if constant is not None:
                 scale = scale * constant
-            elif linear is not None:
-                raise NotExactError("a product of two lattice quantities")
             else:
-                linear = value
+                linear = value if linear is None else self._times(linear, value)
         if vector is None:
             return LinearForm.constant(scale) if linear is None else linear.scaled(scale)
         if linear is None:
             return vector[0].scaled(scale), vector[1].scaled(scale)
-        components = [component.constant_part() for component in vector]
-        if any(component is None for component in components):
-            raise NotExactError("a product of two lattice quantities")
-        first, second = (linear.scaled(scale * c) for c in components if c is not None)
+        first, second = (self._times(component, linear.scaled(scale)) for component in vector)
         return first, second
+
+    def _times(self, left: LinearForm, right: LinearForm) -> LinearForm:
+        if self.first_order:
+            return left.times(right)
+        for one, other in ((left, right), (right, left)):
+            constant = one.constant_part()
+            if constant is not None:
+                return other.scaled(constant)
+        raise NotExactError("a product of two lattice quantities")
 
     def _dot(self, u: sympy.Expr, v: sympy.Expr) -> LinearForm:
         left, right = self.vector(u), self.vector(v)
-        if any(component.constant_part() is None for component in left):
-            left, right = right, left
-        fixed = [component.constant_part() for component in left]
-        if any(component is None for component in fixed):
-            raise NotExactError("a dot product of two lattice quantities")
-        one, zero = FIELD.one, FIELD.zero
-        pair = (fixed[0] or zero, fixed[1] or zero)
-        along = self.basis.dot(pair, (one, zero)), self.basis.dot(pair, (zero, one))
-        return right[0].scaled(along[0]) + right[1].scaled(along[1])
+        diagonal, mixed = self.basis.metric
+        total = LinearForm()
+        for a, one in enumerate(left):
+            for b, other in enumerate(right):
+                weight = diagonal if a == b else mixed
+                if not weight.is_zero():
+                    total = total + self._times(one, other).scaled(weight)
+        return total
 
     def _matrix(self, *entries: sympy.Expr) -> Vector:
         if self.basis is LINE_SUM:
@@ -189,19 +221,19 @@ class Reader:
         if body.has(Braces):
             total = LinearForm()
             for part, first, last in split_by_cases(body, index, *bounds, self.region):
-                inner = self._within(index, affine.to_sympy(first))
+                inner = self._within(index, affine.to_sympy(first), affine.to_sympy(last))
                 total = total + self._summed(inner.scalar(part), index, first, last)
             return total
-        value = self._within(index, low).read(body)
+        value = self._within(index, low, high).read(body)
         if isinstance(value, tuple):
             one, other = (self._summed(part, index, *bounds) for part in value)
             return one, other
         return self._summed(value, index, *bounds)
 
-    def _within(self, index: sympy.Symbol, low: sympy.Expr) -> "Reader":
+    def _within(self, index: sympy.Symbol, low: sympy.Expr, high: sympy.Expr) -> "Reader":
         if self.region is None:
             return self
-        return Reader(Region({**self.region.lower_bounds, index: low}), self.basis)
+        return replace(self, region=self.region.within(index, low, high))
 
     def _summed(
         self, form: LinearForm, index: sympy.Symbol, low: Affine, high: Affine
@@ -221,7 +253,7 @@ read_with = lru_cache(maxsize=10_000)(Reader._read_anew)
 
 
 def split_by_cases(
-    body: sympy.Expr, index: sympy.Symbol, low: Affine, high: Affine, region: Region | None = None
+    body: sympy.Expr, index: sympy.Symbol, low: Affine, high: Affine, region: Bounds | None = None
 ) -> list[tuple[sympy.Expr, Affine, Affine]]:
     """Split Σ over braces {a : index ≤ e; b : index > e} into one sum for each case.
 

@@ -1,1 +1,1 @@
-"""The decisions: proved, refuted or undecided; and the mutants that must be refuted."""
+"""What makes theorems, and the decisions beside it: proved, refuted or undecided."""

@@ -12,11 +12,9 @@ from force_diffusion.symbolic.symbols import (
     DeltaR,
     DeltaX,
     Dot,
-    b_minus,
-    b_plus,
+    e_x,
     e_y,
     epsilon,
-    n_x,
     r,
 )
 
@@ -26,21 +24,17 @@ dy = Symbol("delta_y", r"\Delta y", "Δy", real=True)
 radii = Symbol("rho", r"\rho", "ρ", real=True)
 
 
-E_X = n_x * (b_plus - b_minus)
-"""The horizontal unit vector."""
-
 Site = tuple[sympy.Expr, sympy.Expr]
 
 
-def of_beads(expression: sympy.Expr, upper: Site, lower: Site) -> sympy.Expr:
-    """Put in what Δx, Δy and ρ are for the contact of two beads."""
+def of_beads(upper: Site, lower: Site) -> dict[sympy.Symbol, sympy.Expr]:
+    """What Δx, Δy and ρ are for the contact of two beads."""
     apart = DeltaX(*upper) - DeltaX(*lower)
-    meaning = {
-        dx: Dot(E_X, apart),
+    return {
+        dx: Dot(e_x, apart),
         dy: Dot(e_y, apart),
         radii: DeltaR(*upper) + DeltaR(*lower),
     }
-    return expression.xreplace(meaning)
 
 
 def separation(ordered: sympy.Matrix) -> sympy.Matrix:
@@ -62,30 +56,3 @@ def contact_constraint(ordered: sympy.Matrix) -> Linearised:
     apart = separation(ordered)
     exact = apart.dot(apart) - (2 * r + epsilon * radii) ** 2
     return Linearised(exact, exact.subs(epsilon, 0), sympy.diff(exact, epsilon).subs(epsilon, 0))
-
-
-def resting(constraints: tuple[Linearised, Linearised], bead: Site, on: tuple[Site, Site]) -> Site:
-    """Components of the displacement that keeps a bead on both supports, to first order.
-
-    SymPy inverts the matrix of the two constraints, whose derivatives with respect to ε vanish.
-    """
-    derivatives = [constraint.order_1 for constraint in constraints]
-    matrix = sympy.Matrix(derivatives).jacobian([dx, dy])
-    right = []
-    for derivative, support, row in zip(derivatives, on, matrix.tolist(), strict=True):
-        carried = row[0] * Dot(E_X, DeltaX(*support)) + row[1] * Dot(e_y, DeltaX(*support))
-        of_radii = derivative.xreplace({dx: sympy.Integer(0), dy: sympy.Integer(0)})
-        right.append(carried - of_beads(of_radii, bead, support))
-    across, up = matrix.inv() * sympy.Matrix(right)
-    return across, up
-
-
-def unit_vector_change(ordered: sympy.Matrix) -> sympy.Expr:
-    """δn^± as a vector expression in Δx, Δy and ρ, from the exact unit vector of a contact.
-
-    The centres are exactly R + R′ = 2r + ερ apart, so the unit vector is their separation over
-    that length; its derivative at ε = 0 is δn^±.
-    """
-    unit = separation(ordered) / (2 * r + epsilon * radii)
-    across, up = sympy.diff(unit, epsilon).subs(epsilon, 0)
-    return across * E_X + up * e_y

@@ -31,13 +31,22 @@ def mirror(expression: sympy.Basic) -> sympy.Basic:
     if expression in MIRRORED_SYMBOLS:
         return MIRRORED_SYMBOLS[expression]
     if isinstance(expression, sy.SiteFunction):
-        across, layer = expression.args
-        reflected = -across.xreplace({symbol: -symbol for symbol in _HORIZONTAL})
         kind = MIRRORED_FUNCTIONS.get(type(expression), type(expression))
-        return kind(reflected, layer)
+        return kind(*mirrored_place(*expression.args))
     if expression.is_Atom:
         return expression
     arguments = [mirror(argument) for argument in expression.args]
     if isinstance(expression, sympy.Add | sympy.Mul | sympy.Eq):
         return expression.func(*arguments, evaluate=False)
     return expression.func(*arguments)
+
+
+def mirrored_place(across: sympy.Expr, layer: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
+    """Where a site at (across, layer) is in the mirror image of an equation."""
+    return -across.xreplace({symbol: -symbol for symbol in _HORIZONTAL}), layer
+
+
+def mirrored_relation(relation: sympy.Basic) -> sympy.Basic:
+    """The same of a relation between indices, whose places across the packing change their sign."""
+    turned = {symbol: -symbol for symbol in _HORIZONTAL}
+    return relation.func(*(side.xreplace(turned) for side in relation.args), evaluate=False)

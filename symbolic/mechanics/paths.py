@@ -22,14 +22,6 @@ def branched_end() -> tuple[sympy.Expr, sympy.Expr]:
     return across + q, layer - q
 
 
-def solve_for_path() -> dict[sympy.Symbol, sympy.Expr]:
-    """The one (p, q) whose path ends at the contact above (i, j) along n⁻: SymPy solves it."""
-    across, layer = branched_end()
-    matrix, right = sympy.linear_eq_to_matrix([across - i, layer - j], [p, q])
-    solution = matrix.inv() * right
-    return {p: solution[0], q: solution[1]}
-
-
 BRANCH_COUNT = ((l - j) - (k - i)) / 2
 """The paper's n: the number of steps from the branch down to the contact."""
 

@@ -60,7 +60,7 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
     from force_diffusion.numeric.studies.cost import rows
     from force_diffusion.numeric.studies.stability import forms
     from force_diffusion.numeric.studies.stability import study as tables
-    from force_diffusion.symbolic.kernel import mutants
+    from force_diffusion.symbolic.search import mutants
 
     folder = tmp_path_factory.mktemp("report")
     scene = folder / sections.SCENE.name

@@ -6,7 +6,7 @@ import sympy
 from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
 from force_diffusion.symbolic.as_printed import equation, terms
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
-from force_diffusion.symbolic.kernel.mutants import mutants
+from force_diffusion.symbolic.search.mutants import mutants
 from force_diffusion.symbolic.symbols import DeltaR, SecondDifference, i, j
 
 TRUE = equation(SecondDifference(i, j), terms(DeltaR(i, j), DeltaR(i - 1, j)))

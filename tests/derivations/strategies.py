@@ -8,8 +8,6 @@ from fractions import Fraction
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from hypothesis import strategies as st
 
-HIGHEST = 8
-
 
 @st.composite
 def directions(draw: st.DrawFn) -> tuple[Fraction, Fraction]:
@@ -19,16 +17,14 @@ def directions(draw: st.DrawFn) -> tuple[Fraction, Fraction]:
 
 
 @st.composite
-def small_packings(draw: st.DrawFn, *, least_width: str = "height + 1") -> SmallPacking:
+def small_packings(draw: st.DrawFn) -> SmallPacking:
     """A packing of up to eight layers, one loaded bead, and contacts to look at.
 
-    ``least_width``: "height + 1", so that first-order formulas see no image; "level", so that the
-    one load sees none of its own below it; or "1", down to strips as narrow as they get.
+    It is so wide that first-order formulas see no image.
     """
-    height = draw(st.integers(2, HIGHEST))
+    height = draw(st.integers(2, 8))
     level = draw(st.integers(2, height))
-    least = {"height + 1": height + 1, "level": level, "1": 1}[least_width]
-    width = draw(st.integers(least, height + 2))
+    width = draw(st.integers(height + 1, height + 2))
     sites = [
         (across, layer) for layer in range(height + 1) for across in range(layer % 2, 2 * width, 2)
     ]
@@ -43,10 +39,3 @@ def small_packings(draw: st.DrawFn, *, least_width: str = "height + 1") -> Small
         loaded=draw(st.sampled_from([site for site in sites if site[1] == level])),
         contacts=tuple(draw(st.lists(lower, min_size=1, max_size=3))),
     )
-
-
-@st.composite
-def deep_contacts(draw: st.DrawFn) -> tuple[int, int]:
-    """Height M and layer j of a contact with j/M from 1/8 to 7/8, high enough to measure orders."""
-    height = draw(st.integers(24, 48))
-    return height, draw(st.integers(-(-height // 8), height * 7 // 8))

@@ -8,17 +8,14 @@ from typing import Any
 
 import pytest
 import sympy
-from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic.algebra import affine, signs
-from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
-from force_diffusion.symbolic.algebra.reading import Reader, read_with
-from force_diffusion.symbolic.kernel import decisions
+from force_diffusion.symbolic.algebra.reading import read_with
+from force_diffusion.symbolic.kernel import decisions, rules, theorem
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, proved, refuted
-from force_diffusion.symbolic.symbols import j
 from force_diffusion.symbolic.variances import orders
 
 from force_diffusion.__main__ import main
@@ -96,19 +93,29 @@ def test_all_of_overlooks_what_is_undecided(derive: Callable[..., Any], monkeypa
     assert said.startswith(FAULT)
 
 
-@pytest.mark.parametrize("number", [1, 2, 3, 4, 5])
-@pytest.mark.parametrize("fault", ["any for all", "a component skipped"])
+# Eq. 2 is solved for, and Eq. 3 read in Cartesian components, of which a change changes both.
+@pytest.mark.parametrize(
+    ("fault", "number"),
+    [
+        *(("any for all", number) for number in (1, 4, 5)),
+        *(("a component skipped", number) for number in (1, 2, 4, 5)),
+    ],
+)
 def test_vectors_are_compared_in_part(
     derive: Callable[..., Any], monkeypatch: Plant, number: int, fault: str
 ) -> None:
-    monkeypatch.setattr(decisions, "counterexample", lambda *_, **__: None)
     if fault == "any for all":
-        monkeypatch.setattr(decisions, "all", any, raising=False)
+        for module in (theorem, rules):
+            monkeypatch.setattr(module, "all", any, raising=False)
     else:
-        whole = Reader.vector
-        monkeypatch.setattr(
-            Reader, "vector", lambda self, side: (whole(self, side)[0], LinearForm())
-        )
+        whole = theorem.Normal.__call__
+
+        def first_alone(self: theorem.Normal, side: sympy.Expr) -> theorem.Forms:
+            return tuple(
+                one if place == 0 else LinearForm() for place, one in enumerate(whole(self, side))
+            )
+
+        monkeypatch.setattr(theorem.Normal, "__call__", first_alone)
     status, printed, said = derive(number)
     assert status == 1
     assert said.startswith(FAULT) or "1 undecided." in printed
@@ -155,20 +162,29 @@ def test_only_one_sign_of_phi(
 
 
 def test_a_base_case_is_dropped(derive: Callable[..., Any], monkeypatch: Plant) -> None:
-    whole = eq03.decide_linear
+    whole = rules.induct
 
-    def step_alone(*sides: sympy.Expr, **options: Any) -> Ruling:
-        region: Region = sides[2]
-        return whole(*sides, **options) if len(region) else proved("j = 1 was not looked at")
+    def step_alone(over: sympy.Symbol, start: sympy.Expr, _: rules.Rule, step: Any) -> rules.Rule:
+        return whole(over, start, lambda f, where: theorem.made(f, where, "unseen"), step)
 
-    monkeypatch.setattr(eq03, "decide_linear", step_alone)
+    monkeypatch.setattr(rules, "induct", step_alone)
     status, _, said = derive(3)
     assert status == 1
     assert said.startswith(FAULT)
 
 
-def test_layers_are_dropped_from_a_region(derive: Callable[..., Any], monkeypatch: Plant) -> None:
-    monkeypatch.setattr(eq03, "LAYERS_ABOVE", Region({j: 5}))
+def test_layers_are_dropped_from_an_induction(
+    derive: Callable[..., Any], monkeypatch: Plant
+) -> None:
+    whole = rules.induct
+
+    def from_layer_5(over: sympy.Symbol, start: sympy.Expr, base: Any, step: Any) -> rules.Rule:
+        def later(supposed: tuple[theorem.Theorem, ...]) -> rules.Rule:
+            return lambda formula, where: step(supposed)(formula, where.also(over >= 5))
+
+        return whole(over, start, base, later)
+
+    monkeypatch.setattr(rules, "induct", from_layer_5)
     status, _, said = derive(3)
     assert status == 1
     assert said.startswith(FAULT)

@@ -22,7 +22,7 @@ def test_every_item_names_a_claim() -> None:
 @pytest.mark.parametrize(("number", "name"), NAMED)
 def test_the_claim_is_proved(number: int | str, name: str) -> None:
     derivation = load(number)
-    decided = {claim.name: claim.decide for claim in derivation.claims}
+    decided = {claim.name: claim.decide for claim in derivation.all_claims}
     decided |= {step.reason: lambda step=step: step.ruling for step in derivation.steps()}
     ruling = decided[name]()
     assert ruling.verdict is Verdict.PROVED, ruling.note

@@ -9,10 +9,10 @@ from force_diffusion.derivations.eq11_total_force import in_radii
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.corpus import FALSE as FALSE_KINDS
-from force_diffusion.symbolic.kernel.corpus import TRUE as TRUE_KINDS
-from force_diffusion.symbolic.kernel.corpus import statements
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
+from force_diffusion.symbolic.search.corpus import FALSE as FALSE_KINDS
+from force_diffusion.symbolic.search.corpus import TRUE as TRUE_KINDS
+from force_diffusion.symbolic.search.corpus import statements
 from force_diffusion.symbolic.symbols import (
     Braces,
     DeltaR,

@@ -1,27 +1,26 @@
 """Every question about a periodic strip, seams and images included, against a small solver.
 
-``tests.strip`` solves all beads of the strip at 100 digits, and knows neither regions nor layers.
+``tests.properties.packing`` solves all beads of the strip at 100 digits, and knows no regions.
 The answers here are certified, so that an enclosure has to hold the true value.
 """
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 import flint
-import mpmath
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import force_diffusion as fd
-from tests.strip import Strip
+from tests.properties.packing import Packing, mp
+from tests.properties.reading import Plane, place, steps_to
 
-DIGITS = 100
 TINY = "1e-30"  # for slopes: the error, of third order, is a share 1e-60
 ROOM = "1e-50"  # far above both and their roundings, far below what is asked for
 TOLERANCE = 1e-25
@@ -73,39 +72,40 @@ class Drawn:
             )
             return scene.run(TOLERANCE, certified=True)
 
-    def strip(self, strength: Any) -> Strip:
+    def strip(self, strength: Any) -> Plane:
         """The strip with deviations that are ``strength`` times as large."""
-        turn = mpmath.radians(self.angle)
-        unit = mpmath.sin(turn), -mpmath.cos(turn)
-        single: dict[tuple[int, int], Any] = dict(self.loads)
-        if self.kind == "point":
-            single = dict.fromkeys(list(single)[:1], unit)
-        elif self.kind != "file":
-            layers = range(self.height if self.kind == "surface" else 0, self.height + 1)
-            single = {(i, j): unit for j in layers for i in range(j % 2, 2 * self.width, 2)}
         n_x = number(self.spacing) / 4
-
-        def radius(i: int, j: int) -> Any:
-            return number(self.r) + strength * int(self.delta[j, i // 2]) / mpmath.mpf(2) ** 14
-
-        n = n_x, mpmath.sqrt(1 - n_x**2)
-        return Strip(self.width, self.height, n, radius, single, mpmath.sqrt, number(self.r))
+        packing = Packing(1 - 2 * n_x**2, self.width, self.height, number(self.r))
+        sites = [site for layer in range(self.height + 1) for site in packing.sites(layer)]
+        change = {}
+        for site in sites:
+            i, j = place(site)
+            delta = int(self.delta[j, i % (2 * self.width) // 2])
+            change[site] = strength * delta / mp.mpf(2) ** 14
+        turn = mp.radians(self.angle)
+        unit = mp.sin(turn), -mp.cos(turn)
+        top = self.height if self.kind == "surface" else 0
+        loads = {site: unit for site in sites if sum(site) >= top}
+        if self.kind in ("point", "file"):
+            given = self.loads if self.kind == "file" else dict.fromkeys([*self.loads][:1], unit)
+            loads = {packing.home(steps_to(*at)): load for at, load in given.items()}
+        return Plane(replace(packing, change=change), loads)
 
 
 def number(value: Fraction) -> Any:
-    return mpmath.mpf(value.numerator) / value.denominator
+    return mp.mpf(value.numerator) / value.denominator
 
 
-def truth(drawn: Drawn, geometry: str, read: Callable[[Strip], list[Any]]) -> list[tuple[Any, Any]]:
+def truth(drawn: Drawn, geometry: str, read: Callable[[Plane], list[Any]]) -> list[tuple[Any, Any]]:
     """(value, change) of what ``read`` takes from a strip, by one of the three theories."""
     ordered = read(drawn.strip(0))
     if geometry == "ordered":
-        return [(value, mpmath.mpf(0)) for value in ordered]
+        return [(value, mp.mpf(0)) for value in ordered]
     if geometry == "exact":
         found = [(value, value - still) for value, still in
                  zip(read(drawn.strip(1)), ordered, strict=True)]  # fmt: skip
     else:
-        step = mpmath.mpf(TINY)
+        step = mp.mpf(TINY)
         ends = read(drawn.strip(step)), read(drawn.strip(-step))
         slopes = [(up - down) / (2 * step) for up, down in zip(*ends, strict=True)]
         found = [(still + slope, slope) for still, slope in zip(ordered, slopes, strict=True)]
@@ -114,7 +114,7 @@ def truth(drawn: Drawn, geometry: str, read: Callable[[Strip], list[Any]]) -> li
 
 def holds(enclosure: Any, value: Any) -> bool:
     with flint.ctx.workprec(400):
-        near = flint.arb(f"{mpmath.nstr(value, 70)} +/- {ROOM}")
+        near = flint.arb(f"{mp.nstr(value, 70)} +/- {ROOM}")
         narrow = enclosure.rad() < 1e-20 if isinstance(enclosure, flint.arb) else True
         return bool(narrow and flint.arb(enclosure).overlaps(near))
 
@@ -141,12 +141,16 @@ def strips(draw: st.DrawFn, **loads: Any) -> Drawn:
     )
 
 
-def side(branch: str) -> int:
-    return 1 if branch == "+" else -1
+def force(strip: Plane, i: int, j: int, branch: str) -> Any:
+    return strip.quantity("ForcePlus" if branch == "+" else "ForceMinus", i, j)
 
 
-def forces(places: list[tuple[int, int, str]]) -> Callable[[Strip], list[Any]]:
-    return lambda strip: [strip.force(i, j, side(branch)) for i, j, branch in places]
+def direction(strip: Plane, i: int, j: int, branch: str) -> Any:
+    return strip.packing.direction((steps_to(i, j), "+-".index(branch)))
+
+
+def forces(places: list[tuple[int, int, str]]) -> Callable[[Plane], list[Any]]:
+    return lambda strip: [force(strip, *place) for place in places]
 
 
 def places(outcome: fd.Outcome) -> list[tuple[int, int, str]]:
@@ -157,12 +161,6 @@ def enclosed(outcome: fd.Outcome, names: tuple[str, str], found: list[tuple[Any,
     columns = (outcome.arrays[name] for name in names)
     for enclosures, true in zip(zip(*columns, strict=True), found, strict=True):
         assert all(holds(*pair) for pair in zip(enclosures, true, strict=True)), (names, true)
-
-
-@pytest.fixture(autouse=True)
-def digits() -> Iterator[None]:
-    with mpmath.workdps(DIGITS):
-        yield
 
 
 @pytest.mark.parametrize("geometry", GEOMETRIES)
@@ -190,9 +188,7 @@ def test_all_contacts_and_their_means(geometry: str, drawn: Drawn) -> None:
     means = []
     for j, branch in zip(profile.arrays["j"], profile.arrays["branch"], strict=True):
         layer = [f for f, at in zip(found, every, strict=True) if at[1:] == (j, branch)]
-        means.append(
-            tuple(mpmath.fsum(column) / drawn.width for column in zip(*layer, strict=True))
-        )
+        means.append(tuple(mp.fsum(column) / drawn.width for column in zip(*layer, strict=True)))
     enclosed(profile, ("mean", "mean_change"), means)
 
 
@@ -204,7 +200,9 @@ def test_positions(geometry: str, drawn: Drawn, one: bool) -> None:
     beads = list(zip(outcome.arrays["i"], outcome.arrays["j"], strict=True))
     assert len(beads) == (1 if one else drawn.width * (drawn.height + 1))
     for axis, names in enumerate((("x", "dx"), ("y", "dy"))):
-        read = lambda strip, axis=axis: [strip.centre(*bead)[axis] for bead in beads]  # noqa: E731
+        read = lambda strip, axis=axis: [  # noqa: E731
+            strip.packing.centre(steps_to(*bead))[axis] for bead in beads
+        ]
         enclosed(outcome, names, truth(drawn, geometry, read))
 
 
@@ -215,10 +213,10 @@ def test_base_reactions(geometry: str, drawn: Drawn) -> None:
     beads = list(outcome.arrays["i"])
     assert beads == list(range(0, 2 * drawn.width, 2))
 
-    def read(strip: Strip, axis: int) -> list[Any]:
+    def read(strip: Plane, axis: int) -> list[Any]:
         return [
-            sum(strip.force(i, 0, step) * strip.direction(i, 0, step)[axis] for step in (1, -1))
-            - strip.loads.get((i, 0), (0, 0))[axis]
+            sum(force(strip, i, 0, one) * direction(strip, i, 0, one)[axis] for one in "+-")
+            - strip.loads.get(strip.packing.home(steps_to(i, 0)), (0, 0))[axis]
             for i in beads
         ]
 
@@ -233,7 +231,7 @@ def test_response(geometry: str, drawn: Drawn) -> None:
     there = places(outcome)
     enclosed(outcome, ("force", "change"), truth(drawn, geometry, forces(there)))
 
-    def vertical(strip: Strip) -> list[Any]:
-        return [strip.force(i, j, side(b)) * strip.direction(i, j, side(b))[1] for i, j, b in there]
+    def vertical(strip: Plane) -> list[Any]:
+        return [force(strip, *at) * direction(strip, *at)[1] for at in there]
 
     enclosed(outcome, ("vertical", "vertical_change"), truth(drawn, geometry, vertical))

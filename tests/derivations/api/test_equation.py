@@ -17,8 +17,8 @@ from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Verdict
-from force_diffusion.symbolic.kernel.mutants import mutants
 from force_diffusion.symbolic.printing.structure import rebuilt
+from force_diffusion.symbolic.search.mutants import mutants
 from hypothesis import given
 from hypothesis import strategies as st
 

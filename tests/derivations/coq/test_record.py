@@ -11,8 +11,10 @@ from force_diffusion.derivations.export.manifest import Manifest
 from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.record import Derivation, Outcome
+from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation, times
 from force_diffusion.symbolic.kernel.decisions import Verdict as Proof
+from force_diffusion.symbolic.kernel.where import Where
 
 import force_diffusion as fd
 from force_diffusion.__main__ import main
@@ -42,7 +44,8 @@ def test_what_is_printed_otherwise_is_stale() -> None:
     changed = recorded(other_than_printed(13))
     assert changed.verdict == "stale"
     assert str(changed) == "accepted by Coq 8.16.1, and has changed since"
-    assert recorded(replace(load(11), assumptions=("0 ≤ j < M − 1",))).verdict == "stale"
+    narrower = Where.of(sy.j >= 0, sy.j < sy.M - 1)
+    assert recorded(replace(load(11), where=narrower)).verdict == "stale"
     assert recorded(replace(load(11), loads=("bulk",))).verdict == "stale"
     assert recorded(replace(load(11), title="another")).verdict == "accepted"
 

@@ -14,7 +14,8 @@ from force_diffusion.derivations.witnesses.draws import draw
 from force_diffusion.numeric.mechanics import taylor
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.kernel.mutants import mutants
+from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.search.mutants import mutants
 
 i, j, m = sy.i, sy.j, sy.m
 
@@ -59,12 +60,17 @@ def test_what_there_are_no_words_for_is_not_stated(expression: sympy.Expr) -> No
         words.real(expression)
 
 
-def test_ranges_are_what_the_assumptions_say() -> None:
-    assert list(coq.ranges(load(1))) == []
+def test_ranges_are_those_of_the_domain() -> None:
+    assert list(coq.ranges(load(1))) == ["(j >= 0)%Z"]
     assert list(coq.ranges(load(3))) == ["(j >= 1)%Z"]
-    assert list(coq.ranges(load(9))) == ["(k - i = l - j)%Z", "(l - j >= 1)%Z"]
-    assert list(coq.ranges(load(10))) == ["(1 <= n)%Z", "(n < l - j)%Z"]
-    assert list(coq.ranges(load(11))) == ["(0 <= j)%Z", "(j < M)%Z"]
+    at_entry = ["(- i + k = - j + l)%Z", "(- j + l >= 1)%Z", "(j >= 0)%Z"]
+    assert list(coq.ranges(load(9))) == at_entry
+    turned = "(2 * n = i - j - k + l)%Z"
+    assert list(coq.ranges(load(10))) == ["(n >= 1)%Z", "(n < - j + l)%Z", turned, "(j >= 0)%Z"]
+    assert list(coq.ranges(load(11))) == ["(j >= 0)%Z", "(j < M)%Z"]
+
+
+def test_ranges_are_what_the_assumptions_say_where_there_is_no_domain() -> None:
     assert list(coq.ranges(load(12))) == []  # 0 < z < 1 is of no index; every layer is meant
     assert list(coq.ranges(load(16))) == ["(p >= 1)%Z", "(q >= 1)%Z"]
 
@@ -100,7 +106,7 @@ def test_the_load_is_the_one_that_the_derivation_names(load_of: str, words: str)
 
 
 def test_a_change_of_the_ranges_changes_the_statement() -> None:
-    narrower = replace(load(11), assumptions=("0 ≤ j < M − 1",))
+    narrower = replace(load(11), where=Where.of(sy.j >= 0, sy.j < sy.M - 1))
     assert "(j < M - 1)%Z" in coq.statement(narrower, 0).proposition
     assert "(j < M - 1)%Z" not in coq.statement(load(11), 0).proposition
 

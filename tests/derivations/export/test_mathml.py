@@ -66,7 +66,7 @@ def sentences() -> Iterator[str]:
         derivation = load(number)
         for step in derivation.steps():
             yield from (step.reason, both(step.uses) if step.uses else "follows")
-        yield from (check.name for check in (*derivation.claims, *derivation.witnesses))
+        yield from (check.name for check in (*derivation.all_claims, *derivation.witnesses))
         yield from (*derivation.remarks, *derivation.assumptions, derivation.title)
         yield from (said for _, said in derivation.symbols)
 

@@ -1,20 +1,53 @@
-"""The LaTeX of every printed equation, compared with files that a person has looked at."""
+"""Printed equations and the steps to them, compared with files that a person has looked at."""
 
 from pathlib import Path
+from textwrap import indent
 
 import pytest
 from force_diffusion.derivations.export.document import fragment_name, statement_latex
+from force_diffusion.derivations.export.prose import both, prose_latex
+from force_diffusion.derivations.export.terminal import heading, relation_of
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import Derivation, Step
+from force_diffusion.symbolic.printing.latex import RELATIONS
+from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, latex_body, text_lines
 
 GOLDEN = Path(__file__).parents[2] / "golden"
+
+
+def compare(path: Path, found: str, update: bool) -> None:
+    """Compare with a file, or write it anew."""
+    if update:
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(found, encoding="utf-8")
+    assert path.read_text(encoding="utf-8") == found, "run pytest --update-golden and review"
+
+
+def step_shown(derivation: Derivation, place: int, step: Step) -> str:
+    """A step as text and below it as LaTeX: the reason, and the formula that it gives."""
+    relation = relation_of(derivation, step)
+    uses = f", from {both(step.uses)}" if step.uses else ""
+    shown = (
+        f"Step {place}{uses}",
+        step.reason,
+        indent("\n".join(text_lines(step.formula, relation, TEXT_WIDTH)), "    "),
+        prose_latex(step.reason),
+        indent(latex_body([step.formula], RELATIONS[relation]), "    "),
+    )
+    return "\n\n".join(shown) + "\n"
 
 
 @pytest.mark.parametrize("number", list(modules()))
 def test_statement(number: int, update_golden: bool) -> None:
     derivation = load(number)
-    path = GOLDEN / fragment_name(derivation)
-    found = statement_latex(derivation)
-    if update_golden:
-        path.write_text(found, encoding="utf-8")
-    assert path.read_text(encoding="utf-8") == found, "run pytest --update-golden and review"
+    compare(GOLDEN / fragment_name(derivation), statement_latex(derivation), update_golden)
+
+
+@pytest.mark.parametrize("number", range(1, 17))
+def test_steps(number: int, update_golden: bool) -> None:
+    derivation = load(number)
+    steps = [step_shown(derivation, *one) for one in enumerate(derivation.steps(), start=1)]
+    found = "\n\n".join([f"{heading(derivation)}\n", *steps])
+    path = GOLDEN / "steps" / fragment_name(derivation).replace(".tex", ".txt")
+    compare(path, found, update_golden)

@@ -16,8 +16,8 @@ from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.derivations.framework.record import KernelError
 from force_diffusion.derivations.framework.runner import Ruled, rulings, run
-from force_diffusion.symbolic.kernel.corpus import Statement
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
+from force_diffusion.symbolic.search.corpus import Statement
 
 from tests.derivations import fakes
 

@@ -16,7 +16,7 @@ from force_diffusion.derivations.witnesses.both_sides import (
 from force_diffusion.derivations.witnesses.draws import DIRECTIONS, draw
 from force_diffusion.derivations.witnesses.squared_weights import weights_below_a_load
 from force_diffusion.symbolic.kernel.decisions import Verdict
-from force_diffusion.symbolic.kernel.mutants import mutants
+from force_diffusion.symbolic.search.mutants import mutants
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -6,13 +6,10 @@ from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.mechanics.paths import (
-    BRANCH_COUNT,
     IN_CONE,
     STEPS_BELOW,
-    branched_end,
-    solve_for_path,
 )
-from force_diffusion.symbolic.symbols import i, j, k, l, p, q
+from force_diffusion.symbolic.symbols import k, l, p, q
 
 
 def test_steps_below_a_bead_lead_back_to_it() -> None:
@@ -20,12 +17,6 @@ def test_steps_below_a_bead_lead_back_to_it() -> None:
         assert sympy.expand(STEPS_BELOW[steps].xreplace(IN_CONE)) == steps
     for index in (k, l):
         assert sympy.expand(IN_CONE[index].xreplace(STEPS_BELOW)) == index
-
-
-def test_the_path_found_ends_where_it_should() -> None:
-    path = solve_for_path()
-    assert tuple(sympy.expand(one.xreplace(path)) for one in branched_end()) == (i, j)
-    assert sympy.expand(path[q] - BRANCH_COUNT) == 0
 
 
 @pytest.mark.parametrize("number", [n for n in paper() if n <= 11])

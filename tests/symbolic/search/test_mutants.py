@@ -2,7 +2,7 @@
 
 import sympy
 from force_diffusion.symbolic.as_printed import equation, terms, times
-from force_diffusion.symbolic.kernel.mutants import (
+from force_diffusion.symbolic.search.mutants import (
     BOUND,
     INDEX,
     NUMBER,

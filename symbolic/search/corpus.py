@@ -11,7 +11,9 @@ from itertools import product
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.sources import (
+from force_diffusion.symbolic.notation import by_name
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search.sources import (
     COSINES,
     Source,
     Zeros,
@@ -21,8 +23,6 @@ from force_diffusion.symbolic.kernel.sources import (
     put_in,
     times,
 )
-from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.text import text
 from sympy import Add, Mul, Pow, Rational, Sum
 
 Made = Iterator[tuple[str, sympy.Eq]]

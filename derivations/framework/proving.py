@@ -1,0 +1,450 @@
+"""The lines of a derivation: what each says, where, by which rule, and what it rests on.
+
+A line names a rule of the kernel and, as objects, the lines, equations and axioms that the rule
+uses. The kernel proves what is shown; anything else said in its place goes the same way.
+"""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+import sympy
+from force_diffusion.derivations.framework.follows import put_in
+from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.kernel import rules
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    Verdict,
+    all_of,
+    proved,
+    refuted,
+    undecided,
+)
+from force_diffusion.symbolic.kernel.rules import Rule
+from force_diffusion.symbolic.kernel.theorem import (
+    NotAStatementError,
+    NotProvedError,
+    Supposition,
+    Theorem,
+    isolated,
+    subject,
+)
+from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.search.counterexample import counterexample
+
+Meaning = Mapping[Any, Any]
+"""What a line writes in short: for a symbol, or for a function of its arguments."""
+
+
+class Shown(Protocol):
+    """What every shown step has, a line of the kernel's or one with a procedure of its own."""
+
+    @property
+    def reason(self) -> str:
+        """Why it holds, in plain words."""
+
+    @property
+    def formula(self) -> sympy.Basic:
+        """An equation, or a Tuple of equations."""
+
+    @property
+    def relation(self) -> str:
+        """How the equation relates its sides."""
+
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """What it follows from, in words."""
+
+    @property
+    def equations(self) -> tuple[sympy.Eq, ...]:
+        """Its equations, one by one."""
+
+    @property
+    def ruling(self) -> Ruling:
+        """What is decided of it as it is shown."""
+
+    @property
+    def verdict(self) -> Verdict:
+        """``proved``, ``refuted`` or ``undecided``."""
+
+    def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
+        """Rule on a candidate for one of its equations."""
+
+
+class Proved(Protocol):
+    """A line, or an equation, whose theorems may be used."""
+
+    @property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """One for each of its equations."""
+
+    @property
+    def words(self) -> str:
+        """How another line names it: "Eq. 2" or "step 1"."""
+
+
+Source = Any
+"""A line, an equation, a theorem of the kernel, several of these, or what is supposed."""
+
+_FEW = 12  # points at which such a statement is looked at
+
+SUPPOSED = object()
+"""What an induction supposes."""
+
+
+@dataclass(frozen=True, eq=False)
+class By:
+    """A rule and what it rests on, resolved when something is to be proved."""
+
+    rule: Callable[[tuple[Theorem, ...]], Rule]
+    sources: tuple[Source, ...] = ()
+
+    def names(self) -> tuple[str, ...]:
+        """The lines and equations that it rests on."""
+        return tuple(dict.fromkeys(_names(self.sources)))
+
+
+def _names(sources: Iterable[Source]) -> Iterable[str]:
+    for one in sources:
+        if isinstance(one, By):
+            yield from one.names()
+        elif isinstance(one, tuple):
+            yield from _names(one)
+        elif hasattr(one, "theorems"):
+            yield one.words
+
+
+def known(source: Source, supposed: tuple[Theorem, ...]) -> tuple[Theorem, ...]:
+    """The theorems of a source."""
+    if source is SUPPOSED:
+        return supposed
+    if isinstance(source, Theorem):
+        return (source,)
+    if isinstance(source, tuple):
+        return tuple(theorem for one in source for theorem in known(one, supposed))
+    found: tuple[Theorem, ...] = source.theorems
+    return found
+
+
+@dataclass(frozen=True)
+class Part:
+    """One of several equations of a line."""
+
+    of: Proved
+    number: int
+
+    @property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """The theorem of that part."""
+        return (self.of.theorems[self.number],)
+
+    @property
+    def words(self) -> str:
+        """How another line names it."""
+        return self.of.words
+
+
+def _facts(sources: Sequence[Source], supposed: tuple[Theorem, ...]) -> list[tuple[Theorem, ...]]:
+    return [known(one, supposed) for one in sources]
+
+
+# the rules of the kernel, with what they rest on
+
+
+def rewrite(*facts: Source) -> By:
+    """Both sides are the same once facts are put in, one after the other."""
+    return By(lambda supposed: rules.rewrite(*_facts(facts, supposed)), facts)
+
+
+def follows(source: Source, *facts: Source) -> By:
+    """It says what one theorem says, facts put in."""
+
+    def rule(supposed: tuple[Theorem, ...]) -> Rule:
+        (theorem,) = known(source, supposed)
+        return rules.follows(theorem, *_facts(facts, supposed))
+
+    return By(rule, (source, *facts))
+
+
+def order(source: Source, power: int) -> By:
+    """The coefficient of ε to a power."""
+
+    def rule(supposed: tuple[Theorem, ...]) -> Rule:
+        (theorem,) = known(source, supposed)
+        return rules.order(theorem, power)
+
+    return By(rule, (source,))
+
+
+def along(source: Source, vector: sympy.Symbol, *facts: Source) -> By:
+    """The component of an equation between vectors along a base vector."""
+
+    def rule(supposed: tuple[Theorem, ...]) -> Rule:
+        (theorem,) = known(source, supposed)
+        return rules.follows(rules.along(theorem, vector), *_facts(facts, supposed))
+
+    return By(rule, (source, *facts))
+
+
+def solve(rows: Source, unknowns: Sequence[sympy.Expr], *facts: Source) -> By:
+    """What as many equations fix as there are unknowns."""
+    return By(
+        lambda supposed: rules.solve(known(rows, supposed), unknowns, *_facts(facts, supposed)),
+        (rows, *facts),
+    )
+
+
+def below(balance: Source, *facts: Source) -> By:
+    """A contact's force, from the balance of the bead above it."""
+
+    def rule(supposed: tuple[Theorem, ...]) -> Rule:
+        (theorem,) = known(balance, supposed)
+        return rules.below(theorem, *_facts(facts, supposed))
+
+    return By(rule, (balance, *facts))
+
+
+def cases(by: By, *parts: Iterable[sympy.Basic]) -> By:
+    """The same rule on parts of the domain."""
+    return By(lambda supposed: rules.cases(by.rule(supposed), *parts), (by,))
+
+
+def in_cases(*choices: tuple[sympy.Symbol, Sequence[Iterable[sympy.Basic]]], by: By) -> By:
+    """The same rule, on parts of the domain of a statement that has an index."""
+
+    def rule(supposed: tuple[Theorem, ...]) -> Rule:
+        def choose(formula: sympy.Eq, where: Where) -> Theorem:
+            for index, parts in choices:
+                if index in where.indices:
+                    return rules.cases(by.rule(supposed), *parts)(formula, where)
+            return by.rule(supposed)(formula, where)
+
+        return choose
+
+    return By(rule, (by,))
+
+
+def induct(over: sympy.Symbol, start: sympy.Expr | int, base: By, step: By, **how: Any) -> By:
+    """From the first value of an index on; ``step`` may use what is SUPPOSED."""
+
+    def rule(supposed: tuple[Theorem, ...]) -> Rule:
+        first = sympy.sympify(start)
+        return rules.induct(over, first, base.rule(supposed), step.rule, **how)
+
+    return By(rule, (base, step))
+
+
+def supposing(formula: sympy.Eq, where: Where, over: sympy.Symbol, by: By) -> By:
+    """By a rule that uses what is SUPPOSED of the layer before; only an induction ends it."""
+
+    def rule(_: tuple[Theorem, ...]) -> Rule:
+        return by.rule((rules.suppose(formula, where, Supposition(over), 1),))
+
+    return By(rule, (by,))
+
+
+def in_terms_of(
+    image: Mapping[sympy.Symbol, sympy.Expr],
+    back: Mapping[sympy.Symbol, sympy.Expr],
+    other: Where,
+    by: By,
+) -> By:
+    """A statement in other indices."""
+    return By(lambda supposed: rules.in_terms_of(image, back, other, by.rule(supposed)), (by,))
+
+
+def mirror_of(source: Source) -> By:
+    """The mirror image of what was proved."""
+
+    def rule(supposed: tuple[Theorem, ...]) -> Rule:
+        (theorem,) = known(source, supposed)
+        return rules.follows(rules.mirror(theorem))
+
+    return By(rule, (source,))
+
+
+def reach(source: Source) -> By:
+    """A quantity of every bead, known at (0, 0) and by what it gains on both steps up."""
+
+    def rule(supposed: tuple[Theorem, ...]) -> Rule:
+        origin, *up = known(source, supposed)
+        return rules.reach(origin, up)
+
+    return By(rule, (source,))
+
+
+def walk(
+    start: Mapping[sympy.Symbol, sympy.Expr],
+    following: Mapping[sympy.Symbol, sympy.Expr],
+    count: sympy.Symbol,
+    *sources: Source,
+) -> By:
+    """The site that a number of steps leads to."""
+    return By(lambda _: rules.walk(start, following, count), sources)
+
+
+def inverse(*sources: Source) -> By:
+    """The right-hand side is the inverse matrix."""
+    return By(lambda _: rules.inverse, sources)
+
+
+def differentiate(root: sympy.Symbol, square: sympy.Expr, *sources: Source) -> By:
+    """SymPy differentiates; the root is of what is positive."""
+    return By(lambda _: rules.differentiate(root, square), sources)
+
+
+# lines
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line of reasoning: a statement, where it holds, and the rule that proves it.
+
+    Attributes:
+        reason: why it holds, in plain words (Unicode).
+        formula: an equation, or a Tuple of equations.
+        by: the rule; one for each equation, or one for all.
+        where: the domain; one for each equation, or one for all.
+        meaning: what is written in short; one for each equation, or one for all.
+        after: lines and equations that it follows in the text, beside those that its rule uses.
+        number: its place among the lines, from 1.
+    """
+
+    reason: str
+    formula: sympy.Basic
+    by: By | tuple[By, ...]
+    where: Where | tuple[Where, ...]
+    meaning: Meaning | tuple[Meaning, ...] | None = None
+    after: tuple[Proved, ...] = ()
+    number: int = 0
+    relation: str = "="
+
+    @property
+    def words(self) -> str:
+        """How another line names it."""
+        return f"step {self.number}"
+
+    @property
+    def equations(self) -> tuple[sympy.Eq, ...]:
+        """Its equations, one by one."""
+        formula = self.formula
+        return tuple(formula) if isinstance(formula, sympy.Tuple) else (formula,)
+
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """What it follows from, in words."""
+        rules_of = self.by if isinstance(self.by, tuple) else (self.by,)
+        names = [name for one in rules_of for name in one.names()]
+        names += [one.words for one in self.after]
+        return tuple(sorted(dict.fromkeys(names), key=_in_order))
+
+    def prove(self, part: int, candidate: sympy.Eq) -> Theorem:
+        """The theorem that a candidate for one of its equations is.
+
+        Raises:
+            NotProvedError: the rule does not prove it.
+        """
+        by, where = (_at(part, one) for one in (self.by, self.where))
+        rule: Rule = by.rule(())
+        return rule(self._meant(part, candidate), where)
+
+    def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
+        """Rule on a candidate: proved by the rule, or searched for explicit values against it."""
+        try:
+            theorem = self.prove(part, candidate)
+        except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
+            # what has no value somewhere is mostly without one at a place that no packing shows
+            at_most = _FEW if isinstance(reason, NotAStatementError) else None
+            meant, where = self._meant(part, candidate), _at(part, self.where)
+            found = counterexample(meant, where, at_most=at_most)
+            return refuted(found) if found else undecided(str(reason) or type(reason).__name__)
+        return proved(f"by the rule: {theorem.rule}")
+
+    def _meant(self, part: int, candidate: sympy.Eq) -> sympy.Eq:
+        meaning = _at(part, self.meaning)
+        return (
+            equation(*(put_in(side, meaning) for side in candidate.args)) if meaning else candidate
+        )
+
+    @cached_property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """What it proves, one theorem for each equation.
+
+        Raises:
+            NotProvedError: one of them is not proved.
+        """
+        return tuple(self.prove(part, one) for part, one in enumerate(self.equations))
+
+    @cached_property
+    def ruling(self) -> Ruling:
+        """What the kernel says of it as it is shown."""
+        return all_of(*(self.rule_on(part, one) for part, one in enumerate(self.equations)))
+
+    @property
+    def verdict(self) -> Verdict:
+        """``proved``, ``refuted`` or ``undecided``."""
+        return self.ruling.verdict
+
+    def decide(self) -> Ruling:
+        """The same as ``ruling``, for what asks a function."""
+        return self.ruling
+
+
+def _at(part: int, one: Any) -> Any:
+    return one[part] if isinstance(one, tuple) else one
+
+
+def _in_order(name: str) -> tuple[bool, int]:
+    kind, number = name.split()
+    return kind == "step", int(number) if number.isdigit() else 0
+
+
+class Lines(list[Line]):
+    """The lines of a derivation, which number themselves.
+
+    Args:
+        where: the domain of a line that does not have its own.
+    """
+
+    def __init__(self, where: Where):
+        super().__init__()
+        self._where = where
+        self.claims: list[Line] = []
+
+    def claim(
+        self, name: str, formula: sympy.Basic, by: By | tuple[By, ...], **options: Any
+    ) -> None:
+        """Add a further statement that the lines prove; it is not one of them."""
+        domain = options.pop("where", self._where)
+        self.claims.append(Line(name, formula, by, domain, **options))
+
+    def show(
+        self,
+        reason: str,
+        formula: sympy.Basic,
+        by: By | tuple[By, ...],
+        *,
+        where: Where | tuple[Where, ...] | None = None,
+        meaning: Meaning | tuple[Meaning, ...] | None = None,
+        after: tuple[Proved, ...] = (),
+    ) -> Line:
+        """Add a line and return it."""
+        domain = self._where if where is None else where
+        self.append(Line(reason, formula, by, domain, meaning, after, len(self) + 1))
+        return self[-1]
+
+
+def fixes_it(candidate: sympy.Eq, printed: sympy.Eq, where: Where) -> str:
+    """Why a candidate may say less than the printed equation; "" when it says as much.
+
+    Where the printed equation is about one quantity, the candidate fixes that everywhere. (A
+    printed balance is about none, and its rule compares all of it.)
+    """
+    if subject(printed.lhs) is None:
+        return ""
+    try:
+        about, _ = isolated(candidate, where)
+    except NotProvedError as reason:
+        return str(reason)
+    return "" if about == subject(printed.lhs) else "it is about another quantity"

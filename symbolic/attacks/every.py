@@ -1,0 +1,27 @@
+"""All attacks, tried."""
+
+from collections.abc import Iterator
+
+from force_diffusion.symbolic.attacks import (  # noqa: F401 - each adds its own to ATTACKS
+    inducing,
+    moving,
+    rewriting,
+    solving,
+    statements,
+    supposing,
+    tracing,
+)
+from force_diffusion.symbolic.attacks.attack import ATTACKS, REFUSALS, Attack
+
+
+def succeeded() -> Iterator[Attack]:
+    """The attacks that the kernel does not refuse: it is at fault."""
+    for one in ATTACKS:
+        try:
+            one.attempt()
+        except REFUSALS:
+            continue
+        except Exception:  # a guard that stumbles guards nothing
+            yield one
+        else:
+            yield one

@@ -1,0 +1,120 @@
+"""What Hypothesis draws: small packings of discs; they shrink to few beads and equal radii."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import lru_cache
+
+from hypothesis import strategies as st
+
+from tests.properties.packing import Number, Packing, mp, step
+from tests.properties.reading import Plane, place, steps_to
+
+HIGHEST = 6
+
+
+def exactly(value: Fraction) -> Number:
+    return mp.mpf(value.numerator) / value.denominator
+
+
+cosines = st.fractions(Fraction(-9, 20), Fraction(9, 20), max_denominator=20)
+"""φ of either sign, within the range −½ < φ < ½ of packings."""
+
+lengths = st.builds(Fraction, st.integers(1, 9), st.integers(1, 9))
+"""Mean radii and loads; 1 is the simplest."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A packing with δr = ε ρ for a strength ε, a load, and where to look.
+
+    Attributes:
+        cosine: φ.
+        width: W, beads in a layer before they repeat.
+        height: M.
+        r: mean radius.
+        rho: ρ of all beads, layer by layer from the base.
+        load: "point", "surface", "bulk", or "contact": nothing but a force f⁺ that enters the bead
+            (k − 1, l − 1) from above.
+        weight: the load on a bead, or the force that enters.
+        at: the loaded bead, as the paper's (k, l); it may lie beyond the seam.
+    """
+
+    cosine: Fraction
+    width: int
+    height: int
+    r: Fraction
+    rho: tuple[int, ...]
+    load: str
+    weight: Fraction
+    at: tuple[int, int]
+
+    def with_equal_radii(self) -> "Drawn":
+        """The ordered packing."""
+        return replace(self, rho=(0,) * len(self.rho))
+
+    def base(self) -> Iterator[tuple[int, int]]:
+        """The beads that are held, as (i, j)."""
+        return self._places(range(1))
+
+    def beads(self) -> Iterator[tuple[int, int]]:
+        """All beads above the base, as (i, j)."""
+        return self._places(range(1, self.height + 1))
+
+    def contacts(self) -> Iterator[tuple[int, int]]:
+        """The lower beads of all contacts, as (i, j)."""
+        return self._places(range(self.height))
+
+    def _places(self, layers: range) -> Iterator[tuple[int, int]]:
+        packing = solved(self, mp.mpf(0)).packing
+        return (place(site) for layer in layers for site in packing.sites(layer))
+
+
+@lru_cache(maxsize=64)  # all lines of an equation, and all of its changes, see the same packings
+def solved(drawn: Drawn, epsilon: Number) -> Plane:
+    """The nonlinear packing at one strength of the disorder, and its forces."""
+    bare = Packing(exactly(drawn.cosine), drawn.width, drawn.height, exactly(drawn.r))
+    sites = [site for layer in range(drawn.height + 1) for site in bare.sites(layer)]
+    change = {site: epsilon * rho for site, rho in zip(sites, drawn.rho, strict=True)}
+    packing = replace(bare, change=change)
+    weight, loaded = exactly(drawn.weight), packing.home(steps_to(*drawn.at))
+    match drawn.load:
+        case "surface":
+            return Plane(packing, packing.surface_load(weight))
+        case "bulk":
+            return Plane(packing, packing.bulk_load(weight))
+        case "point":
+            return Plane(packing, packing.downwards(weight, [loaded]))
+    return Plane(packing, entering={(packing.home(step(loaded, 0, -1)), 0): weight})
+
+
+@st.composite
+def packings(
+    draw: st.DrawFn, *loads: str, cone: bool = False, height: int = 2, level: int = 1
+) -> Drawn:
+    """A packing of up to ``HIGHEST`` layers under one of these loads, down to one bead wide.
+
+    Args:
+        draw: Hypothesis' own.
+        loads: as ``Drawn.load``; where none is given, only positions matter.
+        cone: so wide that the cone below the loaded bead does not meet its own images.
+        height: the least one.
+        level: the least layer of a bead that alone is loaded.
+    """
+    height = draw(st.integers(height, HIGHEST))
+    load = draw(st.sampled_from(loads or ("surface",)))
+    alone = load in ("point", "contact")
+    l = draw(st.integers(level, height)) if alone else height  # noqa: E741
+    width = draw(st.integers(l if cone else 1, height + 1))
+    k = 2 * draw(st.integers(-width, width)) + l % 2
+    beads = width * (height + 1)
+    return Drawn(
+        draw(cosines),
+        width,
+        height,
+        draw(lengths),
+        tuple(draw(st.lists(st.integers(-9, 9), min_size=beads, max_size=beads))),
+        load,
+        draw(lengths),
+        (k, l),
+    )

@@ -1,0 +1,204 @@
+"""Printed equations read on a solved packing: every symbol is replaced by its number.
+
+Sums are loops, braces are looked up, vectors are Cartesian. Of the package this takes only what the
+nodes of an expression are called.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, reduce
+from operator import mul
+from typing import Any
+
+import sympy
+from force_diffusion.symbolic import symbols as sy
+
+from tests.properties.packing import (
+    Contact,
+    Number,
+    Packing,
+    Site,
+    Vector,
+    dot,
+    minus,
+    mp,
+    plus,
+    times,
+)
+
+Value = Any
+"""A whole number, a number of mpmath's, or a vector of these."""
+
+
+class AbsentError(LookupError):
+    """The equation speaks of a bead or contact that the packing does not have."""
+
+
+class NonsenseError(ValueError):
+    """It adds a number to a vector, or divides by zero."""
+
+
+SIDES = {"Plus": 0, "Minus": 1}
+"""Base vectors n⁺ and n⁻, by how the names of a contact's quantities end."""
+
+
+def steps_to(i: int, j: int) -> Site:
+    """Whole steps along n⁺ and n⁻ that lead to the paper's bead (i, j)."""
+    if (i + j) % 2:
+        raise AbsentError(f"no bead is at ({i}, {j})")
+    return (j + i) // 2, (j - i) // 2
+
+
+def place(site: Site) -> tuple[int, int]:
+    """The paper's (i, j) of a bead."""
+    return site[0] - site[1], site[0] + site[1]
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """A packing of discs in the paper's symbols, with the forces that some loads bring.
+
+    ``entering``: contact forces that are given in place of loads, by their contacts.
+    """
+
+    packing: Packing
+    loads: Mapping[Site, Vector] = field(default_factory=dict)
+    entering: Mapping[Contact, Number] = field(default_factory=dict)
+
+    @cached_property
+    def forces(self) -> dict[Contact, Number]:
+        """Every contact force; a given one pushes the bead below it along the contact."""
+        pushes = {
+            contact[0]: times(-force, self.packing.direction(contact))
+            for contact, force in self.entering.items()
+        }
+        return {**self.packing.forces({**self.loads, **pushes}), **self.entering}
+
+    @cached_property
+    def symbols(self) -> dict[sympy.Symbol, Value]:
+        """Numbers of the symbols that say which packing this is."""
+        n_plus, n_minus = self.packing.base
+        n_x, n_y = n_plus
+        return {
+            sy.n_x: n_x,
+            sy.n_y: n_y,
+            sy.phi: dot(n_plus, n_minus),
+            sy.r: self.packing.r,
+            sy.M: self.packing.height,
+            sy.n_plus: n_plus,
+            sy.n_minus: n_minus,
+            sy.b_plus: (1 / (2 * n_x), 1 / (2 * n_y)),
+            sy.b_minus: (-1 / (2 * n_x), 1 / (2 * n_y)),
+        }
+
+    def quantity(self, name: str, i: int, j: int) -> Value:
+        """The value of δr_ij, f⁺_ij and so on, by the name of its function."""
+        site = steps_to(i, j)
+        kind = name.removesuffix("Plus").removesuffix("Minus")
+        top = self.packing.height - (kind != name)  # contacts start below the surface
+        if not 0 <= j <= top:
+            raise AbsentError(f"{name} at ({i}, {j}) is outside of the packing")
+        contact = self.packing.home(site), SIDES.get(name.removeprefix(kind), 0)
+        match kind:
+            case "DeltaR":
+                return self.packing.radius(site) - self.packing.r
+            case "Position":
+                return self.packing.centre(site)
+            case "DeltaX":
+                return minus(self.packing.centre(site), self.packing.ordered(site))
+            case "DeltaN":
+                return minus(self.packing.direction(contact), self.packing.base[contact[1]])
+            case "Force":
+                return self.forces.get(contact, mp.mpf(0))
+            case "Load":
+                return self.loads.get(contact[0], (mp.mpf(0), mp.mpf(0)))
+        raise NonsenseError(f"{name} is no quantity of a packing")
+
+    def read(self, expression: sympy.Basic, at: Mapping[sympy.Symbol, Value]) -> Value:
+        """The value of an expression, for these values of its indices and other symbols.
+
+        Raises:
+            AbsentError: it speaks of a bead or contact that is not there.
+            NonsenseError: it has no value.
+        """
+        return _Reading(self, {**self.symbols, **at}).value(expression)
+
+    def rest(self, equation: sympy.Eq, at: Mapping[sympy.Symbol, Value]) -> Value:
+        """The left-hand side less the right-hand side."""
+        left, right = (self.read(side, at) for side in equation.args)
+        return _sum([left, _product([-1, right])])
+
+
+@dataclass(frozen=True)
+class _Reading:
+    plane: Plane
+    symbols: Mapping[sympy.Symbol, Value]
+
+    def value(self, expression: sympy.Basic) -> Value:
+        match expression:
+            case sympy.Integer():
+                return int(expression)
+            case sympy.Rational():
+                return mp.mpf(expression.p) / expression.q
+            case sympy.Symbol():
+                return self.symbols[expression]
+            case sympy.Add():
+                return _sum([self.value(term) for term in expression.args])
+            case sympy.Mul():
+                return _product([self.value(factor) for factor in expression.args])
+            case sympy.Pow():
+                return _power(*map(self.value, expression.args))
+            case sympy.Sum():
+                (index, low, high) = expression.limits[0]
+                layers = range(self.index(low), self.index(high) + 1)
+                return _sum([self.having(index, m).value(expression.function) for m in layers])
+            case sy.SecondDifference():
+                r, s = map(self.index, expression.args)
+                one, two, three = (self.plane.quantity("DeltaR", r + by, s) for by in (-2, 0, 2))
+                return 2 * two - one - three
+            case sy.SiteFunction():
+                i, j = map(self.index, expression.args)
+                return self.plane.quantity(type(expression).__name__, i, j)
+            case sy.Braces():
+                first, second, index, last = expression.args
+                return self.value(first if self.index(index) <= self.index(last) else second)
+            case sy.Dot():
+                u, v = map(self.value, expression.args)
+                return dot(u, v)
+            case sy.MatrixTimes():
+                a, b, c, d, (x, y) = map(self.value, expression.args)
+                return a * x + b * y, c * x + d * y
+        raise NonsenseError(f"{expression} is not read here")
+
+    def index(self, expression: sympy.Basic) -> int:
+        value = self.value(expression)
+        if value != int(value):
+            raise AbsentError(f"{expression} is {value}, no whole number")
+        return int(value)
+
+    def having(self, index: sympy.Symbol, value: int) -> "_Reading":
+        return _Reading(self.plane, {**self.symbols, index: value})
+
+
+def _sum(parts: list[Value]) -> Value:
+    """Numbers or vectors; the number zero goes with both."""
+    vectors = [part for part in parts if isinstance(part, tuple)]
+    if not vectors:
+        return sum(parts)
+    if any(part != 0 for part in parts if not isinstance(part, tuple)):
+        raise NonsenseError("a number is added to a vector")
+    return reduce(plus, vectors)
+
+
+def _product(parts: list[Value]) -> Value:
+    vectors = [part for part in parts if isinstance(part, tuple)]
+    factor = reduce(mul, (part for part in parts if not isinstance(part, tuple)), 1)
+    if len(vectors) > 1:
+        raise NonsenseError("a product of two vectors")
+    return times(factor, vectors[0]) if vectors else factor
+
+
+def _power(base: Value, exponent: Value) -> Value:
+    if base == 0 and exponent < 0:
+        raise NonsenseError("a division by zero")
+    return mp.mpf(base) ** exponent

@@ -1,0 +1,40 @@
+"""Eqs. 4 and 5: how contacts turn."""
+
+import sympy
+from force_diffusion.symbolic.symbols import i, j
+from hypothesis import given
+
+from tests.properties.drawn import Drawn, packings, solved
+from tests.properties.orders import STRENGTHS, falls, holds_to_first_order, printed
+from tests.properties.packing import dot
+
+
+def of_each_contact(equation: sympy.Eq, drawn: Drawn) -> None:
+    holds_to_first_order(equation, drawn, ({i: a, j: b} for a, b in drawn.contacts()))
+
+
+CHECKS = {4: (of_each_contact, packings()), 5: (of_each_contact, packings())}
+
+
+@given(packings())
+def test_eq_4_contacts_along_n_plus_turn(drawn: Drawn) -> None:
+    """The direction from the centre of bead (i, j) to (i+1, j+1) is n⁺ + δn⁺."""
+    for line in printed(4):
+        of_each_contact(line, drawn)
+
+
+@given(packings())
+def test_eq_5_contacts_along_n_minus_turn(drawn: Drawn) -> None:
+    """A similar expression applies for contacts from (i, j) to (i−1, j+1)."""
+    for line in printed(5):
+        of_each_contact(line, drawn)
+
+
+@given(packings())
+def test_the_change_of_a_direction_is_at_right_angles_to_it(drawn: Drawn) -> None:
+    """δn⁺·n⁺ = 0 ensures that n⁺ + δn⁺ is a unit vector to first order."""
+    for a, b in drawn.contacts():
+        for name, c in (("DeltaNPlus", 0), ("DeltaNMinus", 1)):
+            planes = [solved(drawn, epsilon) for epsilon in STRENGTHS]
+            along = [abs(dot(one.quantity(name, a, b), one.packing.base[c])) for one in planes]
+            assert falls(along, 2)

@@ -1,0 +1,22 @@
+"""Eq. 11: the force of every contact under a surface load."""
+
+import sympy
+from force_diffusion.symbolic.symbols import i, j
+from hypothesis import given
+
+from tests.properties.drawn import Drawn, packings
+from tests.properties.orders import holds_to_first_order, printed
+
+
+def of_each_contact(equation: sympy.Eq, drawn: Drawn) -> None:
+    holds_to_first_order(equation, drawn, ({i: a, j: b} for a, b in drawn.contacts()))
+
+
+CHECKS = {11: (of_each_contact, packings("surface"))}
+
+
+@given(packings("surface"))
+def test_eq_11_the_force_is_the_sum_over_all_loads_and_paths(drawn: Drawn) -> None:
+    """One straight path, and M − j − 1 paths which branch once."""
+    for line in printed(11):
+        of_each_contact(line, drawn)
