@@ -76,6 +76,75 @@ fma: Any = intrinsic(_fma_code)
 """a b + c, rounded once."""
 
 
+def _scope(builder: Any, name: str) -> Any:
+    """Name a class of numbers that share no memory with those of another name."""
+    domain = builder.module.add_metadata(["force-diffusion"])
+    return builder.module.add_metadata([name, domain])
+
+
+def _address(context: Any, builder: Any, kind: Any, array: Any, index: Any) -> Any:
+    return builder.gep(context.make_array(kind)(context, builder, array).data, [index])
+
+
+def _taken_code(typing: Any, array: Any, index: Any) -> Any:
+    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        number = builder.load(_address(context, builder, signature.args[0], *arguments))
+        scopes = builder.module.add_metadata([_scope(builder, "taken")])
+        number.set_metadata("alias.scope", scopes)
+        return number
+
+    return numba.float64(array, numba.int64), code
+
+
+def _placed_code(typing: Any, array: Any, index: Any, value: Any, number: Any) -> Any:
+    own, most = number.literal_value, 64
+
+    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        place = _address(context, builder, signature.args[0], *arguments[:2])
+        stored = builder.store(arguments[2], place)
+        names = ["taken", *(f"placed {k}" for k in range(most) if k != own)]
+        others = [_scope(builder, name) for name in names]
+        scopes = builder.module.add_metadata([_scope(builder, f"placed {own}")])
+        stored.set_metadata("alias.scope", scopes)
+        stored.set_metadata("noalias", builder.module.add_metadata(others))
+        return context.get_dummy_value()
+
+    return numba.void(array, numba.int64, numba.float64, number), code
+
+
+def _pitch_code(typing: Any, array: Any) -> Any:
+    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        given = context.make_array(signature.args[0])(context, builder, arguments[0])
+        stride = builder.extract_value(given.strides, 0)
+        return builder.sdiv(stride, stride.type(8))
+
+    return numba.int64(array), code
+
+
+def _alone_code(typing: Any) -> Any:
+    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        builder.function.attributes.add("noinline")
+        return context.get_dummy_value()
+
+    return numba.void(), code
+
+
+taken: Any = intrinsic(_taken_code)
+"""Number ``index`` of a flat array, in a function that puts nothing there."""
+
+placed: Any = intrinsic(prefer_literal=True)(_placed_code)
+"""Put a number at ``index`` of a flat array, where nothing is taken, nor under another ``number``.
+
+Told so, LLVM takes several beads at a time without comparing all addresses for each run of them.
+"""
+
+pitch: Any = intrinsic(_pitch_code)
+"""How many numbers the rows of an array lie apart."""
+
+alone: Any = intrinsic(_alone_code)
+"""Keep a function by itself: what it takes, the next call may put."""
+
+
 @lru_cache(maxsize=1)
 def _pool(threads: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(threads)

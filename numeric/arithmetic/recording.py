@@ -7,10 +7,6 @@ function does on arrays of floats, to the bit. What was computed before is not c
 from collections.abc import Sequence
 from typing import Any
 
-# Numbers of a strip that lie one after the other; the next quantity begins so much further on.
-STRIP = 512
-
-
 class Recorder:
     """Takes down operations on names."""
 
@@ -87,37 +83,39 @@ def positive_root(value: Any) -> Any:
 
 
 class Code:
-    """A function of a strip of beads that is being recorded; ``text`` is its source.
+    """A function that works on runs of beads, in place; ``text`` is its source.
 
-    It takes the strip, (quantities × STRIP,), how many beads are in it, and constants; it replaces
-    the first quantities by its outputs and gives True where all conditions hold.
+    It takes flat ``arrays`` (quantities, places), a run, and constants. A run names the place of
+    its first bead in each of several rows of beads, and at last how many beads it has. Neighbours of
+    all of them lie at the same distance. The function gives True where all conditions hold.
     """
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, arrays: Sequence[str]) -> None:
         """No inputs yet."""
-        self.name, self.recorder = name, Recorder()
+        self.name, self.arrays, self.recorder = name, list(arrays), Recorder()
+        self.places: list[str] = []
         self.inputs: list[str] = []
         self.constants: list[str] = []
-        self.outputs: list[Any] = []
+        self.outputs: list[str] = []
         self.holds: list[str] = []
 
-    def quantity(self) -> Name:
-        """Name the next quantity of the strip."""
-        self.inputs.append(f"x{len(self.inputs)}")
-        return Name(self.inputs[-1], self.recorder)
-
-    def quantities(self, count: int) -> tuple[Name, ...]:
-        """Name the next ones."""
-        return tuple(self.quantity() for _ in range(count))
+    def takes(self, array: str, row: int, place: int | None) -> Name:
+        """Name a quantity of the beads at a place of the run (None: from the first place on)."""
+        name = f"x{len(self.inputs)}"
+        self.places.append(_place(f"i{len(self.inputs)}", array, row, place))
+        self.inputs.append(f"{name} = taken({array}, i{len(self.inputs)} + q)")
+        return Name(name, self.recorder)
 
     def constant(self) -> Name:
         """Name the next constant."""
         self.constants.append(f"m{len(self.constants)}")
         return Name(self.constants[-1], self.recorder)
 
-    def gives(self, *outputs: Any) -> None:
-        """Take further outputs."""
-        self.outputs += outputs
+    def gives(self, array: str, row: int, place: int | None, value: Any) -> None:
+        """Put a value where that quantity belongs. No input is ever put over."""
+        k = len(self.outputs)
+        self.places.append(_place(f"o{k}", array, row, place))
+        self.outputs.append(f"placed({array}, o{k} + q, {value.text}, {k})")
 
     def demand(self, value: Name, condition: str) -> None:
         """Let the function say False where ``condition`` does not hold of a value."""
@@ -125,17 +123,19 @@ class Code:
 
     def text(self) -> str:
         """Give the source."""
-        lines = [f"def {self.name}(s, n, m):"]
+        lines = [f"def {self.name}({', '.join(self.arrays)}, run, m):", "    alone()"]
         lines += [f"    {name} = m[{k}]" for k, name in enumerate(self.constants)]
-        lines += ["    good = True", "    for q in range(n):"]
-        lines += [f"        {name} = s[q + {k * STRIP}]" for k, name in enumerate(self.inputs)]
-        lines += [f"        {line}" for line in self.recorder.lines]
-        lines += [
-            f"        s[q + {k * STRIP}] = {value.text}" for k, value in enumerate(self.outputs)
-        ]
+        lines += [f"    {name}_ = pitch({name})" for name in self.arrays]
+        lines += [f"    {one}" for one in self.places]
+        lines += ["    good = True", "    for q in range(run[-1]):"]
+        lines += [f"        {one}" for one in (*self.inputs, *self.recorder.lines, *self.outputs)]
         if self.holds:
             lines.append(f"        good &= {' & '.join(f'({one})' for one in self.holds)}")
         return "\n".join([*lines, "    return good", ""])
+
+
+def _place(name: str, array: str, row: int, place: int | None) -> str:
+    return f"{name} = {row} * {array}_" + ("" if place is None else f" + run[{place}]")
 
 
 def module(codes: Sequence[Code], loops: str) -> str:

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..arithmetic.recording import STRIP
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.layers import Layer
 from . import local
@@ -184,24 +183,32 @@ class _Compiled:
     def __init__(self, packing: "SolvedPacking") -> None:
         from . import kernels
 
+        assert packing.memory is not None
         self.kernels, self.packing, region = kernels, packing, packing.region
-        self.layers = kernels.layers_of(region, region.rows, region.starts)
+        self.rows = kernels.layers_of(region, region.rows, region.starts)
         self.m = kernels.constants(region.dimension, packing.phi, carried=False)
-        self.strip = np.empty((2 * region.dimension + 3) * STRIP)
-        self.loop = kernels.kernels(region.dimension).gaps
+        self.carried = packing.memory.carried
+        self.gaps = np.empty((1, kernels.MOST + 1))
+        self.loop = kernels.kernels(region.dimension, carried=self.carried).gaps
 
     def measure(self, found: Gaps, steps: Steps, phi: Fraction, layers: range) -> None:
         """Take in the gaps of one kind of pairs."""
         packing, region, of = self.packing, self.packing.region, slice(layers.start, layers.stop)
         assert packing.memory is not None
-        links = self.kernels.links_of(region, region.rows, region.rows, region.starts, steps)
+        make, d = self.kernels, region.dimension
+        both = [(0,) * d, steps]
+        links = [make.links_of(region, region.rows, region.rows, region.starts, one)[of]
+                 for one in both]  # fmt: skip
+        turns = [make.turns_of(region, one) for one in both]
+        own = self.rows[of]
+        runs = make.runs_of(d, own, links, turns, [-1, -1], make.MOST, carried=self.carried)
+        of_layer = np.append(np.searchsorted(runs[:, 0], own[:, 0]), len(runs))
         square = square_of(phi, steps)
-        kind = np.array([*steps, float(square), float(square - 4)])
+        m = np.array([*self.m, *steps, float(square), float(square - 4)])
         counted = np.zeros(6, np.int64)
         smallest = self.loop(
-            packing.memory.rho, packing.memory.block, kind, links[of],
-            self.kernels.turns_of(region, steps), self.layers[of], self.m, found.smallest,
-            counted, self.strip,
+            packing.memory.rho[:, None], packing.memory.block, runs, of_layer, m, found.smallest,
+            counted, self.gaps,
         )  # fmt: skip
         found.overlaps += int(counted[3])
         found.undecided += int(counted[4] + counted[5])

@@ -24,7 +24,7 @@ import numpy as np
 from ..arithmetic import compiling
 from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.compiling import CODES, on_all_cores
-from ..arithmetic.recording import STRIP, Code, module, positive_root
+from ..arithmetic.recording import Code, module, positive_root
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..lattice.branch import per_direction
 from ..lattice.layers import Layer, LazyRows, Region, whole
@@ -34,11 +34,16 @@ from .sweep import Forces, Loads, Memory, SolvedPacking, straight_down
 
 FINITE = "abs({0}) < inf"
 POSITIVE = "{0} > 0) & ({0} < inf"
+# Zeros in memory, for beads that are not there: a run of such is no longer.
+NONE = 64
+# Gaps that are looked at together, in the nearest cache.
+MOST = 512
 
 
 class Kernels(NamedTuple):
     """The compiled loops of one dimension, with or without errors."""
 
+    runs: Callable[..., Array]
     deposit: Callable[..., bool]
     sweep_down: Callable[..., bool]
     gaps: Callable[..., float]
@@ -46,7 +51,7 @@ class Kernels(NamedTuple):
 
 def source(dimension: int, *, carried: bool) -> str:
     """Put together the source of all kernels of one dimension."""
-    names = f"D, PARTS, STRIP, RESOLUTION = {dimension}, {1 + carried}, {STRIP}, {RESOLUTION!r}"
+    names = f"D, PARTS, NONE, RESOLUTION = {dimension}, {1 + carried}, {NONE}, {RESOLUTION!r}"
     loops = Path(__file__).with_name("loops.py").read_text(encoding="utf-8")
     recorded = [
         _rest(dimension, carried=carried),
@@ -54,7 +59,8 @@ def source(dimension: int, *, carried: bool) -> str:
         _gap(dimension),
     ]
     imports = (
-        "from math import inf, sqrt\nfrom force_diffusion.numeric.arithmetic.compiling import fma"
+        "from math import inf, sqrt\nfrom force_diffusion.numeric.arithmetic.compiling import "
+        "alone, fma, pitch, placed, taken"
     )
     # what compiles them has no part in the text, but in what comes of it
     with_what = hashlib.sha256(Path(compiling.__file__).read_text(encoding="utf-8").encode())
@@ -93,29 +99,34 @@ def _kept(text: str, name: str) -> str:
 
 
 class _Recording:
-    """Names of the quantities of a strip, and of constants, that carry errors or not."""
+    """Names of quantities of beads, and of constants, that carry errors or not.
 
-    def __init__(self, name: str, count: int, constants: int, *, carried: bool) -> None:
-        self.code, self.carried = Code(name), carried
-        names: list[Any] = list(self.code.quantities(count))
-        held: list[Any] = [self.code.constant() for _ in range(constants)]
+    ``arrays`` says how many quantities each array has, whose errors lie behind them.
+    """
+
+    def __init__(self, name: str, arrays: dict[str, int], constants: int, *, carried: bool) -> None:
+        self.code, self.carried, self.arrays = Code(name, list(arrays)), carried, arrays
+        self.constants: list[Any] = [self.code.constant() for _ in range(constants)]
         if carried:
-            errors = self.code.quantities(count)
-            names = [Carried(*pair) for pair in zip(names, errors, strict=True)]
-            held = [Carried(one, self.code.constant()) for one in held]
-        self._names, self.constants = iter(names), held
+            self.constants = [Carried(one, self.code.constant()) for one in self.constants]
 
-    def take(self, count: int) -> tuple[Any, ...]:
-        """Give the next quantities."""
-        return tuple(next(self._names) for _ in range(count))
+    def take(self, array: str, row: int, place: int) -> Any:
+        """Give a quantity of the beads at a place of the run."""
+        value = self.code.takes(array, row, place)
+        if not self.carried:
+            return value
+        return Carried(value, self.code.takes(array, self.arrays[array] + row, place))
 
-    def gives(self, values: Sequence[Any]) -> Code:
-        """Give the code of these outputs."""
-        if self.carried:
-            self.code.gives(*(v.value for v in values), *(v.error for v in values))
-        else:
-            self.code.gives(*values)
-        return self.code
+    def several(self, array: str, first: int, count: int, place: int) -> tuple[Any, ...]:
+        """Give quantities that lie one behind the other."""
+        return tuple(self.take(array, first + k, place) for k in range(count))
+
+    def give(self, array: str, first: int, place: int | None, values: Sequence[Any]) -> None:
+        """Put quantities there."""
+        for row, value in enumerate(values, first):
+            self.code.gives(array, row, place, value.value if self.carried else value)
+            if self.carried:
+                self.code.gives(array, self.arrays[array] + row, place, value.error)
 
     def demand(self, value: Any, condition: str) -> None:
         """Let the code say False where a condition does not hold."""
@@ -127,36 +138,46 @@ def _sqrt(value: Any) -> Any:
 
 
 def _rest(d: int, *, carried: bool) -> Code:
-    of = _Recording("rest", d * d + d + 1, 3, carried=carried)
-    under, rho_under, (rho,) = [of.take(d) for _ in range(d)], of.take(d), of.take(1)
-    found = local.rest(under, rho, rho_under, local.Metric(*of.constants), _sqrt, linear=False)
+    of = _Recording("rest", {"rho": 1, "block": d + d * d}, 3, carried=carried)
+    own, *supports = range(1 + d)
+    under = [of.several("block", 0, d, place) for place in supports]
+    rho_under = tuple(of.take("rho", 0, place) for place in supports)
+    rho, m = of.take("rho", 0, own), local.Metric(*of.constants)
+    found = local.rest(under, rho, rho_under, m, _sqrt, linear=False)
     of.demand(1 + rho, POSITIVE)
     for value in found.holds:
         of.demand(value, POSITIVE)
-    return of.gives([*found.c, *(x for v in found.dn for x in v)])
+    of.give("block", 0, own, [*found.c, *(x for v in found.dn for x in v)])
+    return of.code
 
 
 def _balance(d: int, *, carried: bool) -> Code:
-    of = _Recording("balance", d * (d + 3) + d + d * d, 0, carried=carried)
+    of = _Recording("balance", {"F": d, "block": d + d * d, "g": d, "lost": d}, 0, carried=carried)
+    own, here, new = range(3)
     above = []
-    for _ in range(d):
-        (F, g), dn, (lost,) = of.take(2), of.take(d), of.take(1)
-        above.append((F, g, dn, lost))
-    ordered, below = of.take(d), [of.take(d) for _ in range(d)]
-    found = local.balance(above, ordered, below, linear=False, compensated=True)
+    for a in range(d):
+        up, over, old = (3 * (a + 1) + k for k in range(3))
+        dn = of.several("block", d + a * d, d, over)
+        above.append((of.take("F", a, up), of.take("g", a, up), dn, of.take("lost", a, old)))
+    below = [of.several("block", d + a * d, d, here) for a in range(d)]
+    found = local.balance(above, of.several("F", 0, d, own), below, linear=False, compensated=True)
     of.demand(found.det * found.det, POSITIVE)
     for value in found.g:
         of.demand(value, FINITE)
-    return of.gives([*found.g, *found.lost])
+    of.give("g", 0, own, found.g)
+    of.give("lost", 0, new, found.lost)
+    return of.code
 
 
 def _gap(d: int) -> Code:
-    of = _Recording("gap", 2 * d + 2, 5 + d, carried=False)
-    here, there, (rho, other) = of.take(d), of.take(d), of.take(2)
+    of = _Recording("gap", {"rho": 1, "block": d, "gaps": 1}, 5 + d, carried=False)
+    here, there = (of.several("block", 0, d, place) for place in range(2))
+    rho, other = (of.take("rho", 0, place) for place in range(2))
     phi, own, cross, *steps, square, excess = of.constants
     found = local.gap(steps, square, excess, local.less(there, here), rho + other,
                       local.Metric(phi, own, cross), positive_root)  # fmt: skip
-    return of.gives([found])
+    of.give("gaps", 0, None, [found])
+    return of.code
 
 
 @lru_cache(maxsize=4)
@@ -171,14 +192,18 @@ def memory(batch: int, quantities: int, size: int) -> Array:
     """Give memory, (batch, quantities, size and more).
 
     It is one piece, since the system hands out big pieces faster. Quantities at distances that are
-    multiples of 4096 bytes would compete for the same places of the cache.
+    multiples of 4096 bytes would compete for the same places of the cache. The last ``NONE`` of
+    each are zeros.
     """
-    return np.empty((batch, *padded(quantities, size)))
+    block = np.empty((batch, *padded(quantities, size)))
+    block[..., -NONE:] = 0.0
+    return block
 
 
 def padded(quantities: int, size: int) -> tuple[int, int]:
     """Give the shape of ``memory`` of one packing."""
-    return quantities, size + (72 - size) % 512
+    end = size + NONE
+    return quantities, end + (72 - end) % 512
 
 
 def layers_of(region: Region, rows: Sequence[Layer], starts: Array) -> Array:
@@ -226,6 +251,15 @@ def links_of(
     return found
 
 
+def runs_of(
+    dimension: int, layers: Array, links: Sequence[Array], turns: Sequence[Array],
+    nothing: Sequence[int], most: int, *, carried: bool,
+) -> Array:  # fmt: skip
+    """Give the table ``loops.runs``, the lowest layer first; ``links`` and ``turns`` by place."""
+    cut = kernels(dimension, carried=carried).runs
+    return cut(layers, np.stack(links, 1), np.stack(turns), np.array(nothing), most)
+
+
 def rows_of(values: Array, starts: Array, counts: Sequence[int], lowest: int = 0) -> LazyRows[Any]:
     """Give the rows of (…, beads), of which those below ``lowest`` have nothing to say."""
 
@@ -243,28 +277,30 @@ class Deposition:
         self.region, self.carried = region, carried
         d = region.dimension
         self.constants = constants(d, phi, carried=carried)
-        steps = [region.step(a, -1) for a in range(d)]
-        self.layers = layers_of(region, region.rows, region.starts)
-        self.links = np.stack(
-            [links_of(region, region.rows, region.rows, region.starts, one) for one in steps], 1
-        )
-        self.turns = np.stack([turns_of(region, one) for one in steps])
+        rows, starts = region.rows, region.starts
+        steps = [(0,) * d, *(region.step(a, -1) for a in range(d))]
+        links = [links_of(region, rows, rows, starts, one) for one in steps]
+        turns = [turns_of(region, one) for one in steps]
+        layers = layers_of(region, rows, starts)
+        self._check(layers, np.stack(links[1:], 1))
+        nothing, most = [-1] * len(links), max(region.widest, 1)
+        table = runs_of(d, layers, links, turns, nothing, most, carried=carried)
+        self.runs = table[np.searchsorted(table[:, 0], starts[1]) :]
         self.counts = [row.count for row in region.rows]
         self.quantities = d + d * d
         self.block = np.empty((0, 0, 0))
-        self._check()
 
     @property
     def shape(self) -> tuple[int, int]:
         """Quantities, and the numbers of each, in memory."""
         return padded((1 + self.carried) * self.quantities, self.region.beads)
 
-    def _check(self) -> None:
+    def _check(self, layers: Array, links: Array) -> None:
         """Raise ``LookupError`` where the region lacks a support."""
         if self.region.dimension == 3 or self.region.is_whole:
             return
-        shift, count, period = self.links[1:, :, 2], self.links[1:, :, 1], self.links[1:, :, 3]
-        own = self.layers[1:, 1, None]
+        shift, count, period = links[1:, :, 2], links[1:, :, 1], links[1:, :, 3]
+        own = layers[1:, 1, None]
         whole = (period > 0) & (count == period)
         first = np.where(period > 0, shift % np.maximum(period, 1), shift)
         lacking = ~whole & (own > 0) & ((first < 0) | (first + own > count))
@@ -289,15 +325,18 @@ class Deposition:
         block, loop = self.block[:batch], kernels(self.region.dimension, carried=self.carried)
 
         def part(of: slice) -> bool:
-            return loop.deposit(
-                rho[of], block[of], base, self.links, self.turns, self.layers, self.constants
-            )
+            return loop.deposit(rho[of], block[of], base, self.runs, self.constants)
 
         return block if on_all_cores(part, batch) else None
 
 
-def told(phi: Fraction, region: Region, rho: Array, block: Array) -> SolvedPacking:
-    """Tell a ``block`` of values row by row; ``rho`` is (packings, beads)."""
+def told(
+    phi: Fraction, region: Region, rho: Array, block: Array, *, carried: bool = False
+) -> SolvedPacking:
+    """Tell a ``block`` of values row by row; ``rho`` is (packings, beads).
+
+    ``carried``: the loops that gave it carried errors.
+    """
     d, starts, counts = region.dimension, region.starts, [row.count for row in region.rows]
 
     def rows(values: Array, lowest: int = 0) -> LazyRows[Any]:
@@ -314,7 +353,7 @@ def told(phi: Fraction, region: Region, rho: Array, block: Array) -> SolvedPacki
         rows(rho),
         per_direction([rows(block[:, a]) for a in range(d)]),
         per_direction([turned(a) for a in range(d)]),
-        Memory(rho, block),
+        Memory(rho, block, carried),
     )
 
 
@@ -342,18 +381,28 @@ class Descent:
         self.starts = np.cumsum([0, *self.counts])
         self.lowest = next((j + 1 for j in range(len(rows) - 1, 0, -1) if not rows[j].count), 1)
         self.beads = int(self.starts[-1] - self.starts[1])  # that pass forces on
-        self.layers = layers_of(region, rows, self.starts)
-        steps = [region.step(a, 1) for a in range(d)]
-
-        def links(sources: Sequence[Layer], starts: Array, one: tuple[int, ...]) -> Array:
-            return links_of(region, rows, sources, starts, one)
-
-        self.above = np.stack([links(rows, self.starts, one) for one in steps], 1)
-        self.over = np.stack([links(region.rows, region.starts, one) for one in steps], 1)
-        self.here = links(region.rows, region.starts, (0,) * d)
-        self.turns = np.stack([turns_of(region, one) for one in steps])
+        self.widest = max(self.counts, default=0)
+        self.runs = self._runs()
         self.g = self.lost = np.empty((0, 0, 0))
         self.set(loads)
+
+    def _runs(self) -> Array:
+        """Give the runs of ``loops.sweep_down``, the highest layer first."""
+        region, rows, d = self.region, self.rows, self.region.dimension
+        turn = np.arange(len(rows)) % 2 * self.widest  # where a layer loses
+        links, turns, nothing = [], [], []
+        for one in [(0,) * d, *(region.step(a, 1) for a in range(d))]:
+            own = links_of(region, rows, rows, self.starts, one)
+            lose = own.copy()
+            lose[:, 0] = (turn + sum(one) * self.widest) % (2 * max(self.widest, 1))
+            links += [own, links_of(region, rows, region.rows, region.starts, one), lose]
+            turns += [turns_of(region, one)] * 3
+            g, block = self.shape[1], padded(1, region.beads)[1]
+            nothing += [g - NONE, block - NONE, 2 * self.widest]
+        layers = layers_of(region, rows, self.starts)
+        found = runs_of(d, layers, links, turns, nothing, max(self.widest, 1), carried=self.carried)
+        first = np.searchsorted(found[:, 0], self.starts[self.lowest])
+        return np.ascontiguousarray(found[first:][::-1])
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -364,7 +413,7 @@ class Descent:
         """Take other loads."""
         d, parts = self.region.dimension, 1 + self.carried
         self.loads = loads
-        self.F = np.zeros((parts * d, self.starts[-1]))
+        self.F = np.zeros(self.shape)
         system: NumberSystem = CARRYING if self.carried else FLOAT64
         rows, region = self.rows, self.region
         alike = region.has_whole(rows)
@@ -389,23 +438,19 @@ class Descent:
         if that is balanced already.
         """
         batch, rows, top = len(block), self.F.shape[0], len(self.rows) - 1
-        widest = max(self.counts, default=0)
         if len(self.g) < batch:
-            self.g, self.lost = memory(batch, rows, int(self.starts[-1])), np.empty((rows, 0))
-        g, layers = self.g[:batch], self.layers
+            self.g = memory(batch, rows, int(self.starts[-1]))
+        g, runs = self.g[:batch], self.runs
         loop = kernels(self.region.dimension, carried=self.carried)
+        if above is not None:
+            runs = runs[runs[:, 0] < self.starts[top]]
 
         def part(of: slice) -> bool:
-            lost = np.empty((rows, 2 * widest))
-            own = layers
+            lost = np.zeros((rows, 2 * self.widest + NONE))
             if above is not None:
-                own = layers[:top]
                 g[of, :, self.starts[top] : self.starts[top + 1]] = above[0]
-                lost[:, top % 2 * widest :][:, : self.counts[top]] = above[1]
-            good = loop.sweep_down(
-                self.F, block[of], g[of], lost, self.above, self.over, self.here, self.turns, own,
-                np.empty(0),
-            )  # fmt: skip
+                lost[:, top % 2 * self.widest :][:, : self.counts[top]] = above[1]
+            good = loop.sweep_down(self.F, block[of], g[of], lost, runs, np.empty(0))
             if batch == 1:
                 self.lost = lost
             return good
@@ -414,7 +459,7 @@ class Descent:
 
     def row(self, j: int) -> Array:
         """Give g and what was lost of the lowest row but one that was balanced, (2, …, beads)."""
-        turn = j % 2 * (self.lost.shape[1] // 2)
+        turn = j % 2 * self.widest
         lost = self.lost[:, turn : turn + self.counts[j]]
         return np.stack([self.g[0, :, self.starts[j] : self.starts[j + 1]], lost])
 
@@ -432,6 +477,6 @@ class Descent:
             self.rows,
             per_direction([rows(F[a]) for a in range(d)]),
             per_direction([rows(one) for one in changes]),
-            F=F[:, self.starts[self.lowest] :],
+            F=F[:, self.starts[self.lowest] : self.starts[-1]],
             g=g[..., self.starts[self.lowest] : self.starts[-1]],
         )

@@ -166,7 +166,7 @@ class Solved:
         if packing is not None:
             memory = packing.memory
             if memory is not None:
-                memory = Memory(memory.rho[part], memory.block[part])
+                memory = Memory(memory.rho[part], memory.block[part], memory.carried)
             packing = replace(
                 packing,
                 rho=of(packing.rho),

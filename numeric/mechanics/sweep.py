@@ -65,10 +65,14 @@ class SolvedPacking:
 
 @dataclass(frozen=True)
 class Memory:
-    """What compiled loops fill: ``rho`` (batch, beads); ``block`` (batch, d + d², …), c and δn."""
+    """What compiled loops fill: ``rho`` (batch, beads); ``block`` (batch, d + d², …), c and δn.
+
+    ``carried``: they are those that carry errors, too.
+    """
 
     rho: Array
     block: Array
+    carried: bool
 
 
 Loads = PerBranch[tuple[Array | None, ...]]

@@ -122,7 +122,7 @@ class Sweeps:
     def swept(self, rho: Array, block: Array) -> SolvedPacking:
         """Tell a packing as ``sweep`` would, for the NumPy sweep of forces."""
         at, phi, region = self._deposit.quantities, self.problem.phi, self.problem.region
-        values = told(phi, region, rho[:, 0], block[:, :at])
+        values = told(phi, region, rho[:, 0], block[:, :at], carried=self.carried)
         if not self.carried:
             return values
         errors = told(phi, region, rho[:, 1], block[:, at:])
@@ -144,7 +144,7 @@ def tell(
     """Tell what loops have filled row by row; where numbers carry errors, rounded once."""
     d, carried = region.dimension, rho.shape[1] == 2
     at, beads, first = d + d * d, region.beads, region.rows[0].count
-    values = told(phi, region, rho[:, 0], block[:, :at])
+    values = told(phi, region, rho[:, 0], block[:, :at], carried=carried)
     if not carried:
         forces = None if g is None or descent is None else descent.told(descent.F, g)
         return Solved(FLOAT64, values, forces, None)
