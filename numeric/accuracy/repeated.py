@@ -52,8 +52,8 @@ def repeated(plan: Plan, work: Work) -> tuple[Answer, Accuracy]:
         if len(few) < problem.realisations:
             table = answer(quantity, part, few, plan.system, work).table
         if plan.system is FLOAT64:
-            again = answer(quantity, part, few, FLOAT64, work, longer=longer).exact
-            assert again is not None
+            right = answer(quantity, part, few, FLOAT64, work, longer=longer)
+            again = right.table if right.exact is None else right.exact
         else:
             again = answer(quantity, part, few, longer, work).table
         with longer.active():

@@ -208,7 +208,7 @@ class _Compiled:
         counted = np.zeros(6, np.int64)
         smallest = self.loop(
             packing.memory.rho[:, None], packing.memory.block, runs, of_layer, m, found.smallest,
-            counted, self.gaps,
+            counted, self.gaps, self.gaps.view(np.int64)[0],
         )  # fmt: skip
         found.overlaps += int(counted[3])
         found.undecided += int(counted[4] + counted[5])

@@ -43,7 +43,7 @@ MOST = 512
 class Kernels(NamedTuple):
     """The compiled loops of one dimension, with or without errors."""
 
-    runs: Callable[..., Array]
+    runs: Callable[..., int]
     deposit: Callable[..., bool]
     sweep_down: Callable[..., bool]
     gaps: Callable[..., float]
@@ -257,7 +257,12 @@ def runs_of(
 ) -> Array:  # fmt: skip
     """Give the table ``loops.runs``, the lowest layer first; ``links`` and ``turns`` by place."""
     cut = kernels(dimension, carried=carried).runs
-    return cut(layers, np.stack(links, 1), np.stack(turns), np.array(nothing), most)
+    own = np.stack(links, 1), np.stack(turns), np.array(nothing)
+    count, found = 3 * len(layers) * turns[0].size, np.empty((0, 0), np.int64)
+    while len(found) <= count:
+        found = np.empty((count + 1, len(links) + 1), np.int64)
+        count = cut(layers, *own, most, found)
+    return found[:count]
 
 
 def rows_of(values: Array, starts: Array, counts: Sequence[int], lowest: int = 0) -> LazyRows[Any]:
@@ -318,14 +323,16 @@ class Deposition:
         lowest = 1 + rho[:, 0, : self.counts[0]]
         if not ((lowest > 0) & (lowest < np.inf)).all():
             return None
-        if base is None:
-            base = np.zeros((parts * self.region.dimension, self.counts[0]))
         if len(self.block) < batch:
             self.block = memory(batch, parts * self.quantities, beads)
-        block, loop = self.block[:batch], kernels(self.region.dimension, carried=self.carried)
+        d, block = self.region.dimension, self.block[:batch]
+        loop = kernels(d, carried=self.carried)
+        for k in range(parts):
+            own = slice(k * self.quantities, k * self.quantities + d)
+            block[:, own, : self.counts[0]] = 0 if base is None else base[k * d : (k + 1) * d]
 
         def part(of: slice) -> bool:
-            return loop.deposit(rho[of], block[of], base, self.runs, self.constants)
+            return loop.deposit(rho[of], block[of], self.runs, self.constants)
 
         return block if on_all_cores(part, batch) else None
 

@@ -50,52 +50,51 @@ def _piece(at: int, n: int, own: int, link: Array, turn: Array) -> tuple[int, in
 
 
 @compiled
-def runs(layers: Array, links: Array, turns: Array, nothing: Array, most: int) -> Array:
-    """Cut layers into runs of at most ``most`` beads, (runs, places + 1).
+def runs(
+    layers: Array, links: Array, turns: Array, nothing: Array, most: int, found: Array
+) -> int:  # fmt: skip
+    """Cut layers into runs of at most ``most`` beads; say how many there are.
 
     ``layers`` (layers, 3) has the beads, first bead and beads in a row of each; ``links`` (layers,
     places, 4) and ``turns`` (places, rows of a layer) name the beads of each place. Where there are
-    none, ``nothing`` is where ``NONE`` zeros lie; if that is negative, a run is left out.
+    none, ``nothing`` is where ``NONE`` zeros lie; if that is negative, a run is left out. Filled is
+    ``found``, (runs, places + 1), as far as it goes.
     """
-    places = len(nothing)
-    found, count = np.empty((4 * len(layers) + 64, places + 1), np.int64), 0
+    places, count = len(nothing), 0
+    run = found[len(found) - 1]  # one more than is told of
     for j in range(len(layers)):
         at = 0
         while at < layers[j, 1]:
-            if count == len(found):
-                found = np.concatenate((found, np.empty_like(found)))
-            run, n, whole = found[count], min(layers[j, 1] - at, most), True
+            n, whole = min(layers[j, 1] - at, most), True
             for k in range(places):
-                run[k], n = _piece(at, n, layers[j, 2], links[j, k], turns[k])
-                if run[k] < 0:
-                    run[k], n = nothing[k], min(n, NONE)
-                    whole &= nothing[k] >= 0
-            run[places] = n
+                place, n = _piece(at, n, layers[j, 2], links[j, k], turns[k])
+                if place < 0:
+                    place, n = nothing[k], min(n, NONE)
+                    whole &= place >= 0
+                run[k] = place
             at += n
-            count += whole
-    return found[:count].copy()
+            if whole:
+                if count < len(found) - 1:
+                    for k in range(places):
+                        found[count, k] = run[k]
+                    found[count, places] = n
+                count += 1
+    return count
 
 
 @compiled
-def deposit(rho: Array, block: Array, base: Array, runs: Array, m: Array) -> bool:
+def deposit(rho: Array, block: Array, runs: Array, m: Array) -> bool:
     """Deposit packings; say whether every bead rests.
 
-    ``rho`` is (packings, PARTS, beads), ``base`` (PARTS D, beads) what c is in the lowest layer;
-    filled is ``block``, (packings, PARTS (D + D²), …): c, and the δn of contacts below, which
-    those of the base lack. The places of ``runs``, the lowest layer first: the beads, and their
-    supports.
+    ``rho`` is (packings, PARTS, beads); ``block``, (packings, PARTS (D + D²), …), has the c of the
+    lowest layer; filled in are those of all others, and behind them the δn of contacts below. The
+    places of ``runs``, the lowest layer first: the beads, and their supports.
     """
-    Q = D + D * D
     rho, block = borrowed(rho), borrowed(block)
     good = True
     for k in range(len(rho)):
-        own_rho, of = rho[k], block[k]
-        for part in range(PARTS):
-            for a in range(D):
-                for q in range(base.shape[1]):
-                    of[part * Q + a, q] = base[part * D + a, q]
         for r in range(len(runs)):
-            good &= rest(own_rho, of, runs[r], m)
+            good &= rest(rho[k], block[k], runs[r], m)
     return good
 
 
@@ -111,16 +110,15 @@ def sweep_down(F: Array, block: Array, g: Array, lost: Array, runs: Array, m: Ar
     F, block, g, lost = borrowed(F), borrowed(block), borrowed(g), borrowed(lost)
     good = True
     for k in range(len(g)):
-        own_g, of = g[k], block[k]
         for r in range(len(runs)):
-            good &= balance(F, of, own_g, lost, runs[r], m)
+            good &= balance(F, block[k], g[k], lost, runs[r], m)
     return good
 
 
 @compiled
 def gaps(
     rho: Array, block: Array, runs: Array, of_layer: Array, m: Array, smallest: float,
-    found: Array, gaps: Array,
+    found: Array, gaps: Array, words: Array,
 ) -> float:  # fmt: skip
     """Measure the gaps of pairs of one kind; give the smallest, if it is below ``smallest``.
 
@@ -128,11 +126,10 @@ def gaps(
     has each layer's first run; ``m``: constants of the kernel. ``found``: the packing, both beads,
     overlaps, gaps that are too close to tell, and gaps that are no number are counted there. Of
     equal gaps the first is named: layer after layer, in each packing after packing. ``gaps``:
-    memory for those of one run, (1, beads and one).
+    memory for those of one run, (1, beads and one); ``words`` are its bits.
     """
     rho, block = borrowed(rho), borrowed(block)
-    values = borrowed(gaps)[0]
-    words, spare = values.view(np.int64), len(values) - 1
+    values, spare = borrowed(gaps)[0], len(words) - 1
     for j in range(len(of_layer) - 1):
         for k in range(len(rho)):
             for r in range(of_layer[j], of_layer[j + 1]):
