@@ -124,9 +124,14 @@ def supports(layer: Layer, width: int | None) -> Layer:
     return row(layer.j - 1, layer.first - 1, layer.last + 1, width)
 
 
-def starts(rows: Sequence[Layer]) -> Array:
-    """Number beads row after row: give each row's first bead, and how many there are."""
-    return np.cumsum([0, *(row.count for row in rows)])
+def table(rows: Sequence[Layer]) -> Array:
+    """Give ``first`` and ``count`` of each row, (rows, 2)."""
+    return np.array([(row.first, row.count) for row in rows], np.int64).reshape(-1, 2)
+
+
+def starts(rows: Array) -> Array:
+    """Number beads row after row, of a table: give each row's first bead, and how many there are."""
+    return np.concatenate(([0], np.cumsum(rows[:, 1])))
 
 
 @dataclass(frozen=True)
@@ -208,14 +213,19 @@ class Region:
         return np.roll(square, (-steps[0], -steps[1]), (-2, -1)).reshape(shape)
 
     @cached_property
+    def table(self) -> Array:
+        """The ``first`` and ``count`` of each row; shape (rows, 2)."""
+        return table(self.rows)
+
+    @cached_property
     def starts(self) -> Array:
         """The number of each row's first bead, and that of all beads; shape (rows + 1,)."""
-        return starts(self.rows)
+        return starts(self.table)
 
     @cached_property
     def widest(self) -> int:
         """The beads of the longest row."""
-        return max((row.count for row in self.rows), default=0)
+        return int(self.table[:, 1].max(initial=0))
 
     def has_whole(self, rows: Sequence[Layer]) -> bool:
         """Say whether ``rows`` are its lowest rows, and all of it a periodic packing."""
@@ -224,7 +234,9 @@ class Region:
     @cached_property
     def is_whole(self) -> bool:
         """Whether it is all of a periodic packing, up to its highest layer."""
-        return all(r.count == self.width and r.first == lowest_column(r.j) for r in self.rows)
+        first, count = self.table.T
+        j = np.array([row.j for row in self.rows])
+        return self.width is not None and bool(((count == self.width) & (first == j % 2)).all())
 
 
 def whole(width: int, height: int, dimension: int = 2) -> Region:

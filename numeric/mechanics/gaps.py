@@ -185,7 +185,7 @@ class _Compiled:
 
         assert packing.memory is not None
         self.kernels, self.packing, region = kernels, packing, packing.region
-        self.rows = kernels.layers_of(region, region.rows, region.starts)
+        self.rows = kernels.layers_of(region, region.table, region.starts)
         self.m = kernels.constants(region.dimension, packing.phi, carried=False)
         self.carried = packing.memory.carried
         self.gaps = np.empty((1, kernels.MOST + 1))
@@ -197,7 +197,7 @@ class _Compiled:
         assert packing.memory is not None
         make, d = self.kernels, region.dimension
         both = [(0,) * d, steps]
-        links = [make.links_of(region, region.rows, region.rows, region.starts, one)[of]
+        links = [make.links_of(region, region.table, region.table, region.starts, one)[of]
                  for one in both]  # fmt: skip
         turns = [make.turns_of(region, one) for one in both]
         own = self.rows[of]

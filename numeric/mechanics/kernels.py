@@ -27,10 +27,10 @@ from ..arithmetic.compiling import CODES, on_all_cores
 from ..arithmetic.recording import Code, module, positive_root
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..lattice.branch import per_direction
-from ..lattice.layers import Layer, LazyRows, Region, whole
+from ..lattice.layers import Layer, LazyRows, Region, starts, table
 from . import local
 from .local import RESOLUTION
-from .sweep import Forces, Loads, Memory, SolvedPacking, straight_down
+from .sweep import Forces, Loads, Memory, SolvedPacking
 
 FINITE = "abs({0}) < inf"
 POSITIVE = "{0} > 0) & ({0} < inf"
@@ -45,6 +45,7 @@ class Kernels(NamedTuple):
 
     runs: Callable[..., int]
     deposit: Callable[..., bool]
+    straight_down: Callable[..., None]
     sweep_down: Callable[..., bool]
     gaps: Callable[..., float]
 
@@ -56,6 +57,7 @@ def source(dimension: int, *, carried: bool) -> str:
     recorded = [
         _rest(dimension, carried=carried),
         _balance(dimension, carried=carried),
+        _order(dimension, carried=carried),
         _gap(dimension),
     ]
     imports = (
@@ -169,6 +171,13 @@ def _balance(d: int, *, carried: bool) -> Code:
     return of.code
 
 
+def _order(d: int, *, carried: bool) -> Code:
+    """Loads go straight down: ordered forces, of the same runs as ``_balance``."""
+    of = _Recording("order", {"F": d, "shares": d}, 0, carried=carried)
+    of.give("F", 0, 0, [of.take("F", a, 3 * (a + 1)) + of.take("shares", a, 0) for a in range(d)])
+    return of.code
+
+
 def _gap(d: int) -> Code:
     of = _Recording("gap", {"rho": 1, "block": d, "gaps": 1}, 5 + d, carried=False)
     here, there = (of.several("block", 0, d, place) for place in range(2))
@@ -206,16 +215,11 @@ def padded(quantities: int, size: int) -> tuple[int, int]:
     return quantities, end + (72 - end) % 512
 
 
-def layers_of(region: Region, rows: Sequence[Layer], starts: Array) -> Array:
-    """Give each layer's first bead, beads, and beads in a row."""
-    side = region.side if region.dimension == 3 else 0
-    return np.array(
-        [
-            (start, row.count, side or max(row.count, 1))
-            for start, row in zip(starts[: len(rows)], rows, strict=True)
-        ],
-        dtype=np.int64,
-    ).reshape(-1, 3)
+def layers_of(region: Region, rows: Array, starts: Array) -> Array:
+    """Give each layer's first bead, beads, and beads in a row, of a ``layers.table``."""
+    counts = rows[:, 1]
+    own = np.maximum(counts, 1) if region.dimension == 2 else np.full_like(counts, region.side)
+    return np.stack((starts[: len(rows)], counts, own), 1)
 
 
 def turns_of(region: Region, steps: tuple[int, ...]) -> Array:
@@ -226,28 +230,24 @@ def turns_of(region: Region, steps: tuple[int, ...]) -> Array:
 
 
 def links_of(
-    region: Region,
-    rows: Sequence[Layer],
-    sources: Sequence[Layer],
-    starts: Array,
-    steps: tuple[int, ...],
+    region: Region, rows: Array, sources: Array, starts: Array, steps: tuple[int, ...]
 ) -> Array:
     """Say where the beads lie that are so many steps on from each row of beads, (layers, 4).
 
-    ``sources`` are the rows they lie in, whose first beads are ``starts``; see ``loops``.
+    ``rows``, and ``sources`` in which they lie, are tables of layers; ``starts`` are the first
+    beads of the latter. See ``loops``. Where no row is there, its length is 0.
     """
-    on = sum(steps)
-    found = np.zeros((len(rows), 4), np.int64)
-    for j, row in enumerate(rows):
-        if not 0 <= j + on < len(sources) or not row.count:
-            continue  # no row is there: its length stays 0
-        source = sources[j + on]
-        if region.dimension == 3:
-            found[j] = starts[j + on], region.side, steps[1], region.side
-        else:
-            first = row.first + steps[0] - steps[1]
-            shift = (first - source.first) // 2
-            found[j] = starts[j + on], source.count, shift, region.width or 0
+    on = np.arange(len(rows)) + sum(steps)
+    there = (on >= 0) & (on < len(sources)) & (rows[:, 1] > 0)
+    on = np.where(there, on, 0)
+    if region.dimension == 2:
+        shift = (rows[:, 0] + steps[0] - steps[1] - sources[on, 0]) // 2
+        length, period = sources[on, 1], region.width or 0
+    else:
+        shift, length, period = np.full(len(rows), steps[1]), region.side, region.side
+    found = np.empty((len(rows), 4), np.int64)
+    for column, values in enumerate((starts[on], length, shift, period)):
+        found[:, column] = values * there
     return found
 
 
@@ -282,7 +282,7 @@ class Deposition:
         self.region, self.carried = region, carried
         d = region.dimension
         self.constants = constants(d, phi, carried=carried)
-        rows, starts = region.rows, region.starts
+        rows, starts = region.table, region.starts
         steps = [(0,) * d, *(region.step(a, -1) for a in range(d))]
         links = [links_of(region, rows, rows, starts, one) for one in steps]
         turns = [turns_of(region, one) for one in steps]
@@ -291,7 +291,7 @@ class Deposition:
         nothing, most = [-1] * len(links), max(region.widest, 1)
         table = runs_of(d, layers, links, turns, nothing, most, carried=carried)
         self.runs = table[np.searchsorted(table[:, 0], starts[1]) :]
-        self.counts = [row.count for row in region.rows]
+        self.counts = rows[:, 1]
         self.quantities = d + d * d
         self.block = np.empty((0, 0, 0))
 
@@ -344,7 +344,7 @@ def told(
 
     ``carried``: the loops that gave it carried errors.
     """
-    d, starts, counts = region.dimension, region.starts, [row.count for row in region.rows]
+    d, starts, counts = region.dimension, region.starts, region.table[:, 1]
 
     def rows(values: Array, lowest: int = 0) -> LazyRows[Any]:
         return rows_of(values[0] if len(values) == 1 else values, starts, counts, lowest)
@@ -364,17 +364,6 @@ def told(
     )
 
 
-def _one_of_all(load: Any) -> Any:
-    """Give the load of one bead of a row whose beads are loaded alike; False where they are not."""
-    parts: tuple[Array, ...] = () if load is None else (load,)
-    if isinstance(load, Carried):
-        parts = load.value, load.error
-    if any(part.size and part.min() != part.max() for part in parts):
-        return False
-    ends = [part[:1] for part in parts]
-    return Carried(*ends) if isinstance(load, Carried) else ends[0] if ends else None
-
-
 class Descent:
     """Carries loads down through packings of one region, in memory that is used again."""
 
@@ -384,25 +373,26 @@ class Descent:
         """``rows`` are those whose forces are balanced, ``loads`` belong to them."""
         d, self.carried = region.dimension, carried
         self.region, self.rows = region, rows
-        self.counts = [row.count for row in rows]
-        self.starts = np.cumsum([0, *self.counts])
-        self.lowest = next((j + 1 for j in range(len(rows) - 1, 0, -1) if not rows[j].count), 1)
+        self.table = region.table[: len(rows)] if region.has_whole(rows) else table(rows)
+        self.counts, self.starts = self.table[:, 1], starts(self.table)
+        empty = np.flatnonzero(self.counts[1:] == 0)
+        self.lowest = int(empty[-1]) + 2 if len(empty) else 1
         self.beads = int(self.starts[-1] - self.starts[1])  # that pass forces on
-        self.widest = max(self.counts, default=0)
+        self.widest = int(self.counts.max(initial=0))
         self.runs = self._runs()
         self.g = self.lost = np.empty((0, 0, 0))
         self.set(loads)
 
     def _runs(self) -> Array:
         """Give the runs of ``loops.sweep_down``, the highest layer first."""
-        region, rows, d = self.region, self.rows, self.region.dimension
+        region, rows, d = self.region, self.table, self.region.dimension
         turn = np.arange(len(rows)) % 2 * self.widest  # where a layer loses
         links, turns, nothing = [], [], []
         for one in [(0,) * d, *(region.step(a, 1) for a in range(d))]:
             own = links_of(region, rows, rows, self.starts, one)
             lose = own.copy()
             lose[:, 0] = (turn + sum(one) * self.widest) % (2 * max(self.widest, 1))
-            links += [own, links_of(region, rows, region.rows, region.starts, one), lose]
+            links += [own, links_of(region, rows, region.table, region.starts, one), lose]
             turns += [turns_of(region, one)] * 3
             g, block = self.shape[1], padded(1, region.beads)[1]
             nothing += [g - NONE, block - NONE, 2 * self.widest]
@@ -418,25 +408,17 @@ class Descent:
 
     def set(self, loads: Loads) -> None:
         """Take other loads."""
-        d, parts = self.region.dimension, 1 + self.carried
-        self.loads = loads
-        self.F = np.zeros(self.shape)
-        system: NumberSystem = CARRYING if self.carried else FLOAT64
-        rows, region = self.rows, self.region
-        alike = region.has_whole(rows)
-        if alike:  # of a whole packing where beads of a layer are loaded alike, one bead tells all
-            first = per_direction([tuple(map(_one_of_all, of)) for _, of in loads])
-            alike = all(one is not False for _, of in first for one in of)
-        if alike:
-            bead = whole(1, len(rows) - 1, d)
-            rows, region, loads = bead.rows, bead, first
-        ordered = straight_down(rows, region, loads, system)
-        for j in range(self.lowest, len(self.rows)):
-            of = slice(self.starts[j], self.starts[j + 1])
-            for a, F in enumerate(ordered[j]):
-                self.F[a, of] = F.value if self.carried else F
-                if self.carried:
-                    self.F[d + a, of] = F.error
+        d, self.loads = self.region.dimension, loads
+        self.F, shares = np.zeros(self.shape), np.zeros(self.shape)
+        for a, (_, rows) in enumerate(loads):
+            for j in range(self.lowest, len(self.rows)):
+                of, share = slice(self.starts[j], self.starts[j + 1]), rows[j]
+                if isinstance(share, Carried):
+                    shares[a, of], shares[d + a, of] = share.value, share.error
+                elif share is not None:
+                    shares[a, of] = share
+        loop = kernels(d, carried=self.carried)
+        loop.straight_down(self.F, shares, self.runs, np.empty(0))
 
     def __call__(self, block: Array, above: Array | None = None) -> Array | None:
         """Balance the forces of packings whose ``block`` that is; None where not all is in order.

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     def balance(F: Array, block: Array, g: Array, lost: Array, run: Array, m: Array) -> bool:
         """Recorded from ``local.balance``."""
 
+    def order(F: Array, shares: Array, run: Array, m: Array) -> bool:
+        """Recorded from ``kernels``."""
+
     def gap(rho: Array, block: Array, gaps: Array, run: Array, m: Array) -> bool:
         """Recorded from ``local.gap``."""
 
@@ -96,6 +99,16 @@ def deposit(rho: Array, block: Array, runs: Array, m: Array) -> bool:
         for r in range(len(runs)):
             good &= rest(rho[k], block[k], runs[r], m)
     return good
+
+
+@compiled
+def straight_down(F: Array, shares: Array, runs: Array, m: Array) -> None:
+    """Carry loads straight down: fill in the ordered forces ``F``, (PARTS D, …) as ``shares``.
+
+    ``runs`` are those of ``sweep_down``.
+    """
+    for r in range(len(runs)):
+        order(F, shares, runs[r], m)
 
 
 @compiled
