@@ -7,7 +7,7 @@ q of layer j is i = 2q + (j mod 2), 0 ≤ i < 2W. Lengths are in units of the me
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import isqrt
 from typing import Any, TypeVar, overload
 
@@ -146,6 +146,14 @@ class Region:
     rows: tuple[Layer, ...]
     dimension: int = 2
 
+    def __hash__(self) -> int:
+        """Look at all rows once."""
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.width, self.rows, self.dimension))
+
     @property
     def top(self) -> int:
         """The highest layer."""
@@ -239,6 +247,7 @@ class Region:
         return self.width is not None and bool(((count == self.width) & (first == j % 2)).all())
 
 
+@lru_cache(maxsize=4)
 def whole(width: int, height: int, dimension: int = 2) -> Region:
     """Give all beads of a periodic packing, (M + 1) rows of ``width``."""
     return Region(width, tuple(full_layer(j, width) for j in range(height + 1)), dimension)
@@ -246,6 +255,8 @@ def whole(width: int, height: int, dimension: int = 2) -> Region:
 
 def standing_on_base(rows: Sequence[Layer], width: int | None) -> Region:
     """Close ``rows`` (one for each layer 0, 1, …) downwards: every bead's supports are added."""
+    if rows[-1].count == width and (made := whole(width, len(rows) - 1)).rows == rows:
+        return made
     closed = [rows[-1]]
     for layer in reversed(rows[:-1]):
         closed.append(hull(layer, supports(closed[-1], width), width))

@@ -2,6 +2,7 @@
 
 import sys
 import threading
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from importlib import import_module
@@ -16,7 +17,7 @@ from ..arithmetic.machine import cores
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..disorder.radii import RadiusError, rows_of
 from ..lattice.branch import Branch
-from ..lattice.layers import Layer, bead_of
+from ..lattice.layers import Layer, Region, bead_of
 from . import first_order
 from .physicality import PHYSICAL, Physicality
 from .plain_form import solve_plainly
@@ -27,11 +28,12 @@ from .work import Work
 if TYPE_CHECKING:
     from .sweeps import Sweeps
 
-# Beads from which on the compiled sweeps repay loading the compiler (half a second). A row of a
-# packing, which NumPy draws by a call of its own, counts for so many beads, and a bead that carries
-# its errors for so many. Once they are loaded, a small part of the beads is enough, and any number
-# of those that carry errors.
-COMPILED_FROM, OF_ROW, OF_ERRORS, ONCE_LOADED = 2_000_000, 40, 10, 1 / 50
+# Work from which on the compiled sweeps repay loading the compiler (half a second), counted in beads
+# that NumPy sweeps: of this call, and of all before it in this process. A bead, and a row of them,
+# which takes calls of its own, count for so many, without errors and with them. Once the sweeps are
+# loaded, a small part of that is enough, and anything that carries errors.
+COMPILED_FROM, ONCE_LOADED = 2_000_000, 1 / 50
+OF_BEAD, OF_ROW = (1, 10), (40, 2000)
 # Beads of diagonals that are drawn together.
 BLOCK = 10_000
 # Beads that are swept together: their arrays still fit into a cache.
@@ -183,6 +185,8 @@ def _solved(
         if block is None:
             beads = rho if sweeps is None else _rows(problem, rho, carried=carried)
             packing = deposit(problem.phi, region, beads, own, work, linear=linear)
+            if system is FLOAT64 and not linear:
+                _by_numpy[problem.dimension, carried] += _work(region, n, 1, carried=carried)
         else:
             work.did_rows("deposited", region.rows, region.beads * n)
     if sweeps is not None and block is not None:
@@ -257,23 +261,35 @@ def _loads(problem: Problem, system: NumberSystem) -> Loads | None:
     return problem.load.on(problem.force_rows, strength, system)
 
 
+_by_numpy: Counter[tuple[int, bool]] = Counter()
+"""Work that NumPy did so far in each dimension, without errors and with them."""
+
+
+def _work(region: Region, packings: int, calls: int, *, carried: bool) -> int:
+    rows = OF_ROW[carried] * len(region.rows) * calls
+    return OF_BEAD[carried] * region.beads * packings + rows
+
+
 def worth_compiling(
-    problem: Problem, system: NumberSystem, *, carried: bool = False, loaded: bool = False
+    problem: Problem, system: NumberSystem, *, carried: bool = False, before: int = 0
 ) -> bool:
-    """Say whether there is so much to do that compiled sweeps are taken, where numba is."""
+    """Say whether there is so much to do that compiled sweeps are taken, where numba is.
+
+    ``before``: work that NumPy has done.
+    """
     if problem.route != Route.EXACT or system is not FLOAT64:
         return False
-    region = problem.region
-    beads = (region.beads + OF_ROW * len(region.rows)) * problem.realisations
-    least = COMPILED_FROM * (ONCE_LOADED if loaded else 1)
-    return (carried and loaded) or beads * (OF_ERRORS if carried else 1) >= least
+    n = problem.realisations
+    return before + _work(problem.region, n, n, carried=carried) >= COMPILED_FROM
 
 
 def compiles(problem: Problem, system: NumberSystem, *, carried: bool = False) -> bool:
     """Say whether compiled sweeps are taken: for much work in float64, where numba is."""
-    kernels = sys.modules.get(f"{__package__}.kernels")
-    loaded = kernels is not None and (problem.dimension, carried) in kernels.LOADED
-    if not worth_compiling(problem, system, carried=carried, loaded=loaded):
+    kernels, own = sys.modules.get(f"{__package__}.kernels"), (problem.dimension, carried)
+    before = _by_numpy[own]
+    if kernels is not None and own in kernels.LOADED:
+        before = COMPILED_FROM if carried else int(COMPILED_FROM * (1 - ONCE_LOADED))
+    if not worth_compiling(problem, system, carried=carried, before=before):
         return False
     try:
         import_module(".sweeps", __package__)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array, as_floats
-from ..lattice.layers import Layer
+from ..lattice.layers import Layer, Region
 from . import local
 from .local import RESOLUTION
 
@@ -177,6 +177,15 @@ def _measure(found: Gaps, packing: "SolvedPacking", steps: Steps, phi: Fraction,
         found.between = (j, column), (other, int(columns[column]))
 
 
+@lru_cache(maxsize=64)
+def _pairs(region: Region, steps: Steps, *, carried: bool) -> tuple[Array, Array]:
+    """Give the runs of ``loops.gaps`` of one kind of pairs, and each layer's first one."""
+    from . import kernels
+
+    runs = kernels.pairs_of(region, [steps], kernels.MOST, carried=carried)
+    return runs, np.searchsorted(runs[:, 0], region.starts)
+
+
 class _Compiled:
     """Measures the gaps of packings of compiled loops, the same numbers."""
 
@@ -185,7 +194,6 @@ class _Compiled:
 
         assert packing.memory is not None
         self.kernels, self.packing, region = kernels, packing, packing.region
-        self.rows = kernels.layers_of(region, region.table, region.starts)
         self.m = kernels.constants(region.dimension, packing.phi, carried=False)
         self.carried = packing.memory.carried
         self.gaps = np.empty((1, kernels.MOST + 1))
@@ -193,16 +201,10 @@ class _Compiled:
 
     def measure(self, found: Gaps, steps: Steps, phi: Fraction, layers: range) -> None:
         """Take in the gaps of one kind of pairs."""
-        packing, region, of = self.packing, self.packing.region, slice(layers.start, layers.stop)
+        packing, region = self.packing, self.packing.region
         assert packing.memory is not None
-        make, d = self.kernels, region.dimension
-        both = [(0,) * d, steps]
-        links = [make.links_of(region, region.table, region.table, region.starts, one)[of]
-                 for one in both]  # fmt: skip
-        turns = [make.turns_of(region, one) for one in both]
-        own = self.rows[of]
-        runs = make.runs_of(d, own, links, turns, [-1, -1], make.MOST, carried=self.carried)
-        of_layer = np.append(np.searchsorted(runs[:, 0], own[:, 0]), len(runs))
+        runs, first = _pairs(region, steps, carried=self.carried)
+        of_layer = first[layers.start : layers.stop + 1]
         square = square_of(phi, steps)
         m = np.array([*self.m, *steps, float(square), float(square - 4)])
         counted = np.zeros(6, np.int64)

@@ -27,7 +27,7 @@ from ..arithmetic.compiling import CODES, on_all_cores
 from ..arithmetic.recording import Code, module, positive_root
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..lattice.branch import per_direction
-from ..lattice.layers import Layer, LazyRows, Region, starts, table
+from ..lattice.layers import Layer, LazyRows, Region
 from . import local
 from .local import RESOLUTION
 from .sweep import Forces, Loads, Memory, SolvedPacking
@@ -35,7 +35,7 @@ from .sweep import Forces, Loads, Memory, SolvedPacking
 FINITE = "abs({0}) < inf"
 POSITIVE = "{0} > 0) & ({0} < inf"
 # Zeros in memory, for beads that are not there: a run of such is no longer.
-NONE = 64
+NONE = 32
 # Gaps that are looked at together, in the nearest cache.
 MOST = 512
 
@@ -81,6 +81,9 @@ def kernels(dimension: int, *, carried: bool = False) -> Kernels:
     name = f"force_diffusion_sweeps_{hashlib.sha256(text.encode()).hexdigest()[:24]}"
     found = ModuleType(name)
     found.__file__ = _kept(text, name)
+    made = Path(found.__file__).parent.glob(f"__pycache__/{name}.sweep_down*")
+    if not any(made) and sys.stderr is not None and sys.stderr.isatty():
+        print("compiling the sweeps for this machine, once: about 3 s", file=sys.stderr, flush=True)
     sys.modules[name] = found  # machine code that was kept asks for it
     LOADED.add((dimension, carried))
     exec(compile(text, found.__file__, "exec"), vars(found))
@@ -212,7 +215,7 @@ def memory(batch: int, quantities: int, size: int) -> Array:
 def padded(quantities: int, size: int) -> tuple[int, int]:
     """Give the shape of ``memory`` of one packing."""
     end = size + NONE
-    return quantities, end + (72 - end) % 512
+    return quantities, end + (72 - end) % (512 if end > 512 else 64)
 
 
 def layers_of(region: Region, rows: Array, starts: Array) -> Array:
@@ -274,6 +277,31 @@ def rows_of(values: Array, starts: Array, counts: Sequence[int], lowest: int = 0
     return LazyRows(len(counts), row)
 
 
+def pairs_of(region: Region, steps: Sequence[tuple[int, ...]], most: int, *, carried: bool) -> Array:
+    """Give runs of beads and of those that lie so many steps on, where all of them are there."""
+    d, rows = region.dimension, region.table
+    both = [(0,) * d, *steps]
+    links = [links_of(region, rows, rows, region.starts, one) for one in both]
+    turns = [turns_of(region, one) for one in both]
+    layers, nothing = layers_of(region, rows, region.starts), [-1] * len(both)
+    return runs_of(d, layers, links, turns, nothing, most, carried=carried)
+
+
+# Packings of one shape are often solved one after the other: their tables stay.
+@lru_cache(maxsize=4)
+def _supports(region: Region, *, carried: bool) -> Array:
+    """Give the runs of ``loops.deposit``. Raise ``LookupError`` where the region lacks a support."""
+    steps = [region.step(a, -1) for a in range(region.dimension)]
+    found = pairs_of(region, steps, max(region.widest, 1), carried=carried)
+    before = np.append(0, np.cumsum(found[:, -1]))
+    held = np.diff(before[np.searchsorted(found[:, 0], region.starts[1:])])
+    lacking = held != region.table[1:, 1]
+    if lacking.any():
+        j = int(np.argmax(lacking)) + 1
+        raise LookupError(f"layer {j - 1} lacks supports of layer {j}")
+    return found
+
+
 class Deposition:
     """Deposits packings of one region, in memory that is used again for the next ones."""
 
@@ -282,16 +310,8 @@ class Deposition:
         self.region, self.carried = region, carried
         d = region.dimension
         self.constants = constants(d, phi, carried=carried)
-        rows, starts = region.table, region.starts
-        steps = [(0,) * d, *(region.step(a, -1) for a in range(d))]
-        links = [links_of(region, rows, rows, starts, one) for one in steps]
-        turns = [turns_of(region, one) for one in steps]
-        layers = layers_of(region, rows, starts)
-        self._check(layers, np.stack(links[1:], 1))
-        nothing, most = [-1] * len(links), max(region.widest, 1)
-        table = runs_of(d, layers, links, turns, nothing, most, carried=carried)
-        self.runs = table[np.searchsorted(table[:, 0], starts[1]) :]
-        self.counts = rows[:, 1]
+        self.runs = _supports(region, carried=carried)
+        self.counts = region.table[:, 1]
         self.quantities = d + d * d
         self.block = np.empty((0, 0, 0))
 
@@ -299,19 +319,6 @@ class Deposition:
     def shape(self) -> tuple[int, int]:
         """Quantities, and the numbers of each, in memory."""
         return padded((1 + self.carried) * self.quantities, self.region.beads)
-
-    def _check(self, layers: Array, links: Array) -> None:
-        """Raise ``LookupError`` where the region lacks a support."""
-        if self.region.dimension == 3 or self.region.is_whole:
-            return
-        shift, count, period = links[1:, :, 2], links[1:, :, 1], links[1:, :, 3]
-        own = layers[1:, 1, None]
-        whole = (period > 0) & (count == period)
-        first = np.where(period > 0, shift % np.maximum(period, 1), shift)
-        lacking = ~whole & (own > 0) & ((first < 0) | (first + own > count))
-        if lacking.any():
-            j = int(np.argwhere(lacking)[0][0]) + 1
-            raise LookupError(f"layer {j - 1} lacks supports of layer {j}")
 
     def __call__(self, rho: Array, base: Array | None = None) -> Array | None:
         """Deposit packings of δr/r, (packings, parts, beads); None where not all rest.
@@ -364,6 +371,25 @@ def told(
     )
 
 
+@lru_cache(maxsize=4)
+def _loads(region: Region, own: Region, lowest: int, *, carried: bool) -> Array:
+    """Give the runs of ``loops.sweep_down`` for the beads ``own`` of a region, above ``lowest``."""
+    rows, d, starts, wide = own.table, region.dimension, own.starts, own.widest
+    turn = np.arange(len(rows)) % 2 * wide  # where a layer loses
+    links, turns = [], []
+    for one in [(0,) * d, *(region.step(a, 1) for a in range(d))]:
+        forces = links_of(region, rows, rows, starts, one)
+        lose = forces.copy()
+        lose[:, 0] = (turn + sum(one) * wide) % (2 * max(wide, 1))
+        links += [forces, links_of(region, rows, region.table, region.starts, one), lose]
+        turns += [turns_of(region, one)] * 3
+    ends = [padded(1, size)[1] - NONE for size in (own.beads, region.beads)]
+    nothing, layers = [*ends, 2 * wide] * (1 + d), layers_of(region, rows, starts)
+    found = runs_of(d, layers, links, turns, nothing, max(wide, 1), carried=carried)
+    first = np.searchsorted(found[:, 0], starts[lowest])
+    return np.ascontiguousarray(found[first:][::-1])
+
+
 class Descent:
     """Carries loads down through packings of one region, in memory that is used again."""
 
@@ -373,33 +399,15 @@ class Descent:
         """``rows`` are those whose forces are balanced, ``loads`` belong to them."""
         d, self.carried = region.dimension, carried
         self.region, self.rows = region, rows
-        self.table = region.table[: len(rows)] if region.has_whole(rows) else table(rows)
-        self.counts, self.starts = self.table[:, 1], starts(self.table)
+        own = Region(region.width, rows, d)
+        own = region if own == region else own
+        self.counts, self.starts, self.widest = own.table[:, 1], own.starts, own.widest
         empty = np.flatnonzero(self.counts[1:] == 0)
         self.lowest = int(empty[-1]) + 2 if len(empty) else 1
         self.beads = int(self.starts[-1] - self.starts[1])  # that pass forces on
-        self.widest = int(self.counts.max(initial=0))
-        self.runs = self._runs()
+        self.runs = _loads(region, own, self.lowest, carried=carried)
         self.g = self.lost = np.empty((0, 0, 0))
         self.set(loads)
-
-    def _runs(self) -> Array:
-        """Give the runs of ``loops.sweep_down``, the highest layer first."""
-        region, rows, d = self.region, self.table, self.region.dimension
-        turn = np.arange(len(rows)) % 2 * self.widest  # where a layer loses
-        links, turns, nothing = [], [], []
-        for one in [(0,) * d, *(region.step(a, 1) for a in range(d))]:
-            own = links_of(region, rows, rows, self.starts, one)
-            lose = own.copy()
-            lose[:, 0] = (turn + sum(one) * self.widest) % (2 * max(self.widest, 1))
-            links += [own, links_of(region, rows, region.table, region.starts, one), lose]
-            turns += [turns_of(region, one)] * 3
-            g, block = self.shape[1], padded(1, region.beads)[1]
-            nothing += [g - NONE, block - NONE, 2 * self.widest]
-        layers = layers_of(region, rows, self.starts)
-        found = runs_of(d, layers, links, turns, nothing, max(self.widest, 1), carried=self.carried)
-        first = np.searchsorted(found[:, 0], self.starts[self.lowest])
-        return np.ascontiguousarray(found[first:][::-1])
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -452,12 +460,17 @@ class Descent:
         lost = self.lost[:, turn : turn + self.counts[j]]
         return np.stack([self.g[0, :, self.starts[j] : self.starts[j + 1]], lost])
 
+    @property
+    def beads_below(self) -> slice:
+        """Which of all numbers belong to beads that bear something."""
+        return slice(self.starts[self.lowest], self.starts[-1])
+
     def told(self, F: Array, g: Array) -> Forces:
-        """Tell forces row by row: ordered (d, …) and changes (packings, d, …)."""
+        """Tell forces row by row: ordered (d, …) and changes (packings, d, …) of ``beads_below``."""
         d = self.region.dimension
 
         def rows(values: Array) -> LazyRows[Any]:
-            return rows_of(values, self.starts, self.counts, self.lowest)
+            return rows_of(values, self.starts - self.starts[self.lowest], self.counts, self.lowest)
 
         changes = [g[0, a] if len(g) == 1 else g[:, a] for a in range(d)]
         return Forces(
@@ -466,6 +479,6 @@ class Descent:
             self.rows,
             per_direction([rows(F[a]) for a in range(d)]),
             per_direction([rows(one) for one in changes]),
-            F=F[:, self.starts[self.lowest] : self.starts[-1]],
-            g=g[..., self.starts[self.lowest] : self.starts[-1]],
+            F=F,
+            g=g,
         )

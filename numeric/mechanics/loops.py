@@ -13,7 +13,7 @@ from force_diffusion.numeric.arithmetic.compiling import borrowed, compiled
 from force_diffusion.numeric.arithmetic.systems import Array
 
 if TYPE_CHECKING:
-    D, PARTS, NONE, RESOLUTION = 2, 1, 64, 0.0
+    D, PARTS, NONE, RESOLUTION = 2, 1, 32, 0.0
 
     def rest(rho: Array, block: Array, run: Array, m: Array) -> bool:
         """Recorded from ``local.rest``."""

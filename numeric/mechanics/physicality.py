@@ -9,9 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arithmetic.systems import Array
 from ..lattice.branch import AxisContact, Contact
+from ..lattice.layers import Layer
 from .gaps import gaps, named
-from .sweep import Forces, SolvedPacking, pulling
+from .sweep import SIGNS, Forces, SolvedPacking, pulling
 
 PHYSICAL = "check that it is physical"
 
@@ -86,25 +88,47 @@ class Physicality:
         Of the upper bead's ``layers`` only, if some are given.
         """
         self.forces_known = True
-        top = len(forces.rows) - 1
         if layers is None and forces.F is not None and forces.g is not None:
-            # where all surely hold, there is no need to look at one layer after the other
-            room = 2.0**-40 * float(max(forces.g.max(initial=0), -forces.g.min(initial=0)))
-            if forces.g.size and (forces.F + forces.g).min() > room:
-                self.contacts += forces.g.size
+            pulling_rows = self._count(forces.rows, forces.F, forces.g)
+        else:
+            every = range(len(forces.rows))
+            pulling_rows = []
+            for j in every if layers is None else every[layers.start : layers.stop]:
+                for _, F, g in forces.below(j):
+                    pulls, undecided = pulling(F + g, g, forces.system)
+                    self.contacts += g.size
+                    self.tensile += int(np.count_nonzero(pulls))
+                    self.undecided_signs += int(np.count_nonzero(undecided))
+                    if pulls.any():
+                        pulling_rows.append(j)
+        if pulling_rows and self.first_tensile is None:
+            self._name(forces, pulling_rows[0])
+
+    def _count(self, rows: Sequence[Layer], F: Array, g: Array) -> Sequence[int]:
+        """Count all contacts of compiled loops together; give the first row of which one pulls."""
+        self.contacts += g.size
+        f, changes = F + g, np.abs(g).max(axis=0, initial=0)
+        if not g.size or f.min() > SIGNS * changes.max():  # all surely hold
+            return []
+        ends = np.cumsum([row.count for row in reversed(rows)])
+        ends = ends[: int(np.searchsorted(ends, F.shape[1])) + 1]
+        cuts = F.shape[1] - ends[::-1]
+        counts = np.diff(np.append(cuts, F.shape[1]))
+        room = SIGNS * np.maximum.reduceat(changes, cuts, axis=1).repeat(counts, axis=1)
+        pulls = f < -room
+        self.tensile += int(np.count_nonzero(pulls))
+        self.undecided_signs += int(np.count_nonzero((np.abs(f) <= room) & (f != 0)))
+        if not pulls.any():
+            return []
+        first = int(np.argmax(pulls.any(axis=(0, 1))))
+        return [len(rows) - len(cuts) + int(np.searchsorted(cuts, first, "right")) - 1]
+
+    def _name(self, forces: Forces, j: int) -> None:
+        """Name the first contact below a row that pulls."""
+        for branch, F, g in forces.below(j):
+            pulls, _ = pulling(F + g, g, forces.system)
+            if pulls.any():
+                *batch, q = map(int, np.argwhere(pulls)[0])
+                self.first_tensile_in = self.looks_at[batch[0] if batch else 0]
+                self.first_tensile = forces.contact(forces.rows[j], branch, q)
                 return
-        layers = range(top + 1) if layers is None else layers
-        for j in range(layers.start, min(layers.stop, top + 1)):
-            layer = forces.rows[j]
-            for branch, F, g in forces.below(j):
-                if not len(F):
-                    continue
-                f = F + g
-                pulls, undecided = pulling(f, g, forces.system)
-                self.contacts += f.size
-                self.tensile += int(np.count_nonzero(pulls))
-                self.undecided_signs += int(np.count_nonzero(undecided))
-                if pulls.any() and self.first_tensile is None:
-                    *batch, q = map(int, np.argwhere(pulls)[0])
-                    self.first_tensile_in = self.looks_at[batch[0] if batch else 0]
-                    self.first_tensile = forces.contact(layer, branch, q)

@@ -302,6 +302,10 @@ def first_tension(
     return None
 
 
+# A float64 force has no sign within so much of its layer's largest change.
+SIGNS = 2.0**-40
+
+
 def pulling(force: Any, change: Any, system: NumberSystem) -> tuple[Array, Array]:
     """Tell contacts that surely pull and those whose sign is open; two boolean arrays.
 
@@ -313,7 +317,7 @@ def pulling(force: Any, change: Any, system: NumberSystem) -> tuple[Array, Array
     if system.dtype is object:
         pulls, holds = system.signs(-force)
         return pulls, ~(pulls | holds)
-    room = 2.0**-40 * np.abs(change).max(initial=0)
+    room = SIGNS * np.abs(change).max(initial=0)
     return force < -room, (np.abs(force) <= room) & (force != 0)
 
 

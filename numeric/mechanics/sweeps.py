@@ -145,23 +145,22 @@ def tell(
     d, carried = region.dimension, rho.shape[1] == 2
     at, beads, first = d + d * d, region.beads, region.rows[0].count
     values = told(phi, region, rho[:, 0], block[:, :at], carried=carried)
+    F = None
+    if g is not None and descent is not None:
+        F, g = descent.F[:, descent.beads_below], g[..., descent.beads_below]
     if not carried:
-        forces = None if g is None or descent is None else descent.told(descent.F, g)
+        forces = None if F is None or descent is None else descent.told(F, g)
         return Solved(FLOAT64, values, forces, None)
     errors = told(phi, region, rho[:, 1], block[:, at:])
     found = rounded(Solved(FLOAT64, _paired(values, errors), None, None))
     sizes = Sizes(largest(block[:, at : at + d, :beads]), largest(block[:, at + d :, first:beads]))
-    if g is None or descent is None:
+    if F is None or g is None or descent is None:
         return replace(found, sizes=sizes)
-    ordered, changes = Carried(descent.F[:d], descent.F[d:]), Carried(g[:, :d], g[:, d:])
+    ordered, changes = Carried(F[:d], F[d:]), Carried(g[:, :d], g[:, d:])
     near, rest = (
         descent.told(*pair) for pair in zip(ordered.nearest, changes.nearest, strict=True)
     )
-    own = slice(descent.starts[descent.lowest], descent.starts[-1])
-    sizes |= Sizes(
-        changed=largest(g[:, d:, own]),
-        force=largest(descent.F[:d]) + largest(g[:, :d, own]),
-    )
+    sizes |= Sizes(changed=largest(g[:, d:]), force=largest(F[:d]) + largest(g[:, :d]))
     assert found.rest is not None
     return replace(found, forces=near, rest=replace(found.rest, forces=rest), sizes=sizes)
 

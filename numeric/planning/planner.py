@@ -6,6 +6,8 @@ and adds nothing but the measured cost.
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import lru_cache
+from time import monotonic
 
 from ..arithmetic.carried import LONGER, Pairs
 from ..arithmetic.errors import ForceDiffusionError
@@ -46,7 +48,7 @@ def plan(
     certified = certified or scene.ask.certified
     if certified and tolerance is None:
         raise SceneError("ask.certified", True, "needs a tolerance, as tolerance = 1e-30")
-    limit = free_memory() if memory_limit is None else memory_limit
+    limit = _free(int(monotonic())) if memory_limit is None else memory_limit
     try:
         return _plan(scene, tolerance, limit, system, certified=certified)
     except budget.TooLargeError as refused:
@@ -59,6 +61,12 @@ def plan(
         takes = f"about {free.estimated_seconds:.2g} s and {budget.size(free.memory)}"
         said = f"{refused.allowed}; without the tolerance it would take {takes}"
         raise budget.TooLargeError(refused.key, refused.value, said) from None
+
+
+@lru_cache(maxsize=1)
+def _free(second: int) -> int:
+    """Give the free memory; it is looked up once in a second."""
+    return free_memory()
 
 
 def _plan(

@@ -2,6 +2,7 @@
 
 import re
 import sys
+from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
@@ -253,6 +254,8 @@ def test_the_engine_takes_the_compiled_sweeps_for_much_work(
     scene = basic(6, 9, quantity="contact_forces", realisations=4)
     scene["packing"]["allow_images"] = True
     plan = planned(scene)
+    monkeypatch.setattr(kernels, "LOADED", set())
+    monkeypatch.setattr(engine, "_by_numpy", Counter())
     with FLOAT64.active():
         usual = engine.solve(plan.problem, range(4), FLOAT64, usual_work := Work(), carried=carried)
         monkeypatch.setattr(engine, "COMPILED_FROM", 1)
@@ -265,6 +268,24 @@ def test_the_engine_takes_the_compiled_sweeps_for_much_work(
     for (_, a), (_, b) in zip(usual.forces.change, quick.forces.change, strict=True):
         assert raw(a, range(1, 7)) == raw(b, range(1, 7))
     assert usual_work == quick_work
+
+
+@pytest.mark.parametrize("carried", [False, True])
+def test_small_packings_load_the_compiler_once_they_were_many(
+    monkeypatch: pytest.MonkeyPatch, carried: bool
+) -> None:
+    plan = planned(basic(8, 16, quantity="contact_forces"))
+    monkeypatch.setattr(kernels, "LOADED", set())
+    monkeypatch.setattr(engine, "_by_numpy", Counter())
+    once = engine._work(plan.problem.region, 1, 1, carried=carried)
+    monkeypatch.setattr(engine, "COMPILED_FROM", 3 * once)
+    compiled = []
+    with FLOAT64.active():
+        for _ in range(5):
+            found = engine.solve(plan.problem, [0], FLOAT64, Work(), carried=carried).packing
+            assert found is not None
+            compiled.append(found.memory is not None)
+    assert compiled == [False, False, True, True, True]
 
 
 @pytest.mark.parametrize("side", [0, 1])
