@@ -7,6 +7,7 @@ function does on arrays of floats, to the bit. What was computed before is not c
 from collections.abc import Sequence
 from typing import Any
 
+
 class Recorder:
     """Takes down operations on names."""
 
@@ -86,8 +87,8 @@ class Code:
     """A function that works on runs of beads, in place; ``text`` is its source.
 
     It takes flat ``arrays`` (quantities, places), a run, and constants. A run names the place of
-    its first bead in each of several rows of beads, and at last how many beads it has. Neighbours of
-    all of them lie at the same distance. The function gives True where all conditions hold.
+    its first bead in each of several rows of beads, and at last how many beads it has: neighbours
+    of all of them lie at the same distance. The function gives True where all conditions hold.
     """
 
     def __init__(self, name: str, arrays: Sequence[str]) -> None:

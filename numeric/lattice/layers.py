@@ -130,7 +130,7 @@ def table(rows: Sequence[Layer]) -> Array:
 
 
 def starts(rows: Array) -> Array:
-    """Number beads row after row, of a table: give each row's first bead, and how many there are."""
+    """Number beads row after row, of a table: give each first bead, and how many there are."""
     return np.concatenate(([0], np.cumsum(rows[:, 1])))
 
 

@@ -28,10 +28,10 @@ from .work import Work
 if TYPE_CHECKING:
     from .sweeps import Sweeps
 
-# Work from which on the compiled sweeps repay loading the compiler (half a second), counted in beads
-# that NumPy sweeps: of this call, and of all before it in this process. A bead, and a row of them,
-# which takes calls of its own, count for so many, without errors and with them. Once the sweeps are
-# loaded, a small part of that is enough, and anything that carries errors.
+# Work from which on the compiled sweeps repay loading the compiler (half a second), counted in
+# beads that NumPy sweeps: of this call, and of all before it in this process. A bead, and a row of
+# them, which takes calls of its own, count for so many, without errors and with them. Once the
+# sweeps are loaded, a small part of that is enough, and anything that carries errors.
 COMPILED_FROM, ONCE_LOADED = 2_000_000, 1 / 50
 OF_BEAD, OF_ROW = (1, 10), (40, 2000)
 # Beads of diagonals that are drawn together.

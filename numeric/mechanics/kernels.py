@@ -25,7 +25,7 @@ from ..arithmetic import compiling
 from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.compiling import CODES, on_all_cores
 from ..arithmetic.recording import Code, module, positive_root
-from ..arithmetic.systems import FLOAT64, Array, NumberSystem
+from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import per_direction
 from ..lattice.layers import Layer, LazyRows, Region
 from . import local
@@ -268,7 +268,7 @@ def runs_of(
     return found[:count]
 
 
-def rows_of(values: Array, starts: Array, counts: Sequence[int], lowest: int = 0) -> LazyRows[Any]:
+def rows_of(values: Array, starts: Array, counts: Array, lowest: int = 0) -> LazyRows[Any]:
     """Give the rows of (…, beads), of which those below ``lowest`` have nothing to say."""
 
     def row(j: int) -> Array:
@@ -277,7 +277,9 @@ def rows_of(values: Array, starts: Array, counts: Sequence[int], lowest: int = 0
     return LazyRows(len(counts), row)
 
 
-def pairs_of(region: Region, steps: Sequence[tuple[int, ...]], most: int, *, carried: bool) -> Array:
+def pairs_of(
+    region: Region, steps: Sequence[tuple[int, ...]], most: int, *, carried: bool
+) -> Array:
     """Give runs of beads and of those that lie so many steps on, where all of them are there."""
     d, rows = region.dimension, region.table
     both = [(0,) * d, *steps]
@@ -290,7 +292,7 @@ def pairs_of(region: Region, steps: Sequence[tuple[int, ...]], most: int, *, car
 # Packings of one shape are often solved one after the other: their tables stay.
 @lru_cache(maxsize=4)
 def _supports(region: Region, *, carried: bool) -> Array:
-    """Give the runs of ``loops.deposit``. Raise ``LookupError`` where the region lacks a support."""
+    """Give the runs of ``loops.deposit``. Raise ``LookupError`` where a support is lacking."""
     steps = [region.step(a, -1) for a in range(region.dimension)]
     found = pairs_of(region, steps, max(region.widest, 1), carried=carried)
     before = np.append(0, np.cumsum(found[:, -1]))
@@ -406,7 +408,7 @@ class Descent:
         self.lowest = int(empty[-1]) + 2 if len(empty) else 1
         self.beads = int(self.starts[-1] - self.starts[1])  # that pass forces on
         self.runs = _loads(region, own, self.lowest, carried=carried)
-        self.g = self.lost = np.empty((0, 0, 0))
+        self.g, self.lost = np.empty((0, 0, 0)), np.empty((0, 0))
         self.set(loads)
 
     @property
@@ -466,7 +468,7 @@ class Descent:
         return slice(self.starts[self.lowest], self.starts[-1])
 
     def told(self, F: Array, g: Array) -> Forces:
-        """Tell forces row by row: ordered (d, …) and changes (packings, d, …) of ``beads_below``."""
+        """Tell ``beads_below`` row by row: ordered forces (d, …), changes (packings, d, …)."""
         d = self.region.dimension
 
         def rows(values: Array) -> LazyRows[Any]:

@@ -149,7 +149,9 @@ def tell(
     if g is not None and descent is not None:
         F, g = descent.F[:, descent.beads_below], g[..., descent.beads_below]
     if not carried:
-        forces = None if F is None or descent is None else descent.told(F, g)
+        forces = None
+        if F is not None and g is not None and descent is not None:
+            forces = descent.told(F, g)
         return Solved(FLOAT64, values, forces, None)
     errors = told(phi, region, rho[:, 1], block[:, at:])
     found = rounded(Solved(FLOAT64, _paired(values, errors), None, None))

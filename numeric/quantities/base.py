@@ -16,7 +16,7 @@ from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
 from ..lattice.branch import Branch, Direction, PerAxis, PerBranch
-from ..lattice.layers import Layer, Region, pick, standing_on_base, whole
+from ..lattice.layers import Layer, LazyRows, Region, pick, standing_on_base, whole
 from ..lattice.regions import Rows
 from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
@@ -366,32 +366,35 @@ def slope(problem: Problem, system: NumberSystem) -> Any:
     return plain.axes(problem.n_x, system)[1]
 
 
-def first_order_std(problem: Problem) -> PerBranch[list[Fraction]] | None:
+def first_order_std(problem: Problem) -> PerBranch[Sequence[Fraction]] | None:
     """Give σ_f of layers j = 0 … M − 1, exact to first order (Eqs. 13, 14, B2, B3 at finite M).
 
-    None where they don't apply. Each is a float64 times the exact σ/r, in units of the load.
+    None where they don't apply. Each is a float64 times the exact σ/r, in units of the load, and is
+    found when it is asked for.
     """
-    load, radii = problem.load, problem.radii
+    load, radii, height = problem.load, problem.radii, problem.height
     if problem.route == Route.ORDERED or not has_theory(problem):
         return None
     assert isinstance(radii, DrawnRadii)
-    phi = float(1 - 2 * problem.n_x**2)
-    over = [problem.height - j if load.kind == "bulk" else 1 for j in range(problem.height)]
+    std, phi = radii.std, float(1 - 2 * problem.n_x**2)
+
+    def over(j: int) -> int:
+        return height - j if load.kind == "bulk" else 1
+
     if problem.dimension == 3:
         root = math.sqrt(3 * (1 + 2 * phi))
-        found = [
-            Fraction(std_of_spheres(load.kind, problem.height, j, phi) * (n / root)) * radii.std
-            for j, n in enumerate(over)
-        ]
+        found = LazyRows(
+            height,
+            lambda j: Fraction(std_of_spheres(load.kind, height, j, phi) * (over(j) / root)) * std,
+        )
         return PerAxis(found, found, found)
     plus, minus = map(float, load.strength(problem.n_x, FLOAT64).unit)
-    stds = [
-        stds_of_discs(load.kind, problem.height, j, phi, (plus, minus))
-        for j in range(problem.height)
-    ]
-    return PerBranch(
-        *(
-            [Fraction(std * n) * radii.std for std, n in zip(own, over, strict=True)]
-            for own in zip(*stds, strict=True)
-        )
-    )
+
+    def of(side: int) -> LazyRows[Fraction]:
+        def one(j: int) -> Fraction:
+            both = stds_of_discs(load.kind, height, j, phi, (plus, minus))
+            return Fraction(both[side] * over(j)) * std
+
+        return LazyRows(height, one)
+
+    return PerBranch(of(0), of(1))

@@ -1,5 +1,6 @@
 """The compiled loops against the same source on NumPy: every bit, every error, every name."""
 
+import platform
 import re
 import sys
 from collections import Counter
@@ -312,6 +313,20 @@ def test_without_numba_the_engine_takes_the_numpy_sweeps(monkeypatch: pytest.Mon
         packing = engine.solve(plan.problem, [0], FLOAT64, Work()).packing
     assert packing is not None
     assert packing.memory is None
+
+
+@pytest.mark.skipif(platform.machine() not in {"x86_64", "AMD64"}, reason="other instructions")
+@pytest.mark.parametrize("carried", [False, True])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_several_beads_are_taken_at_a_time(dimension: int, carried: bool) -> None:
+    """LLVM stops doing so without a word where it has to compare too many addresses."""
+    scope = vars(sys.modules[kernels.kernels(dimension, carried=carried).deposit.__module__])
+    values, run = numba.float64[:, ::1], numba.int64[::1]
+    for name, arrays, packed in (("rest", 2, "sqrtpd"), ("balance", 4, "divpd")):
+        made = numba.njit(error_model="numpy")(scope[name].py_func)
+        made.compile((values,) * arrays + (run, numba.float64[::1]))
+        (assembly,) = made.inspect_asm().values()
+        assert packed in assembly, name
 
 
 def test_the_compiled_code_fuses_no_product_with_a_sum() -> None:
