@@ -61,7 +61,7 @@ class Outline:
         memory = self._memory(method, together, visited)
         seconds = predicted(self.quantity, problem, method, together)
         cut = None
-        if memory > self.limit:
+        if memory > self.limit or problem.region.beads > segments.QUICKER:
             cut = segments.cut(problem, method, scene, self.tolerance)
         if cut is not None:
             steps = segments.steps(steps, cut, self.quantity, memory, self.limit)

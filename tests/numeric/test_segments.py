@@ -159,6 +159,14 @@ def test_a_plan_that_the_memory_does_not_hold_is_made_of_segments() -> None:
         plan(asked, memory_limit=2 * 10**8)
 
 
+def test_a_plan_of_very_many_beads_is_made_of_segments_since_that_is_quicker() -> None:
+    asked = scene(sections("profile") | {"packing": {"height": 2999, "width": 3002}})
+    parts = plan(asked, memory_limit=10**11)
+    assert parts.problem.segment
+    assert "of memory that was not used before take longer" in str(parts)
+    assert not plan(asked, Fraction(1, 10**8), memory_limit=10**11).problem.segment
+
+
 @pytest.mark.parametrize("said", ["in the scene", "beside it"])
 def test_with_a_tolerance_it_is_refused_and_said_that_without_it_runs(said: str) -> None:
     """Segments are swept in float64 alone: no answer to a tolerance, wherever it stands."""
