@@ -10,6 +10,7 @@ from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework.vocabulary import (
     SUPPOSED,
+    Chain,
     Derivation,
     Lines,
     Part,
@@ -245,6 +246,9 @@ DERIVATION = Derivation(
         ),
     ),
 )
+
+IN_RADII = Chain((DERIVATION, (eq04.DERIVATION, eq05.DERIVATION)))
+"""Forces in the radii: Eqs. 4 and 5 put in."""
 
 if __name__ == "__main__":
     from force_diffusion.derivations.commands.alone import run_alone

@@ -1,42 +1,34 @@
 """Eq. 13: variance of the contact forces under a surface load; exact, and to leading order."""
 
-from collections.abc import Iterator
 from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
-from force_diffusion.derivations.framework import exact_cases
-from force_diffusion.derivations.framework.follows import (
-    by_certificate,
-    certificate,
-    differentiated,
-    identity,
-    summed,
-)
-from force_diffusion.derivations.framework.record import (
-    Claim,
+from force_diffusion.derivations.framework.follows import certificate
+from force_diffusion.derivations.framework.record import usual
+from force_diffusion.derivations.framework.vocabulary import (
+    UNIT,
     Derivation,
-    Step,
+    Layered,
+    Lines,
+    Where,
     Witness,
-    usual,
+    asymptotic,
+    equation,
+    minus,
+    moment,
+    power,
+    rewrite,
+    slope,
+    terms,
+    times,
 )
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
-from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
-from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test
+from force_diffusion.symbolic.kernel.where import SURFACE, at_fixed_height
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import M, j, m, n, phi, r, sigma, z
-from force_diffusion.symbolic.variances.orders import (
-    edges_follow,
-    no_radius_dominates,
-)
-from force_diffusion.symbolic.variances.variance import (
-    ClosedForm,
-    exact_variances,
-    order,
-    variance,
-)
+from force_diffusion.symbolic.symbols import M, Variance, j, m, n, phi, r, sigma, z
+from force_diffusion.symbolic.variances.variance import ClosedForm
 
 RELATIVE_VARIANCE = Symbol(
     "relative_variance", r"\frac{\sigma_f^2(z)}{\langle f\rangle^2}", "σ_f²(z)/⟨f⟩²"
@@ -52,15 +44,19 @@ PRINTED = equation(
     ),
 )
 
+VARIANCE = Layered(RELATIVE_VARIANCE, Variance(eq11.PRINTED.lhs), (eq11.IN_RADII,), SURFACE)
 
-@cache
+
 def exact_forms() -> dict[str, ClosedForm]:
-    """Exact σ_f²/⟨f⟩² under a surface load at every layer, from Eq. 11 site by site."""
-    return exact_variances(eq11.in_radii(eq11.PRINTED.rhs))
+    """Exact σ_f²/⟨f⟩² under a surface load at every layer."""
+    return VARIANCE.forms
 
 
 SQUARES = Symbol("squares", r"\sum w^2", "Σw²")
 """Sum of the squared weights of all radii in Eq. 12, its prefactor left out."""
+
+OF_DELTA = Variance(sympy.Sum(times(eq12.BRACES, eq12.ON_DIAGONAL), (m, 1, M))) / sigma**2
+"""What it is."""
 
 WEIGHTS = times(
     6,
@@ -69,12 +65,7 @@ WEIGHTS = times(
 TOTAL = terms(times(2, (M - j) ** 2, terms(M, 2 * j)), minus(times(3, (M - j) ** 2)), M - j)
 """The same in closed form."""
 
-
-def squared_weights(candidate: sympy.Eq) -> Ruling:
-    """Six times a sum over layers against the weights of Eq. 12, squared radius by radius."""
-    form = sympy.Sum(times(eq12.BRACES, eq12.ON_DIAGONAL), (m, 1, M))
-    known = (variance(form, eq12.DEEP) / FIELD.from_sympy(sigma**2)).to_sympy()
-    return summed({SQUARES: known})(0, candidate)
+EVERY = Where.of(j >= 0, j < M)
 
 
 def _squares_to(last: sympy.Expr) -> sympy.Expr:
@@ -82,81 +73,76 @@ def _squares_to(last: sympy.Expr) -> sympy.Expr:
     return last * (last - 1) * (2 * last - 1) / 6
 
 
-def _highest_term(_: int, candidate: sympy.Eq) -> Ruling:
-    """The first term of ``TOTAL`` at z = j/M; the others are of lower order."""
-    rest = order(FIELD.from_sympy(sympy.Add(*TOTAL.args[1:])))
-    return all_of(
-        identity({z: j / M})(0, candidate),
-        from_test(rest < order(FIELD.from_sympy(TOTAL)), f"the rest is of order M^{rest}"),
-    )
-
-
-def steps() -> Iterator[Step]:
+@cache
+def steps() -> Lines:
     """Six radii's worth for each Δ, the squared weights summed."""
-    yield Step(
+    lines = Lines(EVERY)
+    of_delta = lines.show(
         "Each Δ holds one radius with the weight 2 and two with the weight −1: its square sum is "
         "6. Those of Eq. 12 lie in different layers and share no radius.",
         equation(SQUARES, WEIGHTS),
-        lambda _, candidate: squared_weights(candidate),
-        ("Eq. 12",),
+        moment(),
+        where=EVERY.also(j >= 1),
+        meaning={SQUARES: OF_DELTA},
+        after=(eq12.DERIVATION,),
     )
     below, above = sympy.Sum((M - j) ** 2, (m, 1, n)), sympy.Sum((M - m) ** 2, (m, j + 1, n))
-    yield Step(
+    certified = lines.show(
         "Each of the two sums has a certificate: what it is up to n gains the term at n, and is "
         "zero before the first term, at n = 0 (first) and at n = j (second).",
         sympy.Tuple(
             *certificate(below, n * (M - j) ** 2),
             *certificate(above, terms(_squares_to(M - j), minus(_squares_to(M - n)))),
         ),
-        by_certificate,
+        rewrite(),
+        where=EVERY.also(n >= j, indices=(n,)),
     )
-    yield Step(
-        "Added up:",
-        equation(WEIGHTS, TOTAL),
-        summed(),
-        ("step 2",),
-    )
-    yield Step(
+    added = lines.show("Added up:", equation(WEIGHTS, TOTAL), rewrite(), after=(certified,))
+    highest = lines.show(
         "The first term has the highest order. With the prefactor of Eq. 12 squared, the factor "
         "(M − j)²(M + 2j) is the printed form at z = j/M.",
         equation(times(eq12.PREFACTOR**2, sigma**2, TOTAL.args[0]), PRINTED.rhs),
-        _highest_term,
-        ("step 1", "step 3"),
+        rewrite(),
+        meaning={z: j / M},
+        after=(of_delta, added),
     )
-    yield Step(
+    VARIANCE.show_leading(
+        lines,
         "What Eq. 12 drops does not change it: the printed form is the leading order of the exact "
         "variance, which follows.",
         PRINTED,
-        decide,
-        ("Eq. 11", "step 4"),
+        highest,
     )
-    force = eq11.in_radii(eq11.PRINTED.rhs)
-    yield from exact_cases.variance_steps(
-        RELATIVE_VARIANCE, eq11.PRINTED.lhs, force, exact_forms(), 5
-    )
-    yield exact_cases.next_order(
-        RELATIVE_VARIANCE, PRINTED.rhs, exact_forms(), next_order(), "Eq. 13", "step 8"
-    )
+    squared = VARIANCE.show_weights(lines)
+    inside = VARIANCE.show_forms(lines, "each sum telescopes", squared)
+    VARIANCE.show_next(lines, PRINTED.rhs, next_order(), DERIVATION, inside)
     profile = times(terms(1, -z) ** 2, terms(times(2, z), 1))
-    yield Step(
+    lines.show(
         "The profile ceases to broaden at the base, where its slope vanishes.",
         equation(sympy.Derivative(profile, z), -6 * z * (1 - z)),
-        differentiated(),
-        ("Eq. 13",),
+        slope(),
+        where=Where(),
+        after=(DERIVATION,),
     )
+    lines.claim(
+        "the first term of the sum of squares has its highest order",
+        equation(TOTAL, TOTAL.args[0]),
+        asymptotic(),
+        where=EVERY.in_the_limit(at_fixed_height("∼")),
+    )
+    VARIANCE.claim_edges(
+        lines,
+        "leading orders of the exact forms at the base and below the surface",
+        base=PRINTED.rhs.xreplace({z: sympy.S.Zero}),
+        surface=2 * M * (1 + phi**2) * UNIT,
+    )
+    VARIANCE.claim_shares(lines)
+    return lines
 
 
 def next_order() -> sympy.Expr:
     """The M² term of the exact variance at fixed z, without (σ/r)²/(1−φ²)²."""
     return sympy.Rational(-3, 2) * M**2 * (1 - z) * (1 + 3 * z)
-
-
-decide = exact_cases.to_leading_order(RELATIVE_VARIANCE, exact_forms)
-"""The exact variance less a candidate is of order M² at most."""
-
-
-def _no_radius_dominates() -> Ruling:
-    return no_radius_dominates(eq11.in_radii(eq11.PRINTED.rhs), exact_forms())
 
 
 DERIVATION = Derivation(
@@ -173,21 +159,9 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     loads=("surface",),
     relation="∼",
-    exact=lambda: exact_cases.exact_cases(RELATIVE_VARIANCE, exact_forms()),
+    exact=VARIANCE.exact,
     steps=steps,
-    decide=decide,
-    search=exact_cases.parting(RELATIVE_VARIANCE, exact_forms),
-    claims=(
-        Claim(
-            "leading orders of the exact forms at the base and below the surface",
-            lambda: edges_follow(exact_forms(), PRINTED.rhs),
-        ),
-        Claim(
-            "at fixed z, and in the layers next to base and surface, no radius has more than "
-            "O(1/M) of the variance: what Lindeberg's theorem needs",
-            _no_radius_dominates,
-        ),
-    ),
+    where=VARIANCE.in_the_limit,
     witnesses=(
         Witness(
             "exact variances equal sums of squared weights of exact packings, all j < M ≤ 4",

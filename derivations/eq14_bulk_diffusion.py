@@ -1,6 +1,5 @@
 """Eq. 14: variance of the contact forces under a bulk load; exact, and to leading order."""
 
-from collections.abc import Iterator
 from functools import cache
 
 import sympy
@@ -10,47 +9,40 @@ from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
-from force_diffusion.derivations.framework import exact_cases
-from force_diffusion.derivations.framework.follows import (
-    by_certificate,
-    certificate,
-    differentiated,
-    identity,
-    states,
-    summed,
-)
-from force_diffusion.derivations.framework.record import (
-    Claim,
+from force_diffusion.derivations.framework.follows import certificate
+from force_diffusion.derivations.framework.record import usual
+from force_diffusion.derivations.framework.vocabulary import (
+    SUPPOSED,
+    UNIT,
+    Chain,
     Derivation,
-    Step,
+    Layered,
+    Line,
+    Lines,
+    Where,
     Witness,
-    usual,
+    asymptotic,
+    axioms,
+    below,
+    equation,
+    induct,
+    moment,
+    power,
+    rewrite,
+    slope,
+    terms,
+    times,
 )
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.algebra.reading import Reader
-from force_diffusion.symbolic.algebra.signs import sign
-from force_diffusion.symbolic.as_printed import equation, power, terms, times
-from force_diffusion.symbolic.kernel.decisions import (
-    Ruling,
-    all_of,
-    decide_vector_identity,
-    from_test,
-    proved,
-    undecided,
-)
+from force_diffusion.symbolic.kernel.where import BULK, Limit, at_fixed_height
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import (
-    ForceMinus,
     ForcePlus,
-    Load,
     M,
+    Mean,
+    Variance,
     i,
     j,
-    k,
     l,
     m,
     m_g,
@@ -61,18 +53,7 @@ from force_diffusion.symbolic.symbols import (
     sigma,
     z,
 )
-from force_diffusion.symbolic.variances.orders import (
-    UNIT,
-    edges_follow,
-    no_radius_dominates,
-)
-from force_diffusion.symbolic.variances.variance import (
-    ClosedForm,
-    exact_variances,
-    leading,
-    order,
-)
-from force_diffusion.symbolic.variances.weights import take_apart
+from force_diffusion.symbolic.variances.variance import ClosedForm
 
 RELATIVE_VARIANCE = Symbol(
     "relative_variance", r"\frac{\sigma_f^2(z)}{\langle f\rangle_z^2}", "σ_f²(z)/⟨f⟩_z²"
@@ -99,10 +80,36 @@ def bulk_force() -> sympy.Expr:
     return sympy.Sum(eq11.PRINTED.rhs.xreplace({M: l}), (l, j + 1, M)) / (M - j)
 
 
-@cache
+WHERE = Where.of(j >= 0, j < M, loading=BULK)
+EVERY = WHERE.loaded(None)
+RATIO = ForcePlus(i, j) / MEAN_FORCE
+ORDERED = {MEAN_FORCE: (M - j) * m_g / (2 * n_y)}
+"""What the mean force is; a claim says so."""
+
+FORCE = Line(
+    "In units of this mean, f⁺_ij is the average of Eq. 11 over the heights l = j+1, …, M.",
+    equation(RATIO, times(1 / (M - j), bulk_force().args[1])),
+    induct(
+        j,
+        M - 1,
+        below(axioms.balance(), axioms.loads(BULK)),
+        below(axioms.balance(), (SUPPOSED, axioms.loads(BULK))),
+        down=True,
+        mirrored=True,
+    ),
+    WHERE,
+    {**ORDERED, l: m},
+    number=2,
+)
+"""The second step, on which the variance rests."""
+
+IN_RADII = Chain((FORCE, (eq04.DERIVATION, eq05.DERIVATION)))
+VARIANCE = Layered(RELATIVE_VARIANCE, Variance(RATIO), (IN_RADII,), BULK, ORDERED)
+
+
 def exact_forms() -> dict[str, ClosedForm]:
-    """Exact σ_f²/⟨f⟩_z² under a bulk load at every layer, from Eq. 11 site by site."""
-    return exact_variances(eq11.in_radii(bulk_force()))
+    """Exact σ_f²/⟨f⟩_z² under a bulk load at every layer."""
+    return VARIANCE.forms
 
 
 AVERAGED = (
@@ -132,153 +139,147 @@ REST = (30 * M**2 * j - 5 * M**2 - 60 * M * j**2 + 25 * M * j + 30 * j**3 - 20 *
 """Six times the sum of their squares is HIGHEST and this."""
 
 
-def _highest_term(_: int, candidate: sympy.Eq) -> Ruling:
-    """The first term of the sum at z = j/M; the rest is of lower order."""
-    rest = order(FIELD.from_sympy(REST))
-    return all_of(
-        identity({z: j / M})(0, candidate),
-        from_test(rest < order(FIELD.from_sympy(HIGHEST)), f"the rest is of order M^{rest}"),
+PROFILE = times(terms(1, -z) ** 2, terms(times(4, z), 1))
+
+
+def next_to_the_maximum(above: int) -> Where:
+    """A layer j at z = 1/6, next to the one above it: M = 6j + ``above``."""
+    limit = Limit("∼", f"M → ∞, M = 6j + {above}", (j,), (j,))
+    return VARIANCE.where().also(sympy.Eq(M, 6 * j + above)).in_the_limit(limit)
+
+
+def gained(above: int) -> sympy.Eq:
+    """What the exact form gains from layer j to j + 1, which is half a layer above it on average.
+
+    To leading order it is proportional to the distance of j + 1/2 from M/6 − 5/24.
+    """
+    one_up = {i: i + 1, j: j + 1}
+    upper = RATIO.xreplace(ORDERED).xreplace(one_up)
+    apart = (j + sympy.Rational(1, 2) - (M / 6 - sympy.Rational(5, 24))).xreplace(
+        {M: 6 * j + above}
     )
+    return equation(terms(Variance(upper), -RELATIVE_VARIANCE), times(UNIT, CURVATURE, M, apart))
 
 
-def steps() -> Iterator[Step]:
+CURVATURE = -3
+"""The second derivative of Eq. 14 in j at its maximum, over M, in units of ``UNIT``."""
+
+
+@cache
+def steps() -> Lines:
     """Superpose the surface loads of all layers above the contact."""
-    yield Step(
+    lines = Lines(EVERY)
+    ordered = lines.show(
         "The weight of the beads in layer l acts as the surface load of a packing of "
         "height l. The ordered forces of the layers above j add up to",
         sympy.Tuple(
             equation(MEAN_FORCE, (M - j) * m_g / (2 * n_y)),
             equation(MEAN_FORCE, M * m_g * (1 - z) / (2 * n_y)),
         ),
-        summed({MEAN_FORCE: sympy.Sum(m_g / (2 * n_y), (l, j + 1, M)), z: j / M}),
-        ("Eq. 11",),
+        rewrite(),
+        meaning={MEAN_FORCE: sympy.Sum(m_g / (2 * n_y), (m, j + 1, M)), z: j / M},
+        after=(eq11.DERIVATION,),
     )
-    ratio = ForcePlus(i, j) / MEAN_FORCE
-    yield Step(
-        "In units of this mean, f⁺_ij is the average of Eq. 11 over the heights l = j+1, …, M.",
-        equation(
-            ratio,
-            times(1 / (M - j), sympy.Sum(eq11.PRINTED.rhs.xreplace({M: l}), (l, j + 1, M))),
-        ),
-        states(equation(ratio, bulk_force()), region=eq11.INTERIOR),
-        ("Eq. 11", "step 1"),
-    )
-    yield Step(
+    force = lines.add(FORCE, after=(eq11.DERIVATION, ordered))
+    averaged = lines.show(
         "So the weights of Δ in Eq. 12 are averaged, for m ≤ j and for m > j:",
         sympy.Tuple(*map(equation, OVER_HEIGHTS, AVERAGED)),
-        summed(),
-        ("Eq. 12", "step 2"),
+        rewrite(),
+        where=EVERY.also(m >= j + 1, m <= M, indices=(m,)),
+        meaning={l: n},
+        after=(eq12.DERIVATION, force),
     )
     up_to_n = n * (n + 1) * (n + 2) * (3 * n**2 + 6 * n + 1) / 15
-    yield Step(
+    lines.show(
         "Their squares are summed with a certificate: with M − m for m the second sum is, but for "
         "its factor, this one up to n = M − j − 1. It is zero at n = 0.",
         sympy.Tuple(*certificate(sympy.Sum(m**2 * (m + 1) ** 2, (m, 1, n)), up_to_n)),
-        by_certificate,
+        rewrite(),
+        where=EVERY.also(n >= 0, indices=(n,)),
     )
-    yield Step(
-        "Six times the sum of their squares:", equation(WEIGHTS, terms(HIGHEST, REST)), summed()
+    squared = lines.show(
+        "Six times the sum of their squares:", equation(WEIGHTS, terms(HIGHEST, REST)), rewrite()
     )
-    yield Step(
+    highest = lines.show(
         "The first term has the highest order. With the prefactor of Eq. 12 squared it is the "
         "printed form at z = j/M.",
         equation(times(eq12.PREFACTOR**2, sigma**2, HIGHEST), PRINTED.rhs),
-        _highest_term,
-        ("step 3", "step 5"),
+        rewrite(),
+        meaning={z: j / M},
+        after=(averaged, squared),
     )
-    yield Step(
+    VARIANCE.show_leading(
+        lines,
         "What Eq. 12 drops does not change it: the printed form is the leading order of the exact "
         "variance, which follows.",
         PRINTED,
-        decide,
-        ("step 2", "step 6"),
+        highest,
     )
-    yield from exact_cases.variance_steps(
-        RELATIVE_VARIANCE, ratio, eq11.in_radii(bulk_force()), exact_forms(), 7
-    )
-    yield exact_cases.next_order(
-        RELATIVE_VARIANCE, PRINTED.rhs, exact_forms(), next_order(), "Eq. 14", "step 10"
-    )
-    profile = times(terms(1, -z) ** 2, terms(times(4, z), 1))
-    yield Step(
+    inside = VARIANCE.show_forms(lines, "each sum telescopes", VARIANCE.show_weights(lines))
+    VARIANCE.show_next(lines, PRINTED.rhs, next_order(), DERIVATION, inside)
+    lines.show(
         "The profile rises up to z = 1/6 and falls from there on. Without the normalisation it "
         "would be stationary at the base.",
         sympy.Tuple(
-            equation(sympy.Derivative(profile, z), 2 * (1 - z) * (1 - 6 * z)),
+            equation(sympy.Derivative(PROFILE, z), 2 * (1 - z) * (1 - 6 * z)),
             equation(
-                sympy.Derivative(times(terms(1, -z) ** 2, profile), z), -20 * z * (1 - z) ** 3
+                sympy.Derivative(times(terms(1, -z) ** 2, PROFILE), z), -20 * z * (1 - z) ** 3
             ),
         ),
-        differentiated(),
-        ("Eq. 14",),
+        slope(),
+        where=Where(),
+        after=(DERIVATION,),
     )
+    lines.claim(
+        "⟨f⟩_z is the mean of the force at every height",
+        equation(Mean(ForcePlus(i, j)), (M - j) * m_g / (2 * n_y)),
+        moment(IN_RADII),
+        where=WHERE,
+    )
+    lines.claim(
+        "the first term of the sum of squares has its highest order",
+        equation(terms(HIGHEST, REST), HIGHEST),
+        asymptotic(),
+        where=EVERY.in_the_limit(at_fixed_height("∼")),
+    )
+    VARIANCE.claim_edges(
+        lines,
+        "leading orders of the exact forms at the base and below the surface",
+        base=PRINTED.rhs.xreplace({z: sympy.S.Zero}),
+        surface=2 * M * (1 + phi**2) * UNIT,
+    )
+    VARIANCE.claim_shares(lines)
+    lines.claim(
+        "one layer below the surface both loads agree",
+        equation(RELATIVE_VARIANCE, eq13.exact_forms()["surface"].expression),
+        moment(IN_RADII),
+        where=VARIANCE.where("surface"),
+        meaning=VARIANCE.meant,
+    )
+    lines.claim(
+        "at fixed z the printed form has one maximum, at z = 1/6: it falls short of that by "
+        "(z − 1/6)² (17/3 − 4z)",
+        equation(
+            terms(PROFILE.xreplace({z: sympy.Rational(1, 6)}), -PROFILE),
+            (z - sympy.Rational(1, 6)) ** 2 * (sympy.Rational(17, 3) - 4 * z),
+        ),
+        rewrite(),
+        where=Where(),
+    )
+    lines.claim(
+        "there the exact form has a maximum at j = M/6 − 5/24, up to a shift that vanishes as "
+        "M → ∞",
+        sympy.Tuple(gained(4), gained(5)),
+        asymptotic(IN_RADII),
+        where=(next_to_the_maximum(4), next_to_the_maximum(5)),
+        meaning=VARIANCE.meant,
+    )
+    return lines
 
 
 def next_order() -> sympy.Expr:
     """The M² term of the exact variance at fixed z, without (σ/r)²/(1−φ²)²."""
     return sympy.Rational(3, 8) * M**2 * (1 - z) ** 2
-
-
-decide = exact_cases.to_leading_order(RELATIVE_VARIANCE, exact_forms)
-"""The exact variance less a candidate is of order M² at most."""
-
-
-def _superposition() -> Ruling:
-    """What lets a load on layer l be treated as the surface load of a packing of height l.
-
-    The balance is linear in forces and load, and the contacts that carry it, those below layer
-    l, have directions that depend on radii of layers up to l alone.
-    """
-    balance = eq06.PRINTED.lhs
-    atoms = ForcePlus(*eq06.LEFT), ForceMinus(*eq06.RIGHT), Load(k, l)
-    forces = sympy.symbols("f_1 g_1 f_2 g_2")
-    one, two = (*forces[:2], Load(0, 1)), (*forces[2:], Load(0, 2))
-    both = [a + b for a, b in zip(one, two, strict=True)]
-    carried = [balance.xreplace(dict(zip(atoms, case, strict=True))) for case in (one, two, both)]
-    linear = decide_vector_identity(carried[0] + carried[1], carried[2])
-    region = Region({j: 1})
-    top = affine.from_sympy(j + 1)
-    for direction in (eq04.contact_direction(i, j), eq05.contact_direction(i, j)):
-        for component in Reader(region).vector(direction):
-            pieces = take_apart(component, region)
-            ends = [run.last for run in pieces.runs] + [site.j for site in pieces.special]
-            if not all(region.nonnegative(affine.add(top, end, -1)) for end in ends):
-                return undecided("a contact's direction depends on a layer above it")
-    return all_of(linear, proved("a contact's direction depends on radii of layers ≤ j + 1"))
-
-
-def _one_layer_below_the_surface() -> Ruling:
-    difference = exact_forms()["surface"].value - eq13.exact_forms()["surface"].value
-    return from_test(
-        difference.is_zero(),
-        "at j = M − 1 only the surface beads load the contact: Eqs. 13 and 14 agree",
-    )
-
-
-def _one_maximum() -> Ruling:
-    """The sign of the slope on both sides of z = 1/6; z runs from 0 to 1 in either case."""
-    slope = sympy.diff((1 - z) ** 2 * (4 * z + 1), z)
-    before, after = (slope.xreplace({z: part}) for part in (z / 6, (1 + 5 * z) / 6))
-    return from_test(
-        sign(before) == 1 and sign(after) == -1,
-        "the slope is positive for 0 < z < 1/6 and negative for 1/6 < z < 1",
-    )
-
-
-def _maximum_at_finite_height() -> Ruling:
-    """The slope of the exact form in j, at a fixed number of layers from j = M/6 − 5/24."""
-    slope = exact_forms()["interior"].value.derivative(j) / FIELD.from_sympy(UNIT)
-    place = FIELD.from_sympy(M / 6 - sympy.Rational(5, 24) + n)  # n stands for any number here
-    at_place = slope.substitute({j: place}).reduced()
-    found = leading(at_place, M)
-    factor = found / (FIELD.generator(n) * FIELD.generator(M))
-    steep = factor.to_sympy()
-    return from_test(
-        order(at_place, M) == 1 and bool(steep.is_Rational and steep < 0),
-        f"c layers above it the slope of the exact form is {text(steep)} c M in units of "
-        "(σ/r)²/(1−φ²)², to leading order: positive below, negative above, for every c",
-        f"the slope there is {text(found.to_sympy())}",
-    )
 
 
 DERIVATION = Derivation(
@@ -306,31 +307,9 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     loads=("bulk",),
     relation="∼",
-    exact=lambda: exact_cases.exact_cases(RELATIVE_VARIANCE, exact_forms()),
+    exact=VARIANCE.exact,
     steps=steps,
-    decide=decide,
-    search=exact_cases.parting(RELATIVE_VARIANCE, exact_forms),
-    claims=(
-        Claim(
-            "loads superpose, and one on layer l feels radii of layers ≤ l alone", _superposition
-        ),
-        Claim(
-            "leading orders of the exact forms at the base and below the surface",
-            lambda: edges_follow(exact_forms(), PRINTED.rhs),
-        ),
-        Claim(
-            "at fixed z, and in the layers next to base and surface, no radius has more than "
-            "O(1/M) of the variance: what Lindeberg's theorem needs",
-            lambda: no_radius_dominates(eq11.in_radii(bulk_force()), exact_forms()),
-        ),
-        Claim("one layer below the surface both loads agree", _one_layer_below_the_surface),
-        Claim("at fixed z the printed form has one maximum, at z = 1/6", _one_maximum),
-        Claim(
-            "there the exact form has a maximum at j = M/6 − 5/24, up to a shift that vanishes as "
-            "M → ∞",
-            _maximum_at_finite_height,
-        ),
-    ),
+    where=VARIANCE.in_the_limit,
     witnesses=(
         Witness(
             "exact variances equal sums of squared weights of exact packings, all j < M ≤ 4",

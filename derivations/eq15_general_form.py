@@ -33,10 +33,10 @@ from force_diffusion.symbolic.kernel.decisions import (
     refuted,
     undecided,
 )
-from force_diffusion.symbolic.kernel.searches import not_proportional
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.structure import rebuilt
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search.limits import not_proportional
 from force_diffusion.symbolic.symbols import (
     Dot,
     M,

@@ -35,11 +35,11 @@ from force_diffusion.symbolic.kernel.decisions import (
     refuted,
     undecided,
 )
-from force_diffusion.symbolic.kernel.searches import parts_in_the_limit
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.mechanics.paths import IN_CONE, STEPS_BELOW
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search.limits import parts_in_the_limit
 from force_diffusion.symbolic.symbols import (
     ForceMinus,
     ForcePlus,

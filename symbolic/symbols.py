@@ -167,6 +167,71 @@ class Dot(Function):  # type: ignore[misc]
         return "·".join(self._factors(printer))
 
 
+class Moment(Function):  # type: ignore[misc]
+    """A moment over packings with independent radii, to leading order in their deviations."""
+
+
+class Mean(Moment):
+    """⟨X⟩, kept whole."""
+
+    nargs = 1
+
+    def _latex(self, printer: Any) -> str:
+        return rf"\left\langle {printer._print(self.args[0])} \right\rangle"
+
+    def _text(self, printer: Any) -> str:
+        return f"⟨{printer._print(self.args[0])}⟩"
+
+
+class Variance(Moment):
+    """var X, kept whole: σ² times the sum of the squared weights of the radii."""
+
+    nargs = 1
+
+    def _latex(self, printer: Any) -> str:
+        return rf"\mathrm{{var}}\left( {printer._print(self.args[0])} \right)"
+
+    def _text(self, printer: Any) -> str:
+        return f"var({printer._print(self.args[0])})"
+
+
+class Covariance(Moment):
+    """cov(X, Y), kept whole."""
+
+    nargs = 2
+
+    def _latex(self, printer: Any) -> str:
+        inside = ", ".join(map(printer._print, self.args))
+        return rf"\mathrm{{cov}}\left( {inside} \right)"
+
+    def _text(self, printer: Any) -> str:
+        return f"cov({', '.join(map(printer._print, self.args))})"
+
+
+class LargestWeight(Function):  # type: ignore[misc]
+    """The largest weight of a radius in X, without its sign (X over a length)."""
+
+    nargs = 1
+
+    def _latex(self, printer: Any) -> str:
+        return rf"\max |w| \left( {printer._print(self.args[0])} \right)"
+
+    def _text(self, printer: Any) -> str:
+        return f"max |w|({printer._print(self.args[0])})"
+
+
+class LargestShare(Function):  # type: ignore[misc]
+    """The largest share that one radius has in the variance of X: max w²/Σw² of its weights."""
+
+    nargs = 1
+
+    def _latex(self, printer: Any) -> str:
+        return rf"\max w^2/\sum w^2 \left( {printer._print(self.args[0])} \right)"
+
+    def _text(self, printer: Any) -> str:
+        return f"max w²/Σw²({printer._print(self.args[0])})"
+
+
 class MatrixTimes(Function):  # type: ignore[misc]
     """((a, b), (c, d)) v in Cartesian components, kept whole: arguments a, b, c, d, v."""
 

@@ -39,8 +39,8 @@ from force_diffusion.symbolic.kernel.decisions import (
     refuted,
     undecided,
 )
-from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.search.limits import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
     Dot,

@@ -12,8 +12,8 @@ from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.as_printed import equation, power, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test, undecided
-from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.search.limits import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.symbols import M, j, phi, r, sigma, t, z
 from force_diffusion.symbolic.variances.averages import layer_average
 from force_diffusion.symbolic.variances.orders import UNIT, compare_leading_order

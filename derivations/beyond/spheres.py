@@ -18,9 +18,9 @@ from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, all_of, from_test, undecided
-from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search.limits import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.symbols import M, j, k, kappa, m, phi, r, sigma, z
 from force_diffusion.symbolic.variances.orders import compare_leading_order
 from force_diffusion.symbolic.variances.variance import (

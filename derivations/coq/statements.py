@@ -35,7 +35,7 @@ _RELATIONS = {"≤": "<=", "<": "<", "≥": ">=", ">": ">", "=": "="}
 
 def ranges(derivation: Derivation) -> Iterator[str]:
     """What the domain says of the indices, or the assumptions' inequalities where it has none."""
-    if derivation.where is not None:
+    if derivation.where is not None and derivation.where.limit is None:
         for relation in derivation.where.relations:
             left, right = map(index, relation.args)
             yield f"({left} {relation.rel_op.replace('==', '=')} {right})%Z"

@@ -9,8 +9,8 @@ from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.algebra.reading import Reader
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
 from force_diffusion.symbolic.kernel.decisions import Ruling, from_test, undecided
-from force_diffusion.symbolic.kernel.searches import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search.limits import LAYERS, parts_in_the_limit
 from force_diffusion.symbolic.symbols import M, j, phi, r, sigma
 from force_diffusion.symbolic.variances.listed import listed, squares, weights
 from force_diffusion.symbolic.variances.orders import UNIT, compare_leading_order, next_order_is

@@ -5,14 +5,13 @@ uses. The kernel proves what is shown; anything else said in its place goes the 
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
 from typing import Any, Protocol
 
 import sympy
-from force_diffusion.derivations.framework.follows import put_in
 from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel import rules
+from force_diffusion.symbolic.kernel import limits, moments, rules
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
@@ -28,6 +27,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     Supposition,
     Theorem,
     isolated,
+    put_in,
     subject,
 )
 from force_diffusion.symbolic.kernel.where import Where
@@ -95,10 +95,20 @@ SUPPOSED = object()
 
 @dataclass(frozen=True, eq=False)
 class By:
-    """A rule and what it rests on, resolved when something is to be proved."""
+    """A rule and what it rests on, resolved when something is to be proved.
+
+    Attributes:
+        rule: the rule, given what is supposed.
+        sources: what it rests on.
+        finite: of a statement in a limit, what it says at finite size, where explicit values are
+            looked for.
+        force: where that depends on what a force is, an equation that says so.
+    """
 
     rule: Callable[[tuple[Theorem, ...]], Rule]
     sources: tuple[Source, ...] = ()
+    finite: Callable[[sympy.Eq, Where], sympy.Eq] | None = None
+    force: Callable[[Where], sympy.Eq] | None = None
 
     def names(self) -> tuple[str, ...]:
         """The lines and equations that it rests on."""
@@ -111,8 +121,39 @@ def _names(sources: Iterable[Source]) -> Iterable[str]:
             yield from one.names()
         elif isinstance(one, tuple):
             yield from _names(one)
-        elif hasattr(one, "theorems"):
+        elif isinstance(one, Chain) or hasattr(one, "theorems"):
             yield one.words
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Equations put in one after the other, under the name of the first; it rests on the others."""
+
+    sources: tuple[Source, ...]
+
+    @property
+    def words(self) -> str:
+        """How another line names it."""
+        words: str = self.sources[0].words
+        return words
+
+
+@dataclass(frozen=True)
+class OfBoth:
+    """An equation about one branch, and its mirror image about the other."""
+
+    of: Proved
+
+    @cached_property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """Its theorem and the mirror image of that."""
+        (theorem,) = self.of.theorems
+        return theorem, rules.mirror(theorem)
+
+    @property
+    def words(self) -> str:
+        """How another line names it."""
+        return self.of.words
 
 
 def known(source: Source, supposed: tuple[Theorem, ...]) -> tuple[Theorem, ...]:
@@ -145,8 +186,40 @@ class Part:
         return self.of.words
 
 
-def _facts(sources: Sequence[Source], supposed: tuple[Theorem, ...]) -> list[tuple[Theorem, ...]]:
-    return [known(one, supposed) for one in sources]
+def facts_of(
+    sources: Sequence[Source], supposed: tuple[Theorem, ...] = ()
+) -> tuple[tuple[Theorem, ...], ...]:
+    """The theorems of sources, to be put in one after the other; those of a source at once."""
+    parts = (one.sources if isinstance(one, Chain) else (one,) for one in sources)
+    return tuple(known(one, supposed) for part in parts for one in part)
+
+
+def in_place(node: sympy.Basic, meaning: Meaning) -> sympy.Basic:
+    """What is written in short, put in one after the other; no divisor is cancelled by it."""
+    for what, image in meaning.items():
+        node = _in_place(node, what, image)
+    return node
+
+
+def _in_place(node: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
+    if node == what:
+        result: sympy.Basic = image
+        return result
+    if not node.has(what):
+        return node
+    args = [_in_place(one, what, image) for one in node.args]
+    if isinstance(what, type) and isinstance(node, what):
+        result = image(*args)
+    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow) and _divides(node, what):
+        result = node.func(*args, evaluate=False)
+    else:
+        result = node.func(*args)
+    return result
+
+
+def _divides(node: sympy.Basic, what: Any) -> bool:
+    """Whether something is divided by it there."""
+    return any(one.exp.is_negative and one.base.has(what) for one in node.atoms(sympy.Pow))
 
 
 # the rules of the kernel, with what they rest on
@@ -154,7 +227,50 @@ def _facts(sources: Sequence[Source], supposed: tuple[Theorem, ...]) -> list[tup
 
 def rewrite(*facts: Source) -> By:
     """Both sides are the same once facts are put in, one after the other."""
-    return By(lambda supposed: rules.rewrite(*_facts(facts, supposed)), facts)
+    return By(lambda supposed: rules.rewrite(*facts_of(facts, supposed)), facts)
+
+
+def moment(*facts: Source) -> By:
+    """Both sides are the same once facts are put in and means and variances are worked out."""
+    return By(lambda supposed: moments.moment(*facts_of(facts, supposed)), facts)
+
+
+def asymptotic(*facts: Source) -> By:
+    """Both sides are of the same leading order, moments worked out at finite size."""
+    return By(
+        lambda supposed: limits.asymptotic(*facts_of(facts, supposed)),
+        facts,
+        lambda formula, where: moments.without_moments(formula, facts_of(facts), where),
+    )
+
+
+def bounded(*facts: Source) -> By:
+    """No radius has more than a share of some order in a variance."""
+    return By(lambda supposed: limits.bounded(*facts_of(facts, supposed)), facts)
+
+
+def negligible(force: Proved, *facts: Source) -> By:
+    """What a statement about one force drops varies less, by an order, than that force.
+
+    ``force`` says what the force is, ``facts`` what stands in it and in the statement.
+    """
+    whole = (OfBoth(force), *facts)
+    return By(
+        lambda supposed: limits.negligible(*facts_of(whole, supposed)),
+        whole,
+        lambda formula, where: _put_in(formula, facts, where),
+        cache(lambda where: _put_in(force.theorems[0].formula, facts, where)),
+    )
+
+
+def heaviest(*facts: Source) -> By:
+    """All weights of left less right are of a lower order than the largest of left."""
+    return By(lambda supposed: limits.heaviest(*facts_of(facts, supposed)), facts)
+
+
+def _put_in(formula: sympy.Eq, facts: tuple[Source, ...], where: Where) -> sympy.Eq:
+    told = facts_of(facts)
+    return equation(*(put_in(side, told, where, told) for side in formula.args))
 
 
 def follows(source: Source, *facts: Source) -> By:
@@ -162,7 +278,7 @@ def follows(source: Source, *facts: Source) -> By:
 
     def rule(supposed: tuple[Theorem, ...]) -> Rule:
         (theorem,) = known(source, supposed)
-        return rules.follows(theorem, *_facts(facts, supposed))
+        return rules.follows(theorem, *facts_of(facts, supposed))
 
     return By(rule, (source, *facts))
 
@@ -182,7 +298,7 @@ def along(source: Source, vector: sympy.Symbol, *facts: Source) -> By:
 
     def rule(supposed: tuple[Theorem, ...]) -> Rule:
         (theorem,) = known(source, supposed)
-        return rules.follows(rules.along(theorem, vector), *_facts(facts, supposed))
+        return rules.follows(rules.along(theorem, vector), *facts_of(facts, supposed))
 
     return By(rule, (source, *facts))
 
@@ -190,7 +306,7 @@ def along(source: Source, vector: sympy.Symbol, *facts: Source) -> By:
 def solve(rows: Source, unknowns: Sequence[sympy.Expr], *facts: Source) -> By:
     """What as many equations fix as there are unknowns."""
     return By(
-        lambda supposed: rules.solve(known(rows, supposed), unknowns, *_facts(facts, supposed)),
+        lambda supposed: rules.solve(known(rows, supposed), unknowns, *facts_of(facts, supposed)),
         (rows, *facts),
     )
 
@@ -200,7 +316,7 @@ def below(balance: Source, *facts: Source) -> By:
 
     def rule(supposed: tuple[Theorem, ...]) -> Rule:
         (theorem,) = known(balance, supposed)
-        return rules.below(theorem, *_facts(facts, supposed))
+        return rules.below(theorem, *facts_of(facts, supposed))
 
     return By(rule, (balance, *facts))
 
@@ -294,6 +410,11 @@ def differentiate(root: sympy.Symbol, square: sympy.Expr, *sources: Source) -> B
     return By(lambda _: rules.differentiate(root, square), sources)
 
 
+def slope(*sources: Source) -> By:
+    """SymPy differentiates by z."""
+    return By(lambda _: rules.slope, sources)
+
+
 # lines
 
 
@@ -318,7 +439,12 @@ class Line:
     meaning: Meaning | tuple[Meaning, ...] | None = None
     after: tuple[Proved, ...] = ()
     number: int = 0
-    relation: str = "="
+
+    @property
+    def relation(self) -> str:
+        """How it relates its sides: "=", or as in the limit that it is about."""
+        where: Where = _at(0, self.where)
+        return where.limit.relation.split()[0] if where.limit else "="
 
     @property
     def words(self) -> str:
@@ -356,15 +482,28 @@ class Line:
         except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
             # what has no value somewhere is mostly without one at a place that no packing shows
             at_most = _FEW if isinstance(reason, NotAStatementError) else None
-            meant, where = self._meant(part, candidate), _at(part, self.where)
-            found = counterexample(meant, where, at_most=at_most)
+            found = self.counterexample(part, candidate, at_most)
             return refuted(found) if found else undecided(str(reason) or type(reason).__name__)
         return proved(f"by the rule: {theorem.rule}")
+
+    def counterexample(self, part: int, candidate: sympy.Eq, at_most: int | None) -> str | None:
+        """Explicit values at which a candidate is false, found without the rule; or None."""
+        by, where = (_at(part, one) for one in (self.by, self.where))
+        meant = self._meant(part, candidate)
+        finite = where.in_the_limit(None)
+        try:
+            found = by.finite(meant, finite) if by.finite else meant
+            force = by.force(finite) if by.force else None
+        except (ArithmeticError, RecursionError, TypeError, ValueError):
+            return None  # what it says at finite size is not known
+        return counterexample(found, where, at_most=at_most, force=force)
 
     def _meant(self, part: int, candidate: sympy.Eq) -> sympy.Eq:
         meaning = _at(part, self.meaning)
         return (
-            equation(*(put_in(side, meaning) for side in candidate.args)) if meaning else candidate
+            equation(*(in_place(side, meaning) for side in candidate.args))
+            if meaning
+            else candidate
         )
 
     @cached_property
@@ -418,6 +557,13 @@ class Lines(list[Line]):
         """Add a further statement that the lines prove; it is not one of them."""
         domain = options.pop("where", self._where)
         self.claims.append(Line(name, formula, by, domain, **options))
+
+    def add(self, line: Line, after: tuple[Proved, ...] = ()) -> Line:
+        """Add a line that is there already, under the number that it has."""
+        if line.number != len(self) + 1:
+            raise ValueError(f"line {line.number} in place {len(self) + 1}")
+        self.append(line if not after else replace(line, after=after))
+        return line
 
     def show(
         self,

@@ -30,7 +30,6 @@ from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.corpus import Statement, statements
-from force_diffusion.symbolic.search.counterexample import counterexample
 
 
 class KernelError(ForceDiffusionError, RuntimeError):
@@ -231,7 +230,8 @@ class Derivation:
     def _by_the_kernel(self, part: int, candidate: sympy.Eq) -> Ruling:
         printed = self.printed[part]
         line = self._line(printed)
-        ruling = line.rule_on(line.equations.index(printed), candidate)
+        place = line.equations.index(printed)
+        ruling = line.rule_on(place, candidate)
         if ruling.verdict is not Verdict.PROVED:
             return ruling
         assert self.where is not None
@@ -241,7 +241,7 @@ class Derivation:
             return undecided(less)
         if candidate == printed:
             return ruling
-        if found := counterexample(candidate, self.where, at_most=_ALARM):
+        if found := line.counterexample(place, candidate, _ALARM):
             raise self.fault(candidate, f"proved, yet false: {found}")
         return ruling
 

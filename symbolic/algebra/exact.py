@@ -269,7 +269,9 @@ class RationalFunction:
         return sympy.Add(
             *(
                 sympy.Rational(int(c.p), int(c.q))
-                * sympy.Mul(*(g ** int(e) for g, e in zip(self.domain.generators, x, strict=True)))
+                * sympy.Mul(
+                    *(g ** int(e) for g, e in zip(self.domain.generators, x, strict=True) if e)
+                )
                 for x, c in polynomial.to_dict().items()
             )
         )

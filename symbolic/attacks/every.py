@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from force_diffusion.symbolic.attacks import (  # noqa: F401 - each adds its own to ATTACKS
+    averaging,
     inducing,
     moving,
     rewriting,

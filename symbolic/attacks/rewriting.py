@@ -47,7 +47,9 @@ from force_diffusion.symbolic.symbols import (
     n_plus,
     n_x,
     n_y,
+    p,
     phi,
+    q,
     site_r,
     site_s,
 )
@@ -69,8 +71,8 @@ for name, facts, left, right, where, false, refused in (
      "radii differ", "equal to a vector"),
     ("more forces than can be told apart", (), sympy.Add(*(ForcePlus(i + 2 * a, j) for a in
      range(9))), 0, BEADS, "they act", "too many unknown"),
-    ("a sum where both indices of sums are taken", (SPLIT,), Load(i, j), Load(i, j),
-     BEADS.also(m >= 0, n >= 0, indices=(m, n)), "m or n would have two meanings", "two meanings"),
+    ("a sum where all indices of sums are taken", (SPLIT,), Load(i, j), Load(i, j),
+     BEADS.also(indices=(m, n, p, q)), "one of them would have two meanings", "two meanings"),
     ("a number added to a vector", (), HERE + DeltaX(i, j), 0, BEADS, "one is a vector", "added"),
     ("a product of positions", (), Dot(Position(i, j), Position(i, j)), 0, BEADS,
      "positions are of order 0", "order 0"),

@@ -521,3 +521,17 @@ def differentiate(root: sympy.Symbol, square: sympy.Expr) -> Rule:
         return made(formula, where, "differentiate")
 
     return rule
+
+
+def slope(formula: sympy.Eq, where: Where) -> Theorem:
+    """SymPy differentiates by the relative height z, of which no other symbol is a function."""
+    found = {by for one in formula.atoms(sympy.Derivative) for by in one.variables}
+    if found != {sy.z}:
+        raise NotProvedError(f"it is not about a derivative by {text(sy.z)}")
+    if formula.atoms(sy.SiteFunction, sy.Moment) or formula.free_symbols & {*sy.INDICES}:
+        raise NotProvedError(f"it holds what may depend on {text(sy.z)}")
+    sides = [side.replace(sympy.Derivative, sympy.diff) for side in formula.args]
+    check(equation(*sides), where)
+    if not holds(equation(*sides), where):
+        raise NotProvedError("the derivatives differ")
+    return made(formula, where, "slope")

@@ -9,7 +9,7 @@ when both of its sides are the same dual number, which one normal form decides.
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import InitVar, dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
@@ -25,6 +25,9 @@ from force_diffusion.symbolic.printing.text import text
 
 SUMMATION = (sy.m, sy.n)
 """The indices that a statement may sum over."""
+
+_SPARE = (*SUMMATION, sy.p, sy.q)
+"""Those that a sum may be over once facts are put in."""
 
 FORCES = (sy.ForcePlus, sy.ForceMinus)
 _PLANE = {sy.n_x, sy.n_y, sy.spacing, *sy.VECTORS}
@@ -120,12 +123,15 @@ def made(
 # what is a statement
 
 
-def check(formula: sympy.Eq, where: Where) -> None:
+def check(formula: sympy.Eq, where: Where, *, in_a_limit: bool = False) -> None:
     """Refuse what has no value, or no single one, somewhere on the domain.
 
     Raises:
         NotAStatementError: with the reason.
+        NotProvedError: it is a statement in a limit, which this rule does not prove.
     """
+    if (where.limit is not None) != in_a_limit:
+        raise NotProvedError("it is one in a limit" if where.limit else "it is not one in a limit")
     if not isinstance(formula, sympy.Eq):
         raise NotAStatementError("it is no equation")
     if where.is_empty:
@@ -173,6 +179,8 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
         except NotExactError as reason:
             raise NotAStatementError(str(reason)) from None
         return
+    if isinstance(node, _MOMENTS) and any(one.has(*_MOMENTS) for one in node.args):
+        raise NotAStatementError("a moment of a moment")
     if isinstance(node, sympy.Pow):
         _check_power(node, where)
     elif not (isinstance(node, (*_READ, sympy.Rational)) or node.is_Symbol) or (
@@ -183,7 +191,8 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
         _check(argument, where, outer)
 
 
-_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces)
+_MOMENTS = (sy.Moment, sy.LargestShare, sy.LargestWeight)
+_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, *_MOMENTS)
 _QUANTITIES = {
     *FORCES, sy.DeltaNMinus, sy.DeltaNPlus, sy.DeltaR, sy.DeltaX, sy.Load, sy.Position,
     sy.SecondDifference,
@@ -399,6 +408,7 @@ def _put_in(
     return node.xreplace(image) if image else node
 
 
+@lru_cache(maxsize=20_000)
 def _instance_of(
     theorem: Theorem, atom: sy.SiteFunction, where: Where, background: Facts
 ) -> sympy.Expr | None:
@@ -423,7 +433,7 @@ def _renamed(value: sympy.Expr, image: Mapped, where: Where) -> sympy.Expr:
     for series in value.atoms(sympy.Sum):
         if taken & {limit[0] for limit in series.limits}:
             (index,) = {limit[0] for limit in series.limits}
-            spare = [one for one in SUMMATION if one not in taken and not series.has(one)]
+            spare = [one for one in _SPARE if one not in taken and not series.has(one)]
             if not spare:
                 raise NotProvedError(f"{text(index)} would have two meanings")
             value = value.xreplace({series: series.xreplace({index: spare[0]})})
@@ -470,7 +480,7 @@ def applies(theorem: Theorem, image: Mapped, where: Where, background: Facts) ->
     Indices of which the image does not speak stand for themselves.
     """
     own = theorem.where
-    if own.dimension != where.dimension:
+    if own.dimension != where.dimension or own.limit is not None:
         return False
     for one in own.relations:
         moved = one.func(*(side.xreplace(image) for side in one.args), evaluate=False)

@@ -90,6 +90,38 @@ class Loading:
 
 
 @dataclass(frozen=True)
+class Limit:
+    """How indices grow together, and how a statement relates its sides then.
+
+    Attributes:
+        relation: "∼": left over right goes to 1; "O": left over right stays bounded; "≈": the
+            variance of left less right is of a lower order than that of the force it is about; "∝":
+            left over right goes to a function of φ; "≈ by weight": the largest weight of left less
+            right is of a lower order than that of left.
+        words: the same in plain words, such as "M → ∞ at fixed z = j/M, 0 < z < 1".
+        growing: the indices that grow.
+        positive: as many sums of them, which all grow in fixed positive ratios; uniformly so while
+            the ratios, and φ, stay within closed parts of their ranges.
+    """
+
+    relation: str
+    words: str
+    growing: tuple[sympy.Symbol, ...]
+    positive: tuple[sympy.Expr, ...]
+
+
+def at_fixed_height(relation: str) -> Limit:
+    """The limit M → ∞ at a fixed relative height z = j/M between base and surface."""
+    words = "M → ∞ at fixed z = j/M, 0 < z < 1"
+    return Limit(relation, words, (sy.M, sy.j), (sy.j, sy.M - sy.j))
+
+
+def in_a_layer(relation: str) -> Limit:
+    """The limit M → ∞ of a layer at a fixed distance from base or surface."""
+    return Limit(relation, "M → ∞ in a fixed layer", (sy.M,), (sy.M,))
+
+
+@dataclass(frozen=True)
 class Where:
     """The domain of a statement.
 
@@ -99,6 +131,7 @@ class Where:
         loading: what is known of loads and forces; None for a statement about geometry alone.
         even: sums of indices that are even, since beads are there: i + j of a bead (i, j).
         dimension: of the packing: −1/dimension < φ < ½.
+        limit: in which the statement holds, and not at finite size; None for most.
     """
 
     indices: tuple[sympy.Symbol, ...] = ()
@@ -106,11 +139,19 @@ class Where:
     loading: Loading | None = None
     even: tuple[sympy.Expr, ...] = ()
     dimension: int = 2
-    _rows: frozenset[Affine] = field(init=False, repr=False)
+    limit: Limit | None = None
+    rows: frozenset[Affine] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         rows = frozenset(row for one in self.relations for row in _rows_of(one))
-        object.__setattr__(self, "_rows", rows)
+        object.__setattr__(self, "rows", rows)
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.indices, self.relations, self.loading, self.even, self.limit))
 
     @classmethod
     def of(
@@ -118,6 +159,7 @@ class Where:
         *relations: sympy.Basic,
         indices: Iterable[sympy.Symbol] = (),
         loading: Loading | None = None,
+        limit: Limit | None = None,
     ) -> "Where":
         """The domain of all indices that the relations and the load speak of, and further ones.
 
@@ -129,7 +171,8 @@ class Where:
         beads = [bead for bead in LATTICE if held & set(bead)]
         held = held.union(*beads)
         ordered = tuple(symbol for symbol in sy.INDICES if symbol in held)
-        return cls(ordered, relations, loading, tuple(across + layer for across, layer in beads))
+        even = tuple(across + layer for across, layer in beads)
+        return cls(ordered, relations, loading, even, limit=limit)
 
     def also(self, *relations: sympy.Basic, indices: Iterable[sympy.Symbol] = ()) -> "Where":
         """The part of it where further relations hold, in further indices."""
@@ -149,6 +192,10 @@ class Where:
     def loaded(self, loading: Loading | None) -> "Where":
         """The same indices under another load."""
         return replace(self, loading=loading)
+
+    def in_the_limit(self, limit: Limit | None) -> "Where":
+        """The same indices in a limit, or (None) at finite size."""
+        return replace(self, limit=limit)
 
     def within(self, index: sympy.Symbol, low: sympy.Expr, high: sympy.Expr) -> "Where":
         """The domain of the terms of a sum."""
@@ -180,11 +227,22 @@ class Where:
         """Whether an affine expression is ≥ 0 on all of the domain."""
         if not any(value[:-1]):
             return value[-1] >= 0 or self.is_empty
-        return _infeasible(self._rows | {affine.shifted(affine.times(value, -1), -1)})
+        return _infeasible(self.rows | {affine.shifted(affine.times(value, -1), -1)})
 
     def below(self, left: Affine, right: Affine) -> bool:
         """Whether left < right on all of the domain."""
         return self.nonnegative(affine.shifted(affine.add(right, left, -1), -1))
+
+    def differ(self, left: Affine, right: Affine) -> bool:
+        """Whether left ≠ right on all of the domain: one is larger, or one is odd, one even."""
+        apart = affine.add(left, right, -1)
+        if not any(apart[:-1]):
+            return apart[-1] != 0 or self.is_empty
+        return (
+            self.below(left, right)
+            or self.below(right, left)
+            or self.is_even(affine.shifted(apart, 1))
+        )
 
     def implies(self, relation: sympy.Basic) -> bool:
         """Whether a relation between whole numbers holds on all of the domain."""
@@ -195,16 +253,16 @@ class Where:
     @cached_property
     def is_empty(self) -> bool:
         """Whether no point is in it."""
-        return _infeasible(self._rows)
+        return _infeasible(self.rows)
 
     def covered_by(self, parts: Iterable["Where"]) -> bool:
         """Whether no integer point of it is left out by all of the parts."""
-        left = [self._rows]
+        left = [self.rows]
         for part in parts:
             left = [
                 rows | {affine.shifted(affine.times(row, -1), -1)}
                 for rows in left
-                for row in part._rows
+                for row in part.rows
                 if row not in rows
             ]
             left = [rows for rows in left if not _infeasible(rows)]
@@ -307,7 +365,7 @@ class Where:
         numbers = [at.get(symbol, 0) for symbol in sy.INDICES]
         return all(
             sum(c * n for c, n in zip(row, numbers, strict=False)) + row[-1] >= 0
-            for row in self._rows
+            for row in self.rows
         )
 
     def in_words(self) -> tuple[str, ...]:
@@ -316,7 +374,8 @@ class Where:
             " ".join(_SIGNS[one] if isinstance(one, type) else text(one) for one in chain)
             for chain in self._chains()
         ]
-        return (*shown, *([self.loading.words] if self.loading else []))
+        further = [one.words for one in (self.loading, self.limit) if one]
+        return (*shown, *further)
 
     def _chains(self) -> Iterator[list[sympy.Basic | type]]:
         """Relations that go on where the one before ends, as sides and kinds in turn."""
@@ -441,3 +500,19 @@ SURFACE = Loading(
     ),
 )
 """A load on the surface of a packing of height M."""
+
+BULK = Loading(
+    "bulk",
+    "each bead above the base carries its weight mg straight down, and nothing lies above j = M",
+    (sy.M,),
+    (),
+    (
+        (
+            sympy.Eq(sy.Load(*_BEAD), -sy.m_g * sy.e_y, evaluate=False),
+            (sy.site_s >= 1, sy.site_s <= sy.M),
+        ),
+        (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.M),)),
+        (_zero(_MINUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.M),)),
+    ),
+)
+"""A weight on every bead of a packing of height M."""

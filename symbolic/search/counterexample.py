@@ -10,7 +10,15 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.where import LATTICE, Loading, Where
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search.dual import NOWHERE, Dual, Number, TooLargeError, Vector
+from force_diffusion.symbolic.search import limits
+from force_diffusion.symbolic.search.dual import (
+    NOWHERE,
+    Dual,
+    Number,
+    TooLargeError,
+    Vector,
+    Weights,
+)
 from force_diffusion.symbolic.search.packing import (
     AbsentError,
     BelowError,
@@ -97,16 +105,26 @@ def _packing(world: World, name: str | None, place: tuple[int, ...]) -> Packing:
     return Packing(world.geometry, given(name, place, f_load, m_g))
 
 
-def counterexample(statement: sympy.Eq, where: Where, *, at_most: int | None = None) -> str | None:
+def counterexample(
+    statement: sympy.Eq,
+    where: Where,
+    *,
+    at_most: int | None = None,
+    force: sympy.Eq | None = None,
+) -> str | None:
     """Words for values at which a statement is false or has no value; None where none is found.
 
     All points of ``points`` are tried, or ``at_most`` so many of them. Points at which it speaks of
-    a bead below the base say nothing, unless all do.
+    a bead below the base say nothing, unless all do. A statement in a limit is looked at where the
+    indices are large; its moments have to be worked out before, and ``force`` says what the force
+    is that it is about.
 
     What can't be evaluated is not refuted: unknown symbols, floats and roots, a number beside a
     vector, a sum whose upper bound is below its lower one by more than one, what is too large.
     """
     try:
+        if where.limit:
+            return limits.counterexample(statement, where, force)
         return _search(statement, where, at_most)
     except Exception:  # whatever the tree, also one that is too deep for Python: nothing is found
         return None
@@ -245,6 +263,7 @@ def _shown(value: Dual | Vector) -> str:
         return f"({_shown(value.x)}, {_shown(value.y)})"
     if not value.slope:
         return _exact(value.value)
+    assert not isinstance(value.slope, Weights)  # these stay within a moment
     size = _exact(-value.slope if value.slope < 0 else value.slope)
     part = f"{'' if size == '1' else f'({size})' if '/' in size else size}ε"
     sign = "−" if value.slope < 0 else "+"

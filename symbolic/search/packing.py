@@ -8,9 +8,17 @@ a loading leaves open, loads and forces from above alike, is drawn, so that noth
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cache
+from functools import cache, cached_property
 
-from force_diffusion.symbolic.search.dual import NOWHERE, ZERO, Dual, TooLargeError, Vector
+from force_diffusion.symbolic.search.dual import (
+    NOWHERE,
+    ZERO,
+    Dual,
+    Slope,
+    TooLargeError,
+    Vector,
+    Weights,
+)
 
 Site = tuple[int, int]
 Branch = str
@@ -68,18 +76,24 @@ class Geometry:
     Attributes:
         n: (n_x, n_y) of the ordered contacts, rational.
         radius: r.
+        one_by_one: whether slopes are the weights of all radii, instead of radii being drawn.
     """
 
     n: tuple[Fraction, Fraction]
     radius: Fraction
+    one_by_one: bool = False
     _positions: dict[Site, Vector] = field(default_factory=dict, repr=False, compare=False)
     _directions: dict[tuple[Branch, int, int], Vector] = field(
         default_factory=dict, repr=False, compare=False
     )
 
+    def deviation(self, across: int, layer: int) -> Slope:
+        """δr of a bead."""
+        return Weights({(across, layer): 1}) if self.one_by_one else drawn(across, layer)
+
     def radius_of(self, across: int, layer: int) -> Dual:
         """Radius of a bead."""
-        return Dual(self.radius, drawn(across, layer))
+        return Dual(self.radius, self.deviation(across, layer))
 
     def ordered(self, across: int, layer: int) -> Vector:
         """Position of a bead of the ordered packing: touching ones are 2r apart along n^±."""
@@ -223,6 +237,11 @@ class Packing:
     given: Given
     _below: dict[Site, tuple[Dual, Dual]] = field(default_factory=dict, repr=False, compare=False)
 
+    @cached_property
+    def by_radius(self) -> "Packing":
+        """The same, with the weights of all radii as slopes."""
+        return Packing(replace(self.geometry, one_by_one=True), self.given)
+
     def beads(self) -> int:
         """How many beads have been laid or balanced so far."""
         return len(self.geometry._positions) + len(self._below)
@@ -281,9 +300,9 @@ class Packing:
         """
         self._look_for(across, layer)
         if kind == "DeltaR":
-            return Dual(0, drawn(across, layer))
+            return Dual(0, self.geometry.deviation(across, layer))
         if kind == "SecondDifference":
-            left, here, right = (drawn(across + by, layer) for by in (-2, 0, 2))
+            left, here, right = (self.geometry.deviation(across + by, layer) for by in (-2, 0, 2))
             return Dual(0, 2 * here - left - right)
         if kind == "Position":
             return self.geometry.ordered(across, layer)

@@ -11,7 +11,15 @@ from fractions import Fraction
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search.dual import NOWHERE, ZERO, Dual, Number, Vector
+from force_diffusion.symbolic.search.dual import (
+    NOWHERE,
+    ZERO,
+    Dual,
+    NotOfRadiiError,
+    Number,
+    Vector,
+    Weights,
+)
 from force_diffusion.symbolic.search.packing import AbsentError, Packing
 
 HIGHEST_POWER = 64
@@ -112,7 +120,26 @@ class Evaluator:
             a, b, c, d = map(self._number, node.args[:4])
             v = self._vector(node.args[4])
             return Vector(a * v.x + b * v.y, c * v.x + d * v.y)
+        if isinstance(node, sy.Moment):
+            return Dual(self._moment(node))
         raise UnreadableError(f"{type(node).__name__} is not evaluated")
+
+    def _moment(self, node: sy.Moment) -> Number:
+        """A moment over radii of variance σ², by the weight of each of them."""
+        each = Evaluator(self.packing.by_radius, self.numbers, self.budget)
+        try:
+            values = [each._number(argument) for argument in node.args]
+        except NotOfRadiiError as reason:
+            raise UnreadableError(f"{_brief(node)} has no value: {reason}") from None
+        if isinstance(node, sy.Mean):
+            return values[0].value
+        first, last = values[0].slope, values[-1].slope
+        if not (isinstance(first, Weights) and isinstance(last, Weights)):
+            if first and last:
+                raise UnreadableError(f"{_brief(node)} changes with what is no radius")
+            return 0
+        self._spend(len(first.by_site))
+        return first.times(last) * self._plain(sy.sigma) ** 2
 
     def _spend(self, reads: int) -> None:
         self.budget.left -= reads

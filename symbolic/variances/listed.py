@@ -6,11 +6,11 @@ from itertools import pairwise
 
 import sympy
 from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.affine import Affine, Region
+from force_diffusion.symbolic.algebra.affine import Affine
 from force_diffusion.symbolic.algebra.exact import LAYER, RationalFunction
 from force_diffusion.symbolic.as_printed import power, terms, times
 from force_diffusion.symbolic.symbols import DeltaR, M, j, m
-from force_diffusion.symbolic.variances.weights import Pieces, Run
+from force_diffusion.symbolic.variances.weights import Order, Pieces, Run
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Weight:
         return sympy.Sum(body, self.limits) if self.limits else body
 
 
-def weights(pieces: Pieces, region: Region, unit: RationalFunction) -> Iterator[Weight]:
+def weights(pieces: Pieces, region: Order, unit: RationalFunction) -> Iterator[Weight]:
     """The weights of a form times ``unit``, taken apart: along the diagonals, then site by site."""
     for run in pieces.runs:
         layers = [site.j for site in pieces.special if run.ray.site(site.j) == site]
@@ -65,7 +65,7 @@ LONG = 4
 """Terms of a factor that still reads well as it is."""
 
 
-def _between(run: Run, layers: list[Affine], region: Region) -> Iterator[tuple[Affine, Affine]]:
+def _between(run: Run, layers: list[Affine], region: Order) -> Iterator[tuple[Affine, Affine]]:
     """The layers of a run but for those listed, in stretches."""
 
     def below(one: Affine, other: Affine) -> bool:

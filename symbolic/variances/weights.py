@@ -10,9 +10,10 @@ says which relation.
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import pairwise
+from typing import Protocol
 
 from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.affine import Affine, Region
+from force_diffusion.symbolic.algebra.affine import Affine
 from force_diffusion.symbolic.algebra.exact import (
     FIELD,
     LAYER,
@@ -21,6 +22,19 @@ from force_diffusion.symbolic.algebra.exact import (
     sum_polynomial,
 )
 from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm, Ray, Site
+
+
+class Order(Protocol):
+    """A domain of indices, in which layers and lines are compared."""
+
+    def nonnegative(self, value: Affine) -> bool:
+        """Whether value ≥ 0 everywhere."""
+
+    def below(self, left: Affine, right: Affine) -> bool:
+        """Whether left < right everywhere."""
+
+    def differ(self, left: Affine, right: Affine) -> bool:
+        """Whether left ≠ right everywhere."""
 
 
 class UndeterminedError(NotExactError):
@@ -62,7 +76,7 @@ class Pieces:
         return total
 
 
-def take_apart(form: LinearForm, region: Region) -> Pieces:
+def take_apart(form: LinearForm, region: Order) -> Pieces:
     """Disjoint pieces of a form.
 
     Raises:
@@ -98,7 +112,7 @@ def _lines(form: LinearForm) -> list[tuple[str, int, Affine]]:
     return list(dict.fromkeys((ray.family, ray.slope, ray.line) for ray in form.rays))
 
 
-def _runs(line: tuple[str, int, Affine], form: LinearForm, region: Region) -> list[Run]:
+def _runs(line: tuple[str, int, Affine], form: LinearForm, region: Order) -> list[Run]:
     rays = [ray for ray in form.rays if (ray.family, ray.slope, ray.line) == line]
 
     def order(one: Ray, other: Ray) -> int:
@@ -133,7 +147,7 @@ def _crossing(one: Ray, other: Ray) -> Site | None:
     return plus.site(tuple(c // 2 for c in twice))
 
 
-def _meets(site: Site, run: Run, region: Region) -> bool:
+def _meets(site: Site, run: Run, region: Order) -> bool:
     """Decide whether a run passes through a site: always in the region, or never."""
     if site.family != run.ray.family or _outside(site, run, region):
         return False
@@ -148,7 +162,7 @@ def _meets(site: Site, run: Run, region: Region) -> bool:
     )
 
 
-def _assert_lines_apart(runs: tuple[Run, ...], region: Region) -> None:
+def _assert_lines_apart(runs: tuple[Run, ...], region: Order) -> None:
     """Two runs of parallel lines must lie on different lines, or in different layers."""
     for a, one in enumerate(runs):
         for other in runs[:a]:
@@ -167,11 +181,11 @@ def _assert_lines_apart(runs: tuple[Run, ...], region: Region) -> None:
                 )
 
 
-def _outside(site: Site, run: Run, region: Region) -> bool:
+def _outside(site: Site, run: Run, region: Order) -> bool:
     return region.below(site.j, run.first) or region.below(run.last, site.j)
 
 
-def _inside(site: Site, run: Run, region: Region) -> bool:
+def _inside(site: Site, run: Run, region: Order) -> bool:
     above = affine.add(site.j, run.first, -1)
     below = affine.add(run.last, site.j, -1)
     if region.nonnegative(above) and region.nonnegative(below):
@@ -184,7 +198,7 @@ def _inside(site: Site, run: Run, region: Region) -> bool:
     )
 
 
-def _assert_distinct(sites: list[Site], region: Region) -> None:
+def _assert_distinct(sites: list[Site], region: Order) -> None:
     for a, one in enumerate(sites):
         for other in sites[:a]:
             if one.family == other.family and not (

@@ -8,15 +8,15 @@ from typing import Any
 
 import pytest
 import sympy
-from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.loading import load
+from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine, signs
+from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
 from force_diffusion.symbolic.algebra.reading import read_with
-from force_diffusion.symbolic.kernel import decisions, rules, theorem
+from force_diffusion.symbolic.kernel import decisions, limits, moments, rules, theorem
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, proved, refuted
-from force_diffusion.symbolic.variances import orders
 
 from force_diffusion.__main__ import main
 
@@ -26,7 +26,14 @@ Plant = pytest.MonkeyPatch
 
 @pytest.fixture(autouse=True)
 def _nothing_is_remembered() -> Iterator[None]:
-    remembering = (signs.sign, read_with)
+    remembering = (
+        signs.sign,
+        read_with,
+        moments.value,
+        moments.worked_out,
+        moments.in_the_radii,
+        theorem._instance_of,
+    )
     for one in remembering:
         one.cache_clear()
     yield
@@ -122,8 +129,13 @@ def test_vectors_are_compared_in_part(
 
 
 def test_eq_12_keeps_an_order_too_many(derive: Callable[..., Any], monkeypatch: Plant) -> None:
-    kept = eq12.variance_kept
-    monkeypatch.setattr(eq12, "variance_kept", lambda candidate: kept(candidate) + 1)
+    one_force = limits._one_force
+
+    def larger(*about: Any) -> Any:
+        force, factor = one_force(*about)
+        return force, factor * FIELD.generator(sy.M)
+
+    monkeypatch.setattr(limits, "_one_force", larger)
     status, _, said = derive(12)
     assert status == 1
     assert said.startswith(FAULT)
@@ -131,14 +143,10 @@ def test_eq_12_keeps_an_order_too_many(derive: Callable[..., Any], monkeypatch: 
 
 @pytest.mark.parametrize("number", [13, 14])
 def test_an_order_too_many(derive: Callable[..., Any], monkeypatch: Plant, number: int) -> None:
-    order, forms = (
-        orders.order,
-        load(number).exact
-        and import_module(f"force_diffusion.derivations.{modules()[number]}").exact_forms(),
-    )
-    exact = forms["interior"].value
+    """Of what something is to be small against: the printed form holds φ in its divisor alone."""
+    order, phi = limits.order, FIELD.position[sy.phi]
     monkeypatch.setattr(
-        orders, "order", lambda value, *sizes: order(value, *sizes) + (value is exact)
+        limits, "order", lambda one, limit: order(one, limit) + (one.numerator.degrees()[phi] == 0)
     )
     status, _, said = derive(number)
     assert status == 1

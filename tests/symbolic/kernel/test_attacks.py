@@ -16,6 +16,7 @@ from force_diffusion.symbolic.kernel.where import Where
 RULES = {
     "statement", "rewrite", "follows", "along", "order", "solve", "below", "cases", "instance",
     "in_terms_of", "mirror", "suppose", "induct", "reach", "walk", "inverse", "differentiate",
+    "moment", "asymptotic",
 }  # fmt: skip
 
 

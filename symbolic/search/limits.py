@@ -6,7 +6,7 @@ size and its square; both are far beyond the coefficients of any formula. Of sum
 variance is a polynomial in the height, whose differences tell how it grows.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise, product
@@ -14,6 +14,8 @@ from itertools import pairwise, product
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.kernel.where import Limit, Where
+from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.printing.text import text
 
 HIGHEST_POWER = 20
@@ -25,6 +27,7 @@ DIRECTIONS = tuple(
     for x, y, length in ((3, 4, 5), (4, 3, 5), (20, 21, 29), (21, 20, 29), (119, 120, 169))
 )
 
+_SHARE = Fraction(1, 10**30)  # of what is of a lower order, far less is left at these sizes
 _LOW = Fraction(1, 3)
 
 Place = Mapping[sympy.Symbol, Fraction]
@@ -88,10 +91,37 @@ def parts_in_the_limit(
             except explicit.AmbiguousError:
                 return None
             true = _number(exact, tuple(values.items()))
-            shares.append(abs(found - true) / true)
-        if shares[1] > Fraction(1, 1000) and shares[1] * 10 > shares[0]:
+            shares.append(abs((found - true) / true))
+        if shares[1] > _SHARE and shares[1] * 10 > shares[0]:
             return f"at {where}, size = 10²⁰⁰, it differs by the share {float(shares[1]):.3g}"
     return None
+
+
+def counterexample(statement: sympy.Eq, where: Where, force: sympy.Eq | None = None) -> str | None:
+    """Where the sides of a statement in a limit, all moments put in, part; or None.
+
+    ``force`` gives f⁺_ij in units of f_load/2n_y, in the radii, for what drops a part of it.
+    """
+    limit = where.limit
+    if limit and limit.relation == "≈" and force is not None:
+        return varies_too_much(force.rhs, statement)
+    left, right = (side.xreplace(where.solved) for side in statement.args)
+    if limit is None or limit.relation != "∼" or not _is_rational(left):
+        return None
+    return parts_in_the_limit(left, right, _places(limit), where.dimension)
+
+
+@cache
+def _places(limit: Limit) -> tuple[Place, ...]:
+    """How the indices grow, as multiples of one size: what is positive in some fixed ratios."""
+    ratios = [(one, 1 - one) for one in HEIGHTS] if len(limit.positive) == 2 else [(Fraction(1),)]
+    found = []
+    for ratio in ratios:
+        rows = (one - sympy.Rational(c) for one, c in zip(limit.positive, ratio, strict=True))
+        (at,) = sympy.linsolve(list(rows), *limit.growing)
+        multiples = (Fraction(int(c.p), int(c.q)) for c in at)
+        found.append(dict(zip(limit.growing, multiples, strict=True)))
+    return tuple(found)
 
 
 LAYERS: tuple[Place, ...] = tuple({sy.M: Fraction(1), sy.j: z} for z in HEIGHTS)
@@ -168,6 +198,8 @@ def varies_too_much(exact: sympy.Expr, candidate: sympy.Eq) -> str | None:
                 return None
             if mean := total.pop(("", 0, 0), 0):
                 return f"at {where} the two sides differ by {mean} in the ordered packing"
+            if not factor:
+                return None
             dropped.append(sum((w**2 for w in total.values()), Fraction(0)))
             factors.append(factor)
             kept = 3 + 2 * _degree(factors)
@@ -210,17 +242,26 @@ def _is_polynomial(candidate: sympy.Eq) -> bool:
 def _in_radii(
     exact: sympy.Expr, candidate: sympy.Eq, values: explicit.Values
 ) -> tuple[explicit.Weights, Fraction]:
-    """Weights of left less right side, the force put in; and the factor of that force."""
+    """Weights of left less right side, the force put in; and its factor, 0 where there is none."""
     left, right = (explicit.weights(side, values) for side in candidate.args)
     total = {key: left.get(key, 0) - right.get(key, 0) for key in {**left, **right}}
-    forces = [key for key in total if key[0] in ("ForcePlus", "ForceMinus") and total[key]]
-    if [key[0] for key in forces] != ["ForcePlus"]:
-        raise explicit.AmbiguousError("it is not about one force f⁺")
-    (_, across, layer), factor = forces[0], total.pop(forces[0]) / (2 * values[sy.n_y])
+    forces = [key for key in total if key[0] in _BRANCHES and total[key]]
+    if not forces:
+        return {key: Fraction(w) for key, w in total.items() if w}, Fraction(0)
+    if len(forces) != 1:
+        raise explicit.AmbiguousError("it is about several forces")
+    (branch, across, layer), factor = forces[0], total.pop(forces[0]) / (2 * values[sy.n_y])
     frozen = tuple(sorted(({**values, sy.i: across, sy.j: layer}).items(), key=str))
-    for key, weight in _force(exact, frozen).items():
+    for key, weight in _force(_BRANCHES[branch](exact), frozen).items():
         total[key] = total.get(key, Fraction(0)) + Fraction(factor) * weight
     return {key: Fraction(w) for key, w in total.items() if w}, Fraction(factor)
+
+
+_BRANCHES: dict[str, Callable[[sympy.Expr], sympy.Expr]] = {
+    "ForcePlus": lambda exact: exact,
+    "ForceMinus": cache(mirror),
+}
+"""What a force of either branch is, by that along n⁺."""
 
 
 @cache

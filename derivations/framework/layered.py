@@ -1,0 +1,255 @@
+"""A moment at every layer of a packing, as a derivation tells it: weights, squares, closed forms.
+
+One theorem for the interior, one for each edge, one for each small packing that has a value of its
+own; each with its ``where``, from which users get the range of the closed form.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import sympy
+from force_diffusion.derivations.framework.proving import (
+    Line,
+    Lines,
+    Meaning,
+    Proved,
+    Source,
+    asymptotic,
+    bounded,
+    facts_of,
+    in_place,
+    moment,
+    rewrite,
+)
+from force_diffusion.derivations.framework.record import ExactCase, Missed
+from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
+from force_diffusion.symbolic.as_printed import equation, minus, terms, times
+from force_diffusion.symbolic.kernel import moments
+from force_diffusion.symbolic.kernel.where import (
+    Loading,
+    Where,
+    at_fixed_height,
+    in_a_layer,
+)
+from force_diffusion.symbolic.symbols import LargestShare, M, Moment, j, phi, r, sigma
+from force_diffusion.symbolic.variances.listed import listed, squares, weights
+from force_diffusion.symbolic.variances.variance import CASES, ClosedForm
+
+SCALE = r * (1 - phi**2)
+"""What the change of a force over its mean is multiplied by when its weights are shown."""
+
+UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
+"""What variances of forces over their mean squared are numbers and powers of M times."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """Some layers with one closed form.
+
+    Attributes:
+        validity: which, in words.
+        relations: the same as relations; equations fix the layer at an edge.
+        missed: packings (M, j) of these layers with a value of their own.
+    """
+
+    validity: str
+    relations: tuple[sympy.Basic, ...]
+    missed: tuple[tuple[int, int], ...] = ()
+
+    @property
+    def layers(self) -> tuple[sympy.Basic, ...]:
+        """The relations of the closed form and of what it misses together."""
+        fixed = tuple(one for one in self.relations if isinstance(one, sympy.Eq))
+        return fixed if self.missed else self.relations
+
+
+def _case(name: str) -> Case:
+    at, region, validity, heights = CASES[name]
+    edge = [sympy.Eq(symbol, value) for symbol, value in at.items()]
+    bounds = [sympy.Ge(symbol, bound) for symbol, bound in region.lower_bounds.items()]
+    missed = [(size, int(at[j].xreplace({M: sympy.Integer(size)}))) for size in heights]
+    return Case(validity, (*edge, *bounds), tuple(missed))
+
+
+EVERY_LAYER: Mapping[str, Case] = {name: _case(name) for name in CASES}
+"""All layers 0 ≤ j < M of a contact: the interior, both edges, and small packings."""
+
+
+@dataclass(frozen=True, eq=False)
+class Layered:
+    """A mean, a variance or a covariance at every layer.
+
+    Attributes:
+        symbol: what is printed for it.
+        moment: what that is, such as ``Variance(f⁺_ij/⟨f⟩)``.
+        facts: what gives its forces in the radii, to be put in one after the other.
+        loading: of the packing; a load's direction is a symbol of the facts.
+        meaning: of further symbols in the moment.
+        cases: the layers, the interior first.
+    """
+
+    symbol: sympy.Expr
+    moment: Moment
+    facts: tuple[Source, ...]
+    loading: Loading
+    meaning: Meaning = field(default_factory=dict)
+    cases: Mapping[str, Case] = field(default_factory=lambda: EVERY_LAYER)
+
+    @property
+    def meant(self) -> Meaning:
+        """What a line's symbols stand for."""
+        return {self.symbol: self.moment, **self.meaning}
+
+    def where(self, case: str = "interior") -> Where:
+        """The domain of a closed form."""
+        return Where.of(*self.cases[case].relations, loading=self.loading)
+
+    @property
+    def in_the_limit(self) -> Where:
+        """The domain of what the interior goes as at a fixed relative height."""
+        return self._large("interior", "∼")
+
+    def _small(self, height: int, layer: int) -> Where:
+        return Where.of(sympy.Eq(j, layer), sympy.Eq(M, height), loading=self.loading)
+
+    def _value(self, where: Where) -> RationalFunction:
+        return moments.value(in_place(self.moment, self.meaning), facts_of(self.facts), where)
+
+    @cached_property
+    def forms(self) -> dict[str, ClosedForm]:
+        """The closed form of every case, as it is found; the lines say that it is right."""
+        found = {}
+        for name, case in self.cases.items():
+            small = [(*at, self._value(self._small(*at)).to_sympy()) for at in case.missed]
+            found[name] = ClosedForm(case.validity, tuple(small), self._value(self.where(name)))
+        return found
+
+    def exact(self, to_order: str = "first order") -> dict[str, ExactCase]:
+        """The closed forms as users get them."""
+        return {
+            name: ExactCase(
+                self.symbol,
+                form.validity,
+                form.expression,
+                domain=self.cases[name].layers,
+                missed=tuple(
+                    Missed(f"M = {size}, j = {at}", (sympy.Eq(M, size), sympy.Eq(j, at)), value)
+                    for size, at, value in form.exceptions
+                ),
+                to_order=to_order,
+            )
+            for name, form in self.forms.items()
+        }
+
+    # lines
+
+    def show_weights(
+        self, lines: Lines, scale: sympy.Expr = SCALE, factor: Sequence[sympy.Expr] = ()
+    ) -> Line:
+        """Show every radius of a variance with its weight, and the weights squared.
+
+        ``scale`` is what the deviation from 1 is multiplied by, in factors of the paper's order.
+        """
+        (ratio,) = self.moment.args
+        where, facts = self.where(), facts_of(self.facts)
+        form = moments.in_the_radii(in_place(ratio, self.meaning), facts, where)
+        found_in = moments.pieces(form, where)
+        found = list(weights(found_in, where, FIELD.from_sympy(scale)))
+        shown = times(*(factor or (r, terms(1, -(phi**2)))), terms(ratio, -1))
+        every = lines.show(
+            f"Exact, for {self.cases['interior'].validity}: every radius once, with its weight.",
+            equation(shown, listed(found)),
+            rewrite(*self.facts),
+            where=where,
+            meaning=self.meaning,
+        )
+        return lines.show(
+            "Every weight squared:",
+            equation(self.symbol, times((sigma / scale) ** 2, squares(found))),
+            moment(*self.facts),
+            where=where,
+            meaning=self.meant,
+            after=(every,),
+        )
+
+    def show_forms(self, lines: Lines, how: str, *after: Proved) -> Line:
+        """Show the closed form of every layer, and the small packings with a value of their own.
+
+        ``how`` they come about; the one in the interior, which is returned, comes ``after``.
+        """
+        shown: list[Line] = []
+        place = "in the interior"
+        for name, form in self.forms.items():
+            shown.append(
+                lines.show(
+                    f"Exact {place}, {form.validity}: {how}.",
+                    equation(self.symbol, form.expression),
+                    moment(*self.facts),
+                    where=self.where(name),
+                    meaning=self.meant,
+                    after=() if shown else after,
+                )
+            )
+            place = "at the edge"
+        for size, at, value in self._exceptions():
+            lines.show(
+                f"The packing M = {size}, j = {at} is none of these:",
+                equation(self.symbol, value),
+                moment(*self.facts),
+                where=self._small(size, at),
+                meaning=self.meant,
+            )
+        return shown[0]
+
+    def _exceptions(self) -> Iterator[tuple[int, int, sympy.Expr]]:
+        yield from dict.fromkeys(one for form in self.forms.values() for one in form.exceptions)
+
+    def show_leading(self, lines: Lines, reason: str, formula: sympy.Eq, *after: Proved) -> Line:
+        """Show what it goes as at a fixed relative height."""
+        return lines.show(
+            reason,
+            formula,
+            asymptotic(*self.facts),
+            where=self.in_the_limit,
+            meaning=self.meant,
+            after=after,
+        )
+
+    def show_next(
+        self, lines: Lines, printed: sympy.Expr, following: sympy.Expr, *after: Proved
+    ) -> Line:
+        """Show what it has beyond its printed leading order, in units of ``UNIT``."""
+        return self.show_leading(
+            lines,
+            "The next order in M at fixed z:",
+            equation(terms(self.symbol, minus(printed)), times(UNIT, following)),
+            *after,
+        )
+
+    def claim_edges(self, lines: Lines, name: str, **goes_as: sympy.Expr) -> None:
+        """Claim what the closed forms of edges go as, by the case."""
+        lines.claim(
+            name,
+            sympy.Tuple(*(equation(self.symbol, one) for one in goes_as.values())),
+            asymptotic(*self.facts),
+            where=tuple(self._large(case, "∼") for case in goes_as),
+            meaning=self.meant,
+        )
+
+    def claim_shares(self, lines: Lines) -> None:
+        """Claim that no radius dominates, inside and at the edges."""
+        (ratio,) = self.moment.args
+        lines.claim(
+            "at fixed z, and in the layers next to base and surface, no radius has more than "
+            "O(1/M) of the variance: what Lindeberg's theorem needs",
+            sympy.Tuple(*(equation(LargestShare(ratio), 1 / M) for _ in self.cases)),
+            bounded(*self.facts),
+            where=tuple(self._large(case, "O") for case in self.cases),
+            meaning=self.meaning,
+        )
+
+    def _large(self, case: str, relation: str) -> Where:
+        where = self.where(case)
+        limit = in_a_layer(relation) if where.solved else at_fixed_height(relation)
+        return where.in_the_limit(limit)
