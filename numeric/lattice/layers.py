@@ -7,7 +7,7 @@ q of layer j is i = 2q + (j mod 2), 0 ≤ i < 2W. Lengths are in units of the me
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from math import isqrt
 from typing import Any, TypeVar, overload
 
@@ -181,10 +181,6 @@ class Region:
         p, q, j = bead_of((layer.first + 2 * column, layer.j), self.side)
         return AxisContact(*lower_bead((p, q, j), branch, self.side), Axis(branch))
 
-    def below(self, values: Array, source: Layer, layer: Layer, axis: int) -> Array:
-        """Read the values of the row below at x − e_axis, for each x of ``layer``."""
-        return self.moved(values, source, layer, self.step(axis, -1))
-
     def above(self, values: Array, source: Layer, layer: Layer, axis: int, zero: Any) -> Array:
         """Read the values of the row above at x + e_axis; what it lacks reads ``zero``."""
         return self.moved(values, source, layer, self.step(axis, 1), zero)
@@ -210,15 +206,17 @@ class Region:
         Shapes: (…, source.count) → (…, layer.count). Sites that ``source`` lacks read ``zero``;
         without a ``zero`` they raise ``LookupError``.
         """
+        return self.look(source, layer, steps, zero)(values)
+
+    def look(
+        self, source: Layer, layer: Layer, steps: tuple[int, ...], zero: Any = None
+    ) -> Callable[[Array], Array]:
+        """Give the function that reads so whatever belongs to the row ``source``."""
         if self.dimension == 2:
             first = layer.first + steps[0] - steps[1]
             wanted = Layer(layer.j + sum(steps), first, layer.count)
-            return pick(values, source, wanted, self.width, zero)
-        if not any(steps[:2]):
-            return values
-        shape = values.shape
-        square = values.reshape(*shape[:-1], self.side, self.side)
-        return np.roll(square, (-steps[0], -steps[1]), (-2, -1)).reshape(shape)
+            return partial(pick, source=source, wanted=wanted, width=self.width, zero=zero)
+        return partial(_turned, side=self.side, steps=steps) if any(steps[:2]) else _itself
 
     @cached_property
     def table(self) -> Array:
@@ -245,6 +243,17 @@ class Region:
         first, count = self.table.T
         j = np.array([row.j for row in self.rows])
         return self.width is not None and bool(((count == self.width) & (first == j % 2)).all())
+
+
+def _itself(values: Array) -> Array:
+    return values
+
+
+def _turned(values: Array, side: int, steps: tuple[int, ...]) -> Array:
+    """Turn the W rows of W beads of a layer."""
+    shape = values.shape
+    square = values.reshape(*shape[:-1], side, side)
+    return np.roll(square, (-steps[0], -steps[1]), (-2, -1)).reshape(shape)
 
 
 @lru_cache(maxsize=4)

@@ -17,8 +17,10 @@ root has a form without cancellation. Every |p^a|²/4 is found as a sum of terms
 that no ordered value, and none of first order, is ever subtracted.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
+from functools import reduce
+from operator import add, mul, sub
 from typing import Any, NamedTuple
 
 # Gaps smaller than this, in units of r, are below the rounding of float64.
@@ -38,7 +40,7 @@ class Metric(NamedTuple):
     def raised(self, v: Vector) -> Vector:
         """Turn n^a·v into v^a of v = Σ v^a n^a: multiply by the inverse of the Gram matrix."""
         common = total(v) * self.cross
-        return tuple(x * self.own + common for x in v)
+        return tuple([x * self.own + common for x in v])
 
 
 def cosine(n_x: Fraction) -> Fraction:
@@ -52,27 +54,24 @@ def metric(dimension: int, phi: Fraction, scalar: Callable[[Fraction], Any]) -> 
     return Metric(scalar(phi), scalar(1 / (1 - phi)), scalar(cross))
 
 
-def total(values: Sequence[Any]) -> Any:
+def total(values: Iterable[Any]) -> Any:
     """Add, from the first to the last."""
-    found = values[0]
-    for value in values[1:]:
-        found = found + value
-    return found
+    return reduce(add, values)
 
 
 def dot(u: Vector, v: Vector) -> Any:
     """Give the dot product of two vectors, one of them ``raised``."""
-    return total([x * y for x, y in zip(u, v, strict=True)])
+    return reduce(add, map(mul, u, v))
 
 
 def plus(u: Vector, v: Vector) -> Vector:
     """Add two vectors."""
-    return tuple(x + y for x, y in zip(u, v, strict=True))
+    return tuple(map(add, u, v))
 
 
 def less(u: Vector, v: Vector) -> Vector:
     """Subtract two vectors."""
-    return tuple(x - y for x, y in zip(u, v, strict=True))
+    return tuple(map(sub, u, v))
 
 
 def solved(
@@ -209,8 +208,7 @@ def balance(
 
 def _turned(forces: Sequence[Any], dn: Sequence[Vector]) -> Vector:
     """Give Σ_a f_a δn^a."""
-    parts = [tuple(f * x for x in v) for f, v in zip(forces, dn, strict=True)]
-    return tuple(total([part[b] for part in parts]) for b in range(len(dn[0])))
+    return tuple([dot(tuple(forces), of) for of in zip(*dn, strict=True)])
 
 
 def gap(

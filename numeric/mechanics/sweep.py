@@ -134,6 +134,7 @@ def deposit(
     m = metric(d, phi, system.scalar)
     nothing = zeros(system, 0)
     base = zeros(system, *_shape(rho[0]))
+    down = [region.step(a, -1) for a in range(d)]
     c: list[tuple[Any, ...]] = [(base,) * d if on is None else tuple(on)]
     dn: list[tuple[tuple[Any, ...], ...]] = [((nothing,) * d,) * d]
     for j, layer in enumerate(region.rows):
@@ -143,16 +144,11 @@ def deposit(
             _check_radii(rho[j], layer, region, system)
         if not j:
             continue
-        under = region.rows[j - 1]
-
-        def at(values: Any, axis: int, under: Layer = under, layer: Layer = layer) -> Any:
-            look = partial(region.below, source=under, layer=layer, axis=axis)
-            return _moved(look, values)
-
+        looks = [region.look(region.rows[j - 1], layer, one) for one in down]
         found = rest(
-            [tuple(at(v, a) for v in c[-1]) for a in range(d)],
+            [tuple([_moved(look, v) for v in c[-1]]) for look in looks],
             rho[j],
-            tuple(at(rho[j - 1], a) for a in range(d)),
+            tuple([_moved(look, rho[j - 1]) for look in looks]),
             m,
             system.sqrt,
             linear=linear,
@@ -204,6 +200,7 @@ def sweep_down(
     stopped = None
     dn = [rows_of for _, rows_of in packing.dn]
     shares = [of for _, of in loads]
+    up = [region.step(a, 1) for a in range(d)]
     for j in range(top, 0, -1):
         layer = rows[j]
         if not layer.count:
@@ -214,29 +211,22 @@ def sweep_down(
                 none = zeros(system, layer.count)
                 above.append((none, none, (none,) * d, none))
                 continue
-
-            def get(values: Any, source: Layer, a: int = a, layer: Layer = layer) -> Any:
-                look = partial(region.above, source=source, layer=layer, axis=a, zero=zero)
-                return _moved(look, values)
-
-            own, packed = rows[j + 1], region.rows[j + 1]
+            own = region.look(rows[j + 1], layer, up[a], zero)
+            packed = region.look(region.rows[j + 1], layer, up[a], zero)
             above.append(
                 (
-                    get(ordered[j + 1][a], own),
-                    get(change[j + 1][a], own),
-                    tuple(get(v, packed) for v in dn[a][j + 1]),
-                    get(lost[a], own) if compensated else None,
+                    _moved(own, ordered[j + 1][a]),
+                    _moved(own, change[j + 1][a]),
+                    tuple([_moved(packed, v) for v in dn[a][j + 1]]),
+                    _moved(own, lost[a]) if compensated else None,
                 )
             )
         F = tuple(
             above[a][0] if share[j] is None else above[a][0] + share[j]
             for a, share in enumerate(shares)
         )
-        here = region.rows[j]
-        below = [
-            tuple(_moved(partial(region.here, source=here, layer=layer), x) for x in dn[a][j])
-            for a in range(d)
-        ]
+        here = partial(region.here, source=region.rows[j], layer=layer)
+        below = [tuple([_moved(here, x) for x in dn[a][j]]) for a in range(d)]
         found = balance(above, F, below, linear=linear, compensated=compensated)
         if not linear:
             check_standing(found.det, layer, region, system)
@@ -272,7 +262,7 @@ def straight_down(
         for a, (_, share) in enumerate(loads):
             F = zeros(system, layer.count)
             if j < top:
-                look = partial(region.above, source=rows[j + 1], layer=layer, axis=a, zero=zero)
+                look = region.look(rows[j + 1], layer, region.step(a, 1), zero)
                 F = _moved(look, found[j + 1][a])
             parts.append(F if share[j] is None else F + share[j])
         found[j] = tuple(parts)
