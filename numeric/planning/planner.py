@@ -4,7 +4,7 @@ One planner serves both explaining and running: ``run`` takes its problem and it
 and adds nothing but the measured cost.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from time import monotonic
@@ -48,7 +48,7 @@ def plan(
     certified = certified or scene.ask.certified
     if certified and tolerance is None:
         raise SceneError("ask.certified", True, "needs a tolerance, as tolerance = 1e-30")
-    limit = _free(int(monotonic())) if memory_limit is None else memory_limit
+    limit = _free(int(monotonic()), free_memory) if memory_limit is None else memory_limit
     try:
         return _plan(scene, tolerance, limit, system, certified=certified)
     except budget.TooLargeError as refused:
@@ -64,9 +64,9 @@ def plan(
 
 
 @lru_cache(maxsize=1)
-def _free(second: int) -> int:
+def _free(second: int, look: Callable[[], int]) -> int:
     """Give the free memory; it is looked up once in a second."""
-    return free_memory()
+    return look()
 
 
 def _plan(
