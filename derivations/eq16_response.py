@@ -1,55 +1,43 @@
 """Eq. 16: variance of the response to a point load, inside of its cone and on it."""
 
-from collections.abc import Iterable, Iterator
-from fractions import Fraction
+from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.framework.follows import Decide, identity, states
-from force_diffusion.derivations.framework.record import (
-    Claim,
+from force_diffusion.derivations.framework.record import ExactCase, Missed, usual
+from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
-    ExactCase,
-    Missed,
-    Step,
+    Lines,
     Witness,
-    usual,
+    asymptotic,
+    equation,
+    exhausting,
+    moment,
+    power,
+    rewrite,
+    terms,
+    times,
 )
 from force_diffusion.derivations.parts import cone
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
-from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
-from force_diffusion.symbolic.algebra.linear_forms import NO_SITE
-from force_diffusion.symbolic.as_printed import equation, power, terms, times
-from force_diffusion.symbolic.kernel.decisions import (
-    Ruling,
-    Verdict,
-    all_of,
-    decide_identity,
-    decide_linear,
-    from_test,
-    proved,
-    refuted,
-    undecided,
-)
+from force_diffusion.symbolic.kernel.where import along_base, inside_cone, on_leg
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.mechanics.paths import IN_CONE, STEPS_BELOW
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search.limits import parts_in_the_limit
 from force_diffusion.symbolic.symbols import (
+    Covariance,
     ForceMinus,
     ForcePlus,
+    Mean,
+    Variance,
     f_load,
     i,
     j,
     k,
     l,
-    n,
-    n_x,
     n_y,
     p,
     phi,
@@ -57,13 +45,9 @@ from force_diffusion.symbolic.symbols import (
     r,
     sigma,
 )
-from force_diffusion.symbolic.variances.cases import Case, Piece, first_difference
+from force_diffusion.symbolic.variances.cases import Piece
 from force_diffusion.symbolic.variances.orders import UNIT
-from force_diffusion.symbolic.variances.variance import (
-    grows_evenly,
-    leading,
-    order,
-)
+from sympy import Eq, Rational
 
 RESPONSE = Symbol(
     "response",
@@ -125,244 +109,223 @@ def _numbers(at: dict[sympy.Symbol, int]) -> dict[sympy.Symbol, sympy.Integer]:
     return {symbol: sympy.Integer(value) for symbol, value in at.items()}
 
 
-DOWN = {i: k - p + q, j: l - p - q}
-"""Where p steps along n⁺ and q along n⁻ lead from (k, l), each one layer down."""
+MEANING = {
+    RESPONSE: Variance(cone.PRESSED),
+    ONE_CONTACT: Variance(n_y * ForcePlus(i, j) / f_load),
+    ON_LEG: Variance(cone.VERTICAL_PLUS),
+    LEG_MAGNITUDE: Variance(ForcePlus(i, j) / cone.ORDERED),
+}
+"""What the symbols stand for; f⁺_ij inside of the cone has no part of order 0 to be tilted."""
 
 
-def _value(quantity: sympy.Expr, cases: Iterable[Case], unit: sympy.Expr) -> Decide:
-    """The closed form against the sum of squared weights where no two sites coincide."""
-    (deep,) = (case.value for case in cases if not case.at)
-    coordinates = IN_CONE if quantity in (RESPONSE, ONE_CONTACT) else cone.ON_LEFT_LEG
-    known = {quantity: deep.to_sympy() * unit, **coordinates}
-    return lambda _, candidate: decide_identity(*(side.xreplace(known) for side in candidate.args))
+def _of(*symbols: sympy.Symbol) -> dict[sympy.Symbol, sympy.Expr]:
+    return {symbol: MEANING[symbol] for symbol in symbols}
 
 
-def steps() -> Iterator[Step]:
+OF_CONTACT = equation(ONE_CONTACT, times(Rational(3, 4), terms(l, j, k, -i), UNIT))
+"""One contact to leading order: (3/2)(j + p), by the layer in which its path turns."""
+
+READ_OF_ONE_CONTACT = equation(ONE_CONTACT, PRINTED.rhs)
+"""The printed form as the paper's words have it."""
+
+_NEAR = {s: ((Eq(s, 1),), (Eq(s, 2),), (s >= 3,)) for s in (p, q)}
+BY_STEPS = [(*left, *right) for left in _NEAR[p] for right in _NEAR[q]]
+"""Beads inside of the cone by their distances from its legs."""
+
+BY_LAYERS = [
+    (*low, *top)
+    for low in ((Eq(j, 0),), (Eq(j, 1),), (j >= 2,))
+    for top in ((Eq(p, 1),), (p >= 2,))
+]
+"""Contacts by their distances from the base and from where they turn."""
+
+LATE = (j >= 3, p >= 3, q >= 3)
+
+
+@cache
+def steps() -> Lines:
     """One path to each contact; squared weights; the sum of both upper contacts of a bead."""
+    lines = Lines(cone.INSIDE)
     source = f_load / (2 * n_y)
-    yield Step(
+    facts = (cone.FORCES, eq11.IN_RADII)
+    in_cone = moment(*facts, whole=cone.INSIDE, cases=BY_STEPS)
+    of_contact = moment(*facts, whole=cone.INSIDE, cases=BY_LAYERS)
+    in_leg = moment(*facts, whole=cone.LEFT_LEG, cases=BY_LAYERS)
+    beads, contacts = (cone.domains(cone.INSIDE, one) for one in (cone.BEAD, cone.CONTACT))
+    legs = cone.domains(cone.LEFT_LEG, cone.LEG)
+    loaded = lines.show(
         "Let (i, j) lie p steps along n⁺ and q steps along n⁻ below the loaded bead (k, l): inside "
         "of the cone for p, q ≥ 1. The loaded bead is",
         sympy.Tuple(equation(k, IN_CONE[k]), equation(l, IN_CONE[l])),
-        identity(DOWN),
+        rewrite(),
     )
-    left, right = mirror(eq10.PRINTED), eq10.PRINTED
-    paths = (
-        equation(ForcePlus(i, j) / source, left.rhs.xreplace({n: p})),
-        equation(ForceMinus(i, j) / source, right.rhs.xreplace({n: q})),
-    )
-    yield Step(
+    forces = lines.show(
         "One path with one branch leads to f⁺_ij, along n⁻ and then n⁺, and one to f⁻_ij, along n⁺ "
         "and then n⁻ (Eq. 10). The branch is of first order, and f_load/2n_y enters it (Eq. 7).",
         sympy.Tuple(
             equation(ForcePlus(i, j) / source, cone.UPPER_RIGHT),
             equation(ForceMinus(i, j) / source, cone.UPPER_LEFT),
         ),
-        states(*paths, region=Region(cone.INSIDE)),
-        ("Eq. 7", "Eq. 10"),
+        rewrite(cone.FORCES),
+        after=(eq07.DERIVATION, eq10.DERIVATION),
     )
-    yield Step(
+    lines.show(
         "They turn in the layers j + p and j + q; the two add up to l + j wherever the bead is.",
         equation(terms(j + p, j + q), l + j),
-        identity({l: IN_CONE[l]}),
-        ("step 1",),
+        rewrite(),
+        after=(loaded,),
     )
-    yield Step(
+    lines.show(
         "In the radii (Eqs. 4 and 5) f⁺_ij is a sum of second differences up to the layer below "
         "its turn, as in Eq. 12, and four radii. Exact variance of its vertical component:",
         equation(ONE_CONTACT, cone.CONTACT[-1].expression * UNIT / 4),
-        _value(ONE_CONTACT, cone.contact_cases(), sigma**2),
-        ("Eq. 11", "step 2"),
+        of_contact,
+        where=contacts[-1],
+        meaning=_of(ONE_CONTACT),
+        after=(forces,),
     )
-    yield Step(
+    interior = lines.show(
         "It depends on the horizontal position: what the paper says of the force at one contact "
         "is refuted. What does not is the vertical force p that the "
         "bead gets from both contacts together: their second differences lie on two diagonals, and "
         "where these cross, the common weights add up to zero. Exact, for j ≥ 3:",
         equation(RESPONSE, cone.BEAD[-1].expression * UNIT / 4),
-        _value(RESPONSE, cone.bead_cases(), sigma**2),
-        ("Eq. 11", "step 2"),
+        in_cone,
+        where=beads[-1],
+        meaning=_of(RESPONSE),
+        after=(forces,),
     )
-    yield Step("To leading order:", PRINTED, decide, ("step 5",))
-    yield Step(
+    lines.show(
+        "To leading order:",
+        PRINTED,
+        asymptotic(*facts, late=LATE),
+        where=cone.INSIDE.in_the_limit(inside_cone("∼")),
+        meaning=_of(RESPONSE),
+        after=(interior,),
+    )
+    leg = lines.show(
         "On the left leg of the cone f⁺_ij is the split of the load (Eq. 7), carried down by "
         "Eq. 9. With the contact's own tilt its vertical component over f_load is",
         equation(
             cone.LEG_RESPONSE,
-            terms(
-                sympy.Rational(1, 2),
-                times(sympy.Rational(1, 2), 1 / (1 - phi**2), cone.LEG_TILTS),
-            ),
+            terms(Rational(1, 2), times(Rational(1, 2), 1 / (1 - phi**2), cone.LEG_TILTS)),
         ),
-        states(equation(cone.LEG_RESPONSE, cone.LEG_RESPONSE)),
-        ("Eq. 7", "Eq. 9"),
+        rewrite(),
+        where=cone.LEFT_LEG,
+        after=(eq07.DERIVATION, eq09.DERIVATION),
     )
-    yield Step(
+    lines.show(
         "The two tilts are independent but for a few radii. Exact, for 2 ≤ j ≤ l − 2:",
         equation(ON_LEG, cone.LEG[-1].expression * UNIT / 4),
-        _value(ON_LEG, cone.leg_cases(), sigma**2),
-        ("Eq. 11", "step 7"),
+        in_leg,
+        where=legs[-1],
+        meaning=_of(ON_LEG),
+        after=(leg,),
     )
-    yield Step(
+    lines.show(
         "The magnitude of that force, over its mean squared:",
         equation(LEG_MAGNITUDE, cone.LEG_FORCE[-1].expression * UNIT),
-        _value(LEG_MAGNITUDE, cone.leg_force_cases(), sigma**2),
-        ("Eq. 11", "step 7"),
+        in_leg,
+        where=legs[-1],
+        meaning=_of(LEG_MAGNITUDE),
+        after=(leg,),
     )
-
-
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """The exact variance of p less the candidate is of order l⁰ at most."""
-    if candidate.lhs != RESPONSE:
-        return undecided("the left-hand side is not σ²(p)/f_load²")
-    return compare(cone.interior(), candidate.rhs)
-
-
-INSIDE_PLACES = tuple(
-    {j: Fraction(a), p: Fraction(b), q: Fraction(c)}
-    for a, b, c in ((1, 1, 1), (2, 1, 1), (3, 1, 2), (1, 2, 3), (1, 100, 1), (1, 1, 100))
-)
-
-
-def search(candidate: sympy.Eq) -> str | None:
-    """Sites inside of a growing cone where the candidate and the exact variance part."""
-    if candidate.lhs != RESPONSE:
-        return None
-    exact = cone.interior().to_sympy()
-    return parts_in_the_limit(exact, candidate.rhs.xreplace(IN_CONE), INSIDE_PLACES)
-
-
-def compare(exact: RationalFunction, candidate: sympy.Expr) -> Ruling:
-    """Rule on a candidate in l, j, k − i: exact − candidate must be of lower order than exact."""
-    try:
-        difference = (exact - FIELD.from_sympy(candidate.xreplace(IN_CONE))).reduced()
-    except NotExactError as reason:
-        return undecided(str(reason))
-    names = [text(symbol) for symbol in FIELD.generators if _is_strange(difference, symbol)]
-    if names:
-        return refuted(f"exact − candidate depends on {', '.join(names)}")
-    if difference.is_zero():
-        return proved("equal at every order")
-    size = order(difference, *cone.SIZES)
-    shown = text(in_layers(leading(difference, *cone.SIZES)).to_sympy())
-    if size < order(exact, *cone.SIZES):
-        if not grows_evenly(difference, *cone.SIZES):
-            return undecided(f"the order of {shown} is not shown to hold at every site and φ")
-        return proved(f"exact − printed is of order l^{size}: {shown}")
-    return refuted(f"exact − candidate is of the leading order l^{size} itself: {shown}")
-
-
-def _is_strange(value: RationalFunction, symbol: sympy.Expr) -> bool:
-    """Whether it holds a symbol other than layers, steps and what the packing is made of."""
-    return symbol not in (*cone.SIZES, phi, n_x, n_y, r, sigma) and value.holds(symbol)
-
-
-def in_layers(value: RationalFunction) -> RationalFunction:
-    """A function of j, p and q in terms of l, j and q."""
-    layers = FIELD.generator(l) - FIELD.generator(j) - FIELD.generator(q)
-    return value.substitute({p: layers})
-
-
-def _stated(pieces: tuple[Piece, ...], cases: Iterable[Case], unit: sympy.Expr) -> Ruling:
-    """Closed forms against exact sums of squared weights, case by case."""
-    found_in = tuple(cases)
-    coordinates = IN_CONE if pieces in (cone.BEAD, cone.CONTACT) else cone.ON_LEFT_LEG
-    wrong = first_difference(pieces, found_in, FIELD.from_sympy(unit / sigma**2), coordinates)
-    return from_test(
-        wrong is None, f"{len(found_in)} cases, which cover all sites, agree", f"not so: {wrong}"
+    lines.claim(
+        "the exact variance of p at every bead inside of the cone",
+        cone.closed_forms(RESPONSE, cone.BEAD, UNIT / 4),
+        exhausting(cone.INSIDE, beads, in_cone),
+        where=beads,
+        meaning=_of(RESPONSE),
     )
-
-
-def _bead() -> Ruling:
-    return _stated(cone.BEAD, cone.bead_cases(), UNIT / 4)
-
-
-def _independent_of_position() -> Ruling:
-    """For j ≥ 3 no case but p = q = 1 depends on more than l + j."""
-    deep = [case for case in cone.bead_cases() if case.lower.get(j) == 3]
-    rest = [case for case in deep if (case.at.get(p), case.at.get(q)) != (1, 1)]
-    same = all(
-        (case.value - case.put_in(cone.interior() / FIELD.from_sympy(sigma**2))).is_zero()
-        for case in rest
+    lines.claim(
+        "for j ≥ 3 it does not depend on the horizontal position, exactly, but for the bead "
+        "straight below the load",
+        equation(RESPONSE, times(terms(6 * (l + j), -6, phi**2), UNIT / 4)),
+        in_cone,
+        where=beads[-1],
+        meaning=_of(RESPONSE),
     )
-    return from_test(
-        same and len(rest) == len(deep) - 1 and not in_layers(cone.interior()).holds(q),
-        f"for all p, q ≥ 1 but p = q = 1 it is {text(cone.BEAD[-1].expression)} in units of "
-        "(σ/r)²/4(1−φ²)²",
+    lines.claim(
+        "the exact variance of one contact's vertical force, everywhere inside of the cone",
+        cone.closed_forms(ONE_CONTACT, cone.CONTACT, UNIT / 4),
+        exhausting(cone.INSIDE, contacts, of_contact),
+        where=contacts,
+        meaning=_of(ONE_CONTACT),
     )
-
-
-def _one_contact() -> Ruling:
-    exact = _stated(cone.CONTACT, cone.contact_cases(), UNIT / 4)
-    turn = (l + j + k - i) / 2
-    value = FIELD.from_sympy((cone.CONTACT[-1].expression * UNIT / 4).xreplace(IN_CONE))
-    return all_of(
-        exact,
-        decide_identity(turn.xreplace(IN_CONE), j + p),
-        compare(value, 3 * turn * UNIT / 2),
-        from_test(
-            compare(value, PRINTED.rhs).verdict is Verdict.REFUTED,
-            "the printed form is refuted for one contact: its variance is 3s/2, s = ½(l+j+k−i) the "
-            "layer where it turns, which is half of the printed one for i = k",
+    of_one = lines.claim(
+        "to leading order that of one contact is 3s/2 in units of (σ/r)²/(1−φ²)², "
+        "s = ½(l+j+k−i) being the layer where it turns",
+        OF_CONTACT,
+        asymptotic(*facts, late=LATE),
+        where=cone.INSIDE.in_the_limit(inside_cone("∼")),
+        meaning=_of(ONE_CONTACT),
+    )
+    lines.refute(
+        "the paper's reading is refuted: one contact alone depends on the horizontal position",
+        READ_OF_ONE_CONTACT,
+        of_one,
+        where=cone.INSIDE.in_the_limit(inside_cone("∼")),
+        meaning=_of(ONE_CONTACT),
+    )
+    both = Covariance(cone.VERTICAL_PLUS, cone.VERTICAL_MINUS)
+    straight = times(Rational(1, 4), (1 + phi) ** 2, UNIT / 4)
+    lines.claim(
+        "the covariance of a bead's two contacts is zero for j ≥ 3, but for the bead straight "
+        "below the load",
+        sympy.Tuple(equation(both, 0), equation(both, straight)),
+        in_cone,
+        where=(beads[-1], beads[-2]),
+    )
+    lines.claim(
+        "a bead passes on what it gets: forces do not change along a diagonal",
+        sympy.Tuple(
+            equation(ForcePlus(i - 1, j - 1), ForcePlus(i, j)),
+            equation(ForceMinus(i + 1, j - 1), ForceMinus(i, j)),
         ),
+        rewrite(cone.FORCES),
+        where=cone.INSIDE.also(j >= 1),
     )
-
-
-def _common_weights() -> Ruling:
-    *_, below_load, deep = cone.BEAD
-    stated = FIELD.from_sympy((1 + phi) ** 2 / 2)
-    return from_test(
-        cone.covariance(deep).is_zero()
-        and (cone.covariance(below_load) - stated).is_zero()
-        and all(order(cone.covariance(piece), *cone.SIZES) <= 0 for piece in cone.BEAD),
-        "twice the covariance is ½(1+φ)² straight below the load for j ≥ 3, in units of "
-        "(σ/r)²/4(1−φ²)²; no case of it grows with j or l",
-    )
-
-
-def _leg() -> Ruling:
-    third = 3 * cone.LEG[-1].expression - cone.BEAD[-1].expression
-    return all_of(
-        _stated(cone.LEG, cone.leg_cases(), UNIT / 4),
-        _stated(cone.LEG_FORCE, cone.leg_force_cases(), UNIT),
-        decide_identity(third, 6 * phi + 2 * phi**2),
-    )
-
-
-def _mean() -> Ruling:
-    """No constant part inside; ½ f_load on a leg, as in the ordered packing."""
-    half = FIELD.constant(sympy.Rational(1, 2))
-    on_leg = cone.leg_form().sites.get(NO_SITE, FIELD.zero)
-    return from_test(
-        NO_SITE not in cone.bead_form().sites and (on_leg - half).is_zero(),
-        "linear in radii of zero mean inside of the cone; ½ and such a part on a leg",
-    )
-
-
-def _passed_on() -> Ruling:
-    """The lower contacts of a bead carry the forces of its upper ones, first order in each."""
-    below = {i: i - 1, j: j - 1, p: p + 1}
-    return all_of(
-        decide_linear(
-            cone.UPPER_RIGHT.xreplace(below), cone.UPPER_RIGHT, Region({j: 1, p: 1, q: 1})
+    lines.claim(
+        "the mean is that of the ordered packing",
+        sympy.Tuple(
+            equation(Mean(cone.PRESSED), 0), equation(Mean(cone.VERTICAL_PLUS), Rational(1, 2))
         ),
-        decide_linear(
-            mirror(cone.UPPER_RIGHT), cone.UPPER_LEFT.xreplace({q: p}), Region({j: 0, p: 1})
+        moment(*facts),
+        where=(cone.INSIDE, cone.LEFT_LEG),
+    )
+    beside = (cone.LEFT_OF_ALL, cone.RIGHT_OF_ALL)
+    lines.claim(
+        "no force of first order outside of the cone",
+        sympy.Tuple(*(one for one, _ in beside), *(mirror(one) for one, _ in beside)),
+        rewrite(cone.FORCES),
+        where=(*(where for _, where in beside), *(where.mirrored() for _, where in beside)),
+    )
+    lines.claim(
+        "the exact variance on a leg of the vertical force, and of the magnitude",
+        sympy.Tuple(
+            *cone.closed_forms(ON_LEG, cone.LEG, UNIT / 4),
+            *cone.closed_forms(LEG_MAGNITUDE, cone.LEG_FORCE, UNIT),
         ),
+        exhausting(cone.LEFT_LEG, legs, in_leg),
+        where=legs * 2,
+        meaning=_of(ON_LEG, LEG_MAGNITUDE),
     )
-
-
-def _apex_and_base() -> Ruling:
-    """Directly below the load against the base, at every l ≥ 5."""
-    apex = cone.BEAD[-2].expression.xreplace({j: l - 2})
-    base = cone.BEAD[3].expression
-    excess = (1 + 2 * phi - phi**2) / (2 * (6 * l - 9 + phi**2))
-    limit = PRINTED.rhs.xreplace({j: l}) / PRINTED.rhs.xreplace({j: sympy.Integer(0)})
-    return all_of(
-        decide_identity(apex / base, 2 + excess),
-        from_test(order(FIELD.from_sympy(excess), l) < 0, "what exceeds 2 vanishes as l → ∞"),
-        decide_identity(limit, sympy.Integer(2)),
+    lines.claim(
+        "on a leg the vertical force has a third of the variance, to leading order",
+        equation(ON_LEG, PRINTED.rhs / 3),
+        asymptotic(*facts, late=(j >= 2, p >= 2)),
+        where=cone.LEFT_LEG.in_the_limit(on_leg("∼")),
+        meaning=_of(ON_LEG),
     )
+    at_base = cone.INSIDE.put_in({j: Rational(0)}, (i, k, l, p, q))
+    apex = MEANING[RESPONSE].xreplace({i: k, j: l - 2})
+    lines.claim(
+        "the variance straight below the load is twice that at the base, as l → ∞",
+        equation(apex, times(2, MEANING[RESPONSE].xreplace({j: Rational(0)}))),
+        asymptotic(*facts, late=(p >= 3, q >= 3)),
+        where=at_base.in_the_limit(along_base("∼")),
+    )
+    return lines
 
 
 DERIVATION = Derivation(
@@ -402,33 +365,7 @@ DERIVATION = Derivation(
     relation="∼",
     exact=at_finite_size,
     steps=steps,
-    decide=decide,
-    search=search,
-    claims=(
-        Claim("the exact variance of p at every bead inside of the cone", _bead),
-        Claim(
-            "for j ≥ 3 it does not depend on the horizontal position, exactly, but for the bead "
-            "straight below the load",
-            _independent_of_position,
-        ),
-        Claim(
-            "the paper's reading is refuted: one contact alone depends on the horizontal position",
-            _one_contact,
-        ),
-        Claim(
-            "the covariance of a bead's two contacts is zero for j ≥ 3, but for the bead straight "
-            "below the load, and of order l⁰ everywhere",
-            _common_weights,
-        ),
-        Claim("a bead passes on what it gets: forces do not change along a diagonal", _passed_on),
-        Claim("the mean is that of the ordered packing", _mean),
-        Claim("no force of first order outside of the cone", eq10.balance_everywhere),
-        Claim("on a leg the vertical force has a third of the variance, to leading order", _leg),
-        Claim(
-            "the variance straight below the load is twice that at the base, as l → ∞",
-            _apex_and_base,
-        ),
-    ),
+    where=cone.CONE,
     witnesses=(
         Witness(
             "exact variances equal sums of squared weights of an exact packing, every contact",

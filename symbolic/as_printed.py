@@ -1,5 +1,8 @@
 """Build expressions that keep the paper's order of terms and factors."""
 
+from collections.abc import Mapping
+from typing import Any
+
 import sympy
 
 
@@ -26,3 +29,26 @@ def minus(expression: sympy.Expr) -> sympy.Mul:
 def equation(left: sympy.Expr, right: sympy.Expr) -> sympy.Eq:
     """An equation that is not evaluated to true or false."""
     return sympy.Eq(left, right, evaluate=False)
+
+
+def in_place(node: sympy.Basic, meaning: Mapping[Any, Any]) -> sympy.Basic:
+    """What is written in short, put in one after the other; no divisor is cancelled by it."""
+    for what, image in meaning.items():
+        node = _in_place(node, what, image)
+    return node
+
+
+def _in_place(node: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
+    if node == what:
+        result: sympy.Basic = image
+        return result
+    if not node.has(what):
+        return node
+    args = [_in_place(one, what, image) for one in node.args]
+    if isinstance(what, type) and isinstance(node, what):
+        result = image(*args)
+    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow | sympy.Eq):
+        result = node.func(*args, evaluate=False)
+    else:
+        result = node.func(*args)
+    return result

@@ -220,6 +220,28 @@ class LargestWeight(Function):  # type: ignore[misc]
         return f"max |w|({printer._print(self.args[0])})"
 
 
+class UnitHeight(Function):  # type: ignore[misc]
+    """The height M at which the leading order of X(M) is 1, as M → ∞; X keeps its symbol M."""
+
+    nargs = 1
+
+    def _text(self, printer: Any) -> str:
+        return f"M({printer._print(self.args[0])} ∼ 1)"
+
+    _latex = _text
+
+
+class Tensile(Function):  # type: ignore[misc]
+    """P(X < 0): the probability that a force over its mean is tensile."""
+
+    nargs = 1
+
+    def _text(self, printer: Any) -> str:
+        return f"P({printer._print(self.args[0])} < 0)"
+
+    _latex = _text
+
+
 class LargestShare(Function):  # type: ignore[misc]
     """The largest share that one radius has in the variance of X: max w²/Σw² of its weights."""
 

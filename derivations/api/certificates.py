@@ -43,7 +43,6 @@ from force_diffusion.derivations.framework.catalogue import Number, paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.derivations.framework.runner import SEEDS
-from force_diffusion.symbolic.kernel.decisions import Verdict as Proof
 from force_diffusion.symbolic.search.mutants import mutants as made_mutants
 
 MUTANT_LIMIT = 30  # seconds for one changed statement
@@ -177,7 +176,7 @@ def tried(
     for place in [place for place, yes in said.items() if yes]:
         part, mutant = made[place]
         ruling = derivation.rule_on(part, mutant.equation)
-        accepted.append(Change(part, mutant.change, ruling.verdict is Proof.PROVED))
+        accepted.append(Change(part, mutant.change, ruling.verdict.is_proved))
     return Changes(len(made), len(goals), tuple(accepted))
 
 

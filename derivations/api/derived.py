@@ -14,6 +14,7 @@ from force_diffusion.derivations.export.document import (
     statement_latex,
 )
 from force_diffusion.derivations.export.terminal import (
+    expected_text,
     mutant_counts,
     outcomes_data,
     summary_line,
@@ -41,18 +42,23 @@ class Derived:
 
     @property
     def verdicts(self) -> dict[Number, Verdict]:
-        """``proved``, ``refuted`` or ``undecided``, by the equation's number."""
+        """Proved; proved, assuming; refuted or undecided: by the equation's number."""
         return {one.derivation.number: one.verdict for one in self.outcomes}
 
     @property
     def proved(self) -> bool:
-        """Whether every one of them is proved."""
-        return set(self.verdicts.values()) == {Verdict.PROVED}
+        """Whether every one is proved, be it on assumptions, which ``counts`` tells.
+
+        Printed statements that are refuted as expected speak for nobody.
+        """
+        return all(verdict.is_proved for verdict in self.verdicts.values())
 
     def counts(self) -> str:
-        """How many equations have which verdict, in words."""
-        counts = Counter(map(str, self.verdicts.values()))
-        return ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+        """How many equations have which verdict, in words; and printed statements refuted."""
+        counts = Counter(one.words for one in self.outcomes)
+        words = [f"{count} {verdict}" for verdict, count in counts.items()]
+        refuted = sum(len(one.refuted) for one in self.outcomes)
+        return ", ".join(filter(None, [*words, expected_text(refuted)]))
 
     def data(self) -> dict[str, Any]:
         """What JSON can hold: verdicts, checks and mutants of each equation, times in seconds."""
@@ -86,7 +92,7 @@ class Derived:
 
     def _repr_markdown_(self) -> str:
         rows = [
-            f"| {one.derivation.number} | {one.derivation.title} | {one.verdict} | "
+            f"| {one.derivation.number} | {one.derivation.title} | {one.words} | "
             f"{sum(c.kind == 'proof' for c in one.checks)} | "
             f"{sum(c.kind == 'witness' for c in one.checks)} | "
             f"{mutant_counts(one)['refuted']} of {len(one.mutants)} |"

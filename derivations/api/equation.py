@@ -6,6 +6,7 @@ from numbers import Integral
 from typing import Any, Self
 
 import sympy
+from force_diffusion.derivations.api.deciding import decided
 from force_diffusion.derivations.api.evaluation import (
     ArgumentError,
     Number,
@@ -21,6 +22,7 @@ from force_diffusion.derivations.export.prose import either
 from force_diffusion.derivations.export.terminal import (
     check_text,
     counts_text,
+    expected_text,
     follows_text,
     heading,
     relation_of,
@@ -42,7 +44,7 @@ from force_diffusion.derivations.framework.record import (
 from force_diffusion.derivations.framework.runner import run, run_all
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, undecided
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import latex_body
 from force_diffusion.symbolic.printing.text import text
@@ -82,7 +84,7 @@ class Proof:
 
     @property
     def verdict(self) -> Verdict:
-        """``proved``, ``refuted`` or ``undecided``: of the equation, given its premises."""
+        """Proved; proved, assuming; refuted or undecided: of the equation, given its premises."""
         return self.outcomes[-1].verdict
 
     @property
@@ -91,9 +93,18 @@ class Proof:
         return self.outcomes[-1].checks
 
     @property
+    def refuted(self) -> tuple[Check, ...]:
+        """Printed statements that were refuted as expected: ERRATA.md says why."""
+        return self.outcomes[-1].refuted
+
+    @property
     def mutants(self) -> tuple[Mutant, ...]:
         """The printed equation with one mechanical change each, and what the checker said."""
         return self.outcomes[-1].mutants
+
+    def _said(self) -> str:
+        outcome, refuted = self.outcomes[-1], expected_text(len(self.refuted))
+        return f"Eq. {outcome.derivation.number} is {outcome.words}{refuted and f'; {refuted}'}."
 
     def _premises(self) -> str:
         numbers = [str(one.number) for one in self.outcomes[-1].derivation.premises]
@@ -107,7 +118,7 @@ class Proof:
         outcome = self.outcomes[-1]
         return "\n".join(
             [
-                f"Eq. {outcome.derivation.number} is {self.verdict}. {self._premises()}",
+                f"{self._said()} {self._premises()}",
                 *map(summary_line, self.outcomes[:-1]),
                 *map(check_text, self.checks),
                 f"  - {counts_text(outcome)}",
@@ -121,10 +132,10 @@ class Proof:
             return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
 
         outcome = self.outcomes[-1]
-        rows = [row(one.kind, str(one.verdict), one.name, one.note) for one in self.checks]
+        rows = [row(one.kind, one.words, one.name, one.note) for one in self.checks]
         return "\n".join(
             [
-                f"**Eq. {outcome.derivation.number} is {self.verdict}.** {self._premises()}",
+                f"**{self._said()}** {self._premises()}",
                 "",
                 row("kind", "verdict", "check", "note"),
                 row("---", "---", "---", "---"),
@@ -163,7 +174,7 @@ class Steps(tuple[Shown, ...]):
             relation = RELATIONS[relation_of(self._derivation, step)]
             lines.append(f"{place}. {step.reason}")
             lines.append(f"$$\n{latex_body([step.formula], relation)}\n$$")
-            lines.append(follows_text(step, str(step.verdict)))
+            lines.append(follows_text(step, step.ruling.words))
         return "\n\n".join(lines)
 
 
@@ -403,10 +414,16 @@ base+1 or surface.
             return Proof(tuple(run_all(with_premises([self._derivation]))), premises_run=True)
         return Proof((run(self._derivation),), premises_run=False)
 
-    def decide(self, candidate: sympy.Basic) -> Ruling:
+    def decide(self, candidate: Any) -> Ruling:
         """Rule on a formula of your own, with the procedure that proves the printed equation.
 
-        What can't be read is undecided, with the reason; no error is raised.
+        It is ruled on with the printed sign: for "∼" as the leading order. With "=", at finite
+        size, ``exact("interior").decide`` rules on it. Of an equation between vectors a component
+        is read as well: both sides are numbers, such as ``Dot(e_y, …)``.
+
+        The verdict is *proved*; *proved, assuming* what ``.assuming`` names; *refuted*, with
+        explicit values; *undecided*; or *not a statement*: it has no value, or no single meaning,
+        somewhere on its domain. ``.note`` says why, and no error is raised.
 
         >>> import force_diffusion as fd
         >>> eq = fd.equation(13)
@@ -416,30 +433,20 @@ base+1 or surface.
         proved: exact − printed is of order M^2: ...
         >>> print(eq.decide(2 * M**3 * (1 - z) ** 2 * unit))  # doctest: +ELLIPSIS
         refuted: exact − candidate is of the leading order M^3 itself: ...
+        >>> print(eq.decide(2 * M**3 * unit / (2 * z - 1)))
+        not a statement: the divisor 2 z − 1 is not shown to differ from zero
+        >>> print(fd.equation(7).decide(fd.equation(7).expr).verdict)
+        proved
 
         Args:
-            candidate: a SymPy ``Eq`` in the symbols of :attr:`symbols`, or, where one line is
-                printed, an expression for the right-hand side.
+            candidate: a SymPy ``Eq`` in the symbols of :attr:`symbols`; or an expression for the
+                right-hand side of a line; or, for all lines at once, as many of these as are
+                printed, in a ``Tuple``, tuple or list.
 
         Raises:
             KernelError: the checker is at fault: it proved what explicit values refute.
         """
-        if not isinstance(candidate, sympy.Eq):
-            if not isinstance(candidate, sympy.Expr):
-                return undecided(
-                    f"a SymPy Eq or expression is needed, and this is {type(candidate).__name__}; "
-                    "Eq(…, evaluate=False) is not turned into true or false"
-                )
-            if len(self._lines) > 1:
-                sides = either([text(line.lhs) for line in self._lines])
-                return undecided(f"which line is meant? Give an Eq whose left-hand side is {sides}")
-            candidate = sympy.Eq(self._lines[0].lhs, candidate, evaluate=False)
-        parts = [n for n, line in enumerate(self._lines) if line.lhs == candidate.lhs]
-        rulings = [
-            self._derivation.rule_on(part, candidate) for part in parts or range(len(self._lines))
-        ]
-        ranked = {ruling.verdict: ruling for ruling in reversed(rulings)}
-        return next(ranked[one] for one in Verdict if one in ranked)
+        return decided(candidate, self._lines, self._derivation.rule_on)
 
     def __repr__(self) -> str:
         return f"<{self._heading}: {self.title}>"

@@ -1,5 +1,8 @@
 """An exact form at finite size as a Python user holds it."""
 
+from typing import Any
+
+from force_diffusion.derivations.api.deciding import decided
 from force_diffusion.derivations.api.evaluation import (
     ArgumentError,
     Number,
@@ -9,7 +12,9 @@ from force_diffusion.derivations.api.evaluation import (
     value_of,
 )
 from force_diffusion.derivations.api.formula import Formula
+from force_diffusion.derivations.framework.exactly import rule_on_exact
 from force_diffusion.derivations.framework.record import Derivation, ExactCase
+from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
 from sympy import Eq, Expr
@@ -36,7 +41,7 @@ class ExactForm(Formula):
         line = Eq(form.quantity, form.expression, evaluate=False)
         super().__init__(name, f"Eq. {derivation.number}", (line,))
         self._case, self._form, self._number = case, form, derivation.number
-        self._dimension = derivation.dimension
+        self._dimension, self._derivation = derivation.dimension, derivation
 
     @property
     def case(self) -> str:
@@ -104,6 +109,29 @@ class ExactForm(Formula):
                 raise ArgumentError(f"{about} is for {form.validity}, not for {told(at, values)}")
         fitting = (m.expression for m in form.missed if all(holds(one, values) for one in m.when))
         return value_of(next(fitting, form.expression), values, exact=exact)
+
+    def decide(self, candidate: Any) -> Ruling:
+        """Rule on a formula of your own for this case: with "=", at every size that it is for.
+
+        The verdicts are those of :meth:`Equation.decide`, which rules with the printed sign.
+
+        >>> import force_diffusion as fd
+        >>> eq = fd.equation(13)
+        >>> form = eq.exact("interior")
+        >>> print(form.decide(form.expr).verdict)
+        proved
+        >>> print(form.decide(eq.rhs).verdict, eq.decide(eq.rhs).verdict)
+        refuted proved
+
+        Args:
+            candidate: a SymPy ``Eq``, or an expression for the right-hand side.
+
+        Raises:
+            KernelError: the checker is at fault: it proved what explicit values refute.
+        """
+        return decided(
+            candidate, self._lines, lambda _, one: rule_on_exact(self._derivation, self._form, one)
+        )
 
     def _told(self, line: Eq) -> str:
         note = f"{text(line.lhs)}, exact to {self._form.to_order}: {self.validity}"

@@ -8,7 +8,6 @@ from force_diffusion.derivations.export.terminal import outcome_text, summary_li
 from force_diffusion.derivations.framework.loading import with_premises
 from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.derivations.framework.runner import run_all
-from force_diffusion.symbolic.kernel.decisions import Verdict
 
 
 def run_alone(derivation: Derivation, arguments: Sequence[str] | None = None) -> int:
@@ -29,6 +28,6 @@ def run_alone(derivation: Derivation, arguments: Sequence[str] | None = None) ->
         if premises:
             print("It rests on", *map(summary_line, premises), sep="\n", end="\n\n")
         print(outcome_text(outcome))
-        return 0 if outcome.verdict is Verdict.PROVED else 1
+        return 0 if outcome.verdict.is_proved else 1
 
     return guarded(program)

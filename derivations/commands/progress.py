@@ -11,7 +11,12 @@ from force_diffusion.symbolic.kernel.decisions import Verdict
 if TYPE_CHECKING:
     from rich.console import Console
 
-_STYLES = {Verdict.PROVED: "green", Verdict.REFUTED: "bold red", Verdict.UNDECIDED: "yellow"}
+_STYLES = {
+    Verdict.PROVED: "green",
+    Verdict.ASSUMING: "green",
+    Verdict.REFUTED: "bold red",
+    Verdict.UNDECIDED: "yellow",
+}
 
 
 class Silence:

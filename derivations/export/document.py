@@ -20,6 +20,7 @@ from force_diffusion.derivations.export.terminal import (
     tried_text,
 )
 from force_diffusion.derivations.framework.record import Derivation, Outcome
+from force_diffusion.symbolic.kernel.decisions import in_words
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import column_width, latex_body
 
@@ -46,10 +47,14 @@ _HEAD = r"""\documentclass[10pt]{article}
 READING = (
     "The equations keep the numbers that they have in the paper; B1 and so on go beyond it. "
     "Proved means that an exact decision procedure found the printed equation to follow from its "
-    "assumptions; refuted, that it found a counterexample; undecided, that it could do neither. A "
-    "witness is a comparison of another kind, with exact or high-precision numbers for packings "
+    "assumptions; proved, assuming, that it rests on a further one, which is named and which no "
+    "rule discharges; refuted, that it found a counterexample; undecided, that it could do "
+    "neither; not a statement, that what is written has no value, or no single meaning, "
+    "somewhere on its domain. A witness is a comparison of another kind, with exact or "
+    "high-precision numbers for packings "
     "drawn at random: it agrees or disagrees, and proves nothing. A mutant is the printed "
-    "equation with one mechanical change, which the same procedure has to refute; one that is an "
+    "equation with one mechanical change, which the same procedure has to refute, or to find not "
+    "to be a statement; one that is an "
     "equivalent rewriting is listed with the proof that it is. Accepted is a word of "
     "Coq, an unrelated proof assistant, about the printed equation on exact packings; it is on "
     "record with the hash of what was asked, and stale once that has changed."
@@ -111,12 +116,21 @@ def _steps(derivation: Derivation, verdicts: list[str]) -> str:
     return _list("enumerate", items)
 
 
+def _refuted(derivation: Derivation) -> str:
+    """Printed statements that do not hold; they are in no fragment."""
+    return "".join(
+        f"\\par {prose_latex(sentence(one.reading))}\n"
+        f"\\[\n{latex_body([one.formula], RELATIONS[one.relation], room=380.0)}\n\\]\n"
+        for one in derivation.refuted
+    )
+
+
 def _mutants(found: FoundMutants) -> str:
     if not found.changes:
         return ""
     kinds = Counter(mutant.kind for mutant in found.changes)
     told = (
-        f"\\par {found.made} made, {found.refuted} refuted, "
+        f"\\par {found.made} made, {found.refuted} refuted, {found.no_statements} not a statement, "
         f"{found.equivalent} equivalent rewritings. By kind: "
         + "; ".join(f"{prose_latex(kind)}: {count}" for kind, count in kinds.most_common())
         + f". \\texttt{{{MANIFEST}}} lists each of them.\n"
@@ -126,7 +140,7 @@ def _mutants(found: FoundMutants) -> str:
         (
             _noted(mutant.verdict, mutant.change, mutant.note)
             for mutant in found.changes
-            if mutant.verdict != "refuted"
+            if mutant.verdict in ("undecided", "equivalent")
         ),
     )
 
@@ -145,7 +159,7 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
     rests = ", ".join(f"({premise.number})" for premise in derivation.premises)
     plural = "s" if len(derivation.premises) > 1 else ""
     checks = [
-        _noted(check.verdict, check.name, check.note)
+        _noted(in_words(check.verdict, check.assuming), check.name, check.note)
         for check in found.checks
         if check.kind != "step"
     ]
@@ -154,8 +168,9 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
             f"\\section*{{Eq.\\ ({derivation.number}): {prose_latex(derivation.title)}}}\n",
             _numbered(derivation),
             f"\\input{{{fragment_name(derivation).removesuffix('.tex')}}}%\n",
-            f"Verdict: \\textbf{{{found.verdict}}}. Coq: {_coq(found)}."
+            f"Verdict: \\textbf{{{_verdict(found)}}}. Coq: {_coq(found)}."
             + (f" Rests on Eq{plural}.\\ {rests}.\n" if rests else "\n"),
+            _part("Printed as well, and refuted", _refuted(derivation)),
             _part("Symbols", _list("itemize", symbols)),
             _part("Assumptions", _list("itemize", map(prose_latex, derivation.assumptions))),
             _part("Steps", _steps(derivation, step_verdicts(found.checks))),
@@ -164,6 +179,10 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
             _part("Remarks", _list("itemize", map(prose_latex, derivation.remarks))),
         ]
     )
+
+
+def _verdict(found: FoundEquation) -> str:
+    return prose_latex(in_words(found.verdict, found.assuming))
 
 
 def _coq(found: FoundEquation) -> str:
@@ -187,18 +206,20 @@ def _table(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
             tried.update(found.statements.model_dump())
         rows.append(
             f"({derivation.number}) & {prose_latex(derivation.title)} & "
-            f"{found.verdict} & {_coq(found)} & "
+            f"{_verdict(found)} & {_coq(found)} & "
             f"{kinds.count('proof')} & {kinds.count('witness')} & "
-            f"{mutants.made} & {mutants.refuted} & {mutants.equivalent} \\\\\n"
+            f"{mutants.made} & {mutants.refuted} & {mutants.no_statements} & "
+            f"{mutants.equivalent} \\\\\n"
         )
     return (
         "\\begin{center}\\small\\setlength{\\tabcolsep}{4pt}\n"
-        "\\begin{tabular}{r>{\\raggedright}p{40mm}llrrrrr}\n\\hline\n"
-        " & & & & & & \\multicolumn{3}{c}{mutants} \\\\\n"
-        "Eq. & title & verdict & Coq & proofs & witnesses & made & refuted & equivalent"
+        "\\begin{tabular}{r>{\\raggedright}p{32mm}>{\\raggedright}p{18mm}lrrrrrr}\n\\hline\n"
+        " & & & & & & \\multicolumn{4}{c}{mutants} \\\\\n"
+        "Eq. & title & verdict & Coq & proofs & witnesses & made & refuted & none & equivalent"
         " \\\\\n\\hline\n"
         + "".join(rows)
         + "\\hline\n\\end{tabular}\n\\end{center}\n"
+        + "None: mutants that are not a statement.\n\n"
         + f"{tried_text(tried)}\n"
     )
 
@@ -214,6 +235,7 @@ def finding(outcome: Outcome) -> FoundEquation:
             "fragment": fragment_name(derivation),
             "premises": [premise.number for premise in derivation.premises],
             "verdict": str(outcome.verdict),
+            "assuming": outcome.assuming,
             "coq": asdict(recorded(derivation)),
             "checks": [
                 {
@@ -221,6 +243,7 @@ def finding(outcome: Outcome) -> FoundEquation:
                     "name": check.name,
                     "verdict": str(check.verdict),
                     "note": check.note,
+                    "assuming": check.assuming,
                 }
                 for check in outcome.checks
             ],

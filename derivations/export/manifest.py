@@ -35,12 +35,21 @@ class Made(_Part):
 
 
 class FoundCheck(_Part):
-    """A step, a proof or a witness, and its verdict."""
+    """A step, a proof, a witness or the refutation of a printed statement, and its verdict."""
 
-    kind: Literal["step", "proof", "witness"]
+    kind: Literal["step", "proof", "witness", "refutation"]
     name: str
-    verdict: Literal["proved", "refuted", "undecided", "agrees", "disagrees"]
+    verdict: Literal[
+        "proved",
+        "proved, assuming",
+        "refuted",
+        "undecided",
+        "not a statement",
+        "agrees",
+        "disagrees",
+    ]
     note: str
+    assuming: tuple[str, ...] = ()
 
 
 class FoundMutant(_Part):
@@ -48,7 +57,7 @@ class FoundMutant(_Part):
 
     change: str
     kind: str
-    verdict: Literal["refuted", "undecided", "equivalent"]
+    verdict: Literal["refuted", "undecided", "not a statement", "equivalent"]
     note: str
 
 
@@ -57,6 +66,7 @@ class FoundMutants(_Part):
 
     made: int
     refuted: int
+    no_statements: int = 0
     equivalent: int
     changes: tuple[FoundMutant, ...]
 
@@ -75,6 +85,7 @@ class FoundStatements(_Part):
 
     false: int
     refuted: int
+    no_statements: int = 0
     true: int
     proved: int
 
@@ -87,11 +98,12 @@ class FoundEquation(_Part):
     title: str
     fragment: str
     premises: tuple[int | str, ...]
-    verdict: Literal["proved", "refuted", "undecided"]
+    verdict: Literal["proved", "proved, assuming", "refuted", "undecided"]
     checks: tuple[FoundCheck, ...]
     mutants: FoundMutants
     coq: FoundByCoq | None = None
     statements: FoundStatements | None = None
+    assuming: tuple[str, ...] = ()
 
 
 class Manifest(_Part):

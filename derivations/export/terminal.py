@@ -10,7 +10,7 @@ from force_diffusion.derivations.export.manifest import FoundCheck
 from force_diffusion.derivations.export.prose import both
 from force_diffusion.derivations.framework.proving import Shown
 from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome
-from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.kernel.decisions import Verdict, in_words
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
 
@@ -40,6 +40,21 @@ def printed_text(derivation: Derivation, indent: str = "  ") -> str:
     return "\n".join(indent + line for line in lines)
 
 
+def refuted_text(derivation: Derivation) -> list[str]:
+    """The printed statements that do not hold, each with how the paper's words are read in it."""
+    lines = []
+    for one in derivation.refuted:
+        lines += ["", _paragraph(f"Printed as well; {one.reading}.", "")]
+        lines += ["  " + line for line in text_lines(one.formula, one.relation, TEXT_WIDTH - 2)]
+    return lines
+
+
+def expected_text(refuted: int) -> str:
+    """How many printed statements were refuted as expected, in words; "" for none."""
+    plural = "" if refuted == 1 else "s"
+    return f"{refuted} printed statement{plural} refuted, as expected (see ERRATA)" * bool(refuted)
+
+
 def heading(derivation: Derivation) -> str:
     """Number and title."""
     return f"Eq. {derivation.number}: {derivation.title}"
@@ -47,7 +62,8 @@ def heading(derivation: Derivation) -> str:
 
 def statement_text(derivation: Derivation) -> str:
     """What the equation says, in what symbols, under which assumptions."""
-    parts = [heading(derivation), "", printed_text(derivation), "", "Symbols"]
+    parts = [heading(derivation), "", printed_text(derivation), *refuted_text(derivation)]
+    parts += ["", "Symbols"]
     for symbol, meaning in derivation.symbols:
         parts.append(_paragraph(f"{text(symbol)}: {meaning}", later="      "))
     parts += ["", "Assumptions"]
@@ -81,19 +97,19 @@ def steps_text(derivation: Derivation, verdicts: Sequence[str]) -> str:
         parts.append(_paragraph(step.reason, f"{place:3}. ", "     "))
         lines = text_lines(step.formula, relation_of(derivation, step), TEXT_WIDTH - 7)
         parts += ["       " + line for line in lines]
-        said = verdict.partition(":")[0] if verdict.startswith("proved") else verdict
+        said = verdict.partition(":")[0] if verdict.startswith(str(Verdict.PROVED)) else verdict
         parts.append(_paragraph(follows_text(step, said), "     "))
     return "\n".join(parts)
 
 
 def step_verdicts(checks: Iterable[Check | FoundCheck]) -> list[str]:
     """The verdicts of the steps among the checks, in their order."""
-    return [str(check.verdict) for check in checks if check.kind == "step"]
+    return [in_words(one.verdict, one.assuming) for one in checks if one.kind == "step"]
 
 
 def check_text(check: Check) -> str:
     """One check: what was checked, what was found, what that rests on."""
-    head = f"{check.verdict}: {check.name} ({check.kind}, {check.seconds:.3f} s)"
+    head = f"{check.words}: {check.name} ({check.kind}, {check.seconds:.3f} s)"
     return _paragraph(head + (f". {check.note}" if check.note else ""), "  - ", "    ")
 
 
@@ -105,11 +121,12 @@ def mutant_text(mutant: Mutant) -> str:
 
 
 def mutant_counts(outcome: Outcome) -> dict[str, int]:
-    """How many changed equations were made, refuted, and proved to be equivalent."""
+    """How many changed equations were made, refuted, no statements, proved to be equivalent."""
     verdicts = [mutant.ruling.verdict for mutant in outcome.mutants]
     return {
         "made": len(verdicts),
         "refuted": verdicts.count(Verdict.REFUTED),
+        "no_statements": verdicts.count(Verdict.NOT_A_STATEMENT),
         "equivalent": sum(mutant.equivalent for mutant in outcome.mutants),
     }
 
@@ -118,21 +135,24 @@ def counts_text(outcome: Outcome) -> str:
     """The same in words."""
     counts = mutant_counts(outcome)
     words = f"{counts['refuted']} of {counts['made']} mutants refuted"
+    if counts["no_statements"]:
+        words += f", {counts['no_statements']} not a statement"
     if counts["equivalent"]:
         words += f", {counts['equivalent']} equivalent"
     return words
 
 
 def tried_counts(outcomes: Iterable[Outcome]) -> dict[str, int]:
-    """How many statements were false and refuted, and how many true and proved."""
+    """How many statements were false, of these refuted or no statements, and true and proved."""
     on = [one for outcome in outcomes for one in outcome.tried]
     false = [one.ruling.verdict for one in on if not one.statement.holds]
     true = [one.ruling.verdict for one in on if one.statement.holds]
     return {
         "false": len(false),
         "refuted": false.count(Verdict.REFUTED),
+        "no_statements": false.count(Verdict.NOT_A_STATEMENT),
         "true": len(true),
-        "proved": true.count(Verdict.PROVED),
+        "proved": sum(verdict.is_proved for verdict in true),
     }
 
 
@@ -140,11 +160,12 @@ def tried_text(counts: Mapping[str, int]) -> str:
     """The same in words; "" where none was tried."""
     if not counts["false"] + counts["true"]:
         return ""
-    left = counts["false"] - counts["refuted"], counts["true"] - counts["proved"]
+    none = counts["no_statements"]
+    left = counts["false"] - counts["refuted"] - none, counts["true"] - counts["proved"]
     return (
         f"Tried on {counts['false']} false statements: none proved, {counts['refuted']} refuted, "
-        f"{left[0]} undecided; on {counts['true']} true ones: none refuted, {counts['proved']} "
-        f"proved, {left[1]} undecided."
+        f"{none} not a statement, {left[0]} undecided; on {counts['true']} true ones: "
+        f"none refuted, {counts['proved']} proved, {left[1]} undecided."
     )
 
 
@@ -161,7 +182,8 @@ def outcome_text(outcome: Outcome) -> str:
         for words in [tried_text(tried_counts([outcome]))]
         if words
     ] + [""]
-    parts.append(f"Eq. {derivation.number} is {outcome.verdict} ({outcome.seconds:.2f} s)")
+    said = [f"Eq. {derivation.number} is {outcome.words}", expected_text(len(outcome.refuted))]
+    parts.append(f"{'; '.join(filter(None, said))} ({outcome.seconds:.2f} s)")
     return "\n".join(parts)
 
 
@@ -175,24 +197,28 @@ def summary_line(outcome: Outcome) -> str:
     steps = _count(kinds.count("step"), "step", "steps")
     proofs = _count(kinds.count("proof"), "proof", "proofs")
     witnesses = _count(kinds.count("witness"), "witness", "witnesses")
+    found = [steps, proofs, witnesses, counts_text(outcome), expected_text(len(outcome.refuted))]
     return (
-        f"{outcome.derivation.number!s:>3}  {outcome.verdict:<9}  {outcome.derivation.title}: "
-        f"{steps}, {proofs}, {witnesses}, {counts_text(outcome)} ({outcome.seconds:.2f} s)"
+        f"{outcome.derivation.number!s:>3}  {outcome.words:<9}  {outcome.derivation.title}: "
+        f"{', '.join(filter(None, found))} ({outcome.seconds:.2f} s)"
     )
 
 
 def trouble_lines(outcome: Outcome) -> list[str]:
     """What kept an equation from being proved."""
-    fine = {Verdict.PROVED, Verdict.AGREES}
-    lines = [check_text(check) for check in outcome.checks if check.verdict not in fine]
+    lines = [
+        check_text(check)
+        for check in outcome.checks
+        if not (check.verdict.is_proved or check.verdict is Verdict.AGREES or check.is_expected)
+    ]
     lines += [
         mutant_text(mutant)
         for mutant in outcome.mutants
-        if mutant.ruling.verdict not in (Verdict.PROVED, Verdict.REFUTED)
+        if mutant.ruling.verdict is Verdict.UNDECIDED
     ]
     lines += [
         _paragraph(
-            f"undecided: a true statement ({one.statement.reason}). {one.ruling.note}",
+            f"{one.ruling.verdict}: a true statement ({one.statement.reason}). {one.ruling.note}",
             "  - ",
             "    ",
         )
@@ -209,14 +235,17 @@ def outcomes_data(outcomes: Iterable[Outcome]) -> dict[str, Any]:
             "number": outcome.derivation.number,
             "name": outcome.derivation.name,
             "verdict": str(outcome.verdict),
+            "assuming": list(outcome.assuming),
             "checks": [
                 {
                     "kind": check.kind,
                     "verdict": str(check.verdict),
+                    "assuming": list(check.assuming),
                     "seconds": round(check.seconds, 6),
                 }
                 for check in outcome.checks
             ],
+            "refuted as expected": len(outcome.refuted),
             "mutants": mutant_counts(outcome),
             "statements": tried_counts([outcome]),
             "seconds": round(outcome.seconds, 6),

@@ -10,7 +10,6 @@ from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.as_printed import equation, terms
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
-    all_of,
     decide_identity,
     decide_linear,
     decide_vector_identity,
@@ -67,18 +66,6 @@ def summed(known: Known | None = None) -> Decide:
     )
 
 
-def is_sum(_: int, candidate: sympy.Eq) -> Ruling:
-    """The right-hand side is the sum up to n on the left: it telescopes, and starts at zero."""
-    if not isinstance(candidate.lhs, sympy.Sum):
-        return undecided("the left-hand side is no sum")
-    index, low, high = candidate.lhs.limits[0]
-    up_to, term = candidate.rhs, candidate.lhs.function.xreplace({index: high})
-    return all_of(
-        decide_identity(up_to - up_to.xreplace({high: high - 1}), term),
-        decide_identity(up_to.xreplace({high: low - 1}), sympy.Integer(0)),
-    )
-
-
 def certificate(total: sympy.Sum, up_to_n: sympy.Expr) -> tuple[sympy.Eq, sympy.Eq]:
     """What a sum up to n is, and its term at n as what that gains there: two lines of a step."""
     index, _, high = total.limits[0]
@@ -87,11 +74,6 @@ def certificate(total: sympy.Sum, up_to_n: sympy.Expr) -> tuple[sympy.Eq, sympy.
     before = [-part.xreplace({high: high - 1}) for part in after]
     term = total.function.xreplace({index: high})
     return equation(total, up_to_n), equation(term, terms(*after, *before))
-
-
-def by_certificate(part: int, candidate: sympy.Eq) -> Ruling:
-    """Rule on the lines of certificates."""
-    return (identity() if part % 2 else is_sum)(part, candidate)
 
 
 def differentiated() -> Decide:

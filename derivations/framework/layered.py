@@ -18,14 +18,14 @@ from force_diffusion.derivations.framework.proving import (
     asymptotic,
     bounded,
     facts_of,
-    in_place,
     moment,
     rewrite,
 )
-from force_diffusion.derivations.framework.record import ExactCase, Missed
+from force_diffusion.derivations.framework.record import Derivation, ExactCase, Missed
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
-from force_diffusion.symbolic.as_printed import equation, minus, terms, times
+from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms, times
 from force_diffusion.symbolic.kernel import moments
+from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import (
     Loading,
     Where,
@@ -142,6 +142,13 @@ class Layered:
             for name, form in self.forms.items()
         }
 
+    def theorems(self, lines: Lines) -> tuple[Theorem, ...]:
+        """What lines prove of every layer, and of the small packings."""
+        values = {form.expression for form in self.forms.values()}
+        values |= {value for *_, value in self._exceptions()}
+        said = [equation(self.symbol, value) for value in values]
+        return tuple(one.theorems[0] for one in lines if one.formula in said)
+
     # lines
 
     def show_weights(
@@ -253,3 +260,23 @@ class Layered:
         where = self.where(case)
         limit = in_a_layer(relation) if where.solved else at_fixed_height(relation)
         return where.in_the_limit(limit)
+
+
+@dataclass(frozen=True)
+class EveryLayer:
+    """What an equation's lines prove of every layer."""
+
+    of: Layered
+    derivation: Derivation
+
+    @property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """One for each closed form."""
+        lines = self.derivation.steps()
+        assert isinstance(lines, Lines)
+        return self.of.theorems(lines)
+
+    @property
+    def words(self) -> str:
+        """How a line names it."""
+        return self.derivation.words

@@ -10,16 +10,18 @@ from functools import cache, cached_property
 from typing import Any, Protocol
 
 import sympy
-from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel import limits, moments, rules
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
     all_of,
+    not_a_statement,
     proved,
     refuted,
     undecided,
 )
+from force_diffusion.symbolic.kernel.disproofs import Disproof, other_leading_order
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import (
     NotAStatementError,
@@ -27,11 +29,14 @@ from force_diffusion.symbolic.kernel.theorem import (
     Supposition,
     Theorem,
     isolated,
+    no_statement,
     put_in,
     subject,
 )
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.search.counterexample import counterexample
+from force_diffusion.symbolic.search.values import WithoutValue
+from force_diffusion.symbolic.symbols import ForceMinus, ForcePlus
 
 Meaning = Mapping[Any, Any]
 """What a line writes in short: for a symbol, or for a function of its arguments."""
@@ -66,7 +71,7 @@ class Shown(Protocol):
 
     @property
     def verdict(self) -> Verdict:
-        """``proved``, ``refuted`` or ``undecided``."""
+        """That of ``ruling``."""
 
     def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
         """Rule on a candidate for one of its equations."""
@@ -87,7 +92,7 @@ class Proved(Protocol):
 Source = Any
 """A line, an equation, a theorem of the kernel, several of these, or what is supposed."""
 
-_FEW = 12  # points at which such a statement is looked at
+_FEW = 4  # points at which what may be no statement is looked at
 
 SUPPOSED = object()
 """What an induction supposes."""
@@ -121,7 +126,7 @@ def _names(sources: Iterable[Source]) -> Iterable[str]:
             yield from one.names()
         elif isinstance(one, tuple):
             yield from _names(one)
-        elif isinstance(one, Chain) or hasattr(one, "theorems"):
+        elif isinstance(one, Chain) or (hasattr(one, "theorems") and hasattr(one, "words")):
             yield one.words
 
 
@@ -154,6 +159,18 @@ class OfBoth:
     def words(self) -> str:
         """How another line names it."""
         return self.of.words
+
+
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """Theorems that no line shows; what they follow from is named by the line that uses them."""
+
+    prove: Callable[[], tuple[Theorem, ...]]
+
+    @cached_property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """All of them."""
+        return self.prove()
 
 
 def known(source: Source, supposed: tuple[Theorem, ...]) -> tuple[Theorem, ...]:
@@ -194,34 +211,6 @@ def facts_of(
     return tuple(known(one, supposed) for part in parts for one in part)
 
 
-def in_place(node: sympy.Basic, meaning: Meaning) -> sympy.Basic:
-    """What is written in short, put in one after the other; no divisor is cancelled by it."""
-    for what, image in meaning.items():
-        node = _in_place(node, what, image)
-    return node
-
-
-def _in_place(node: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
-    if node == what:
-        result: sympy.Basic = image
-        return result
-    if not node.has(what):
-        return node
-    args = [_in_place(one, what, image) for one in node.args]
-    if isinstance(what, type) and isinstance(node, what):
-        result = image(*args)
-    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow) and _divides(node, what):
-        result = node.func(*args, evaluate=False)
-    else:
-        result = node.func(*args)
-    return result
-
-
-def _divides(node: sympy.Basic, what: Any) -> bool:
-    """Whether something is divided by it there."""
-    return any(one.exp.is_negative and one.base.has(what) for one in node.atoms(sympy.Pow))
-
-
 # the rules of the kernel, with what they rest on
 
 
@@ -230,18 +219,33 @@ def rewrite(*facts: Source) -> By:
     return By(lambda supposed: rules.rewrite(*facts_of(facts, supposed)), facts)
 
 
-def moment(*facts: Source) -> By:
+def moment(*facts: Source, **parts: Any) -> By:
     """Both sides are the same once facts are put in and means and variances are worked out."""
-    return By(lambda supposed: moments.moment(*facts_of(facts, supposed)), facts)
+    return By(lambda supposed: moments.moment(*facts_of(facts, supposed), **parts), facts)
 
 
-def asymptotic(*facts: Source) -> By:
+def asymptotic(*facts: Source, late: Iterable[sympy.Basic] = ()) -> By:
     """Both sides are of the same leading order, moments worked out at finite size."""
+    late = tuple(late)
     return By(
-        lambda supposed: limits.asymptotic(*facts_of(facts, supposed)),
+        lambda supposed: limits.asymptotic(*facts_of(facts, supposed), late=late),
         facts,
-        lambda formula, where: moments.without_moments(formula, facts_of(facts), where),
+        lambda formula, where: moments.without_moments(
+            formula, facts_of(facts), where, where.also(*late)
+        ),
     )
+
+
+def exhausting(whole: Where, parts: Iterable[Where], by: By) -> By:
+    """The same rule for several statements, if their domains leave nothing of a whole one out."""
+    parts = tuple(parts)
+
+    def rule(supposed: tuple[Theorem, ...]) -> Rule:
+        if not whole.covered_by(parts):
+            raise NotProvedError("the statements leave something out")
+        return by.rule(supposed)
+
+    return By(rule, (by,))
 
 
 def bounded(*facts: Source) -> By:
@@ -254,7 +258,7 @@ def negligible(force: Proved, *facts: Source) -> By:
 
     ``force`` says what the force is, ``facts`` what stands in it and in the statement.
     """
-    whole = (OfBoth(force), *facts)
+    whole = (Chain((OfBoth(force), *facts)),)
     return By(
         lambda supposed: limits.negligible(*facts_of(whole, supposed)),
         whole,
@@ -430,6 +434,7 @@ class Line:
         meaning: what is written in short; one for each equation, or one for all.
         after: lines and equations that it follows in the text, beside those that its rule uses.
         number: its place among the lines, from 1.
+        alike: lines that say the same of other packings, and have to be proved as well.
     """
 
     reason: str
@@ -439,6 +444,7 @@ class Line:
     meaning: Meaning | tuple[Meaning, ...] | None = None
     after: tuple[Proved, ...] = ()
     number: int = 0
+    alike: tuple["Line", ...] = ()
 
     @property
     def relation(self) -> str:
@@ -463,7 +469,13 @@ class Line:
         rules_of = self.by if isinstance(self.by, tuple) else (self.by,)
         names = [name for one in rules_of for name in one.names()]
         names += [one.words for one in self.after]
+        names += [name for one in self.alike for name in one.uses]
         return tuple(sorted(dict.fromkeys(names), key=_in_order))
+
+    def domain(self, part: int) -> Where:
+        """Where one of its equations holds."""
+        where: Where = _at(part, self.where)
+        return where
 
     def prove(self, part: int, candidate: sympy.Eq) -> Theorem:
         """The theorem that a candidate for one of its equations is.
@@ -471,24 +483,38 @@ class Line:
         Raises:
             NotProvedError: the rule does not prove it.
         """
-        by, where = (_at(part, one) for one in (self.by, self.where))
-        rule: Rule = by.rule(())
-        return rule(self._meant(part, candidate), where)
+        return self._proofs(part, candidate)[0]
+
+    def _proofs(self, part: int, candidate: sympy.Eq) -> tuple[Theorem, ...]:
+        """The theorem, and those of the lines alike."""
+        others = [one.prove(part, candidate) for one in self.alike]
+        rule: Rule = _at(part, self.by).rule(())
+        return (rule(self._meant(part, candidate), self.domain(part)), *others)
 
     def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
-        """Rule on a candidate: proved by the rule, or searched for explicit values against it."""
-        try:
-            theorem = self.prove(part, candidate)
-        except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
-            # what has no value somewhere is mostly without one at a place that no packing shows
-            at_most = _FEW if isinstance(reason, NotAStatementError) else None
-            found = self.counterexample(part, candidate, at_most)
-            return refuted(found) if found else undecided(str(reason) or type(reason).__name__)
-        return proved(f"by the rule: {theorem.rule}")
+        """Rule on a candidate: proved by the rule, or searched for explicit values against it.
 
-    def counterexample(self, part: int, candidate: sympy.Eq, at_most: int | None) -> str | None:
+        What the kernel sees no statement in is refuted only where both sides have values.
+        """
+        meant, where = self._meant(part, candidate), self.domain(part)
+        try:
+            theorem, *others = self._proofs(part, candidate)
+        except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
+            none = isinstance(reason, NotAStatementError) and no_statement(meant, where)
+            # what has no value somewhere is mostly without one at a place that no packing shows
+            found = self.counterexample(part, candidate, _FEW if none else None)
+            if found and not isinstance(found, WithoutValue):
+                return refuted(found)
+            if none or found:
+                return not_a_statement(str(reason) if none else str(found))
+            return undecided(str(reason) or type(reason).__name__)
+        return proved(f"by the rule: {theorem.rule}", assumptions((theorem, *others)))
+
+    def counterexample(
+        self, part: int, candidate: sympy.Eq, at_most: int | None = None
+    ) -> str | None:
         """Explicit values at which a candidate is false, found without the rule; or None."""
-        by, where = (_at(part, one) for one in (self.by, self.where))
+        by, where = _at(part, self.by), self.domain(part)
         meant = self._meant(part, candidate)
         finite = where.in_the_limit(None)
         try:
@@ -500,11 +526,7 @@ class Line:
 
     def _meant(self, part: int, candidate: sympy.Eq) -> sympy.Eq:
         meaning = _at(part, self.meaning)
-        return (
-            equation(*(in_place(side, meaning) for side in candidate.args))
-            if meaning
-            else candidate
-        )
+        return in_place(candidate, meaning or {})
 
     @cached_property
     def theorems(self) -> tuple[Theorem, ...]:
@@ -522,7 +544,7 @@ class Line:
 
     @property
     def verdict(self) -> Verdict:
-        """``proved``, ``refuted`` or ``undecided``."""
+        """That of ``ruling``."""
         return self.ruling.verdict
 
     def decide(self) -> Ruling:
@@ -539,6 +561,48 @@ def _in_order(name: str) -> tuple[bool, int]:
     return kind == "step", int(number) if number.isdigit() else 0
 
 
+@dataclass(frozen=True)
+class Refuted:
+    """A printed statement that does not hold, which a theorem contradicts.
+
+    Attributes:
+        reading: how the words of the paper are read in it.
+        formula: the equation.
+        by: the line with the theorem.
+        where: its domain.
+        meaning: what is written in short.
+    """
+
+    reading: str
+    formula: sympy.Eq
+    by: Line
+    where: Where
+    meaning: Meaning
+
+    @property
+    def relation(self) -> str:
+        """How it relates its sides."""
+        return self.where.limit.relation if self.where.limit else "="
+
+    def disprove(self) -> Disproof:
+        """The kernel's disproof.
+
+        Raises:
+            NotProvedError: it is not shown to be false.
+        """
+        (theorem,) = self.by.theorems
+        meant = equation(*(in_place(side, self.meaning) for side in self.formula.args))
+        return other_leading_order(theorem)(meant, self.where)
+
+    @cached_property
+    def ruling(self) -> Ruling:
+        """``refuted``, with what the quantity does instead, or ``undecided``."""
+        try:
+            return refuted(self.disprove().reason)
+        except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
+            return undecided(str(reason) or type(reason).__name__)
+
+
 class Lines(list[Line]):
     """The lines of a derivation, which number themselves.
 
@@ -550,13 +614,21 @@ class Lines(list[Line]):
         super().__init__()
         self._where = where
         self.claims: list[Line] = []
+        self.refuted: list[Refuted] = []
 
     def claim(
         self, name: str, formula: sympy.Basic, by: By | tuple[By, ...], **options: Any
-    ) -> None:
-        """Add a further statement that the lines prove; it is not one of them."""
+    ) -> Line:
+        """Add a further statement that the lines prove, and return it; it is not one of them."""
         domain = options.pop("where", self._where)
         self.claims.append(Line(name, formula, by, domain, **options))
+        return self.claims[-1]
+
+    def refute(
+        self, reading: str, formula: sympy.Eq, by: Line, *, where: Where, meaning: Meaning
+    ) -> None:
+        """Add a printed statement that a line contradicts: it is expected to be refuted."""
+        self.refuted.append(Refuted(reading, formula, by, where, meaning))
 
     def add(self, line: Line, after: tuple[Proved, ...] = ()) -> Line:
         """Add a line that is there already, under the number that it has."""
@@ -574,21 +646,29 @@ class Lines(list[Line]):
         where: Where | tuple[Where, ...] | None = None,
         meaning: Meaning | tuple[Meaning, ...] | None = None,
         after: tuple[Proved, ...] = (),
+        alike: tuple[Line, ...] = (),
     ) -> Line:
         """Add a line and return it."""
         domain = self._where if where is None else where
-        self.append(Line(reason, formula, by, domain, meaning, after, len(self) + 1))
+        self.append(Line(reason, formula, by, domain, meaning, after, len(self) + 1, alike))
         return self[-1]
+
+
+def assumptions(theorems: Iterable[Theorem]) -> list[str]:
+    """What theorems rest on and no rule ends, in words."""
+    return sorted(set().union(*(one.assuming for one in theorems)))
 
 
 def fixes_it(candidate: sympy.Eq, printed: sympy.Eq, where: Where) -> str:
     """Why a candidate may say less than the printed equation; "" when it says as much.
 
     Where the printed equation is about one quantity, the candidate fixes that everywhere. (A
-    printed balance is about none, and its rule compares all of it.)
+    printed balance is about none, and its rule compares all of it; what drops a part of a force is
+    about that of the printed equation, not of one layer alone.)
     """
     if subject(printed.lhs) is None:
-        return ""
+        told, meant = (one.atoms(ForcePlus, ForceMinus) for one in (candidate, printed))
+        return "it is about another force" if where.limit and told != meant else ""
     try:
         about, _ = isolated(candidate, where)
     except NotProvedError as reason:

@@ -1,35 +1,50 @@
 """The shape of a derivation: what every ``eqNN_…`` module states, and what running it yields."""
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import Line, Lines, Shown, fixes_it
+from force_diffusion.derivations.framework.proving import (
+    Line,
+    Lines,
+    Refuted,
+    Shown,
+    assumptions,
+    fixes_it,
+)
 from force_diffusion.derivations.witnesses.both_sides import AbsentError, Points, compare
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.algebra.explicit import AmbiguousError
+from force_diffusion.symbolic.kernel import rules
 from force_diffusion.symbolic.kernel.decisions import (
+    NO_VALUE,
     Ruling,
     Verdict,
     all_of,
+    in_words,
+    not_a_statement,
+    proved,
     refuted,
     undecided,
 )
 from force_diffusion.symbolic.kernel.language import (
+    is_of_vectors,
     says_less,
     unreadable,
     usual_form,
     without_value,
 )
-from force_diffusion.symbolic.kernel.theorem import Theorem
+from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem, no_statement
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.corpus import Statement, statements
+from force_diffusion.symbolic.search.sources import Form, Source
+from force_diffusion.symbolic.search.values import WithoutValue
 
 
 class KernelError(ForceDiffusionError, RuntimeError):
@@ -75,14 +90,16 @@ class Step:
         """Rule on a candidate for one of its equations; what can't be read is undecided."""
         try:
             ruling = self.decide(part, candidate)
+        except NO_VALUE as reason:
+            return not_a_statement(str(reason))
         except (ArithmeticError, TypeError, ValueError) as failure:
             return undecided(f"it could not be read: {failure or type(failure).__name__}")
-        if ruling.verdict is not Verdict.PROVED:
+        if not ruling.verdict.is_proved:
             return ruling
         known = {one: sympy.Dummy(positive=True) for one in self.positive}
         sides = (side.xreplace(known) for side in candidate.args)
-        reason = without_value(sympy.Eq(*sides, evaluate=False), in_the_limit=self.relation != "=")
-        return undecided(reason) if reason else ruling
+        less = without_value(sympy.Eq(*sides, evaluate=False), in_the_limit=self.relation != "=")
+        return not_a_statement(less) if less else ruling
 
     @cached_property
     def ruling(self) -> Ruling:
@@ -91,7 +108,7 @@ class Step:
 
     @property
     def verdict(self) -> Verdict:
-        """``proved``, ``refuted`` or ``undecided``."""
+        """That of ``ruling``."""
         return self.ruling.verdict
 
 
@@ -162,38 +179,60 @@ class Derivation:
     # mechanical changes that say the same at the order decided, each with the reason why
     equivalent: Mapping[str, str] = field(default_factory=dict)
     # false statements, and true ones in another form, that the procedure is tried on
-    tries: Callable[[sympy.Eq, str, int | None, int], Iterable[Statement]] = statements
+    tries: Callable[[Source, int | None], Iterable[Statement]] = statements
 
-    def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
+    def source(self, part: int) -> Source:
+        """One of ``printed``, as other statements are made from it."""
+        printed = self.printed[part]
+        cases = self.exact() if self.exact else {}
+        forms = (
+            Form(name, case.expression, any(isinstance(one, sympy.Eq) for one in case.domain))
+            for name, case in cases.items()
+            if case.quantity == printed.lhs
+        )
+        where = None
+        if self.decide is None:
+            line = self._line(printed)
+            where = line.domain(line.equations.index(printed))
+        return Source(printed, self.relation, tuple(forms), where, self.dimension)
+
+    def rule_on(self, part: int, candidate: sympy.Eq, where: Where | None = None) -> Ruling:
         """Rule on a candidate for one of ``printed``: decided, in the language, and searched.
+
+        The kernel rules on it on another domain, too: ``where``.
 
         Raises:
             KernelError: it was proved, and explicit values refute it.
         """
         named = [symbol for symbol, _ in self.symbols]
-        if reason := unreadable(candidate, self.printed, named, self.dimension):
-            return undecided(reason)
+        if refusal := unreadable(candidate, self.printed, named, self.dimension):
+            return refusal
         candidate = usual_form(candidate, self.printed)
         if self.decide is None:
-            return self._by_the_kernel(part, candidate)
+            return self._by_the_kernel(part, candidate, where)
         try:
             ruling = self.decide(part, candidate)
+        except NO_VALUE as failure:
+            ruling = not_a_statement(str(failure))
         except (NotExactError, AmbiguousError, RecursionError) as failure:
             ruling = undecided(str(failure))
-        proven = ruling.verdict is Verdict.PROVED
-        if proven and (
-            reason := without_value(candidate, in_the_limit=self.relation != "=")
-            or says_less(candidate, self.printed[part])
+        if (reason := without_value(candidate, in_the_limit=self.relation != "=")) and (
+            ruling.verdict is not Verdict.REFUTED
         ):
-            proven, ruling = False, undecided(reason)
+            return not_a_statement(reason)
+        proven = ruling.verdict.is_proved
+        if proven and (less := says_less(candidate, self.printed[part])):
+            proven, ruling = False, undecided(less)
         if ruling.verdict is Verdict.REFUTED and not self._needs_packings(part, candidate):
             return ruling
         try:
             found = self.search(candidate) if self.search else None
-        except AbsentError as reason:
-            return undecided(str(reason)) if proven else refuted(f"on an exact packing: {reason}")
+        except AbsentError as absent:
+            return not_a_statement(str(absent))
         if found and proven:
             raise self.fault(candidate, f"proved, yet false: {found}")
+        if isinstance(found, WithoutValue):
+            return not_a_statement(reason or str(found))
         if found:
             return refuted(found)
         if ruling.verdict is Verdict.REFUTED:
@@ -213,6 +252,11 @@ class Derivation:
             for one, line in ((one, self._line(one)) for one in self.printed)
         )
 
+    @property
+    def assumed(self) -> list[str]:
+        """What is assumed of its printed equations that no rule ends."""
+        return assumptions(self.theorems) if self.decide is None else []
+
     @cached_property
     def _lines(self) -> list[Line]:
         return [line for line in self.steps() if isinstance(line, Line)]
@@ -224,25 +268,23 @@ class Derivation:
         further = lines.claims if isinstance(lines, Lines) else ()
         return (*(Claim(one.reason, one.decide) for one in further), *self.claims)
 
+    @property
+    def refuted(self) -> tuple[Refuted, ...]:
+        """The printed statements that are known not to hold; ``printed`` are those that do."""
+        lines = self.steps() if self.decide is None else ()
+        return tuple(lines.refuted) if isinstance(lines, Lines) else ()
+
     def _line(self, printed: sympy.Eq) -> Line:
         return next(line for line in self._lines if printed in line.equations)
 
-    def _by_the_kernel(self, part: int, candidate: sympy.Eq) -> Ruling:
+    def _by_the_kernel(self, part: int, candidate: sympy.Eq, where: Where | None) -> Ruling:
         printed = self.printed[part]
         line = self._line(printed)
         place = line.equations.index(printed)
-        ruling = line.rule_on(place, candidate)
-        if ruling.verdict is not Verdict.PROVED:
-            return ruling
-        assert self.where is not None
-        if any(one.supposed for one in self.theorems):
+        line = line if where is None else replace(line, where=where)
+        ruling = proved_by_line(self, line, place, printed, candidate)
+        if ruling.verdict.is_proved and any(one.supposed for one in self.theorems):
             return undecided("it rests on what is only supposed")
-        if less := fixes_it(candidate, printed, self.where):
-            return undecided(less)
-        if candidate == printed:
-            return ruling
-        if found := line.counterexample(place, candidate, _ALARM):
-            raise self.fault(candidate, f"proved, yet false: {found}")
         return ruling
 
     def _needs_packings(self, part: int, candidate: sympy.Eq) -> bool:
@@ -261,6 +303,47 @@ class Derivation:
             f"the checker is at fault, and its verdicts count for nothing. Of Eq. {self.number} it "
             f"got wrong: {_shown(statement)} ({words})"
         )
+
+
+def proved_by_line(
+    derivation: Derivation, line: Line, place: int, printed: sympy.Eq, candidate: sympy.Eq
+) -> Ruling:
+    """Rule on a candidate for what a line prints: by its rule, as the whole or as a component.
+
+    Raises:
+        KernelError: it was proved, and explicit values refute it.
+    """
+    where = line.domain(place)
+    if is_of_vectors(printed) and not is_of_vectors(candidate):
+        ruling = _component(line, place, candidate)
+    else:
+        ruling = line.rule_on(place, candidate)
+        if ruling.verdict.is_proved and (less := fixes_it(candidate, printed, where)):
+            return undecided(less)
+    if not ruling.verdict.is_proved or candidate == printed:
+        return ruling
+    if found := line.counterexample(place, candidate, _ALARM):
+        raise derivation.fault(candidate, f"proved, yet false: {found}")
+    return ruling
+
+
+def _component(line: Line, place: int, candidate: sympy.Eq) -> Ruling:
+    """Rule on what is said of one component of an equation between vectors."""
+    theorem = line.theorems[place]
+    for vector in (sy.e_x, *sy.VECTORS):
+        try:
+            rules.follows(rules.along(theorem, vector))(candidate, theorem.where)
+        except (NotProvedError, NotExactError, ArithmeticError, RecursionError):
+            continue
+        return proved(
+            f"the component along {text(vector)}, by the rule: follows", assumptions([theorem])
+        )
+    found = line.counterexample(place, candidate)
+    if found and not isinstance(found, WithoutValue):
+        return refuted(found)
+    if reason := no_statement(candidate, theorem.where) or found:
+        return not_a_statement(str(reason))
+    return undecided("it is no component of the equation")
 
 
 def _shown(candidate: sympy.Eq) -> str:
@@ -288,6 +371,7 @@ class ExactCase:
         domain: relations between whole numbers, all of which hold for form and ``missed`` together.
         missed: what of the domain the form is not for; the first that fits holds.
         to_order: in the deviations of the radii, to which it is exact.
+        line: the line that proves it, on its own domain; none where the kernel does not yet.
     """
 
     quantity: sympy.Expr
@@ -296,17 +380,29 @@ class ExactCase:
     domain: tuple[sympy.Basic, ...] = ()
     missed: tuple[Missed, ...] = ()
     to_order: str = "first order"
+    line: Line | None = None
 
 
 @dataclass(frozen=True)
 class Check:
     """A step, a claim or a witness that has been run."""
 
-    kind: str  # "step", "proof" or "witness"
+    kind: str  # "step", "proof", "witness", or "refutation" of a printed statement
     name: str
     verdict: Verdict
     seconds: float
     note: str = ""
+    assuming: tuple[str, ...] = ()
+
+    @property
+    def words(self) -> str:
+        """Its verdict, and what it assumes."""
+        return in_words(self.verdict, self.assuming)
+
+    @property
+    def is_expected(self) -> bool:
+        """Whether a printed statement that is known not to hold was refuted."""
+        return self.kind == "refutation" and self.verdict is Verdict.REFUTED
 
 
 @dataclass(frozen=True)
@@ -327,11 +423,11 @@ class Mutant:
     @property
     def equivalent(self) -> bool:
         """Whether it is an equivalent rewriting, with its proof."""
-        return self.ruling.verdict is Verdict.PROVED
+        return self.ruling.verdict.is_proved
 
     @property
     def verdict(self) -> str:
-        """The ruling's verdict in words, "equivalent" for "proved"."""
+        """The ruling's verdict in words, "equivalent" for one that is proved."""
         return "equivalent" if self.equivalent else str(self.ruling.verdict)
 
 
@@ -345,7 +441,7 @@ class Tried:
     @property
     def is_open(self) -> bool:
         """Whether it is true and not proved."""
-        return self.statement.holds and self.ruling.verdict is not Verdict.PROVED
+        return self.statement.holds and not self.ruling.verdict.is_proved
 
 
 @dataclass(frozen=True)
@@ -358,3 +454,20 @@ class Outcome:
     mutants: tuple[Mutant, ...] = field(default=())
     tried: tuple[Tried, ...] = field(default=())
     seconds: float = 0.0
+
+    @property
+    def refuted(self) -> tuple[Check, ...]:
+        """The printed statements that were refuted as expected; the verdict is on the others."""
+        return tuple(check for check in self.checks if check.is_expected)
+
+    @property
+    def assuming(self) -> tuple[str, ...]:
+        """What its proofs assume and no rule discharges, where it is proved."""
+        if not self.verdict.is_proved:
+            return ()
+        return tuple(dict.fromkeys(words for one in self.checks for words in one.assuming))
+
+    @property
+    def words(self) -> str:
+        """Its verdict, and what it assumes."""
+        return in_words(self.verdict, self.assuming)

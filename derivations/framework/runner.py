@@ -23,6 +23,7 @@ from force_diffusion.derivations.framework.record import (
 from force_diffusion.derivations.witnesses.draws import draw
 from force_diffusion.numeric.arithmetic.processes import Start
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of
+from force_diffusion.symbolic.kernel.where import Where
 
 SEEDS = (20021, 20022, 20023)
 """Seeds of the witnesses' draws, so that two runs check the same packings."""
@@ -31,8 +32,8 @@ Watch = Callable[[Derivation, str], None]
 """Told which check of which derivation comes next."""
 
 
-Rule = Callable[[Derivation, int, str, sympy.Eq], Ruling]
-"""Rules on a candidate for a part of an equation, described in words."""
+Rule = Callable[[Derivation, int, str, sympy.Eq, Where | None], Ruling]
+"""Rules on a candidate for a part of an equation, described in words; on another domain, too."""
 
 
 @contextmanager
@@ -53,11 +54,14 @@ def _silent(_derivation: Derivation, _check: str) -> None:
 def _timed(kind: str, name: str, decide: Callable[[], Ruling]) -> Check:
     start = perf_counter()
     ruling = decide()
-    return Check(kind, name, ruling.verdict, perf_counter() - start, ruling.note)
+    return Check(kind, name, ruling.verdict, perf_counter() - start, ruling.note, ruling.assuming)
 
 
 def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
-    """Rule on each printed equation, on each step that leads to it, then on each further claim."""
+    """Rule on each printed equation, on each step that leads to it, then on each further claim.
+
+    Last come printed statements that are known not to hold.
+    """
     several = len(derivation.printed) > 1
     found: dict[sympy.Eq, Check] = {}
     for place, equation in enumerate(derivation.printed):
@@ -75,6 +79,9 @@ def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
     for claim in derivation.all_claims:
         watch(derivation, claim.name)
         yield _timed("proof", claim.name, claim.decide)
+    for one in derivation.refuted:
+        watch(derivation, one.reading)
+        yield _timed("refutation", one.reading, lambda r=one: r.ruling)  # type: ignore[misc]
 
 
 def _ruling(step: Shown, found: Mapping[sympy.Eq, Check]) -> Ruling:
@@ -82,7 +89,7 @@ def _ruling(step: Shown, found: Mapping[sympy.Eq, Check]) -> Ruling:
     known = [found[one] for one in step.equations if one in found]
     if len(known) < len(step.equations):
         return step.ruling
-    return all_of(*(Ruling(check.verdict, check.note) for check in known))
+    return all_of(*(Ruling(one.verdict, one.note, one.assuming) for one in known))
 
 
 def witnesses(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
@@ -101,8 +108,10 @@ def _on_all(witness: Witness) -> Ruling:
     return Ruling(Verdict.AGREES, f"{len(SEEDS)} packings; the last: {ruling.note}")
 
 
-def _rule(derivation: Derivation, place: int, _words: str, candidate: sympy.Eq) -> Ruling:
-    return derivation.rule_on(place, candidate)
+def _rule(
+    derivation: Derivation, place: int, _words: str, candidate: sympy.Eq, where: Where | None
+) -> Ruling:
+    return derivation.rule_on(place, candidate, where)
 
 
 def judged_mutants(
@@ -118,9 +127,9 @@ def judged_mutants(
     watch(derivation, "mutants")
     for place, equation in enumerate(derivation.printed):
         for kind, change, mutated in mutants(equation):
-            ruling = rule(derivation, place, change, mutated)
+            ruling = rule(derivation, place, change, mutated, None)
             reason = derivation.equivalent.get(change, "")
-            if ruling.verdict is Verdict.PROVED and not reason:
+            if ruling.verdict.is_proved and not reason:
                 raise derivation.fault(
                     mutated, f"proved, a change that is not listed as equivalent: {change}"
                 )
@@ -137,16 +146,14 @@ def tried(derivation: Derivation, watch: Watch = _silent, rule: Rule = _rule) ->
     """
     watch(derivation, "false and true statements")
     turn = sum(map(ord, str(derivation.number)))
-    for place, equation in enumerate(derivation.printed):
-        for statement in derivation.tries(
-            equation, derivation.relation, turn, derivation.dimension
-        ):
-            ruling = rule(derivation, place, statement.reason, statement.equation)
-            wrong = Verdict.REFUTED if statement.holds else Verdict.PROVED
-            if ruling.verdict is wrong:
+    for place in range(len(derivation.printed)):
+        for statement in derivation.tries(derivation.source(place), turn):
+            ruling = rule(derivation, place, statement.reason, statement.equation, statement.where)
+            refuted = ruling.verdict is Verdict.REFUTED
+            if refuted if statement.holds else ruling.verdict.is_proved:
                 truth = "true" if statement.holds else "false"
                 raise derivation.fault(
-                    statement.equation, f"{wrong}, yet {truth}: {statement.reason}"
+                    statement.equation, f"{ruling.words}, yet {truth}: {statement.reason}"
                 )
             yield Tried(statement, ruling)
 
@@ -165,8 +172,10 @@ def rulings(number: Number) -> Ruled:
     start = perf_counter()
     found = []
 
-    def keep(derivation: Derivation, place: int, words: str, candidate: sympy.Eq) -> Ruling:
-        ruling = derivation.rule_on(place, candidate)
+    def keep(
+        derivation: Derivation, place: int, words: str, candidate: sympy.Eq, where: Where | None
+    ) -> Ruling:
+        ruling = derivation.rule_on(place, candidate, where)
         found.append((place, words, ruling))
         return ruling
 
@@ -181,10 +190,12 @@ def _read(known: Iterable[tuple[int, str, Ruling]]) -> Rule:
     """Read rulings off a list; what is not next in it is ruled on here."""
     left = iter(known)
 
-    def rule(derivation: Derivation, place: int, words: str, candidate: sympy.Eq) -> Ruling:
+    def rule(
+        derivation: Derivation, place: int, words: str, candidate: sympy.Eq, where: Where | None
+    ) -> Ruling:
         *about, ruling = next(left, (None, "", None))
         if ruling is None or about != [place, words]:
-            return derivation.rule_on(place, candidate)
+            return derivation.rule_on(place, candidate, where)
         return ruling
 
     return rule
@@ -210,29 +221,37 @@ def overall(
 ) -> Verdict:
     """Verdict on an equation from all that was found about it.
 
-    A mutant that is proved is a listed equivalent rewriting, and speaks for nobody.
-    One that the checker neither refutes nor proves shows that the checker can't tell, and so does
-    a true statement that it does not prove.
+    A printed statement that is known not to hold, and is not refuted, leaves it undecided.
+    A mutant that is proved is a listed equivalent rewriting, and speaks for nobody; so does one
+    that is not a statement. One of which the checker can't tell leaves the equation undecided, and
+    so does a true statement that it does not prove.
     """
-    found = {check.verdict for check in checks}
+    checks = tuple(checks)
+    found = {check.verdict for check in checks if check.kind != "refutation"}
     if found & {Verdict.REFUTED, Verdict.DISAGREES}:
         return Verdict.REFUTED
-    if Verdict.UNDECIDED in found or Verdict.PROVED not in found:
+    proofs = found - {Verdict.AGREES}
+    if not proofs or not all(one.is_proved for one in proofs):
+        return Verdict.UNDECIDED
+    if any(check.kind == "refutation" and not check.is_expected for check in checks):
         return Verdict.UNDECIDED
     if any(mutant.ruling.verdict is Verdict.UNDECIDED for mutant in mutants):
         return Verdict.UNDECIDED
     if any(one.is_open for one in on):
         return Verdict.UNDECIDED
-    return Verdict.PROVED
+    return Verdict.ASSUMING if Verdict.ASSUMING in proofs else Verdict.PROVED
 
 
 def _open_premises(derivation: Derivation, known: Mapping[Number, Verdict]) -> Iterator[Check]:
     """What is derived from an equation is no better than that equation."""
     for premise in derivation.premises:
         verdict = known.get(premise.number, Verdict.PROVED)
-        if verdict is not Verdict.PROVED:
-            name = f"rests on Eq. {premise.number}"
-            yield Check("proof", name, Verdict.UNDECIDED, 0.0, f"Eq. {premise.number} is {verdict}")
+        name, note = f"rests on Eq. {premise.number}", f"Eq. {premise.number} is {verdict}"
+        if verdict is Verdict.ASSUMING:
+            assumed = tuple(premise.assumed or [f"what Eq. {premise.number} assumes"])
+            yield Check("proof", name, verdict, 0.0, assuming=assumed)
+        elif verdict is not Verdict.PROVED:
+            yield Check("proof", name, Verdict.UNDECIDED, 0.0, note)
 
 
 def run(

@@ -6,6 +6,7 @@ Symbols, what makes an expression as it is printed, the rules, the axioms, and w
 from force_diffusion.derivations.framework.layered import UNIT, Layered
 from force_diffusion.derivations.framework.proving import (
     SUPPOSED,
+    Beside,
     By,
     Chain,
     Line,
@@ -17,6 +18,7 @@ from force_diffusion.derivations.framework.proving import (
     bounded,
     cases,
     differentiate,
+    exhausting,
     follows,
     heaviest,
     in_cases,
@@ -47,6 +49,7 @@ from force_diffusion.symbolic.kernel.where import Where
 __all__ = [
     "SUPPOSED",
     "UNIT",
+    "Beside",
     "By",
     "Chain",
     "Claim",
@@ -65,6 +68,7 @@ __all__ = [
     "cases",
     "differentiate",
     "equation",
+    "exhausting",
     "follows",
     "heaviest",
     "in_cases",

@@ -159,11 +159,11 @@ def _evaluate(expression: sympy.Expr, truth: Truth, at: Values) -> Dual | Vector
             raise explicit.DivisionError(f"{expression} has no value")
         return base ** int(expression.exp)
     if isinstance(expression, sympy.Sum):
-        index, low, high = expression.limits[-1]
+        *inner, (index, low, high) = expression.limits
+        body = sympy.Sum(expression.function, *inner) if inner else expression.function
         bounds = (explicit.number(bound, values) for bound in (low, high))
         terms = [
-            evaluate(expression.function, truth, {**at, index: value})
-            for value in explicit.terms_of(*bounds)
+            evaluate(body, truth, {**at, index: value}) for value in explicit.terms_of(*bounds)
         ]
         return _total(*terms)
     if isinstance(expression, sy.Dot):

@@ -8,6 +8,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cache
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -370,7 +371,7 @@ def first_order_std(problem: Problem) -> PerBranch[Sequence[Fraction]] | None:
     """Give σ_f of layers j = 0 … M − 1, exact to first order (Eqs. 13, 14, B2, B3 at finite M).
 
     None where they don't apply. Each is a float64 times the exact σ/r, in units of the load, and is
-    found when it is asked for.
+    found when it is first asked for.
     """
     load, radii, height = problem.load, problem.radii, problem.height
     if problem.route == Route.ORDERED or not has_theory(problem):
@@ -383,14 +384,17 @@ def first_order_std(problem: Problem) -> PerBranch[Sequence[Fraction]] | None:
 
     if problem.dimension == 3:
         root = math.sqrt(3 * (1 + 2 * phi))
-        found = LazyRows(
-            height,
-            lambda j: Fraction(std_of_spheres(load.kind, height, j, phi) * (over(j) / root)) * std,
-        )
+
+        @cache
+        def alike(j: int) -> Fraction:
+            return Fraction(std_of_spheres(load.kind, height, j, phi) * (over(j) / root)) * std
+
+        found = LazyRows(height, alike)
         return PerAxis(found, found, found)
     plus, minus = map(float, load.strength(problem.n_x, FLOAT64).unit)
 
     def of(side: int) -> LazyRows[Fraction]:
+        @cache
         def one(j: int) -> Fraction:
             both = stds_of_discs(load.kind, height, j, phi, (plus, minus))
             return Fraction(both[side] * over(j)) * std

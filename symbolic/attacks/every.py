@@ -4,10 +4,14 @@ from collections.abc import Iterator
 
 from force_diffusion.symbolic.attacks import (  # noqa: F401 - each adds its own to ATTACKS
     averaging,
+    comparing,
     inducing,
+    lines,
     moving,
+    over_layers,
     rewriting,
     solving,
+    splitting,
     statements,
     supposing,
     tracing,

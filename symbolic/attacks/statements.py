@@ -43,7 +43,7 @@ for name, side, where, false, refused in (
     ("a divisor of first order", 1 / HERE, BEADS, "it vanishes at order 0", "not shown to differ"),
     ("a divisor with a change", 1 / (1 + epsilon * HERE), BEADS, "it is not read as a series",
      "not shown to differ"),
-    ("a root", sympy.sqrt(phi) * HERE, BEADS, "φ may be negative", "the power 1/2 is not read"),
+    ("a root", sympy.sqrt(phi) * HERE, BEADS, "φ may be negative", "may be negative"),
     ("a function", sympy.Abs(phi) * HERE, BEADS, "no rule is sound for it", "not in the language"),
     ("a float", sympy.Float(0.1) * HERE, BEADS, "it is no exact number", "not in the language"),
     ("symbols that do not commute", sympy.Symbol("x", commutative=False) * HERE, BEADS,

@@ -9,9 +9,10 @@ from functools import cache
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.as_printed import equation, terms
 from force_diffusion.symbolic.kernel.theorem import Theorem, made
 from force_diffusion.symbolic.kernel.where import Loading, Where
+from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import i, j, n_minus, n_plus, r, site_r, site_s
 
 _ANY_BEAD = Where.of(j >= 0)
@@ -92,3 +93,20 @@ def loads(loading: Loading) -> tuple[Theorem, ...]:
     beads = Where.of(indices=(site_r, site_s), loading=loading)
     everywhere = [made(one, beads.also(*when), "loading") for one, when in loading.everywhere]
     return (*given, *everywhere)
+
+
+GAUSSIAN_FORCES = "Gaussian forces"
+"""An assumption that no rule ends: forces are normally distributed, given mean and variance."""
+
+FORCE = Symbol("f_rel", "f", "f", real=True)
+"""A force over its mean."""
+SQUARE = Symbol("v", positive=True)
+"""Its variance."""
+
+GAUSSIAN_BELOW = equation(
+    sympy.Derivative(
+        sympy.erfc(terms(1, -FORCE) / sympy.sqrt(2 * SQUARE), evaluate=False) / 2, FORCE
+    ),
+    sympy.exp(-(terms(1, -FORCE) ** 2) / (2 * SQUARE)) / sympy.sqrt(2 * sympy.pi * SQUARE),
+)
+"""The probability of a Gaussian force below f, which vanishes as f → −∞, and its density."""

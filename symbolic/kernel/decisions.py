@@ -1,10 +1,11 @@
-"""The checking kernel: *proved*, *refuted* or *undecided*, and on what it rests.
+"""What is found of a statement, and on what that rests.
 
 A refutation is an explicit counterexample, found with Fractions on a small packing; a proof is
-a normal form that is zero. The two share no code, and what neither settles is undecided.
+a normal form that is zero. The two share no code, and what neither settles is undecided. What has
+no value, or no single meaning, somewhere on its domain is not a statement: neither is asked.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
@@ -17,7 +18,11 @@ from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.bases import CARTESIAN, LINE_SUM, Basis
 from force_diffusion.symbolic.algebra.exact import Domain, NotExactError, RationalFunction
-from force_diffusion.symbolic.algebra.reading import Reader
+from force_diffusion.symbolic.algebra.reading import (
+    Reader,
+    UnsafeBoundsError,
+    UnsafeDivisorError,
+)
 from force_diffusion.symbolic.notation import by_name
 
 
@@ -25,26 +30,56 @@ class Verdict(StrEnum):
     """What a decision procedure found; a witness agrees or disagrees, it never proves."""
 
     PROVED = "proved"
+    ASSUMING = "proved, assuming"
     REFUTED = "refuted"
     UNDECIDED = "undecided"
+    NOT_A_STATEMENT = "not a statement"
     AGREES = "agrees"
     DISAGREES = "disagrees"
+
+    @property
+    def is_proved(self) -> bool:
+        """Whether it is proved, be it on an assumption."""
+        return self in (Verdict.PROVED, Verdict.ASSUMING)
+
+
+def in_words(verdict: str, assuming: Iterable[str] = ()) -> str:
+    """A verdict with the assumptions that it rests on: "proved, assuming Gaussian forces"."""
+    return " ".join(filter(None, (str(verdict), " and ".join(assuming))))
 
 
 @dataclass(frozen=True)
 class Ruling:
-    """A verdict and, in plain words, what it rests on (or the counterexample)."""
+    """A verdict and, in plain words, what it rests on (or the counterexample).
+
+    Attributes:
+        verdict: what was found.
+        note: why, or at which values.
+        assuming: what a proof assumes and no rule discharges; then, and only then, the verdict is
+            "proved, assuming".
+    """
 
     verdict: Verdict
     note: str = ""
+    assuming: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if bool(self.assuming) != (self.verdict is Verdict.ASSUMING):
+            raise ValueError(f"{self.verdict} with the assumptions {self.assuming}")
+
+    @property
+    def words(self) -> str:
+        """The verdict, and what is assumed."""
+        return in_words(self.verdict, self.assuming)
 
     def __str__(self) -> str:
-        return f"{self.verdict}: {self.note}" if self.note else str(self.verdict)
+        return f"{self.words}: {self.note}" if self.note else self.words
 
 
-def proved(note: str = "") -> Ruling:
-    """Return the ruling of a proof."""
-    return Ruling(Verdict.PROVED, note)
+def proved(note: str = "", assuming: Iterable[str] = ()) -> Ruling:
+    """Return the ruling of a proof, and of what it assumes."""
+    kept = tuple(dict.fromkeys(assuming))
+    return Ruling(Verdict.ASSUMING if kept else Verdict.PROVED, note, kept)
 
 
 def refuted(note: str) -> Ruling:
@@ -56,6 +91,19 @@ def undecided(note: str) -> Ruling:
     """Return the ruling that says why nothing was decided."""
     return Ruling(Verdict.UNDECIDED, note)
 
+
+def not_a_statement(note: str) -> Ruling:
+    """Return the ruling on what has no value, or no single meaning, somewhere on its domain."""
+    return Ruling(Verdict.NOT_A_STATEMENT, note)
+
+
+NO_VALUE = (
+    UnsafeBoundsError,
+    UnsafeDivisorError,
+    explicit.DivisionError,
+    explicit.ReversedError,
+)
+"""What is raised of an expression without a value somewhere."""
 
 GEOMETRIES = (
     explicit.geometry(Fraction(3, 5), Fraction(4, 5), Fraction(7, 3)),
@@ -147,6 +195,8 @@ def decide_linear(
         if found:
             return refuted(found)
         equal = equal_forms(left, right, region, is_vector=is_vector, basis=basis)
+    except NO_VALUE as reason:
+        return not_a_statement(str(reason))
     except (NotExactError, explicit.AmbiguousError) as reason:
         return undecided(str(reason))
     return equal or undecided("the normal forms differ, yet no counterexample was found")
@@ -219,13 +269,13 @@ def decide_vector_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
 
 
 def all_of(*rulings: Ruling) -> Ruling:
-    """Return the worst of several rulings; all proved, their notes together."""
-    for verdict in (Verdict.REFUTED, Verdict.UNDECIDED):
+    """Return the worst of several rulings; all proved, their notes and assumptions together."""
+    for verdict in (Verdict.REFUTED, Verdict.NOT_A_STATEMENT, Verdict.UNDECIDED):
         for ruling in rulings:
             if ruling.verdict is verdict:
                 return ruling
     notes = dict.fromkeys(ruling.note for ruling in rulings)
-    return proved("; ".join(notes))
+    return proved("; ".join(notes), (one for ruling in rulings for one in ruling.assuming))
 
 
 def from_test(outcome: bool, note: str, otherwise: str = "") -> Ruling:

@@ -2,16 +2,17 @@
 
 A statement is read over one domain: 0 < z < 1, −½ < φ < ½ with n_x, n_y > 0 to match, positive
 radius, spacing, σ, loads and M, and whole indices in their region. Everything in it must have a
-value everywhere there. What does not, or is not shown to, is outside: it can be refuted by
-explicit values, and it is never proved.
+value everywhere there. What has none, or is not shown to, is not a statement; what has one and is
+written in words that no procedure reads is left undecided.
 """
 
 from collections.abc import Collection, Iterator
-from itertools import chain
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.signs import never_zero, sign
+from force_diffusion.symbolic.as_printed import in_place
+from force_diffusion.symbolic.kernel.decisions import Ruling, not_a_statement, undecided
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
@@ -21,6 +22,7 @@ SUMMATION = (sy.m, sy.n)
 HIGHEST_POWER, LARGEST_BOUND = 40, 1000
 """What is higher or larger is not read: it would take for ever."""
 
+_NO_NUMBERS = {sympy.oo, -sympy.oo, sympy.zoo, sympy.nan}
 _FORCES = (sy.ForcePlus, sy.ForceMinus)
 _OF_THE_PLANE = {sy.n_x, sy.n_y, sy.spacing, *sy.VECTORS}
 _GEOMETRY = {sy.phi, sy.r, *_OF_THE_PLANE}
@@ -29,7 +31,11 @@ _ACROSS = {sy.i, sy.k, sy.site_r}
 
 
 class OutsideError(ValueError):
-    """Something has no place in the language."""
+    """Something has no place in the language: it is not read."""
+
+
+class NoMeaningError(OutsideError):
+    """Something has no value, or no single meaning."""
 
 
 def unreadable(
@@ -37,24 +43,32 @@ def unreadable(
     printed: Collection[sympy.Eq],
     named: Collection[sympy.Basic] = (),
     dimension: int = 2,
-) -> str:
-    """Why a candidate for one of the printed equations has no meaning; "" when it has.
+) -> Ruling | None:
+    """Why a candidate for one of the printed equations is no statement, or not read; None: it is.
 
     ``named`` are further symbols of the derivation, ``dimension`` is that of its packing.
     """
     own = set().union(*(line.free_symbols for line in printed))
-    if strange := next(_strangers(candidate, _known(own, named, dimension)), ""):
-        return strange
-    if across := by_name((_counting(candidate) & _ACROSS) - _counting(*printed)):
-        return f"{text(across[0])} says where a bead is, and is no number in this equation"
     try:
-        sorts = [_sort(side) for side in candidate.args]
+        _refuse_strangers(candidate, _known(own, named, dimension))
+        if across := by_name((_counting(candidate) & _ACROSS) - _counting(*printed)):
+            raise OutsideError(
+                f"{text(across[0])} says where a bead is, and is no number in this equation"
+            )
+        if {_sort(side) for side in candidate.args} == {"number", "vector"}:
+            raise NoMeaningError("a number is set equal to a vector")
+        _refuse_sums(candidate, own | candidate.free_symbols)
+        _refuse_forces_in_sums(candidate)
+    except NoMeaningError as reason:
+        return not_a_statement(str(reason))
     except OutsideError as reason:
-        return str(reason)
-    if set(sorts) == {"number", "vector"}:
-        return "a number is set equal to a vector"
-    free = own | candidate.free_symbols
-    return next(chain(_sums(candidate, free), _indices(candidate)), "")
+        return undecided(str(reason))
+    return None
+
+
+def is_of_vectors(equation: sympy.Eq) -> bool:
+    """Whether it equates vectors, and not numbers."""
+    return "vector" in map(_sort, equation.args)
 
 
 def _known(
@@ -90,7 +104,7 @@ def usual_form(candidate: sympy.Eq, printed: Collection[sympy.Eq]) -> sympy.Eq:
     image = {sy.spacing: 4 * sy.r * sy.n_x}
     if not any(line.has(sy.z) for line in printed):
         image[sy.z] = sy.j / sy.M
-    left, right = (side.xreplace(image) if side.has(*image) else side for side in candidate.args)
+    left, right = (in_place(side, image) for side in candidate.args)
     subjects = [line.lhs for line in printed]
     if left == 0 or (right in subjects and left not in subjects):
         left, right = right, left
@@ -152,17 +166,16 @@ def says_less(candidate: sympy.Eq, printed: sympy.Eq) -> str:
     return f"it is not shown to tell {text(observed[0])} everywhere"
 
 
-def _strangers(candidate: sympy.Basic, known: Collection[sympy.Basic]) -> Iterator[str]:
+def _refuse_strangers(candidate: sympy.Basic, known: Collection[sympy.Basic]) -> None:
     names = {symbol.name for symbol in known}
     summed = {*SUMMATION} - candidate.free_symbols
     for symbol in by_name(candidate.atoms(sympy.Symbol) - set(known) - summed):
         if symbol.name in names:
-            yield (
+            raise NoMeaningError(
                 f"{symbol.name}: not this equation's symbol, but another of the same name; take "
                 "it from .symbols"
             )
-        else:
-            yield f"{symbol.name} is no symbol of this equation"
+        raise NoMeaningError(f"{symbol.name} is no symbol of this equation")
 
 
 def _sort(node: sympy.Basic) -> str:
@@ -171,20 +184,22 @@ def _sort(node: sympy.Basic) -> str:
     Raises:
         OutsideError: it has no place in the language.
     """
+    if node in _NO_NUMBERS:
+        raise NoMeaningError(f"{text(node)} is no number")
     if isinstance(node, sympy.Rational):
         return "number" if node else "zero"
     if isinstance(node, sympy.Symbol):
         return "vector" if node in sy.VECTORS else "number"
     if isinstance(node, sy.SiteFunction):
         if any(_number(index).has(sy.SiteFunction) for index in node.args):
-            raise OutsideError(f"an index of {text(node)} holds what belongs to a bead")
+            raise NoMeaningError(f"an index of {text(node)} holds what belongs to a bead")
         return "vector" if node.is_vector else "number"
     if isinstance(node, sympy.Add):
         return _one_sort(node.args)
     if isinstance(node, sympy.Mul):
         sorts = [_sort(factor) for factor in node.args]
         if sorts.count("vector") > 1:
-            raise OutsideError("a product of two vectors: write it as Dot")
+            raise NoMeaningError("a product of two vectors: write it as Dot")
         return "zero" if "zero" in sorts else max(sorts)
     if isinstance(node, sympy.Pow):
         return _power(_number(node.base), node.exp)
@@ -199,21 +214,21 @@ def _sort(node: sympy.Basic) -> str:
             _one_sort((*entries, sympy.S.One))
             entries = []
         if any(_sort(part) == "number" for part in (*entries, vector)):
-            raise OutsideError(f"{type(node).__name__} of a number")
+            raise NoMeaningError(f"{type(node).__name__} of a number")
         return "number" if isinstance(node, sy.Dot) else "vector"
     raise OutsideError(f"{type(node).__name__} has no place in what is decided here")
 
 
 def _number(node: sympy.Basic) -> sympy.Basic:
     if _sort(node) == "vector":
-        raise OutsideError(f"a vector, {text(node)}, where a number is needed")
+        raise NoMeaningError(f"a vector, {text(node)}, where a number is needed")
     return node
 
 
 def _one_sort(parts: Collection[sympy.Basic]) -> str:
     sorts = {_sort(part) for part in parts} - {"zero"}
     if len(sorts) > 1:
-        raise OutsideError("a number and a vector are added, or stand in one case distinction")
+        raise NoMeaningError("a number and a vector are added, or stand in one case distinction")
     return sorts.pop() if sorts else "zero"
 
 
@@ -223,18 +238,22 @@ def _power(base: sympy.Basic, exponent: sympy.Basic) -> str:
     if abs(exponent) > HIGHEST_POWER:
         raise OutsideError(f"the power {exponent} is not read: {HIGHEST_POWER} is the highest")
     if base == 0 and exponent.is_negative:
-        raise OutsideError("it holds a division by zero")
+        raise NoMeaningError("it holds a division by zero")
     return "number"
 
 
 def _sum(series: sympy.Sum) -> str:
     for limit in series.limits:
         if len(limit) != 3:
-            raise OutsideError("a sum without a lower and an upper bound")
+            raise NoMeaningError("a sum without a lower and an upper bound")
         for end in limit[1:]:
             _number(end)
             if any(abs(number) > LARGEST_BOUND for number in end.atoms(sympy.Rational)):
                 raise OutsideError(f"a sum's bound beyond {LARGEST_BOUND} is not read")
+        if (limit[2] - limit[1]).is_Rational and limit[2] < limit[1] - 1:
+            raise NoMeaningError(
+                f"a sum from {text(limit[1])} to {text(limit[2])} has no agreed value"
+            )
     return _sort(series.function)
 
 
@@ -261,26 +280,26 @@ def _has_one_sign(base: sympy.Expr, in_the_limit: bool) -> int:
     return sign(base.xreplace(image), tuple(positive), _LAYERS)
 
 
-def _sums(candidate: sympy.Basic, free: Collection[sympy.Basic]) -> Iterator[str]:
+def _refuse_sums(candidate: sympy.Basic, free: Collection[sympy.Basic]) -> None:
     for series in candidate.atoms(sympy.Sum):
         bound = [limit[0] for limit in series.limits]
         inner = {limit[0] for one in series.function.atoms(sympy.Sum) for limit in one.limits}
         for place, index in enumerate(bound):
             if index not in SUMMATION:
                 names = " or ".join(map(text, SUMMATION))
-                yield f"a sum over {text(index)}: write it over {names}"
-            elif index in free:
-                yield f"{text(index)} is summed over and stands for itself as well"
-            elif index in inner or index in bound[:place] or _in_own_bounds(series, index):
-                yield f"two sums over {text(index)}, one inside of the other"
+                raise OutsideError(f"a sum over {text(index)}: write it over {names}")
+            if index in free:
+                raise NoMeaningError(f"{text(index)} is summed over and stands for itself as well")
+            if index in inner or index in bound[:place] or _in_own_bounds(series, index):
+                raise NoMeaningError(f"two sums over {text(index)}, one inside of the other")
 
 
 def _in_own_bounds(series: sympy.Sum, index: sympy.Symbol) -> bool:
     return any(end.has(index) for limit in series.limits if limit[0] == index for end in limit[1:])
 
 
-def _indices(candidate: sympy.Eq) -> Iterator[str]:
+def _refuse_forces_in_sums(candidate: sympy.Eq) -> None:
     summed = {limit[0] for one in candidate.atoms(sympy.Sum) for limit in one.limits}
     for force in by_name(candidate.atoms(*_FORCES)):
         if force.free_symbols & summed:
-            yield f"the force {text(force)} stands in a sum"
+            raise OutsideError(f"the force {text(force)} stands in a sum")

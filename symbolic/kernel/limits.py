@@ -4,7 +4,7 @@ Orders count all growing indices together, at fixed ratios. They hold uniformly 
 φ stay within closed parts of their ranges, as the leading parts of all divisors vanish nowhere.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
 import sympy
@@ -38,21 +38,28 @@ from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.variances.weights import Pieces
 
 _NEVER = 10**9  # no order is as large
-_FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
+FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
+"""What stays as it is in every limit."""
 
 
-def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
+def asymptotic(*facts: Theorem | tuple[Theorem, ...], late: Iterable[sympy.Basic] = ()) -> Rule:
     """Both sides are of the same leading order: left over right goes to 1.
 
     Facts are put in and moments worked out at finite size. What the right-hand side goes as
     vanishes nowhere, and the difference is of a lower order.
+
+    Args:
+        facts: are put in one after the other, those of a tuple at once.
+        late: relations that hold for all but the first of what grows; moments are worked out there.
     """
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = _limit(formula, where, "∼")
-        left, right = read(formula, facts, where)
+        limit = limit_of(formula, where, "∼")
+        part = where.also(*late)
+        limit_of(formula, part, "∼")
+        left, right = read(formula, facts, where, part)
         low, high = order(left - right, limit), order(right, limit)
-        if not low < high:
+        if not low <= high - limit.orders:
             raise NotProvedError(
                 f"left less right is of order {low}, the right-hand side of order {high}"
             )
@@ -69,7 +76,7 @@ def bounded(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
     """The weight of each radius, or its share in the variance, is of the order on the right."""
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = _limit(formula, where, "O")
+        limit = limit_of(formula, where, "O")
         most, bound = formula.args
         if not isinstance(most, sy.LargestShare | sy.LargestWeight):
             raise NotProvedError(f"{text(most)} is no largest share, or weight, of a radius")
@@ -93,7 +100,7 @@ def negligible(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
     """
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = _limit(formula, where, "≈")
+        limit = limit_of(formula, where, "≈")
         finite = where.in_the_limit(None)
         force, factor = _one_force(formula, where)
         varies = value(sy.Variance(force), facts, finite) * factor**2
@@ -116,14 +123,14 @@ def heaviest(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
     """All weights of left less right are of a lower order than the largest of left."""
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = _limit(formula, where, "≈ by weight")
+        limit = limit_of(formula, where, "≈ by weight")
         finite = where.in_the_limit(None)
         alone = in_the_radii(_at_height(formula.lhs, where), facts, finite)
         large = [full for full, _ in pieces(alone, finite).special.values() if not full.is_zero()]
         sure = [one for one in large if even(one, limit) and even(FIELD.one / one, limit)]
         most = max((order(_fixed_but(one, limit), limit) for one in sure), default=-_NEVER)
         rest = pieces(_difference(formula, facts, where), finite)
-        if not all(one < most for one in _orders(rest, limit)):
+        if not sure or any(one >= most for one in _orders(rest, limit)):
             raise NotProvedError("left less right has weights of the order of the largest of left")
         return made(formula, where, "heaviest weights", flat(facts))
 
@@ -205,7 +212,7 @@ def _order_over_layers(weight: RationalFunction, limit: Limit) -> int:
     )
 
 
-def _limit(formula: sympy.Eq, where: Where, relation: str) -> Limit:
+def limit_of(formula: sympy.Eq, where: Where, relation: str) -> Limit:
     """The limit of a statement, if its domain holds all but the first of what grows so.
 
     Raises:
@@ -244,17 +251,23 @@ def _coordinates(limit: Limit) -> dict[sympy.Symbol, sympy.Expr]:
     return dict(found[0])
 
 
-def read(formula: sympy.Eq, facts: Facts, where: Where) -> tuple[RationalFunction, ...]:
+def read(
+    formula: sympy.Eq, facts: Facts, where: Where, part: Where | None = None
+) -> tuple[RationalFunction, ...]:
     """Both sides as functions of what grows and of parameters, moments worked out at finite size.
+
+    Facts are put in on the whole domain, and moments worked out on a part of it.
 
     Raises:
         NotProvedError: they hold something else, or are none.
     """
     limit = where.limit
     assert limit is not None
-    finite = without_moments(formula, facts, where.in_the_limit(None))
+    finite = without_moments(formula, facts, *(
+        one.in_the_limit(None) for one in (where, part or where)
+    ))  # fmt: skip
     sides = [_at_height(side, where) for side in finite.args]
-    known = {*_FIXED, *limit.growing}
+    known = {*FIXED, *limit.growing}
     if strange := by_name(set().union(*(side.free_symbols for side in sides)) - known):
         raise NotProvedError(f"{text(strange[0])} neither grows nor is fixed")
     try:

@@ -110,10 +110,10 @@ def _are_equal(left: Iterable[LinearForm], right: Iterable[LinearForm]) -> bool:
     return all((a - b).is_zero() for a, b in zip(left, right, strict=True))
 
 
-def along(theorem: Theorem, vector: sympy.Symbol) -> Theorem:
-    """The component of an equation between vectors along a base vector."""
+def along(theorem: Theorem, vector: sympy.Expr) -> Theorem:
+    """The component of an equation between vectors along a base vector, or along e_x."""
     formula = equation(*(sy.Dot(vector, side) for side in theorem.formula.args))
-    if vector not in sy.VECTORS:
+    if vector not in (*sy.VECTORS, sy.e_x):
         raise NotProvedError(f"{text(vector)} is no base vector")
     return made(formula, theorem.where, "component", (theorem,))
 
@@ -195,6 +195,7 @@ def below(balance: Theorem, *facts: Theorem | tuple[Theorem, ...]) -> Rule:
     """A contact's force, by ``solve`` from the balance of the bead above it."""
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
+        check(formula, where)
         about, value = isolated(formula, where)
         branch = _BRANCHES.get(type(about))
         if branch is None:
@@ -396,30 +397,47 @@ def induct(
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
         members = [(formula, where), *family]
-        one = -1 if down else 1
-        supposition = Supposition(over, start)
-        supposed = []
-        for claim, domain in members:
-            first, later = (over, start) if not down else (start, over)
-            if not domain.implies(sympy.Ge(first, later)):
-                raise NotProvedError(f"the domain goes beyond {text(over)} = {text(start)}")
-            supposed.append(suppose(claim, domain, supposition, one))
-        if mirrored:
-            supposed += [mirror(theorem) for theorem in supposed]
-        premises = []
-        for claim, domain in members:
-            left = [symbol for symbol in domain.indices if symbol != over]
-            first_where = domain.put_in({over: start}, left)
-            if not first_where.is_empty:
-                premises.append(proved_by(base, at(claim, {over: start}), first_where))
-            rest = sympy.Le(over, start - 1) if down else sympy.Ge(over, start + 1)
-            if not domain.also(rest).is_empty:
-                premises.append(proved_by(step(tuple(supposed)), claim, domain.also(rest)))
-        if any(one.supposed - {supposition} for one in premises):
-            raise NotProvedError("an induction within another one is not read")
-        return made(formula, where, "induction", premises, ended=(supposition,))
+        return inducted(over, start, base, step, members, down=down, mirrored=mirrored)[0]
 
     return rule
+
+
+def inducted(
+    over: sympy.Symbol,
+    start: sympy.Expr,
+    base: Rule,
+    step: Callable[[tuple[Theorem, ...]], Rule],
+    members: Sequence[tuple[sympy.Eq, Where]],
+    *,
+    down: bool = False,
+    mirrored: bool = False,
+) -> tuple[Theorem, ...]:
+    """All of a family of statements, by ``induct``."""
+    one = -1 if down else 1
+    supposition = Supposition(over, start)
+    supposed = []
+    for claim, domain in members:
+        first, later = (over, start) if not down else (start, over)
+        if not domain.implies(sympy.Ge(first, later)):
+            raise NotProvedError(f"the domain goes beyond {text(over)} = {text(start)}")
+        supposed.append(suppose(claim, domain, supposition, one))
+    if mirrored:
+        supposed += [mirror(theorem) for theorem in supposed]
+    premises = []
+    for claim, domain in members:
+        left = [symbol for symbol in domain.indices if symbol != over]
+        first_where = domain.put_in({over: start}, left)
+        if not first_where.is_empty:
+            premises.append(proved_by(base, at(claim, {over: start}), first_where))
+        rest = sympy.Le(over, start - 1) if down else sympy.Ge(over, start + 1)
+        if not domain.also(rest).is_empty:
+            premises.append(proved_by(step(tuple(supposed)), claim, domain.also(rest)))
+    if any(one.supposed - {supposition} for one in premises):
+        raise NotProvedError("an induction within another one is not read")
+    return tuple(
+        made(claim, domain, "induction", premises, ended=(supposition,))
+        for claim, domain in members
+    )
 
 
 def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
@@ -499,7 +517,8 @@ def differentiate(root: sympy.Symbol, square: sympy.Expr) -> Rule:
     """SymPy differentiates; ``root`` is positive, and stands for the root of what is positive."""
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        if formula.has(root) or square.free_symbols & _PARAMETERS:
+        held = square.free_symbols & _PARAMETERS
+        if formula.has(root) or (held and where.sign(square) != 1):
             raise NotProvedError(f"{text(root)} is not the root of what is positive")
 
         def read(node: sympy.Basic) -> sympy.Basic:
@@ -528,9 +547,20 @@ def slope(formula: sympy.Eq, where: Where) -> Theorem:
     found = {by for one in formula.atoms(sympy.Derivative) for by in one.variables}
     if found != {sy.z}:
         raise NotProvedError(f"it is not about a derivative by {text(sy.z)}")
-    if formula.atoms(sy.SiteFunction, sy.Moment) or formula.free_symbols & {*sy.INDICES}:
+    if formula.atoms(sy.SiteFunction) or formula.free_symbols - {*sy.PARAMETERS}:
         raise NotProvedError(f"it holds what may depend on {text(sy.z)}")
-    sides = [side.replace(sympy.Derivative, sympy.diff) for side in formula.args]
+    for one in formula.atoms(sympy.Derivative):
+        check(equation(one.expr, one.expr), where)  # what SymPy cancels has a value
+
+    def read(node: sympy.Basic) -> sympy.Basic:
+        """The same, differentiated, and nothing else of it carried out."""
+        if isinstance(node, sympy.Derivative):
+            return node.doit()
+        if not node.has(sympy.Derivative):
+            return node
+        return node.func(*map(read, node.args), evaluate=False)
+
+    sides = list(map(read, formula.args))
     check(equation(*sides), where)
     if not holds(equation(*sides), where):
         raise NotProvedError("the derivatives differ")

@@ -69,6 +69,7 @@ class Theorem:
         rule: the rule that proved it, in words.
         premises: the theorems that it rests on.
         supposed: the suppositions that it rests on, each of an induction not yet ended.
+        assuming: what it rests on that no rule ends, in words, such as "the forces are Gaussian".
     """
 
     formula: sympy.Eq
@@ -76,6 +77,7 @@ class Theorem:
     rule: str
     premises: tuple["Theorem", ...] = ()
     supposed: frozenset[Supposition] = frozenset()
+    assuming: frozenset[str] = frozenset()
     made_by: InitVar[object] = None
 
     def __post_init__(self, made_by: object) -> None:
@@ -110,14 +112,17 @@ def made(
     *,
     supposed: Iterable[Supposition] = (),
     ended: Iterable[Supposition] = (),
+    assuming: Iterable[str] = (),
 ) -> Theorem:
     """Make a theorem: for the rules of this room.
 
-    It rests on all suppositions of its premises but those of inductions that have ended.
+    It rests on all suppositions of its premises but those of inductions that have ended, and on all
+    that they assume.
     """
     premises = tuple(premises)
     open_ones = frozenset(supposed).union(*(one.supposed for one in premises)) - frozenset(ended)
-    return Theorem(formula, where, rule, premises, open_ones, _MADE_HERE)
+    assumed = frozenset(assuming).union(*(one.assuming for one in premises))
+    return Theorem(formula, where, rule, premises, open_ones, assumed, _MADE_HERE)
 
 
 # what is a statement
@@ -151,6 +156,17 @@ def check(formula: sympy.Eq, where: Where, *, in_a_limit: bool = False) -> None:
         raise NotAStatementError(f"{text(found[0])} belongs to the plane")
     for side in formula.args:
         _check(side, where, frozenset(known))
+
+
+def no_statement(formula: sympy.Eq, where: Where) -> str:
+    """Why a formula is seen to be no statement on a domain; "" when that is not seen."""
+    try:
+        check(formula, where, in_a_limit=where.limit is not None)
+    except NotAStatementError as reason:
+        return str(reason)
+    except NotExactError:  # a bound that is not read
+        return ""
+    return ""
 
 
 def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> None:
@@ -201,14 +217,28 @@ _QUANTITIES = {
 
 def _check_power(power: sympy.Pow, where: Where) -> None:
     base, exponent = power.args
-    if not isinstance(exponent, sympy.Integer):
+    if not isinstance(exponent, sympy.Rational):
         raise NotAStatementError(f"the power {text(exponent)} is not read here")
+    if not exponent.is_Integer:
+        has_root = where.sign(base) == 1 or (exponent > 0 and _never_negative(base, where))
+        if not has_root:
+            raise NotAStatementError(f"{text(base)}, of which a root is taken, may be negative")
+        return
     if exponent > 0:
         return
     if isinstance(base, FORCES) or (isinstance(base, sympy.Symbol) and base.is_positive):
         return  # a force that others are compared with is one that acts
     if not where.never_zero(base):
         raise NotAStatementError(f"the divisor {text(base)} is not shown to differ from zero")
+
+
+def _never_negative(node: sympy.Expr, where: Where) -> bool:
+    """Whether it is a variance, or such times what is positive, or a sum of these."""
+    if isinstance(node, sympy.Mul):
+        return all(_never_negative(one, where) or where.sign(one) == 1 for one in node.args)
+    if isinstance(node, sympy.Sum):
+        return _never_negative(node.function, where.within(*node.limits[0]))
+    return isinstance(node, sy.Variance)
 
 
 # normal forms
@@ -396,7 +426,8 @@ def _put_in(
             inner = inner.within(index, low, high)
             bound.add(index)
         summed = _put_in(series.function, together, inner, background)
-        image[series] = sympy.Sum(summed, *series.limits)
+        if summed != series.function:
+            image[series] = sympy.Sum(summed, *series.limits)
     for atom in node.atoms(sy.SiteFunction):
         if bound and atom.free_symbols & bound:
             continue  # it stands in a sum
@@ -416,7 +447,7 @@ def _instance_of(
     about, value = theorem.solved
     if type(about) is not type(atom):
         return None
-    image = _place(theorem, about.args, atom.args, where)
+    image = placed(theorem, about.args, atom.args, where)
     if image is None or not applies(theorem, image, where, background):
         return None
     wanted = [affine.from_sympy(sympy.expand(_on(a - b.xreplace(image), where)))
@@ -440,7 +471,7 @@ def _renamed(value: sympy.Expr, image: Mapped, where: Where) -> sympy.Expr:
     return value
 
 
-def _place(
+def placed(
     theorem: Theorem, at: tuple[sympy.Expr, ...], wanted: tuple[sympy.Expr, ...], where: Where
 ) -> dict[sympy.Symbol, sympy.Expr] | None:
     """The indices for which a theorem speaks of the wanted place: found by elimination.

@@ -96,18 +96,42 @@ class Limit:
     Attributes:
         relation: "∼": left over right goes to 1; "O": left over right stays bounded; "≈": the
             variance of left less right is of a lower order than that of the force it is about; "∝":
-            left over right goes to a function of φ; "≈ by weight": the largest weight of left less
-            right is of a lower order than that of left.
+            left over right goes to a function of φ, which is positive; "≈ by weight": the largest
+            weight of left less right is of a lower order than that of left; "=": both sides go to
+            the same.
         words: the same in plain words, such as "M → ∞ at fixed z = j/M, 0 < z < 1".
         growing: the indices that grow.
         positive: as many sums of them, which all grow in fixed positive ratios; uniformly so while
             the ratios, and φ, stay within closed parts of their ranges.
+        orders: of what is related by "∼", how many leading orders are the same: left over right is
+            1 up to what vanishes faster than size^(1−orders).
     """
 
     relation: str
     words: str
     growing: tuple[sympy.Symbol, ...]
     positive: tuple[sympy.Expr, ...]
+    orders: int = 1
+
+
+def inside_cone(relation: str) -> Limit:
+    """The limit l → ∞ at a fixed place inside of the cone below a point load.
+
+    The indices j, p and q grow: what l and k are stands in the domain.
+    """
+    words = "l → ∞ at fixed j/l and (i − k)/l, inside of the cone"
+    return Limit(relation, words, (sy.j, sy.p, sy.q), (sy.j, sy.p, sy.q))
+
+
+def on_leg(relation: str) -> Limit:
+    """The limit l → ∞ at a fixed place on a leg of that cone."""
+    return Limit(relation, "l → ∞ at fixed j/l, on a leg of the cone", (sy.j, sy.p), (sy.j, sy.p))
+
+
+def along_base(relation: str) -> Limit:
+    """The limit l → ∞ at the base, inside of that cone."""
+    words = "l → ∞ at j = 0 and fixed (i − k)/l, inside of the cone"
+    return Limit(relation, words, (sy.p, sy.q), (sy.p, sy.q))
 
 
 def at_fixed_height(relation: str) -> Limit:
@@ -116,9 +140,18 @@ def at_fixed_height(relation: str) -> Limit:
     return Limit(relation, words, (sy.M, sy.j), (sy.j, sy.M - sy.j))
 
 
+def at_large_height(relation: str, orders: int = 1) -> Limit:
+    """The limit M → ∞ of what belongs to no layer."""
+    return Limit(relation, "M → ∞", (sy.M,), (sy.M,), orders)
+
+
 def in_a_layer(relation: str) -> Limit:
     """The limit M → ∞ of a layer at a fixed distance from base or surface."""
     return Limit(relation, "M → ∞ in a fixed layer", (sy.M,), (sy.M,))
+
+
+AT_FIXED_RATIO = Limit("=", "M → ∞ at fixed M/M*, as σ decreases", (sy.M,), (sy.M,))
+"""The limit in which variances over squared means stay, as M* grows with M."""
 
 
 @dataclass(frozen=True)
@@ -227,7 +260,15 @@ class Where:
         """Whether an affine expression is ≥ 0 on all of the domain."""
         if not any(value[:-1]):
             return value[-1] >= 0 or self.is_empty
-        return _infeasible(self.rows | {affine.shifted(affine.times(value, -1), -1)})
+        if value not in self._decided:
+            below = affine.shifted(affine.times(value, -1), -1)
+            self._decided[value] = _infeasible(self.rows | {below})
+        return self._decided[value]
+
+    @cached_property
+    def _decided(self) -> dict[Affine, bool]:
+        """What is known of affine expressions."""
+        return {}
 
     def below(self, left: Affine, right: Affine) -> bool:
         """Whether left < right on all of the domain."""
@@ -314,22 +355,32 @@ class Where:
             found *= 1 if number > 0 else -1
             for factor, power in powers.items():
                 one = 0 if factor == expression else self.sign(factor)
+                one = one or sign(factor, *self._positive)
                 found *= one ** (power % 2) if one else 0
         return found
 
+    @cached_property
+    def _positive(self) -> tuple[tuple[sympy.Symbol, ...], tuple[sympy.Symbol, ...]]:
+        """The indices that are positive, and those that are not negative."""
+        found = [
+            tuple(s for s in self.indices if self.nonnegative(affine.from_sympy(s - least)))
+            for least in (1, 0)
+        ]
+        return found[0], found[1]
+
     def is_even(self, value: Affine) -> bool:
         """Whether an affine expression is even at every point with beads at their places."""
+        return not any(_reduced(value, self._even_ones))
+
+    @cached_property
+    def _even_ones(self) -> list[Affine]:
+        """What is even on the domain, modulo 2, none of it a sum of others."""
         equations = [one.lhs - one.rhs for one in self.relations if isinstance(one, sympy.Eq)]
         known: list[Affine] = []
-        for one in (*map(affine.from_sympy, map(sympy.expand, (*self.even, *equations))), value):
-            rest = tuple(c % 2 for c in one)
-            for row in known:
-                if rest[row.index(1)]:
-                    rest = tuple((a + b) % 2 for a, b in zip(rest, row, strict=True))
-            if any(rest):
+        for one in map(affine.from_sympy, map(sympy.expand, (*self.even, *equations))):
+            if any(rest := _reduced(one, known)):
                 known.append(rest)
-            last = not any(rest)
-        return last
+        return known
 
     def on_lattice(self, across: sympy.Expr, layer: sympy.Expr) -> bool:
         """Whether (across, layer) is a bead: the sum is even, and the layer not below the base."""
@@ -342,14 +393,17 @@ class Where:
 
     @cached_property
     def solved(self) -> dict[sympy.Symbol, sympy.Expr]:
-        """Indices that equations between them fix, in terms of the others."""
+        """Indices that equations between them fix, in terms of the others.
+
+        An equation that begins with an index says what that one is.
+        """
         image: dict[sympy.Symbol, sympy.Expr] = {}
         for one in self.relations:
             if isinstance(one, sympy.Eq):
                 value = _tightened(
                     affine.from_sympy(sympy.expand((one.lhs - one.rhs).xreplace(image)))
                 )
-                for symbol in self.indices:
+                for symbol in (*(s for s in self.indices if s == one.lhs), *self.indices):
                     c = affine.coefficient(value, symbol)
                     if abs(c) == 1:
                         rest = affine.to_sympy(affine.times(affine.without(value, symbol), -c))
@@ -431,6 +485,15 @@ def _infeasible(rows: frozenset[Affine]) -> bool:
         for a, b in product(above, below):
             both = affine.add(affine.times(a, -b[place]), b, a[place])
             left.add(_tightened(both))
+
+
+def _reduced(value: Affine, known: Iterable[Affine]) -> Affine:
+    """A value modulo 2, without what is known to be even."""
+    rest = tuple(c % 2 for c in value)
+    for row in known:
+        if rest[row.index(1)]:
+            rest = tuple((a + b) % 2 for a, b in zip(rest, row, strict=True))
+    return rest
 
 
 def _tightened(row: Affine) -> Affine:
@@ -516,3 +579,21 @@ BULK = Loading(
     ),
 )
 """A weight on every bead of a packing of height M."""
+
+_LEFT_OF_IT = (sympy.Eq(sy.site_s, sy.l), sy.site_r <= sy.k - 2)
+
+POINT = Loading(
+    "point",
+    "bead (k, l) carries f_load straight down, no other bead in its layer or below it a load, and "
+    "no force comes from above",
+    (sy.k, sy.l),
+    (_DOWN,),
+    (
+        (_zero(sy.Load(*_BEAD)), (sy.site_s <= sy.l - 1,)),
+        (_zero(sy.Load(*_BEAD)), _LEFT_OF_IT),
+        (_zero(sy.Load(*_BEAD)), tuple(map(lattice.mirrored_relation, _LEFT_OF_IT))),
+        (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l),)),
+        (_zero(_MINUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l),)),
+    ),
+)
+"""A load on one bead, and nothing else."""

@@ -11,10 +11,13 @@ from itertools import product
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search import variations
 from force_diffusion.symbolic.search.sources import (
     COSINES,
+    Made,
     Source,
     Zeros,
     equal,
@@ -25,8 +28,6 @@ from force_diffusion.symbolic.search.sources import (
 )
 from sympy import Add, Mul, Pow, Rational, Sum
 
-Made = Iterator[tuple[str, sympy.Eq]]
-"""Why it is false, or true, and the statement."""
 Rule = Callable[[Source], Made]
 
 _MILLIONTH = Rational(1, 10**6)
@@ -34,12 +35,16 @@ _MILLIONTH = Rational(1, 10**6)
 
 @dataclass(frozen=True)
 class Statement:
-    """One statement, whether it holds, of which kind it is, and why."""
+    """One statement, whether it holds, of which kind it is, and why.
+
+    Its domain is that of the printed equation, or ``where``.
+    """
 
     holds: bool
     kind: str
     reason: str
     equation: sympy.Eq
+    where: Where | None = None
 
 
 # false: what has no value, or says nothing, somewhere in the domain
@@ -396,16 +401,25 @@ FALSE: dict[str, tuple[Rule, ...]] = {
         _zero_over_zero_below,
         _zero_over_zero_above,
         _zero_over_zero_on_the_left,
+        variations.zero_over_zero_beside_a_definition,
         _divided,
     ),
+    "a root of what is negative": (variations.root_of_what_is_negative,),
     "infinite terms": (_added_and_taken_off, _pole),
     "nothing said": (_nothing_said,),
     "another size": (_another_factor, _another_power, _added),
-    "another component": tuple(map(_in_one_component, _DIRECTIONS)),
+    "a factor in an index": (variations.factor_in_an_index,),
+    "another component": (
+        *map(_in_one_component, _DIRECTIONS),
+        variations.one_sided,
+        variations.another_component,
+    ),
+    "another definition": (variations.wrong_definition,),
+    "the form of one layer": (variations.form_of_one_layer,),
     "wrong in one layer": (_near_the_base,),
     "as large at one place": (_as_large_somewhere,),
     "not positive": (_negative_or_zero,),
-    "another sum": (_sums, _empty_sums),
+    "another sum": (_sums, _empty_sums, variations.sums_split_wrongly),
     "another case in a sum": (_cases_in_sums,),
     "no meaning": (_no_meaning,),
 }
@@ -416,23 +430,29 @@ TRUE: dict[str, tuple[Rule, ...]] = {
     "divisor that vanishes nowhere": (_safe_divisor,),
     "multiple": (_multiple,),
     "rearranged": (_rearranged,),
-    "sum rewritten": (_sums_rewritten, _sums_apart),
+    "sum rewritten": (_sums_rewritten, _sums_apart, variations.sums_split),
+    "one component": (variations.one_component,),
+    "definition": (variations.definition,),
+    "exact form": (variations.exact_form,),
     "lower order": (_lower_order,),
     "in proportion": (_in_proportion,),
 }
 """Rules of what is true, by kind."""
 
 
-def statements(
-    printed: sympy.Eq, relation: str, turn: int | None = None, dimension: int = 2
-) -> Iterator[Statement]:
+LARGER = "a larger domain"
+"""The kind of what is false because it is said on too large a domain."""
+
+
+def statements(source: Source, turn: int | None = None) -> Iterator[Statement]:
     """Yield all statements, or, for a turn, one of each rule: another one for another turn."""
-    source = Source(printed, relation)
+    for reason, where in variations.larger_domains(source, turn):
+        yield Statement(False, LARGER, reason, source.printed, where)
     for holds, kinds in ((False, FALSE), (True, TRUE)):
         for kind, rules in kinds.items():
             for rule in rules:
-                made = list(rule(source))
-                if sy.d in source.free or dimension != 2:  # n_x and n_y are of the plane
+                made = [one for one in rule(source) if one[1] != source.printed]
+                if sy.d in source.free or source.dimension != 2:  # n_x and n_y are of the plane
                     made = [one for one in made if not (holds and one[1].has(sy.n_x, sy.n_y))]
                 if turn is not None and made:
                     made = [made[turn % len(made)]]

@@ -33,6 +33,7 @@ from force_diffusion.symbolic.search.values import (
     NoSumError,
     NoValueError,
     UnreadableError,
+    WithoutValue,
 )
 
 READS = 300_000
@@ -112,7 +113,9 @@ def counterexample(
     at_most: int | None = None,
     force: sympy.Eq | None = None,
 ) -> str | None:
-    """Words for values at which a statement is false or has no value; None where none is found.
+    """Words for values at which a statement is false; None where none is found.
+
+    Where it has no value at all they are ``WithoutValue``.
 
     All points of ``points`` are tried, or ``at_most`` so many of them. Points at which it speaks of
     a bead below the base say nothing, unless all do. A statement in a limit is looked at where the
@@ -142,7 +145,7 @@ def _search(statement: sympy.Eq, where: Where, at_most: int | None = None) -> st
         except (NoSumError, TooLargeError):
             continue
         except BelowError as reason:
-            below = below or (at, values, str(reason))
+            below = below or (at, values, WithoutValue(reason))
             continue
         compared = True
         if found:
@@ -155,7 +158,8 @@ def _words(
 ) -> str:
     named = [one for one in values if one in at or one in free or one == sy.phi]
     shown = (f"{text(one)} = {_exact(values[one])}" for one in named)
-    return f"at {', '.join(shown)}: {found}"
+    words = f"at {', '.join(shown)}: {found}"
+    return WithoutValue(words) if isinstance(found, WithoutValue) else words
 
 
 def _drawn(where: Where) -> Iterator[tuple[Point, World]]:
@@ -193,7 +197,7 @@ def _at(
     except BelowError:
         raise
     except (AbsentError, NoValueError) as reason:
-        return str(reason)
+        return WithoutValue(reason)
     left, right = _beside(left, right), _beside(right, left)
     if isinstance(left, Vector) != isinstance(right, Vector):
         raise UnreadableError("a number is set equal to a vector")

@@ -17,6 +17,7 @@ from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.where import Limit, Where
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.search.values import WithoutValue
 
 HIGHEST_POWER = 20
 SIZES = (10**100, 10**200)
@@ -87,7 +88,7 @@ def parts_in_the_limit(
             try:
                 found = explicit.number(candidate, values)
             except explicit.DivisionError:
-                return f"it has no value at {where}"
+                return WithoutValue(f"it has no value at {where}")
             except explicit.AmbiguousError:
                 return None
             true = _number(exact, tuple(values.items()))
@@ -106,17 +107,26 @@ def counterexample(statement: sympy.Eq, where: Where, force: sympy.Eq | None = N
     if limit and limit.relation == "≈" and force is not None:
         return varies_too_much(force.rhs, statement)
     left, right = (side.xreplace(where.solved) for side in statement.args)
+    if limit and limit.relation == "∝":
+        return not_proportional(right, left / right)
     if limit is None or limit.relation != "∼" or not _is_rational(left):
         return None
     return parts_in_the_limit(left, right, _places(limit), where.dimension)
 
 
+_RATIOS: Mapping[int, tuple[tuple[Fraction | int, ...], ...]] = {
+    1: ((1,),),
+    2: tuple((one, 1 - one) for one in HEIGHTS),
+    3: ((1, 1, 1), (2, 1, 1), (3, 1, 2), (1, 2, 3), (1, 100, 1), (1, 1, 100)),
+}
+"""How what is positive in a limit stands to each other, by how many there are."""
+
+
 @cache
 def _places(limit: Limit) -> tuple[Place, ...]:
     """How the indices grow, as multiples of one size: what is positive in some fixed ratios."""
-    ratios = [(one, 1 - one) for one in HEIGHTS] if len(limit.positive) == 2 else [(Fraction(1),)]
     found = []
-    for ratio in ratios:
+    for ratio in _RATIOS[len(limit.positive)]:
         rows = (one - sympy.Rational(c) for one, c in zip(limit.positive, ratio, strict=True))
         (at,) = sympy.linsolve(list(rows), *limit.growing)
         multiples = (Fraction(int(c.p), int(c.q)) for c in at)
@@ -155,10 +165,10 @@ def not_proportional(side: sympy.Expr, ratio: sympy.Expr) -> str | None:
             where = ", ".join(
                 f"{text(one)} = {float(values[one]):.6g}" for one in (sy.phi, *changed)
             )
-            if value.free_symbols:
+            if value.free_symbols or share.free_symbols:
                 return None
             if value.has(sympy.zoo, sympy.nan, sympy.oo):
-                return f"it has no value at {where}"
+                return WithoutValue(f"it has no value at {where}")
             if not value.is_positive:
                 return f"it is {value.evalf(3)}, which is not positive, at {where}"
             found.append((share, where))
@@ -221,7 +231,7 @@ def _undefined(candidate: sympy.Eq) -> str | None:
         try:
             explicit.weights(side, values)
         except explicit.DivisionError:
-            return f"it has no value at φ = {cosine}"
+            return WithoutValue(f"it has no value at φ = {cosine}")
         except explicit.AmbiguousError:
             continue
     return None

@@ -202,6 +202,9 @@ def given(name: str | None, place: tuple[int, ...], f_load: Fraction, m_g: Fract
                 ),
                 lambda *at: NOWHERE if at == place else _any_load(*at),
             )
+        if name == "point":
+            down = Vector(ZERO, Dual(-f_load))
+            return Given(place[1], lambda *_: ZERO, lambda *at: down if at == place else NOWHERE)
         if name == "entering":
             entry = (place[0] - 1, place[1] - 1)
             return Given(
@@ -240,7 +243,8 @@ class Packing:
     @cached_property
     def by_radius(self) -> "Packing":
         """The same, with the weights of all radii as slopes."""
-        return Packing(replace(self.geometry, one_by_one=True), self.given)
+        geometry = self.geometry  # what is remembered of it has other slopes
+        return Packing(Geometry(geometry.n, geometry.radius, one_by_one=True), self.given)
 
     def beads(self) -> int:
         """How many beads have been laid or balanced so far."""

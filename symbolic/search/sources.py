@@ -2,14 +2,18 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 from sympy import Add, Eq, Mul, Pow, Rational, Sum
 
 Change = Callable[[sympy.Expr], sympy.Expr]
+Made = Iterator[tuple[str, sympy.Eq]]
+"""Why it is false, or true, and the statement."""
 Zeros = Iterator[tuple[str, sympy.Expr]]
 """A place of the domain, in words, and what vanishes there."""
 
@@ -17,12 +21,31 @@ COSINES = tuple(Rational(*c) for c in ((1, 4), (-1, 4), (0, 1), (1, 3), (-49, 10
 HEIGHTS = tuple(Rational(*z) for z in ((1, 2), (1, 3), (3, 4), (1, 100)))
 
 
+class Form(NamedTuple):
+    """An exact form of what is printed, and whether it is for one layer alone."""
+
+    name: str
+    expression: sympy.Expr
+    of_one_layer: bool
+
+
 @dataclass(frozen=True)
 class Source:
-    """A printed equation and its sign: "=", "≈", "∼" or "∝"."""
+    """A printed equation and its sign: "=", "≈", "∼" or "∝".
+
+    Attributes:
+        printed: the equation.
+        relation: its sign.
+        exact: forms at finite size of the same quantity.
+        where: the domain, where the kernel proves it.
+        dimension: of the packing.
+    """
 
     printed: sympy.Eq
     relation: str
+    exact: tuple[Form, ...] = ()
+    where: Where | None = None
+    dimension: int = 2
 
     @property
     def free(self) -> set[sympy.Symbol]:
@@ -32,7 +55,9 @@ class Source:
     @property
     def is_vector(self) -> bool:
         """Whether it equates vectors."""
-        return bool(getattr(self.printed.lhs, "is_vector", False) or self.printed.rhs == 0)
+        factors = Mul.make_args(self.printed.lhs)
+        found = any(getattr(one, "is_vector", False) for one in factors)
+        return found or self.printed.rhs == 0
 
     @property
     def size(self) -> sympy.Symbol:
@@ -69,7 +94,8 @@ class Source:
 
     def radii(self) -> list[sympy.Expr]:
         """The radius of the bead that it is about, and two on the base; none for statistics."""
-        beads = by_name(self.printed.atoms(sy.SiteFunction))[:1]
+        found = by_name(self.printed.atoms(sy.SiteFunction))
+        beads = [one for one in found if one.free_symbols <= self.free]  # none within a sum
         if not beads:
             return []
         across, layer = beads[0].args

@@ -37,6 +37,12 @@ class Budget:
     left: float = float("inf")
 
 
+class WithoutValue(str):
+    """Words for values at which a statement has no value, so that none can be compared there."""
+
+    __slots__ = ()
+
+
 class UnreadableError(ValueError):
     """The expression is not of the paper's language, or takes too long to be evaluated."""
 

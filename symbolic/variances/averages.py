@@ -9,7 +9,7 @@ from force_diffusion.symbolic.algebra.exact import (
     RationalFunction,
     sum_polynomial,
 )
-from force_diffusion.symbolic.symbols import M, j, k, z
+from force_diffusion.symbolic.symbols import M, j, k
 from force_diffusion.symbolic.variances.variance import ClosedForm, leading, order, value_at
 
 
@@ -77,30 +77,3 @@ def layer_average(forms: dict[str, ClosedForm]) -> LayerAverage:
 
 
 _HEIGHT_TWO = ((0, "base"), (1, "surface"))
-
-
-def uniform_order(forms: dict[str, ClosedForm], profile: sympy.Expr) -> int:
-    """A power p such that |variance − profile at z = j/M| ≤ C M^p in every layer, M ≥ 3.
-
-    C depends on φ, σ and r alone. In the interior a term j^a k^b/k^c with k = M − j ≥ 1 is at
-    most M^(a + max(b − c, 0)), which is what is counted.
-    """
-    in_layers = FIELD.from_sympy(profile.xreplace({z: j / M}))
-    height = FIELD.generator(j) + FIELD.generator(k)
-    inside = (forms["interior"].value - in_layers).substitute({M: height})
-    places = FIELD.position[j], FIELD.position[k]
-    below = [tuple(map(int, exponents)) for exponents in inside.denominator.to_dict()]
-    if any(exponents[places[0]] for exponents in below) or (
-        len({exponents[places[1]] for exponents in below}) > 1
-    ):
-        raise NotExactError("a denominator holds more than a power of M − j")
-    under = below[0][places[1]]
-    orders = [
-        int(exponents[places[0]]) + max(int(exponents[places[1]]) - under, 0)
-        for exponents in inside.numerator.to_dict()
-    ]
-    edges = {"base": sympy.Integer(0), "base+1": 1 / M, "surface": 1 - 1 / M}
-    for edge, at in edges.items():
-        printed = FIELD.from_sympy(profile.xreplace({z: at}))
-        orders.append(order(forms[edge].value - printed))
-    return max(orders)

@@ -14,7 +14,7 @@ from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm, Ray, Site
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.variances.weights import UndeterminedError, take_apart
+from force_diffusion.symbolic.variances.weights import UndeterminedError
 
 DEEPEST = 9  # no coincidence of the paper's forms is left open for indices from here on
 
@@ -55,21 +55,6 @@ def at_value(form: LinearForm, symbol: sympy.Symbol, at: int) -> LinearForm:
     return result
 
 
-def squares_by_case(
-    form: LinearForm, lower: dict[sympy.Symbol, int], generic: int
-) -> Iterator[Case]:
-    """Σ weight² of a form for all indices from their lower bounds on.
-
-    Values below ``generic`` become cases of their own at once, others only where they have to.
-    The form must have been read for these indices: its sums are in order for all of them.
-    """
-
-    def squares(forms: Forms, region: Region) -> RationalFunction:
-        return take_apart(forms[0], region).sum_of_squares()
-
-    return by_case((form,), lower, generic, squares)
-
-
 Forms = tuple[LinearForm, ...]
 
 
@@ -80,7 +65,11 @@ def by_case(
     value: Callable[[Forms, Region], RationalFunction],
     at: dict[sympy.Symbol, int] | None = None,
 ) -> Iterator[Case]:
-    """A value of several forms, as :func:`squares_by_case` for one."""
+    """A value of several forms for all indices from their lower bounds on.
+
+    Values below ``generic`` become cases of their own at once, others only where they have to.
+    The forms must have been read for these indices: their sums are in order for all of them.
+    """
     at = at or {}
     symbol = min(lower, key=lambda index: lower[index], default=None)
     try:
@@ -99,11 +88,15 @@ def by_case(
 
 @dataclass(frozen=True)
 class Piece:
-    """A closed form for the indices named in ``at``; the first of several that fits holds."""
+    """A closed form for the indices named in ``at``; the first of several that fits holds.
+
+    ``further`` says in relations where none before it fits.
+    """
 
     where: str
     at: dict[sympy.Symbol, int]
     expression: sympy.Expr
+    further: tuple[sympy.Basic, ...] = ()
 
     def fits(self, case: Case) -> bool | None:
         """Whether it is for a case: for all of it, for none, or (None) for a part."""

@@ -29,7 +29,7 @@ def covariances_by_case(
 ) -> Iterator[Case]:
     """Σ of the products of both weights for all indices from their lower bounds on.
 
-    As :func:`symbolic.variances.cases.squares_by_case`, for two expressions.
+    As :func:`symbolic.variances.cases.by_case`, for two expressions.
     """
     reader = Reader(Region(dict(lower)))
     first, second = (without_constant(reader.scalar(one)) for one in (x, y))

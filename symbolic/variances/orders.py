@@ -11,7 +11,6 @@ from force_diffusion.symbolic.variances.variance import (
     at_fixed_z,
     grows_evenly,
     largest_weight,
-    leading,
     order,
 )
 
@@ -43,18 +42,6 @@ def same_leading_order(candidate: sympy.Eq) -> Ruling:
     """Two functions of M, j and z = j/M have the same leading order."""
     return compare_leading_order(
         FIELD.from_sympy(candidate.lhs.xreplace({z: j / M})), candidate.rhs
-    )
-
-
-def edges_follow(forms: dict[str, ClosedForm], printed: sympy.Expr) -> Ruling:
-    """The exact forms of the base and of the layer below the surface, at leading order in M."""
-    at_zero = FIELD.from_sympy(printed.xreplace({z: sympy.Integer(0)}))
-    surface = FIELD.from_sympy(2 * M * (1 + phi**2) * UNIT)
-    return from_test(
-        (leading(forms["base"].value) - at_zero).is_zero()
-        and (leading(forms["surface"].value) - surface).is_zero(),
-        "at j = 0 the leading order is the printed form at z = 0; at j = M − 1 it is 2(1+φ²) M in "
-        "units of (σ/r)²/(1−φ²)²",
     )
 
 

@@ -77,11 +77,6 @@ def largest_weight(expression: sympy.Expr, region: Region) -> int:
     return _largest(pieces_of(expression, region))
 
 
-def largest_weight_of(form: LinearForm, region: Region) -> int:
-    """The same of a normal form."""
-    return _largest(take_apart(without_constant(form), region))
-
-
 def _largest(pieces: Pieces) -> int:
     sizes = (M, j, LAYER)
     orders = [order(run.weight, *sizes) for run in pieces.runs]

@@ -68,6 +68,7 @@ def test_json_follows_its_schema(made_up, capsys: pytest.CaptureFixture[str]) ->
             "name",
             "verdict",
             "checks",
+            "refuted as expected",
             "mutants",
             "statements",
             "seconds",

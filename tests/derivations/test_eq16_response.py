@@ -1,29 +1,44 @@
 """The response to a point load: closed forms against exact packings, and how cases are split."""
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 import mpmath
 import numpy as np
 import pytest
+import sympy
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations import eq16_response as eq16
+from force_diffusion.derivations.api.derived import Derived
+from force_diffusion.derivations.api.equation import Proof
+from force_diffusion.derivations.export import terminal
+from force_diffusion.derivations.export.document import finding, statement_latex
+from force_diffusion.derivations.export.manifest import Manifest
+from force_diffusion.derivations.export.terminal import statement_text
+from force_diffusion.derivations.framework import runner
+from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.proving import Line, exhausting, moment
+from force_diffusion.derivations.framework.record import Check
 from force_diffusion.derivations.parts import cone
-from force_diffusion.derivations.parts.cone import BEAD, covariance
 from force_diffusion.derivations.witnesses.draws import DIRECTIONS, draw
 from force_diffusion.derivations.witnesses.squared_weights import responses
 from force_diffusion.numeric import closed_forms
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
-from force_diffusion.symbolic.algebra.exact import FIELD
+from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.decisions import Verdict
-from force_diffusion.symbolic.mechanics.paths import IN_CONE
-from force_diffusion.symbolic.variances.cases import Piece, first_difference
+from force_diffusion.symbolic.kernel.theorem import NotProvedError
+from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.variances.cases import Piece
 from force_diffusion.symbolic.variances.orders import UNIT
 from hypothesis import given
 from hypothesis import strategies as st
+from sympy import Rational
 
 ONE = Fraction(1)
+CASES = (eq16.BY_LAYERS, eq16.BY_STEPS)
 cosines = st.fractions(Fraction(-49, 100), Fraction(49, 100), max_denominator=1000)
 
 
@@ -39,7 +54,8 @@ def test_bead_forms_are_sums_of_squared_weights(j: int, p: int, q: int, phi: int
     """On explicit sites, which know nothing of cases."""
     values = explicit.geometry(*DIRECTIONS[phi], ONE)
     at = {**values, sy.i: j, sy.j: j, sy.p: p, sy.q: q}
-    weights = explicit.weights(eq11.in_radii(cone.BEAD_RESPONSE), at)
+    response = (cone.UPPER_RIGHT + cone.UPPER_LEFT) / 2
+    weights = explicit.weights(eq11.in_radii(response), at)
     total = sum((w**2 for key, w in weights.items() if key[0]), Fraction(0))
     site = (0, j, p - q, j + p + q)
     if j % 2:
@@ -47,41 +63,58 @@ def test_bead_forms_are_sums_of_squared_weights(j: int, p: int, q: int, phi: int
     assert closed_forms.bead_response(*site, Fraction(values[sy.phi]), ONE, ONE) == total
 
 
-def test_a_wrong_closed_form_is_found() -> None:
-    cases = cone.bead_cases()
-    unit = FIELD.from_sympy(UNIT / (4 * sy.sigma**2))
-    assert first_difference(BEAD, cases, unit, IN_CONE) is None
-    for place, piece in enumerate(BEAD):
-        wrong = [*BEAD]
-        wrong[place] = Piece(piece.where, piece.at, piece.expression + 1)
-        assert "exceeds" in str(first_difference(wrong, cases, unit, IN_CONE)), piece.where
-    assert "no closed form" in str(first_difference(BEAD[:-1], cases, unit, IN_CONE))
-    vague = [Piece("j = 5", {sy.j: 5}, BEAD[-1].expression)]
-    assert "in part" in str(first_difference(vague, cases[-1:], unit, IN_CONE))
+FORMS = [
+    *((cone.INSIDE, piece, eq16.RESPONSE, UNIT / 4) for piece in cone.BEAD),
+    *((cone.INSIDE, piece, eq16.ONE_CONTACT, UNIT / 4) for piece in cone.CONTACT),
+    *((cone.LEFT_LEG, piece, eq16.ON_LEG, UNIT / 4) for piece in cone.LEG),
+    *((cone.LEFT_LEG, piece, eq16.LEG_MAGNITUDE, UNIT) for piece in cone.LEG_FORCE),
+]
 
 
-@pytest.mark.parametrize("piece", BEAD, ids=lambda piece: piece.where)
-def test_the_covariance_of_both_contacts_is_that_on_explicit_sites(piece: Piece) -> None:
-    values = explicit.geometry(*DIRECTIONS[1], ONE)
-    at = {**values, sy.i: 0, sy.j: 4, sy.p: 3, sy.q: 4} | piece.at
-    right, left = (
-        explicit.weights(eq11.in_radii(force), at) for force in (cone.UPPER_RIGHT, cone.UPPER_LEFT)
-    )
-    common = sum((w * left[site] for site, w in right.items() if site in left), Fraction(0))
-    phi = Fraction(values[sy.phi])
-    assert covariance(piece).at({sy.phi: phi}) == 2 * common * (1 - phi**2) ** 2
+@pytest.mark.parametrize(
+    ("whole", "piece", "quantity", "unit"), FORMS, ids=lambda one: getattr(one, "where", "")
+)
+def test_a_wrong_closed_form_is_found(
+    whole: Where, piece: Piece, quantity: sympy.Symbol, unit: sympy.Expr
+) -> None:
+    (where,) = cone.domains(whole, [piece])
+    rule = moment(cone.FORCES, eq11.IN_RADII, whole=whole, cases=CASES[whole == cone.INSIDE])
+    line = Line("", equation(quantity, piece.expression * unit), rule, where, eq16.MEANING)
+    assert line.verdict is Verdict.PROVED
+    for change in (Rational(1), sy.phi / 10**6, sy.j, sy.phi * sy.l):
+        if change.xreplace(piece.at) == 0:
+            continue
+        wrong = equation(quantity, (piece.expression + change) * unit)
+        assert line.rule_on(0, wrong).verdict is Verdict.REFUTED, change
 
 
-def test_cases_cover_every_site_once() -> None:
+@pytest.mark.parametrize("pieces", [cone.BEAD, cone.CONTACT, cone.LEG, cone.LEG_FORCE])
+def test_a_closed_form_left_out_is_noticed(pieces: tuple[Piece, ...]) -> None:
+    """Without one of the forms the claim that they are all of them is not proved."""
+    whole = cone.INSIDE if pieces in (cone.BEAD, cone.CONTACT) else cone.LEFT_LEG
+    rule = moment(cone.FORCES, eq11.IN_RADII, whole=whole)
+    for left_out in pieces:
+        rest = [piece for piece in pieces if piece != left_out]
+        by = exhausting(whole, cone.domains(whole, rest), rule)
+        with pytest.raises(NotProvedError, match="leave something out"):
+            by.rule(())
+    exhausting(whole, cone.domains(whole, pieces), rule).rule(())
+
+
+def test_closed_forms_hold_at_one_site_each() -> None:
+    """The kernel's domains, and the order in which a number is looked up, say the same."""
     for j, p, q in np.ndindex(6, 6, 6):
-        at = {sy.j: j, sy.p: p + 1, sy.q: q + 1}
-        having = [
-            case
-            for case in cone.bead_cases()
-            if all(at[symbol] == value for symbol, value in case.at.items())
-            and all(at[symbol] >= value for symbol, value in case.lower.items())
-        ]
-        assert len(having) == 1
+        at = {sy.i: 0, sy.j: j, sy.p: p + 1, sy.q: q + 1}
+        at |= {sy.k: p - q, sy.l: j + p + q + 2}
+        for pieces in (cone.BEAD, cone.CONTACT):
+            first = next(one for one in pieces if one.at.items() <= at.items())
+            wheres = zip(pieces, cone.domains(cone.INSIDE, pieces), strict=True)
+            assert [one for one, where in wheres if where.holds(at)] == [first]
+        at |= {sy.k: p + 1, sy.l: j + p + 1}
+        for pieces in (cone.LEG, cone.LEG_FORCE):
+            first = next(one for one in pieces if one.at.items() <= at.items())
+            wheres = zip(pieces, cone.domains(cone.LEFT_LEG, pieces), strict=True)
+            assert [one for one, where in wheres if where.holds(at)] == [first]
 
 
 def test_the_branch_is_that_of_equation_10() -> None:
@@ -180,3 +213,55 @@ def test_the_result_is_of_the_type_of_phi(kind: Any) -> None:
     for site in ((0, 2, 0, 8), (-6, 2, 0, 8), (10, 2, 0, 8), (0, 8, 0, 8)):
         found = closed_forms.bead_response(*site, quarter, one, one)
         assert type(found) is type(quarter)
+
+
+def test_the_printed_statement_for_one_contact_is_refuted_and_no_failure() -> None:
+    derivation = load(16)
+    (reading,) = derivation.refuted
+    assert reading.formula.rhs == derivation.printed[0].rhs
+    assert reading.relation == "∼"
+    assert "goes to (j + p)/(2 j + p + q), not to 1" in reading.ruling.note
+    checks = [Check("proof", "printed equation", Verdict.PROVED, 0.0)]
+    for verdict, told in (
+        (Verdict.REFUTED, Verdict.PROVED),
+        (Verdict.UNDECIDED, Verdict.UNDECIDED),
+        (Verdict.PROVED, Verdict.UNDECIDED),
+    ):
+        assert runner.overall([*checks, Check("refutation", "", verdict, 0.0)]) is told
+    assert runner.overall([Check("refutation", "", Verdict.REFUTED, 0.0)]) is Verdict.UNDECIDED
+
+
+def test_what_holds_for_one_contact_is_not_refuted() -> None:
+    (reading,) = load(16).refuted
+    for rhs in (eq16.OF_CONTACT.rhs, eq16.OF_CONTACT.rhs * (1 + 1 / sy.l)):
+        true = replace(reading, formula=equation(eq16.ONE_CONTACT, rhs))
+        assert true.ruling.verdict is Verdict.UNDECIDED
+        assert true.ruling.note == "both go the same way"
+
+
+def test_all_that_is_said_of_the_run_counts_it() -> None:
+    outcome = runner.run(load(16))
+    words = "1 printed statement refuted, as expected (see ERRATA)"
+    derived, proof = Derived((outcome,)), Proof((outcome,), premises_run=False)
+    assert outcome.verdict is proof.verdict is Verdict.PROVED
+    assert derived.proved
+    assert derived.counts() == f"1 proved, {words}"
+    assert [check.kind for check in proof.refuted] == ["refutation"]
+    for said in (str(derived), str(proof), terminal.outcome_text(outcome)):
+        assert words in said
+    assert terminal.trouble_lines(outcome) == []
+    (found,) = derived.data()["equations"]
+    assert found["refuted as expected"] == 1
+    checks = Manifest.model_validate_json(
+        Manifest(program="force-diffusion", files={}, equations=(finding(outcome),)).text()
+    ).equations[0]
+    assert [c.verdict for c in checks.checks if c.kind == "refutation"] == ["refuted"]
+    (reading,) = outcome.derivation.refuted
+    for document in (derived.latex()["equations.tex"], statement_text(outcome.derivation)):
+        assert reading.reading[1:] in " ".join(document.split())  # a sentence, or part of one
+
+
+def test_the_statement_for_one_contact_is_in_no_fragment() -> None:
+    """A fragment is to be pasted."""
+    assert "contact" not in statement_latex(load(16))
+    assert statement_latex(load(16)).count(r"\sim") == 1

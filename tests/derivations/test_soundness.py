@@ -11,8 +11,8 @@ from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 from force_diffusion.symbolic.search.corpus import FALSE as FALSE_KINDS
+from force_diffusion.symbolic.search.corpus import LARGER, statements
 from force_diffusion.symbolic.search.corpus import TRUE as TRUE_KINDS
-from force_diffusion.symbolic.search.corpus import statements
 from force_diffusion.symbolic.symbols import (
     Braces,
     DeltaR,
@@ -207,9 +207,9 @@ def test_an_order_that_fails_at_one_place_is_refuted_by_values() -> None:
 def test_the_whole_corpus(number: int | str) -> None:
     """Nothing false is proved; all that is true is."""
     derivation, found = load(number), Counter()
-    for part, printed in enumerate(derivation.printed):
-        for one in statements(printed, derivation.relation, dimension=derivation.dimension):
-            verdict = derivation.rule_on(part, one.equation).verdict
+    for part in range(len(derivation.printed)):
+        for one in statements(derivation.source(part)):
+            verdict = derivation.rule_on(part, one.equation, one.where).verdict
             assert (verdict is Verdict.PROVED) is one.holds, one
             found[one.holds, verdict] += 1
     assert sum(found.values()) >= 140
@@ -217,14 +217,12 @@ def test_the_whole_corpus(number: int | str) -> None:
 
 
 def test_every_kind_is_tried_where_it_can_be() -> None:
-    kinds = {
-        one.kind for n in modules() for one in statements(load(n).printed[0], load(n).relation, 0)
-    }
-    assert kinds == {*FALSE_KINDS, *TRUE_KINDS}
+    kinds = {one.kind for n in modules() for one in statements(load(n).source(0), 0)}
+    assert kinds == {LARGER, *FALSE_KINDS, *TRUE_KINDS}
     for number in modules():
         derivation = load(number)
-        for printed in derivation.printed:
-            every = list(statements(printed, derivation.relation))
-            some = list(statements(printed, derivation.relation, 5))
+        for part in range(len(derivation.printed)):
+            every = list(statements(derivation.source(part)))
+            some = list(statements(derivation.source(part), 5))
             assert {one.kind for one in some} == {one.kind for one in every}
             assert set(some) < set(every)

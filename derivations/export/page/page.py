@@ -18,14 +18,13 @@ from force_diffusion.derivations.export.page.parts import Part
 from force_diffusion.derivations.export.page.proof_graph import proof_graph
 from force_diffusion.derivations.export.prose import both
 from force_diffusion.derivations.export.terminal import (
+    expected_text,
     mutant_counts,
     relation_of,
-    step_verdicts,
     tried_counts,
     tried_text,
 )
-from force_diffusion.derivations.framework.record import Derivation, Outcome
-from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.derivations.framework.record import Check, Derivation, Outcome
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
@@ -37,6 +36,7 @@ _PACKAGES = (
     "math-core", "numba",
 )  # fmt: skip
 _MARKS = {"proved": "✓", "agrees": "✓", "refuted": "✗", "disagrees": "✗", "undecided": "?",
+          "proved, assuming": "✓", "not a statement": "∅",
           "equivalent": "≡", "accepted": "✓", "stale": "?", "not on record": "–",
           "not stated": "–"}  # fmt: skip
 
@@ -50,28 +50,37 @@ class Note:
     note: Markup
 
 
-def _noted(verdict: str, name: str, note: str) -> Note:
-    return Note(verdict, prose(sentence(name)), prose(sentence(note)) if note else Markup(""))
+def _noted(verdict: str, name: str, note: str, assuming: Sequence[str] = ()) -> Note:
+    told = [f"It assumes {one}" for one in assuming] + [note] * bool(note)
+    return Note(verdict, prose(sentence(name)), prose(" ".join(map(sentence, told))))
 
 
-def _steps(derivation: Derivation, verdicts: list[str]) -> Iterator[tuple[Markup | str, ...]]:
-    """Reason, formula, verdict, and what it follows from."""
-    for step, verdict in zip(derivation.steps(), verdicts, strict=True):
+def _steps(derivation: Derivation, checks: Sequence[Check]) -> Iterator[tuple[Markup | str, ...]]:
+    """Reason, formula, verdict, what it assumes, and what it follows from."""
+    for step, check in zip(derivation.steps(), checks, strict=True):
         formula = display([step.formula], relation_of(derivation, step))
-        uses = prose(both(step.uses)) if step.uses else ""
-        yield prose(step.reason), formula, verdict, uses
+        uses, assumed = (prose(both(one)) if one else "" for one in (step.uses, check.assuming))
+        yield prose(step.reason), formula, check.verdict, assumed, uses
 
 
 def equation_view(outcome: Outcome, outcomes: Sequence[Outcome]) -> dict[str, Any]:
     """All that the page shows of one equation."""
     derivation = outcome.derivation
-    kinds = {kind: [c for c in outcome.checks if c.kind == kind] for kind in ("proof", "witness")}
+    kinds = {
+        kind: [c for c in outcome.checks if c.kind == kind]
+        for kind in ("step", "proof", "witness", "refutation")
+    }
     return {
         "number": derivation.number,
         "title": prose(derivation.title),
-        "verdict": str(outcome.verdict),
+        "verdict": outcome.verdict,
+        "assuming": prose(" and ".join(outcome.assuming)),
         "coq": recorded(derivation),
         "printed": display(derivation.printed, derivation.relation),
+        "refuted": [
+            (display([one.formula], one.relation), _noted(str(c.verdict), c.name, c.note))
+            for one, c in zip(derivation.refuted, kinds["refutation"], strict=True)
+        ],
         "symbols": [(symbol(one), prose(words)) for one, words in derivation.symbols],
         "assumptions": [prose(sentence(words)) for words in derivation.assumptions],
         "premises": [premise.number for premise in derivation.premises],
@@ -80,9 +89,9 @@ def equation_view(outcome: Outcome, outcomes: Sequence[Outcome]) -> dict[str, An
             for other in outcomes
             if derivation.number in [premise.number for premise in other.derivation.premises]
         ],
-        "steps": list(_steps(derivation, step_verdicts(outcome.checks))),
-        "proofs": [_noted(str(c.verdict), c.name, c.note) for c in kinds["proof"]],
-        "witnesses": [_noted(str(c.verdict), c.name, c.note) for c in kinds["witness"]],
+        "steps": list(_steps(derivation, kinds["step"])),
+        "proofs": [_noted(c.verdict, c.name, c.note, c.assuming) for c in kinds["proof"]],
+        "witnesses": [_noted(c.verdict, c.name, c.note) for c in kinds["witness"]],
         "counts": mutant_counts(outcome),
         "mutants": [
             Note(mutant.verdict, prose(mutant.change), prose(mutant.note))
@@ -126,7 +135,8 @@ def page(outcomes: Sequence[Outcome], parts: Sequence[Part], command: str, made:
         style_hashes=Markup(_HASHES),
         equations=[equation_view(outcome, outcomes) for outcome in outcomes],
         totals={
-            "proved": sum(outcome.verdict is Verdict.PROVED for outcome in outcomes),
+            "proved": sum(outcome.verdict.is_proved for outcome in outcomes),
+            "expected": expected_text(sum(check.is_expected for check in checks)),
             "proofs": sum(check.kind == "proof" for check in checks),
             "witnesses": sum(check.kind == "witness" for check in checks),
             **{kind: sum(count[kind] for count in counts) for kind in counts[0]},

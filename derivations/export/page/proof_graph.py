@@ -45,7 +45,9 @@ def proof_graph(outcomes: Sequence[Outcome]) -> Markup:
             Markup(
                 '<a href="#eq-{0}" aria-label="Eq. {0}: {3}"><circle class="{4}" cx="{1:g}" '
                 'cy="{2:g}" r="{5}"/><text x="{1:g}" y="{2:g}" dy="0.35em">{0}</text></a>'
-            ).format(derivation.number, x, y, derivation.title, outcome.verdict, _RADIUS)
+            ).format(
+                derivation.number, x, y, derivation.title, outcome.verdict.replace(",", ""), _RADIUS
+            )
         )
     edges = [
         Markup('<path class="edge" d="M{:.1f} {:.1f}Q{:.1f} {:.1f} {:.1f} {:.1f}"/>').format(*curve)

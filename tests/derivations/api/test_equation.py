@@ -329,18 +329,24 @@ def test_one_of_two_lines_is_found_by_its_left_hand_side() -> None:
     first, second = fd.equation(7).expr
     crossed = sympy.Eq(first.lhs, second.rhs, evaluate=False)
     assert fd.equation(7).decide(crossed).verdict is Verdict.REFUTED
-    ruling = fd.equation(7).decide(first.rhs)
+    ruling = fd.equation(7).decide(sympy.sin(sy.phi))
     assert ruling.verdict is Verdict.UNDECIDED
     assert "f⁺_(k−1,l−1) or f⁻_(k+1,l−1)" in ruling.note
 
 
 z, M = sy.z, sy.M
-STRANGE = [
-    "M**3", None, 2.5, sympy.true, sympy.Matrix([[M]]), M < 3, sympy.Tuple(M), sympy.S.EmptySet,
-    sympy.Float(2.5), sympy.oo, sympy.nan, sympy.zoo, sympy.I, sympy.sin(M), sympy.Dummy("M"),
-    sympy.Sum(M, (M, 1, sympy.oo)), sympy.Integral(M, z), sympy.Piecewise((M, z > 0), (1, True)),
-    sympy.Derivative(M**2, M), sympy.Pow(0, -1, evaluate=False), sympy.Lambda(M, M), sympy.Order(M),
-    sympy.MatrixSymbol("A", 2, 2), sympy.UnevaluatedExpr(M), sy.MatrixTimes(1, 2, 3, 4, 5),
+NO_EQUATION = [
+    "M**3", None, 2.5, sympy.true, sympy.Matrix([[M]]), M < 3, sympy.S.EmptySet, (), [[M]],
+]  # fmt: skip
+NO_VALUE = [
+    sympy.oo, sympy.nan, sympy.zoo, sympy.Dummy("M"), sympy.Pow(0, -1, evaluate=False),
+    sympy.Symbol("y"), sy.MatrixTimes(1, 2, 3, 4, 5), sympy.Sum(M, (sy.m, 5, 1)),
+]  # fmt: skip
+NOT_READ = [
+    sympy.Float(2.5), sympy.I, sympy.sin(sy.phi), sympy.Derivative(sy.phi**2, sy.phi),
+    sympy.Integral(sy.phi, sy.phi), sympy.Piecewise((sy.phi, sy.phi > 0), (1, True)),
+    sympy.Order(sy.phi), sympy.MatrixSymbol("A", 2, 2), sympy.UnevaluatedExpr(sy.phi),
+    sympy.Lambda(M, M),
 ]  # fmt: skip
 WRONG = [
     M**M, sympy.sqrt(M), sympy.Wild("a"), sy.Braces(M, 1, sy.m, sy.j), M**1000, sympy.Symbol("y"),
@@ -349,18 +355,23 @@ WRONG = [
 
 
 @every_equation
-def test_what_can_not_be_read_is_undecided(eq: fd.Equation) -> None:
-    for candidate in STRANGE:
-        ruling = eq.decide(candidate)
-        assert ruling.verdict is Verdict.UNDECIDED, candidate
-        assert ruling.note
+def test_what_can_not_be_decided_is_told_with_the_reason(eq: fd.Equation) -> None:
+    for candidates, verdict in (
+        (NO_EQUATION, Verdict.NOT_A_STATEMENT),
+        (NO_VALUE, Verdict.NOT_A_STATEMENT),
+        (NOT_READ, Verdict.UNDECIDED),
+    ):
+        for candidate in candidates:
+            ruling = eq.decide(candidate)
+            assert ruling.verdict is verdict, (candidate, str(ruling))
+            assert ruling.note
     for candidate in WRONG:
-        assert eq.decide(candidate).verdict is not Verdict.PROVED, candidate
+        assert not eq.decide(candidate).verdict.is_proved, candidate
 
 
 def test_a_symbol_of_the_same_name_is_no_symbol_of_the_equation() -> None:
     ruling = fd.equation(13).decide(fd.equation(13).rhs * sympy.Symbol("M") / M)
-    assert ruling.verdict is Verdict.UNDECIDED
+    assert ruling.verdict is Verdict.NOT_A_STATEMENT
     assert ruling.note.startswith("M: not this equation's symbol")
 
 

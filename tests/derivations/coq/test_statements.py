@@ -72,7 +72,11 @@ def test_ranges_are_those_of_the_domain() -> None:
 
 def test_ranges_are_what_the_assumptions_say_where_there_is_no_domain() -> None:
     assert list(coq.ranges(load(12))) == []  # 0 < z < 1 is of no index; every layer is meant
-    assert list(coq.ranges(load(16))) == ["(p >= 1)%Z", "(q >= 1)%Z"]
+
+
+def test_ranges_are_the_relations_of_a_domain() -> None:
+    steps = ["(p >= 1)%Z", "(q >= 1)%Z"]
+    assert list(coq.ranges(load(16))) == [*steps, "(k = i + p - q)%Z", "(l = j + p + q)%Z"]
 
 
 @pytest.mark.parametrize("number", coq.STATED)

@@ -9,6 +9,7 @@ from force_diffusion.derivations.export.prose import both, prose_latex
 from force_diffusion.derivations.export.terminal import heading, relation_of
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.proving import Refuted
 from force_diffusion.derivations.framework.record import Derivation, Step
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, latex_body, text_lines
@@ -38,6 +39,17 @@ def step_shown(derivation: Derivation, place: int, step: Step) -> str:
     return "\n\n".join(shown) + "\n"
 
 
+def refuted_shown(one: Refuted) -> str:
+    """A printed statement that does not hold, as text and below it as LaTeX."""
+    shown = (
+        f"Printed as well: {one.reading}",
+        indent("\n".join(text_lines(one.formula, one.relation, TEXT_WIDTH)), "    "),
+        prose_latex(one.reading),
+        indent(latex_body([one.formula], RELATIONS[one.relation]), "    "),
+    )
+    return "\n\n".join(shown) + "\n"
+
+
 @pytest.mark.parametrize("number", list(modules()))
 def test_statement(number: int, update_golden: bool) -> None:
     derivation = load(number)
@@ -48,6 +60,7 @@ def test_statement(number: int, update_golden: bool) -> None:
 def test_steps(number: int, update_golden: bool) -> None:
     derivation = load(number)
     steps = [step_shown(derivation, *one) for one in enumerate(derivation.steps(), start=1)]
-    found = "\n\n".join([f"{heading(derivation)}\n", *steps])
+    refuted = [refuted_shown(one) for one in derivation.refuted]
+    found = "\n\n".join([f"{heading(derivation)}\n", *steps, *refuted])
     path = GOLDEN / "steps" / fragment_name(derivation).replace(".tex", ".txt")
     compare(path, found, update_golden)

@@ -88,3 +88,11 @@ def test_weights_are_a_vector_space() -> None:
 
 def test_a_radius_is_a_length() -> None:
     assert found(Variance(DeltaR(i, j) / r), sigma**2) is not None
+
+
+def test_a_moment_and_what_is_drawn_do_not_mix() -> None:
+    """One after the other on the same packings, in both orders."""
+    wrong = 2 * DeltaX(i, j)
+    for _ in range(2):
+        assert found(DeltaX(i, j), wrong, Where.of(j >= 1)) is not None
+        assert found(Variance(Dot(n_plus, DeltaX(i, j))), sigma**2, Where.of(j >= 2)) is not None

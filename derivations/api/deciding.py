@@ -1,0 +1,93 @@
+"""What a user may hand to ``decide``: a line, the right-hand side of one, or all lines at once."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import sympy
+from force_diffusion.derivations.export.prose import either
+from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    Verdict,
+    all_of,
+    not_a_statement,
+    refuted,
+    undecided,
+)
+from force_diffusion.symbolic.printing.text import text
+
+RuleOn = Callable[[int, sympy.Eq], Ruling]
+"""Rules on a candidate for one of the lines, by its place."""
+
+
+def decided(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:
+    """Rule on a candidate for printed lines.
+
+    Args:
+        candidate: a SymPy ``Eq``, an expression for a right-hand side, or as many of these as there
+            are lines, in a ``Tuple``, tuple or list.
+        lines: what is printed.
+        rule_on: rules on an equation in the place of one of them.
+    """
+    if isinstance(candidate, sympy.Tuple | tuple | list):
+        return _on_all(tuple(candidate), lines, rule_on)
+    return _on_one(candidate, lines, rule_on)
+
+
+def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:
+    if isinstance(candidate, sympy.Eq):
+        parts = [n for n, line in enumerate(lines) if line.lhs == candidate.lhs]
+        rulings = [rule_on(part, candidate) for part in parts or range(len(lines))]
+        ranked = {ruling.verdict: ruling for ruling in reversed(rulings)}
+        return next(ranked[one] for one in Verdict if one in ranked)
+    if isinstance(candidate, sympy.Expr):
+        return _on_a_side(candidate, lines, rule_on)
+    return not_a_statement(
+        f"a SymPy Eq or expression is needed, and this is {type(candidate).__name__}; "
+        "Eq(…, evaluate=False) is not turned into true or false"
+    )
+
+
+def _on_a_side(side: sympy.Expr, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:
+    """Rule on an expression: it is to be the right-hand side of one of the lines."""
+    rulings = [rule_on(part, equation(line.lhs, side)) for part, line in enumerate(lines)]
+    if len(rulings) == 1:
+        return rulings[0]
+    told = [_about(line, ruling) for line, ruling in zip(lines, rulings, strict=True)]
+    if found := next((one for one in told if one.verdict.is_proved), None):
+        return found
+    verdicts = {one.verdict for one in rulings}
+    if Verdict.UNDECIDED in verdicts:
+        sides = either([text(line.lhs) for line in lines])
+        return undecided(f"which line is meant? Give an Eq whose left-hand side is {sides}")
+    notes = "; ".join(one.note for one in told)
+    return refuted(notes) if Verdict.REFUTED in verdicts else not_a_statement(notes)
+
+
+def _on_all(candidates: tuple[Any, ...], lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:
+    """Rule on as many candidates as lines: each in the place of the line that it is about.
+
+    One that is about none of them, by its left-hand side, takes the first place that is left.
+    """
+    if len(candidates) != len(lines):
+        few = "1 line is" if len(lines) == 1 else f"{len(lines)} lines are"
+        return not_a_statement(f"{few} printed, and there are {len(candidates)} here")
+    places: dict[int, Any] = {}
+    for candidate in candidates:
+        for part, line in enumerate(lines):
+            if part not in places and getattr(candidate, "lhs", None) == line.lhs:
+                places[part] = candidate
+                break
+    taken = {id(one) for one in places.values()}
+    others = iter([one for one in candidates if id(one) not in taken])
+    rulings = []
+    for part, line in enumerate(lines):
+        one = places[part] if part in places else next(others, None)
+        ruling = _on_one(one, [line], lambda _, of, part=part: rule_on(part, of))  # type: ignore[misc]
+        rulings.append(_about(line, ruling) if len(lines) > 1 else ruling)
+    return all_of(*rulings)
+
+
+def _about(line: sympy.Eq, ruling: Ruling) -> Ruling:
+    return replace(ruling, note=f"{text(line.lhs)}: {ruling.note}")

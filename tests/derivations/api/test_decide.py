@@ -1,0 +1,294 @@
+"""``decide`` takes whatever is an equation: all lines, one, a component, an exact form."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import pytest
+import sympy
+from force_diffusion.derivations.api.equation import Equation
+from force_diffusion.derivations.api.exact import ExactForm
+from force_diffusion.derivations.framework.proving import By, Lines
+from force_diffusion.derivations.framework.record import Derivation, ExactCase
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.kernel import rules
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, proved
+from force_diffusion.symbolic.kernel.theorem import Theorem, made
+from force_diffusion.symbolic.kernel.where import Where
+from sympy import Eq, Rational, Tuple
+
+import force_diffusion as fd
+
+NUMBERS: tuple[int | str, ...] = (*range(1, 17), *(f"B{n}" for n in range(1, 22)))
+SEVERAL = [n for n in NUMBERS if isinstance(fd.equation(n).expr, Tuple)]
+OF_VECTORS = (1, 2, 3, 4, 5, 6)
+MILLIONTH = Rational(1, 10**6)
+
+
+def equal(left: sympy.Expr, right: sympy.Expr) -> Eq:
+    return Eq(left, right, evaluate=False)
+
+
+def test_some_equations_have_several_lines() -> None:
+    assert [7, 8, 15, "B1", "B2", "B3", "B9", "B10", *(f"B{n}" for n in range(15, 20))] == SEVERAL
+
+
+@pytest.mark.parametrize("number", SEVERAL)
+def test_all_lines_at_once(number: int | str) -> None:
+    eq = fd.equation(number)
+    lines = list(eq.expr)
+    for whole in (eq.expr, eq.rhs, tuple(lines), list(eq.rhs), Tuple(*reversed(lines))):
+        assert eq.decide(whole).verdict is Verdict.PROVED, whole
+    last = lines[-1]
+    wrong = equal(last.lhs, -last.rhs)
+    found = eq.decide(Tuple(*lines[:-1], wrong))
+    assert found.verdict is Verdict.REFUTED
+    assert eq.decide((*lines[:-1], -last.rhs)).verdict is Verdict.REFUTED
+
+
+@pytest.mark.parametrize("number", SEVERAL)
+def test_lines_that_are_left_out_are_not_proved(number: int | str) -> None:
+    eq = fd.equation(number)
+    lines = list(eq.expr)
+    for some in (lines[:1], [*lines, lines[0]], ()):
+        found = eq.decide(some)
+        assert found.verdict is Verdict.NOT_A_STATEMENT
+        assert f"{len(lines)} lines" in found.note
+    assert not eq.decide([lines[0]] * len(lines)).verdict.is_proved
+
+
+@pytest.mark.parametrize("number", SEVERAL)
+def test_one_expression_for_one_of_the_lines(number: int | str) -> None:
+    eq = fd.equation(number)
+    for line in eq.expr:
+        found = eq.decide(line.rhs)
+        assert found.verdict is Verdict.PROVED, found
+    assert eq.decide(-eq.expr[0].rhs).verdict is Verdict.REFUTED
+
+
+def test_the_line_that_an_expression_is_proved_for_is_named() -> None:
+    first, second = fd.equation(7).expr
+    assert "f⁺_(k−1,l−1)" in fd.equation(7).decide(first.rhs).note
+    assert "f⁻_(k+1,l−1)" in fd.equation(7).decide(second.rhs).note
+
+
+def test_a_tuple_of_one_is_the_one_line() -> None:
+    eq = fd.equation(13)
+    assert eq.decide(Tuple(eq.expr)).verdict is Verdict.PROVED
+    assert eq.decide((eq.expr, eq.expr)).verdict is Verdict.NOT_A_STATEMENT
+    assert eq.decide([[eq.expr]]).verdict is Verdict.NOT_A_STATEMENT
+
+
+DIRECTIONS = (sy.e_x, *sy.VECTORS)
+
+
+@pytest.mark.parametrize("number", OF_VECTORS)
+@pytest.mark.parametrize("vector", DIRECTIONS, ids=str)
+def test_a_component_of_an_equation_between_vectors(number: int, vector: sympy.Expr) -> None:
+    eq = fd.equation(number)
+    left, right = eq.expr.args
+    along = equal(sy.Dot(vector, left), sy.Dot(vector, right) if right else right)
+    found = eq.decide(along)
+    if (number, vector) in [(4, sy.n_plus), (5, sy.n_minus)]:  # n^±·δn^± = 0: it says nothing
+        assert found.verdict is Verdict.UNDECIDED
+        return
+    assert found.verdict is Verdict.PROVED, found
+    assert "component" in found.note
+    doubled = equal(2 * along.lhs, 2 * along.rhs)
+    assert eq.decide(doubled).verdict is Verdict.PROVED
+    radius = sy.DeltaR(*next(iter(left.atoms(sy.SiteFunction))).args)
+    more = equal(along.lhs, along.rhs + MILLIONTH * radius)
+    assert eq.decide(more).verdict is Verdict.REFUTED, vector
+    none = sy.phi - Rational(1, 7)
+    nothing = equal(none * along.lhs, none * along.rhs)
+    assert not eq.decide(nothing).verdict.is_proved
+
+
+@pytest.mark.parametrize("number", OF_VECTORS)
+def test_one_component_is_not_another_and_not_the_whole(number: int) -> None:
+    eq = fd.equation(number)
+    left, right = eq.expr.args
+    if right:
+        mixed = equal(sy.Dot(sy.e_y, left), sy.Dot(sy.e_x, right))
+        assert eq.decide(mixed).verdict is Verdict.REFUTED
+    one_sided = equal(
+        sy.Dot(sy.e_y, left) * sy.e_y, sy.Dot(sy.e_y, right) * sy.e_y if right else right
+    )
+    assert not eq.decide(one_sided).verdict.is_proved
+    assert not eq.decide(equal(sy.Dot(sy.e_y, sy.e_y), sympy.S.One)).verdict.is_proved
+
+
+def over_itself(side: sympy.Expr, what: sympy.Expr) -> sympy.Expr:
+    """A side times what vanishes somewhere, and divided by it."""
+    return sympy.Mul(side, what, sympy.Pow(what, -1), evaluate=False)
+
+
+NO_STATEMENTS: list[tuple[int | str, str, Callable[[sympy.Eq], Any]]] = [
+    (3, "not shown to differ", lambda eq: equal(eq.lhs, over_itself(eq.rhs, sy.j - 3))),
+    (13, "not shown to differ", lambda eq: equal(eq.lhs, over_itself(eq.rhs, 2 * sy.z - 1))),
+    (3, "no symbol", lambda eq: equal(eq.lhs, sy.l * eq.rhs)),
+    (15, "no symbol", lambda eq: equal(eq.lhs, sy.z * eq.rhs)),  # averaged over all heights
+    (11, "at a bead", lambda eq: equal(eq.lhs.xreplace({sy.i: sy.i + 1}), eq.rhs)),
+    (11, "more than one", lambda eq: equal(
+        eq.lhs, eq.rhs + sympy.Sum(1, (sy.m, 1, sy.j - 3)) - (sy.j - 3))),
+    (12, "sum", lambda eq: equal(eq.lhs, eq.rhs + sympy.Sum(1, (sy.n, sy.j, 1)))),
+    (10, "stands for itself", lambda eq: equal(eq.lhs, eq.rhs + sympy.Sum(sy.n, (sy.n, 1, 2)))),
+    (3, "a number", lambda eq: equal(eq.lhs, eq.rhs + 1)),
+    (3, "a number", lambda eq: equal(eq.lhs, sy.r)),
+    (13, "no number", lambda eq: sympy.oo),
+    (13, "division by zero", lambda eq: sympy.Pow(0, -1, evaluate=False)),
+    (13, "is needed", lambda eq: "M**3"),
+    (13, "is needed", lambda eq: sy.M < 3),
+    (13, "is needed", lambda eq: sympy.true),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("number", "reason", "make"), NO_STATEMENTS)
+def test_what_has_no_value_is_not_a_statement(
+    number: int | str, reason: str, make: Callable[[sympy.Eq], Any]
+) -> None:
+    eq = fd.equation(number)
+    line = eq.expr[0] if isinstance(eq.expr, Tuple) else eq.expr
+    found = eq.decide(make(line))
+    assert found.verdict is Verdict.NOT_A_STATEMENT, found
+    assert reason in found.note
+
+
+@pytest.mark.parametrize(("number", "candidate"), [
+    (13, sympy.sin(sy.phi)), (13, sympy.Float(2.5)), (13, sy.M**1000),
+    (3, sy.n_plus * sympy.sin(sy.phi)),
+])  # fmt: skip
+def test_what_has_a_value_and_is_not_read_is_undecided(number: int, candidate: sympy.Expr) -> None:
+    assert fd.equation(number).decide(candidate).verdict is Verdict.UNDECIDED
+
+
+# exact forms
+
+
+FORMS = [(n, case) for n in NUMBERS for case in fd.equation(n).cases]
+
+
+@pytest.mark.parametrize(("number", "case"), FORMS)
+def test_an_exact_form_is_decided_on_its_own(number: int | str, case: str) -> None:
+    form = fd.equation(number).exact(case)
+    left, right = form.expr.args
+    for same in (form.expr, right, equal(right, left), equal(2 * left, 2 * right), (form.expr,)):
+        found = form.decide(same)
+        assert found.verdict is Verdict.PROVED, found
+    if not right.has(sympy.Sum):  # which is read as it is printed
+        assert form.decide(sympy.expand(right)).verdict is Verdict.PROVED
+    for wrong in (right * (1 + MILLIONTH), right + MILLIONTH, -right):
+        found = form.decide(wrong)
+        assert found.verdict is Verdict.REFUTED, found
+        assert found.note.startswith("at ")
+    assert form.decide(right * sy.phi / sy.phi).verdict is Verdict.PROVED  # SymPy has cancelled it
+    zero = sympy.Mul(right, sy.phi, sympy.Pow(sy.phi, -1), evaluate=False)
+    assert form.decide(zero).verdict is Verdict.NOT_A_STATEMENT
+    assert not form.decide(equal(sy.phi * left, sy.phi * right)).verdict.is_proved
+    assert not form.decide(equal(right, right)).verdict.is_proved
+    assert form.decide(right + sympy.Symbol("y")).verdict is Verdict.NOT_A_STATEMENT
+
+
+def test_the_printed_form_is_not_the_exact_one() -> None:
+    """Eq. 13 is proved with its own sign, ∼, and refuted with "="."""
+    eq = fd.equation(13)
+    assert eq.decide(eq.rhs).verdict is Verdict.PROVED
+    assert eq.exact("interior").decide(eq.rhs).verdict is Verdict.REFUTED
+    assert eq.decide(eq.exact("interior").expr).verdict is Verdict.PROVED
+
+
+def test_only_the_domain_of_the_form_counts() -> None:
+    """Below the surface j is M − 1, at the base 0; M = 1 is none of the base's packings."""
+    eq = fd.equation(13)
+    surface, base = eq.exact("surface"), eq.exact("base")
+    by_layer = surface.expr.rhs.xreplace({sy.M: sy.j + 1})
+    assert surface.decide(by_layer).verdict is Verdict.PROVED
+    assert surface.decide(by_layer + MILLIONTH * (sy.j + 1 - sy.M)).verdict is Verdict.PROVED
+    assert base.decide(base.expr.rhs + sy.j * sy.z).verdict is Verdict.PROVED
+    once = sympy.Mul(base.expr.rhs, sy.M - 1, sympy.Pow(sy.M - 1, -1), evaluate=False)
+    assert base.decide(once).verdict is Verdict.PROVED
+    for size in (2, 3):
+        zero = sympy.Mul(base.expr.rhs, sy.M - size, sympy.Pow(sy.M - size, -1), evaluate=False)
+        assert base.decide(zero).verdict is Verdict.NOT_A_STATEMENT
+    inside = eq.exact("interior")
+    zero = sympy.Mul(
+        inside.expr.rhs, sy.M - sy.j - 1, sympy.Pow(sy.M - sy.j - 1, -1), evaluate=False
+    )
+    assert inside.decide(zero).verdict is Verdict.PROVED
+    for layer in (2, sy.M - 2):
+        zero = inside.expr.rhs * (sy.j - layer)
+        zero = sympy.Mul(zero, sympy.Pow(sy.j - layer, -1), evaluate=False)
+        assert inside.decide(zero).verdict is Verdict.NOT_A_STATEMENT
+
+
+@pytest.mark.parametrize("strange", [None, "M", 2.5, sympy.true, sympy.Matrix([[1]]), sy.M < 3, ()])
+def test_what_is_no_equation_is_no_statement_of_an_exact_form(strange: Any) -> None:
+    found = fd.equation(13).exact().decide(strange)
+    assert found.verdict is Verdict.NOT_A_STATEMENT
+    assert found.note
+
+
+def test_what_belongs_to_a_bead_is_no_variance() -> None:
+    found = fd.equation(13).exact().decide(sy.DeltaR(sy.i, sy.j))
+    assert not found.verdict.is_proved
+
+
+# an exact form that the kernel proves by a line of its own
+
+
+def made_up(assuming: tuple[str, ...] = ()) -> Derivation:
+    """Δ is by its definition what three radii are; the same, once more, as its exact form."""
+    i, j, where = sy.i, sy.j, Where.of(sy.j >= 2)
+    lines = Lines(where)
+    three = 2 * sy.DeltaR(i, j) - sy.DeltaR(i - 2, j) - sy.DeltaR(i + 2, j)
+    twice = equation(sy.SecondDifference(i, j), three)
+
+    def rule(formula: sympy.Eq, where: Where) -> Theorem:
+        theorem = rules.rewrite()(formula, where)
+        return made(formula, where, theorem.rule, [theorem], assuming=assuming)
+
+    line = lines.show("Twice.", twice, By(lambda _: rule))
+    case = ExactCase(twice.lhs, "j ≥ 2", twice.rhs, (sy.j >= 2,), line=line)
+    return replace(
+        fd.equation(1)._derivation, number=1, printed=(twice,), exact=lambda: {"all": case},
+        steps=lambda: [line], where=where, symbols=(), premises=(), witnesses=(),
+        tries=lambda *_: (),
+    )  # fmt: skip
+
+
+def test_a_line_of_the_kernel_decides_its_exact_form() -> None:
+    form = ExactForm(made_up(), "all", made_up().exact()["all"])
+    right = form.expr.rhs
+    assert form.decide(form.expr).note == "by the rule: rewrite"
+    assert form.decide(2 * right).verdict is Verdict.REFUTED
+    for layer, verdict in ((2, Verdict.NOT_A_STATEMENT), (1, Verdict.PROVED)):
+        inverse = sympy.Pow(sy.j - layer, -1, evaluate=False)
+        once = sympy.Mul(right, sy.j - layer, inverse, evaluate=False)
+        assert form.decide(once).verdict is verdict
+
+
+# what is assumed
+
+
+def test_what_is_assumed_is_said_wherever_it_is_used() -> None:
+    words = ("Gaussian forces",)
+    eq = Equation(made_up(words))
+    found = eq.decide(eq.expr)
+    assert found.verdict is Verdict.ASSUMING
+    assert found.assuming == words
+    assert str(found).startswith("proved, assuming Gaussian forces: by the rule")
+    assert eq.exact().decide(eq.exact().expr).assuming == words
+
+
+def test_assumptions_add_up() -> None:
+    both = all_of(proved("a", ("one",)), proved("b", ("two", "one")), proved("c"))
+    assert both.words == "proved, assuming one and two"
+    assert all_of(proved("a"), proved("b")).verdict is Verdict.PROVED
+    for verdict, assuming in (
+        (Verdict.PROVED, ("x",)),
+        (Verdict.ASSUMING, ()),
+        (Verdict.REFUTED, ("x",)),
+    ):
+        with pytest.raises(ValueError, match="assumptions"):
+            Ruling(verdict, "", assuming)

@@ -1,0 +1,187 @@
+"""Checkers with a planted fault in what they read: statements of known truth alone notice it.
+
+The attacks, which are run first, are left out here: they know the rules that they are on.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
+
+import pytest
+import sympy
+from force_diffusion.derivations.framework import follows, proving, record, runner
+from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import KernelError, Step
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra import signs
+from force_diffusion.symbolic.algebra.reading import read_with
+from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.attacks.every import succeeded
+from force_diffusion.symbolic.kernel import language, moments, rules, theorem
+from force_diffusion.symbolic.kernel.decisions import Verdict, proved
+from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.mechanics import lattice
+from force_diffusion.symbolic.variances import weights
+
+Plant = pytest.MonkeyPatch
+
+
+@pytest.fixture(autouse=True)
+def _nothing_is_remembered() -> Iterator[None]:
+    remembering = (signs.sign, read_with, moments.value, moments.worked_out, theorem._instance_of)
+    for one in remembering:
+        one.cache_clear()
+    yield
+    for one in remembering:
+        one.cache_clear()
+
+
+def is_noticed(number: int | str) -> bool:
+    """Whether deriving one equation, its premises taken as proved, shows that something is wrong.
+
+    Its lines are made anew, as a theorem is proved once in a process.
+    """
+    derivation = replace(load(number), premises=())
+    try:
+        return not runner.run(derivation).verdict.is_proved
+    except KernelError:
+        return True
+
+
+@pytest.mark.parametrize("number", [3, 6, 11, 13, 15])
+def test_without_a_plant_nothing_is_noticed(number: int) -> None:
+    assert not is_noticed(number)
+
+
+@pytest.mark.parametrize("number", [*range(1, 17), "B4"])
+def test_what_is_put_in_cancels_zero_over_zero(monkeypatch: Plant, number: int | str) -> None:
+    monkeypatch.setattr(language, "in_place", lambda side, image: side.xreplace(image))
+    assert is_noticed(number)
+
+
+@pytest.mark.parametrize("number", [1, 2, 3, 4, 5, 6])
+def test_any_component_will_do(monkeypatch: Plant, number: int) -> None:
+    monkeypatch.setattr(record, "_component", lambda *_: proved("a component"))
+    assert is_noticed(number)
+
+
+# of Eq. 3 the induction's step mixes both components
+@pytest.mark.parametrize("number", [1, 2, 4, 5, 6])
+def test_one_component_is_unread(monkeypatch: Plant, number: int) -> None:
+    whole = theorem.Normal.__call__
+    zero = theorem.LinearForm()
+
+    def first_alone(self: theorem.Normal, side: sympy.Expr) -> theorem.Forms:
+        return tuple(one if place == 0 else zero for place, one in enumerate(whole(self, side)))
+
+    monkeypatch.setattr(theorem.Normal, "__call__", first_alone)
+    assert is_noticed(number)
+
+
+@pytest.mark.parametrize("number", [3, 4, 5, 11])
+def test_bounds_are_unchecked(monkeypatch: Plant, number: int) -> None:
+    monkeypatch.setattr(Where, "nonnegative", lambda *_: True)
+    assert is_noticed(number)
+
+
+@pytest.mark.parametrize("number", range(1, 12))
+def test_divisors_are_unchecked(monkeypatch: Plant, number: int) -> None:
+    monkeypatch.setattr(theorem, "_check_power", lambda *_: None)
+    monkeypatch.setattr(Where, "never_zero", lambda *_: True)
+    assert is_noticed(number)
+
+
+@pytest.mark.parametrize("number", [15])
+def test_roots_of_what_is_negative_are_taken(monkeypatch: Plant, number: int) -> None:
+    whole = signs.sign
+
+    def careless(expression: sympy.Expr, *others: Any) -> int:
+        if isinstance(expression, sympy.Pow) and not expression.exp.is_Integer:
+            return 1
+        return whole(expression, *others)
+
+    monkeypatch.setattr(language, "sign", lambda *_: 1)
+    monkeypatch.setattr(signs, "sign", careless)
+    assert is_noticed(number)
+
+
+# elsewhere the divisor that a factor becomes is refused as well
+@pytest.mark.parametrize("number", [1, 3, 4, 5, 6])
+def test_a_statement_may_say_nothing_somewhere(monkeypatch: Plant, number: int) -> None:
+    monkeypatch.setattr(record, "fixes_it", lambda *_: "")
+    monkeypatch.setattr(theorem, "fixes", lambda *_: True)
+    monkeypatch.setattr(theorem.Normal, "never_zero", lambda *_: True)
+    assert is_noticed(number)
+
+
+def test_an_index_that_is_free_and_summed_over_is_attacked(monkeypatch: Plant) -> None:
+    whole = theorem._check
+    monkeypatch.setattr(theorem, "_check", lambda node, where, _: whole(node, where, frozenset()))
+    assert "an index summed over and free" in {one.tried for one in succeeded()}
+
+
+def test_lines_that_are_not_told_apart_are_attacked(monkeypatch: Plant) -> None:
+    monkeypatch.setattr(weights, "_assert_lines_apart", lambda *_: None)
+    assert "two lines that may be one" in {one.tried for one in succeeded()}
+
+
+# what is proved once in a process, and can't be proved anew here
+
+
+def line_of(number: int, part: int = 0) -> proving.Line:
+    derivation = load(number)
+    return derivation._line(derivation.printed[part])
+
+
+@pytest.mark.parametrize("number", [1, 2, 3, 4, 5, 6, 9, 10, 11])
+def test_larger_domains_are_refused_one_by_one(number: int) -> None:
+    """Each end of a domain, one layer further: not proved, and the corpus says why."""
+    from force_diffusion.symbolic.search.variations import larger_domains
+
+    source = load(number).source(0)
+    assert source.where is not None
+    made = list(larger_domains(source))
+    ends = [one for one in source.where.relations if not isinstance(one, sympy.Eq)]
+    assert len(made) == len(ends) > 0
+    for _, where in made:
+        assert not load(number).rule_on(0, source.printed, where).verdict.is_proved
+
+
+def mirrored_wrongly(monkeypatch: Plant, fault: str) -> None:
+    if fault == "places stay":
+        monkeypatch.setattr(lattice, "mirrored_place", lambda across, layer: (across, layer))
+    elif fault == "directions stay":
+        monkeypatch.setattr(lattice, "MIRRORED_SYMBOLS", {})
+    else:
+        monkeypatch.setattr(lattice, "MIRRORED_FUNCTIONS", {})
+
+
+@pytest.mark.parametrize("fault", ["places stay", "directions stay", "contacts stay"])
+def test_a_mirror_that_leaves_something_as_it_is(monkeypatch: Plant, fault: str) -> None:
+    mirrored_wrongly(monkeypatch, fault)
+    source = load(4)
+    mirrored = rules.mirror(source.theorems[0])
+    statement = load(5).printed[0]
+    with pytest.raises(ValueError, match=r".+"):
+        rules.follows(mirrored)(statement, load(5).where)
+
+
+SUM = sympy.Sum(sy.m, (sy.m, 1, sy.n))
+
+
+@pytest.mark.parametrize("more", [1, sy.M, sympy.Rational(1, 10**6), -1])
+def test_a_certificate_starts_at_zero(more: sympy.Expr) -> None:
+    right = sy.n * (sy.n + 1) / 2
+    assert follows.is_sum(0, equation(SUM, right)).verdict is Verdict.PROVED
+    assert follows.is_sum(0, equation(SUM, right + more)).verdict is Verdict.REFUTED
+
+
+@pytest.mark.parametrize("decide", [follows.identity(), follows.linear(), follows.summed()])
+def test_the_divisors_of_a_step_vanish_nowhere(decide: Callable[..., Any]) -> None:
+    for a in (sy.phi, sy.phi - sympy.Rational(1, 4), sy.n_x - sy.n_y, 3 * sy.n_x - 2 * sy.n_y):
+        once = sympy.Mul(sy.r, a, sympy.Pow(a, -1), evaluate=False)
+        step = Step("because", equation(sy.r, once), decide)
+        assert step.rule_on(0, equation(sy.r, sy.r)).verdict is Verdict.PROVED
+        assert not step.verdict.is_proved, a
+    root = sympy.Mul(sympy.sqrt(sy.phi), 1 / sympy.sqrt(sy.phi), sy.r, evaluate=False)
+    assert not Step("because", equation(sy.r, root), decide).verdict.is_proved
