@@ -88,7 +88,8 @@ def stated(found: Answer, apart: Fraction, plan: Plan) -> Accuracy:
     if unseen is None:
         return Accuracy(math.inf, False, system.name, float(system.bits))
     if not largest:
-        if not apart and not found.sizes.changed and not found.sizes.moved:
+        exact = not apart and not found.sizes.changed and not found.sizes.moved
+        if exact and plan.tolerance is None:
             return Accuracy(0.0, False, system.name, 0.0, CARRIED)
         note = "every change is zero here, and only balls can tell whether that is exact"
         return Accuracy(math.inf, False, system.name, 0.0, note)

@@ -123,6 +123,18 @@ def test_every_way_that_may_answer_keeps_the_tolerance(
         record_property(f"predicted/measured, {way.arithmetic}", f"{ratio:.2g}")
 
 
+def test_changes_that_float64_can_not_hold_are_left_to_balls() -> None:
+    """All are zero there, and with σ/r = 1e-200 so would be any of second order."""
+    sections = basic(1, 2, quantity="contact_forces")
+    sections["packing"]["allow_images"] = True
+    sections["disorder"]["relative_std"] = "=1e-200"
+    sections |= {"load": {"kind": "point", "at": [0, 0]}, "effects": {"geometry": "first-order"}}
+    sections["ask"]["tolerance"] = "=1e-3"
+    outcome = run(planned(sections))
+    assert outcome.accuracy.certified
+    assert_kept(outcome, reference(sections), Fraction(1, 1000))
+
+
 @given(scenes(), st.sampled_from(TOLERANCES))
 def test_any_scene_keeps_its_tolerance(sections: dict[str, dict[str, Any]], wanted: str) -> None:
     sections["ask"]["tolerance"] = f"={wanted}"
