@@ -5,11 +5,11 @@ from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.beyond import b1_any_direction as b1
-from force_diffusion.derivations.beyond import b3_bulk_direction as b3
 from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond import b6_mean_bulk as b6
 from force_diffusion.derivations.beyond import b15_mean_surface_direction as b15
+from force_diffusion.derivations.beyond import t1_forces as b1
+from force_diffusion.derivations.beyond import t2_variance as t2
 from force_diffusion.derivations.beyond.mean_directions import (
     balances,
     decided,
@@ -59,7 +59,7 @@ PRINTED = printed(
 @cache
 def exact_forms() -> dict[str, ClosedForm]:
     """⟨f⁺⟩/[(M − j) L⁺] less 1, at every layer, exact to order σ²."""
-    return mean_forms(b1.put_in_radii(b3.bulk_force()))
+    return mean_forms(eq11.in_radii(b1.bulk_force()))
 
 
 decide = decided(exact_forms, (PLUS, MINUS))
@@ -121,8 +121,8 @@ DERIVATION = Derivation(
     ),
     premises=(
         eq11.DERIVATION,
-        b1.DERIVATION,
-        b3.DERIVATION,
+        b1.B1,
+        t2.DERIVATIONS["B3"],
         b4.DERIVATION,
         b6.DERIVATION,
         b15.DERIVATION,

@@ -5,7 +5,6 @@ from fractions import Fraction
 from functools import cache
 
 import sympy
-from force_diffusion.derivations.beyond.directions import in_other_branch
 from force_diffusion.derivations.beyond.mean_forces import combined, known
 from force_diffusion.derivations.beyond.means import decide_in_field
 from force_diffusion.derivations.framework.follows import Decide
@@ -80,7 +79,7 @@ def decided(forms: Forms, subjects: Subjects) -> Decide:
     @cache
     def mean(part: int) -> sympy.Expr:
         own = 1 + forms()["interior"].expression
-        return in_other_branch(own) if part else own
+        return own.xreplace({t: 1 / t}) if part else own
 
     def decide(part: int, candidate: sympy.Eq) -> Ruling:
         return decide_in_field(candidate.rhs, candidate.lhs.xreplace({subjects[part]: mean(part)}))

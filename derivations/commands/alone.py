@@ -1,22 +1,26 @@
-"""One derivation as a program of its own."""
+"""One module's derivations as a program of its own."""
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from force_diffusion.derivations.commands.guard import WRONG_USAGE, guarded
 from force_diffusion.derivations.export.terminal import outcome_text, summary_line
+from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.loading import with_premises
 from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.derivations.framework.runner import run_all
 
 
-def run_alone(derivation: Derivation, arguments: Sequence[str] | None = None) -> int:
-    """Run one derivation and its premises as a program: print it in full; 0 if proved, else 1."""
+def run_alone(
+    derivations: Derivation | Mapping[Number, Derivation], arguments: Sequence[str] | None = None
+) -> int:
+    """Run derivations and their premises as a program: print them in full; 0 if proved, else 1."""
+    own = list(derivations.values()) if isinstance(derivations, Mapping) else [derivations]
 
     def program() -> int:
         given = sys.argv[1:] if arguments is None else arguments
         if given:
-            number = derivation.number
+            number = own[0].number
             print(
                 f"force-diffusion: this program takes no arguments, but got '{given[0]}'. Leave "
                 f"it out, or use 'force-diffusion derive {number}' or 'show {number}'; "
@@ -24,10 +28,12 @@ def run_alone(derivation: Derivation, arguments: Sequence[str] | None = None) ->
                 file=sys.stderr,
             )
             return WRONG_USAGE
-        *premises, outcome = run_all(with_premises([derivation]))
-        if premises:
-            print("It rests on", *map(summary_line, premises), sep="\n", end="\n\n")
-        print(outcome_text(outcome))
-        return 0 if outcome.verdict.is_proved else 1
+        outcomes = {one.derivation.number: one for one in run_all(with_premises(own))}
+        shown = [outcomes.pop(one.number) for one in own]
+        if outcomes:
+            premises = map(summary_line, outcomes.values())
+            print("It rests on", *premises, sep="\n", end="\n\n")
+        print(*map(outcome_text, shown), sep="\n\n")
+        return 0 if all(one.verdict.is_proved for one in shown) else 1
 
     return guarded(program)

@@ -9,28 +9,28 @@ surface (k small, M large) the terms in M and j alone would cancel, those in k d
 
 from pathlib import Path
 from textwrap import dedent, indent
+from types import ModuleType
 
 import sympy
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations import eq16_response as eq16
-from force_diffusion.derivations.beyond import b2_surface_direction as b2
-from force_diffusion.derivations.beyond import b3_bulk_direction as b3
 from force_diffusion.derivations.beyond import b4_settling as b4
 from force_diffusion.derivations.beyond import b5_mean_surface as b5
 from force_diffusion.derivations.beyond import b6_mean_bulk as b6
 from force_diffusion.derivations.beyond import b7_neighbouring_contacts as b7
 from force_diffusion.derivations.beyond import b8_neighbouring_beads as b8
-from force_diffusion.derivations.beyond import b10_stress as b10
 from force_diffusion.derivations.beyond import b11_any_dimension as b11
 from force_diffusion.derivations.beyond import b12_between_layers as b12
 from force_diffusion.derivations.beyond import b13_spheres_surface as b13
 from force_diffusion.derivations.beyond import b14_spheres_bulk as b14
 from force_diffusion.derivations.beyond import b15_mean_surface_direction as b15
 from force_diffusion.derivations.beyond import b16_mean_bulk_direction as b16
-from force_diffusion.derivations.beyond import b17_stress_bulk as b17
 from force_diffusion.derivations.beyond import b19_spheres_response as b19
 from force_diffusion.derivations.beyond import spheres
+from force_diffusion.derivations.beyond import t2_variance as t2
+from force_diffusion.derivations.beyond import t5_stress as t5
+from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.parts import cone
 from force_diffusion.symbolic.symbols import M, N, d, i, j, k, kappa, l, n_y, p, phi, r, sigma, z
 from force_diffusion.symbolic.variances.cases import Piece
@@ -438,6 +438,11 @@ def _piecewise(pieces: tuple[Piece, ...], unit: sympy.Expr) -> str:
     return indent(lines.rstrip(), "    ")
 
 
+def _forms_of(equation: ModuleType) -> tuple[Number, dict[str, ClosedForm]]:
+    """The number of an equation, and its exact forms."""
+    return equation.DERIVATION.number, equation.exact_forms()
+
+
 def source() -> str:
     """The whole module, as formatted source."""
     parts = [dedent(HEADER)]
@@ -452,18 +457,22 @@ def source() -> str:
         body = f"{top} / ({bottom})".replace("(1 - phi**2)**2", "((1 - phi) * (1 + phi)) ** 2")
         parts.append(PRINTED.format(name=name, load=load, number=number, body=body))
     for what, how, template, both in (
-        ("variance", "load", EXACT, (eq13, eq14)),
-        ("variance_at_angle", "load at an angle", DIRECTION, (b2, b3)),
-        ("variance_of_spheres", "load", SPHERES, (b13, b14)),
-        ("mean_shift", "load", MEAN, (b5, b6)),
-        ("mean_shift_at_angle", "load at an angle", MEAN_AT_ANGLE, (b15, b16)),
+        ("variance", "load", EXACT, map(_forms_of, (eq13, eq14))),
+        (
+            "variance_at_angle",
+            "load at an angle",
+            DIRECTION,
+            (("B2", t2.SURFACE.variance.forms), ("B3", t2.BULK.variance.forms)),
+        ),
+        ("variance_of_spheres", "load", SPHERES, map(_forms_of, (b13, b14))),
+        ("mean_shift", "load", MEAN, map(_forms_of, (b5, b6))),
+        ("mean_shift_at_angle", "load at an angle", MEAN_AT_ANGLE, map(_forms_of, (b15, b16))),
     ):
-        for load, equation in zip(("surface", "bulk"), both, strict=True):
-            number, forms = equation.DERIVATION.number, equation.exact_forms()
-            parts.append(_exact(f"{load}_{what}", f"{load} {how}", number, forms, template))
-    for load, equation in (("surface", b10), ("bulk", b17)):
-        name, number = f"{load}_stress_ratio_shift", equation.DERIVATION.number
-        parts.append(_exact(name, f"{load} load", number, equation.STRESS.ratio(), STRESS))
+        for load, (label, forms) in zip(("surface", "bulk"), both, strict=True):
+            parts.append(_exact(f"{load}_{what}", f"{load} {how}", label, forms, template))
+    for label, stress in (("B10", t5.OF_SURFACE), ("B17", t5.OF_BULK)):
+        name, forms = f"{stress.name}_stress_ratio_shift", stress.forms[t5.RATIO]
+        parts.append(_exact(name, f"{stress.name} load", label, forms, STRESS))
     in_any = b11.PRINTED.rhs.doit().xreplace({kappa: sympy.Integer(1)})
     parts.append(DIMENSION.format(code=_code(in_any, M, d, z)))
     sinking = b4.PRINTED.rhs.doit().xreplace({n_y: sympy.Integer(1)})

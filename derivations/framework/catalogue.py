@@ -1,7 +1,7 @@
-"""Where the derivations are: one module per equation, known by its file name alone.
+"""Where the derivations are: one module an equation of the paper, one a theorem beyond it.
 
 The paper's equations have its numbers, 1 to 16; those of ``beyond/`` are this project's own and
-have labels, "B1" and so on.
+have labels, "B1" and so on: several of them are cases of one theorem.
 
 Nothing here imports SymPy.
 """
@@ -18,6 +18,18 @@ _FOLDER = Path(__file__).parents[1]
 _MODULE = re.compile(r"eq(\d\d)_\w+")
 _BEYOND = re.compile(r"b(\d+)_\w+")
 
+THEOREMS = {
+    "t1_forces": (1,),
+    "t2_variance": (2, 3),
+    "t4_second_order": (4, 5, 6, 15, 16),
+    "t5_stress": (10, 17, 18),
+    "t6_correlations": (7, 8, 12, 21),
+    "t7_response": (9,),
+    "t8_any_dimension": (11, 13, 14, 20),
+    "t9_spheres_response": (19,),
+}
+"""Modules of ``beyond/``, and the numbers of the equations that each derives."""
+
 
 @cache
 def modules() -> dict[Number, str]:
@@ -26,12 +38,14 @@ def modules() -> dict[Number, str]:
     printed: dict[Number, str] = {
         int(found[1]): stem for stem in stems if (found := _MODULE.fullmatch(stem))
     }
-    beyond = sorted(
-        (int(found[1]), path.stem)
+    beyond = {
+        int(found[1]): path.stem
         for path in _FOLDER.glob("beyond/b*.py")
         if (found := _BEYOND.fullmatch(path.stem))
-    )
-    return {**printed, **{f"B{number}": f"beyond.{stem}" for number, stem in beyond}}
+    }
+    there = {path.stem for path in _FOLDER.glob("beyond/t*.py")}
+    beyond |= {one: stem for stem, own in THEOREMS.items() if stem in there for one in own}
+    return {**printed, **{f"B{number}": f"beyond.{beyond[number]}" for number in sorted(beyond)}}
 
 
 def paper() -> list[int]:

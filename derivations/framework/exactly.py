@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import sympy
+from force_diffusion.derivations.framework.proving import no_statement
 from force_diffusion.derivations.framework.record import Derivation, ExactCase, proved_by_line
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation, in_place
@@ -16,7 +17,6 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.kernel.language import says_less, unreadable, usual_form
-from force_diffusion.symbolic.kernel.theorem import no_statement
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.search.counterexample import counterexample

@@ -10,6 +10,7 @@ from functools import cached_property
 
 import sympy
 from force_diffusion.derivations.framework.proving import (
+    By,
     Line,
     Lines,
     Meaning,
@@ -82,24 +83,34 @@ class Layered:
 
     Attributes:
         symbol: what is printed for it.
-        moment: what that is, such as ``Variance(f⁺_ij/⟨f⟩)``.
+        moment: what that is, such as ``Variance(f⁺_ij/⟨f⟩)``, or a sum of several.
         facts: what gives its forces in the radii, to be put in one after the other.
         loading: of the packing; a load's direction is a symbol of the facts.
         meaning: of further symbols in the moment.
         cases: the layers, the interior first.
+        by: what proves its closed forms; working out the moments, for most.
+        said_as: what the symbol stands for there, if it is not the moment.
     """
 
     symbol: sympy.Expr
-    moment: Moment
+    moment: sympy.Expr
     facts: tuple[Source, ...]
     loading: Loading
     meaning: Meaning = field(default_factory=dict)
     cases: Mapping[str, Case] = field(default_factory=lambda: EVERY_LAYER)
+    by: By | None = None
+    said_as: sympy.Expr | None = None
 
     @property
     def meant(self) -> Meaning:
         """What a line's symbols stand for."""
-        return {self.symbol: self.moment, **self.meaning}
+        said_as = self.moment if self.said_as is None else self.said_as
+        return {self.symbol: said_as, **self.meaning}
+
+    @property
+    def rule(self) -> By:
+        """What proves its closed forms."""
+        return self.by or moment(*self.facts)
 
     def where(self, case: str = "interior") -> Where:
         """The domain of a closed form."""
@@ -114,7 +125,11 @@ class Layered:
         return Where.of(sympy.Eq(j, layer), sympy.Eq(M, height), loading=self.loading)
 
     def _value(self, where: Where) -> RationalFunction:
-        return moments.value(in_place(self.moment, self.meaning), facts_of(self.facts), where)
+        meant, facts = in_place(self.moment, self.meaning), facts_of(self.facts)
+        if isinstance(meant, Moment):
+            return moments.value(meant, facts, where)
+        worked_out = moments.without_moments(equation(meant, sympy.S.Zero), facts, where).lhs
+        return FIELD.from_sympy(worked_out).reduced()
 
     @cached_property
     def forms(self) -> dict[str, ClosedForm]:
@@ -192,7 +207,7 @@ class Layered:
                 lines.show(
                     f"Exact {place}, {form.validity}: {how}.",
                     equation(self.symbol, form.expression),
-                    moment(*self.facts),
+                    self.rule,
                     where=self.where(name),
                     meaning=self.meant,
                     after=() if shown else after,
@@ -203,11 +218,23 @@ class Layered:
             lines.show(
                 f"The packing M = {size}, j = {at} is none of these:",
                 equation(self.symbol, value),
-                moment(*self.facts),
+                self.rule,
                 where=self._small(size, at),
                 meaning=self.meant,
             )
         return shown[0]
+
+    def claim_forms(self, lines: Lines, name: str) -> None:
+        """Claim the closed form of every layer, and the values of small packings."""
+        said = [(form.expression, self.where(case)) for case, form in self.forms.items()]
+        said += [(value, self._small(size, at)) for size, at, value in self._exceptions()]
+        lines.claim(
+            name,
+            sympy.Tuple(*(equation(self.symbol, value) for value, _ in said)),
+            self.rule,
+            where=tuple(where for _, where in said),
+            meaning=self.meant,
+        )
 
     def _exceptions(self) -> Iterator[tuple[int, int, sympy.Expr]]:
         yield from dict.fromkeys(one for form in self.forms.values() for one in form.exceptions)

@@ -8,10 +8,13 @@ from force_diffusion.derivations.framework.record import Derivation
 
 
 def load(number: Number) -> Derivation:
-    """The derivation of one equation."""
+    """The derivation of one equation.
+
+    A module has one, ``DERIVATION``, or several by their numbers, ``DERIVATIONS``.
+    """
     module = import_module(f"force_diffusion.derivations.{modules()[number]}")
-    derivation: Derivation = module.DERIVATION
-    return derivation
+    several: dict[Number, Derivation] = getattr(module, "DERIVATIONS", {})
+    return several[number] if several else module.DERIVATION
 
 
 def with_premises(wanted: Iterable[Derivation]) -> list[Derivation]:

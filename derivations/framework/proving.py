@@ -10,6 +10,7 @@ from functools import cache, cached_property
 from typing import Any, Protocol
 
 import sympy
+from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel import limits, moments, rules
 from force_diffusion.symbolic.kernel.decisions import (
@@ -28,8 +29,8 @@ from force_diffusion.symbolic.kernel.theorem import (
     NotProvedError,
     Supposition,
     Theorem,
+    check,
     isolated,
-    no_statement,
     put_in,
     subject,
 )
@@ -201,6 +202,20 @@ class Part:
     def words(self) -> str:
         """How another line names it."""
         return self.of.words
+
+
+@dataclass(frozen=True)
+class Within:
+    """A line of another equation, under the name of that equation."""
+
+    lines: Callable[[], Sequence["Line"]]
+    place: int
+    words: str
+
+    @property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """One for each of its equations."""
+        return self.lines()[self.place].theorems
 
 
 def facts_of(
@@ -652,6 +667,17 @@ class Lines(list[Line]):
         domain = self._where if where is None else where
         self.append(Line(reason, formula, by, domain, meaning, after, len(self) + 1, alike))
         return self[-1]
+
+
+def no_statement(formula: sympy.Eq, where: Where) -> str:
+    """Why a formula is seen to be no statement on a domain; "" when that is not seen."""
+    try:
+        check(formula, where, in_a_limit=where.limit is not None)
+    except NotAStatementError as reason:
+        return str(reason)
+    except NotExactError:  # a bound that is not read
+        return ""
+    return ""
 
 
 def assumptions(theorems: Iterable[Theorem]) -> list[str]:

@@ -13,6 +13,7 @@ from force_diffusion.derivations.framework.proving import (
     Shown,
     assumptions,
     fixes_it,
+    no_statement,
 )
 from force_diffusion.derivations.witnesses.both_sides import AbsentError, Points, compare
 from force_diffusion.derivations.witnesses.draws import SmallPacking
@@ -39,7 +40,7 @@ from force_diffusion.symbolic.kernel.language import (
     usual_form,
     without_value,
 )
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem, no_statement
+from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.corpus import Statement, statements
@@ -318,7 +319,8 @@ def proved_by_line(
         ruling = _component(line, place, candidate)
     else:
         ruling = line.rule_on(place, candidate)
-        if ruling.verdict.is_proved and (less := fixes_it(candidate, printed, where)):
+        less = fixes_it(candidate, printed, where) or says_less(candidate, printed)
+        if ruling.verdict.is_proved and less:
             return undecided(less)
     if not ruling.verdict.is_proved or candidate == printed:
         return ruling

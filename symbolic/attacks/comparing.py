@@ -4,7 +4,7 @@ import sympy
 from force_diffusion.symbolic.as_printed import equation, times
 from force_diffusion.symbolic.attacks.attack import BEADS, HERE, attack, told
 from force_diffusion.symbolic.kernel import limits, rules
-from force_diffusion.symbolic.kernel.theorem import Supposition, Theorem
+from force_diffusion.symbolic.kernel.theorem import NotProvedError, Supposition, Theorem
 from force_diffusion.symbolic.kernel.where import SURFACE, Where, at_fixed_height, in_a_layer
 from force_diffusion.symbolic.symbols import (
     DeltaR,
@@ -46,6 +46,9 @@ def along(weight: sympy.Expr) -> sympy.Expr:
     return Sum(weight * DeltaR(i - j + m, m), (m, 1, M))
 
 
+STEEP = M**2 / (M * phi**2 + 1) ** 2
+"""Of order 1, but for φ = 0, where it is M²."""
+
 # bounded: the weight of each radius, or its share in the variance
 
 for tried, most, bound, where, false, refused in (
@@ -70,6 +73,8 @@ for tried, most, bound, where, false, refused in (
      "of one order everywhere"),
     ("a weight with a pole", LargestWeight(HERE / (2 * j - M + Rational(1, 2))), 1, AT_ORDER,
      "it is 2 at j = M/2", "not shown to differ from zero"),
+    ("a weight that is large at φ = 0", LargestWeight(STEEP * HERE), 1, AT_ORDER, "it is M² there",
+     "not shown to hold everywhere"),
     ("a weight with an index that is left", LargestWeight(i * HERE), 1, AT_ORDER,
      "i is any number", "neither grows nor is fixed"),
     ("an end with an index that is left", LargestWeight(Sum(n * DeltaR(i - j + n, n), (n, 1, q))),
@@ -128,6 +133,8 @@ for tried, left, right, where, false, refused in (
      "neither grows nor is fixed"),
     ("an index that is left", F, 1 + LINE + i * HERE, DROPPING, "i is any number",
      "neither grows nor is fixed"),
+    ("a part that is large at φ = 0", F, 1 + LINE + STEEP * HERE, DROPPING, "it is M² there",
+     "not shown to hold everywhere"),
     ("a pole at z = ½", F, 1 + LINE + HERE / (2 * j - M + Rational(1, 2)), DROPPING,
      "it is large there", "not shown to differ from zero"),
 ):  # fmt: skip
@@ -154,6 +161,8 @@ for tried, left, right, where, false, refused in (
     ("another mean", 1 + M * HERE, M * HERE, BY_WEIGHT, "1 is dropped", "the means differ"),
     ("a weight of the order on the right alone", M * HERE, M * NEAR, BY_WEIGHT, "it is added",
      "of the order of"),
+    ("one that is larger at φ = 0", M * HERE + STEEP * DeltaR(i + 2, j), M * HERE, BY_WEIGHT,
+     "it is M² there", "not shown to hold everywhere"),
     ("an index that is left", M * HERE + i * DeltaR(i + 2, j), M * HERE, BY_WEIGHT,
      "i is any number", "neither grows nor is fixed"),
 ):  # fmt: skip
@@ -194,6 +203,8 @@ for tried, left, right, where, false, refused in (
      "j may grow, too", "does not hold all of"),
     ("a height that is fixed", M + 1, M, Where.of(Eq(M, 5), j >= 0).in_the_limit(in_a_layer("∼")),
      "6 is not 5", "does not hold all of"),
+    ("a part that is large at φ = 0", M + STEEP, M, HEIGHTS.in_the_limit(at_fixed_height("∼")),
+     "it is M² there", "not shown to hold everywhere"),
     ("z in a fixed layer", M * z + 1, 2 * M * z, Where.of(Eq(j, M - 1), M >= 3).in_the_limit(
      in_a_layer("∼")), "z M is M − 1 there", "of order 1"),
 ):  # fmt: skip
@@ -201,3 +212,26 @@ for tried, left, right, where, false, refused in (
     @attack("asymptotic", tried, false, refused)
     def _(left: sympy.Expr = left, right: sympy.Expr | int = right, where: Where = where) -> object:
         return told(limits.asymptotic(), left, right, where)
+
+
+# what is only supposed of a force is not proved by what follows from it
+
+for name, rule, left, right, where in (
+    ("asymptotic", limits.asymptotic(FORCE), Mean(F), 1,
+     HEIGHTS.in_the_limit(at_fixed_height("∼"))),
+    ("bounded", limits.bounded(FORCE), LargestWeight(F), 1, AT_ORDER),
+    ("negligible", limits.negligible(FORCE), F, 1 + LINE, DROPPING),
+    ("heaviest", limits.heaviest(FORCE), M * HERE + F, 1 + M * HERE, BY_WEIGHT),
+):  # fmt: skip
+
+    @attack(name, "what rests on a supposition", "it is only supposed", "only supposed")
+    def _(
+        rule: rules.Rule = rule,
+        left: sympy.Expr = left,
+        right: sympy.Expr | int = right,
+        where: Where = where,
+    ) -> Theorem:
+        theorem = told(rule, left, right, where)
+        if theorem.supposed:
+            raise NotProvedError("it is only supposed")
+        return theorem

@@ -22,13 +22,20 @@ from force_diffusion.symbolic.attacks.attack import (
 from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import Supposition, Theorem
-from force_diffusion.symbolic.kernel.where import ENTERING, SURFACE, Where
+from force_diffusion.symbolic.kernel.where import (
+    BULK_TILTED,
+    ENTERING,
+    SURFACE,
+    SURFACE_TILTED,
+    Where,
+)
 from force_diffusion.symbolic.symbols import (
     DeltaR,
     DeltaX,
     Dot,
     ForceMinus,
     ForcePlus,
+    L_plus,
     Load,
     M,
     MatrixTimes,
@@ -39,11 +46,14 @@ from force_diffusion.symbolic.symbols import (
     k,
     l,
     n,
+    n_minus,
+    n_plus,
     p,
     phi,
     q,
     site_r,
     site_s,
+    t,
 )
 from sympy import Eq, Integer, Sum
 
@@ -197,6 +207,23 @@ def _() -> object:
     where = Where.of(Eq(site_s, l - 1), site_s >= 0, loading=ENTERING)
     beside = next(one for one in axioms.loads(ENTERING) if one.formula.lhs.func is ForceMinus)
     return told(rules.follows(rules.mirror(beside)), ForcePlus(site_r, site_s), 0, where)
+
+
+@attack("mirror", "a load that is not vertical", "t belongs to n⁻", "on all of its domain")
+def _() -> object:
+    where = Where.of(Eq(j, M), j >= 0, loading=SURFACE_TILTED)
+    carried = -L_plus * (n_plus + t * n_minus)
+    tilted = told(rules.rewrite(axioms.loads(SURFACE_TILTED)), Load(i, j), carried, where)
+    exchanged = carried.xreplace({n_plus: n_minus, n_minus: n_plus})
+    return told(rules.follows(rules.mirror(tilted)), Load(i, j), exchanged, where)
+
+
+@attack("rewrite", "the load of every bead, where the surface alone is loaded", "it has none below",
+        "normal forms")  # fmt: skip
+def _() -> object:
+    where = Where.of(j >= 0, j <= M - 1, loading=SURFACE_TILTED)
+    carried = -L_plus * (n_plus + t * n_minus)
+    return told(rules.rewrite(axioms.loads(BULK_TILTED)), Load(i, j), carried, where)
 
 
 @attack("mirror", "what is supposed of one place", "it is not supposed of −i", "one place across")

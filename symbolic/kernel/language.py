@@ -158,7 +158,7 @@ def says_less(candidate: sympy.Eq, printed: sympy.Eq) -> str:
     """
     known = _GEOMETRY | {*sy.INDICES, *sy.PARAMETERS} | printed.rhs.free_symbols
     observed = by_name(printed.lhs.free_symbols - known)
-    if candidate.lhs == printed.lhs or not observed:
+    if not observed or (candidate.lhs == printed.lhs and not candidate.rhs.has(observed[0])):
         return ""
     told, meant = (sympy.diff(one.lhs - one.rhs, observed[0]) for one in (candidate, printed))
     if never_zero(sympy.cancel(told / meant)):

@@ -195,7 +195,6 @@ def below(balance: Theorem, *facts: Theorem | tuple[Theorem, ...]) -> Rule:
     """A contact's force, by ``solve`` from the balance of the bead above it."""
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        check(formula, where)
         about, value = isolated(formula, where)
         branch = _BRANCHES.get(type(about))
         if branch is None:

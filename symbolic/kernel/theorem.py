@@ -158,17 +158,6 @@ def check(formula: sympy.Eq, where: Where, *, in_a_limit: bool = False) -> None:
         _check(side, where, frozenset(known))
 
 
-def no_statement(formula: sympy.Eq, where: Where) -> str:
-    """Why a formula is seen to be no statement on a domain; "" when that is not seen."""
-    try:
-        check(formula, where, in_a_limit=where.limit is not None)
-    except NotAStatementError as reason:
-        return str(reason)
-    except NotExactError:  # a bound that is not read
-        return ""
-    return ""
-
-
 def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> None:
     if isinstance(node, sympy.Sum):
         for index, low, high in reversed(node.limits):

@@ -38,7 +38,7 @@ class Loading:
     """What is known of the loads and of the forces above, before any balance.
 
     Attributes:
-        name: "loaded", "passing", "entering", "surface" or "bulk".
+        name: "loaded", "passing", "entering", "surface" or "surface tilted", for example.
         words: the same in plain words.
         place: the indices that it names, which stand for the same wherever it is used.
         given: equations that hold at that place.
@@ -547,38 +547,56 @@ ENTERING = Loading(
 )
 """What one contact force contributes below itself."""
 
-SURFACE = Loading(
+_AT_SURFACE = sympy.Eq(sy.site_s, sy.M)
+_FREE_SURFACE = ((_zero(_PLUS(*_BEAD)), (_AT_SURFACE,)), (_zero(_MINUS(*_BEAD)), (_AT_SURFACE,)))
+
+
+def _carries(load: sympy.Expr, *where: sympy.Basic) -> tuple[sympy.Eq, tuple[sympy.Basic, ...]]:
+    return sympy.Eq(sy.Load(*_BEAD), load, evaluate=False), where
+
+
+def _on_surface(name: str, words: str, load: sympy.Expr) -> Loading:
+    """A load on each bead of the surface j = M."""
+    none_below = (_zero(sy.Load(*_BEAD)), (sy.site_s <= sy.M - 1,))
+    everywhere = (none_below, _carries(load, _AT_SURFACE), *_FREE_SURFACE)
+    return Loading(name, words, (sy.M,), (), everywhere)
+
+
+def _on_every_bead(name: str, words: str, load: sympy.Expr) -> Loading:
+    """A load on each bead of a packing of height M; the base bears its own."""
+    loaded = _carries(load, sy.site_s >= 1, sy.site_s <= sy.M)
+    return Loading(name, words, (sy.M,), (), (loaded, *_FREE_SURFACE))
+
+
+_TILTED = -sy.L_plus * (sy.n_plus + sy.t * sy.n_minus)
+
+SURFACE = _on_surface(
     "surface",
     "each bead of the surface j = M carries f_load straight down, no other a load",
-    (sy.M,),
-    (),
-    (
-        (_zero(sy.Load(*_BEAD)), (sy.site_s <= sy.M - 1,)),
-        (
-            sympy.Eq(sy.Load(*_BEAD), -sy.f_load * sy.e_y, evaluate=False),
-            (sympy.Eq(sy.site_s, sy.M),),
-        ),
-        (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.M),)),
-        (_zero(_MINUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.M),)),
-    ),
+    -sy.f_load * sy.e_y,
 )
 """A load on the surface of a packing of height M."""
 
-BULK = Loading(
+BULK = _on_every_bead(
     "bulk",
     "each bead above the base carries its weight mg straight down, and nothing lies above j = M",
-    (sy.M,),
-    (),
-    (
-        (
-            sympy.Eq(sy.Load(*_BEAD), -sy.m_g * sy.e_y, evaluate=False),
-            (sy.site_s >= 1, sy.site_s <= sy.M),
-        ),
-        (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.M),)),
-        (_zero(_MINUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.M),)),
-    ),
+    -sy.m_g * sy.e_y,
 )
 """A weight on every bead of a packing of height M."""
+
+SURFACE_TILTED = _on_surface(
+    "surface tilted",
+    "each bead of the surface j = M carries −(L⁺n⁺ + L⁻n⁻), L⁻ = tL⁺, no other a load",
+    _TILTED,
+)
+"""A load in any direction on the surface of a packing of height M."""
+
+BULK_TILTED = _on_every_bead(
+    "bulk tilted",
+    "each bead above the base carries −(L⁺n⁺ + L⁻n⁻), L⁻ = tL⁺, and nothing lies above j = M",
+    _TILTED,
+)
+"""A load in any direction on every bead of a packing of height M."""
 
 _LEFT_OF_IT = (sympy.Eq(sy.site_s, sy.l), sy.site_r <= sy.k - 2)
 

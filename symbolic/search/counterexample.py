@@ -23,6 +23,7 @@ from force_diffusion.symbolic.search.packing import (
     AbsentError,
     BelowError,
     Geometry,
+    Given,
     Packing,
     given,
 )
@@ -55,6 +56,12 @@ class World:
     def geometry(self) -> Geometry:
         """The packing of these contacts and this radius."""
         return _geometry(self)
+
+    def given(self, name: str | None, place: tuple[int, ...]) -> Given:
+        """What the loading of a name says at its place, in these loads."""
+        (x, y), (f_load, m_g, *_, plus, minus) = self.n, self.numbers
+        tilted = Vector(Dual((minus - plus) * x), Dual(-(plus + minus) * y))
+        return given(name, place, f_load, m_g, tilted)
 
     def values(self) -> dict[sympy.Symbol, Number]:
         """Value of each continuous symbol."""
@@ -102,8 +109,7 @@ def _geometry(world: World) -> Geometry:
 
 @lru_cache(maxsize=512)
 def _packing(world: World, name: str | None, place: tuple[int, ...]) -> Packing:
-    f_load, m_g = world.numbers[:2]
-    return Packing(world.geometry, given(name, place, f_load, m_g))
+    return Packing(world.geometry, world.given(name, place))
 
 
 def counterexample(

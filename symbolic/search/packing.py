@@ -14,6 +14,7 @@ from force_diffusion.symbolic.search.dual import (
     NOWHERE,
     ZERO,
     Dual,
+    Number,
     Slope,
     TooLargeError,
     Vector,
@@ -86,6 +87,11 @@ class Geometry:
     _directions: dict[tuple[Branch, int, int], Vector] = field(
         default_factory=dict, repr=False, compare=False
     )
+
+    @cached_property
+    def by_radius(self) -> "Geometry":
+        """The same, with the weights of all radii as slopes."""
+        return Geometry(self.n, self.radius, one_by_one=True)
 
     def deviation(self, across: int, layer: int) -> Slope:
         """δr of a bead."""
@@ -165,24 +171,38 @@ def _any_load(across: int, layer: int) -> Vector:
     return Vector(x, -y)
 
 
-def given(name: str | None, place: tuple[int, ...], f_load: Fraction, m_g: Fraction) -> Given:
+def given(
+    name: str | None,
+    place: tuple[int, ...],
+    f_load: Fraction,
+    m_g: Fraction,
+    tilted: Vector = NOWHERE,
+) -> Given:
     """What the loading of a name says at its place; without a name all forces are drawn.
+
+    ``tilted`` is the load of a bead that is not straight down.
 
     Raises:
         UnknownLoadingError: there is no such loading.
     """
     if name is not None and name.endswith(MIRRORED) and len(place) == 2:
-        straight = given(name.removesuffix(MIRRORED), (-place[0], place[1]), f_load, m_g)
+        straight = given(name.removesuffix(MIRRORED), (-place[0], place[1]), f_load, m_g, tilted)
         return _mirrored(straight)
     weightless = {"loaded": None, "loaded vertically": f_load}
     if name is None:
         return Given(0, _any_force, _any_load)
-    if name in ("surface", "bulk") and len(place) == 1:
+    carried = {
+        "surface": Vector(ZERO, Dual(-f_load)),
+        "bulk": Vector(ZERO, Dual(-m_g)),
+        "surface tilted": tilted,
+        "bulk tilted": tilted,
+    }
+    if name in carried and len(place) == 1:
         (height,) = place
+        every = name.startswith("bulk")
 
         def weight(_: int, layer: int) -> Vector:
-            carried = m_g if name == "bulk" else f_load if layer == height else 0
-            return Vector(ZERO, Dual(-carried))
+            return carried[name] if every or layer == height else NOWHERE
 
         return Given(height, lambda *_: ZERO, weight, surface=height)
     if len(place) == 2:
@@ -239,12 +259,13 @@ class Packing:
     geometry: Geometry
     given: Given
     _below: dict[Site, tuple[Dual, Dual]] = field(default_factory=dict, repr=False, compare=False)
+    moments: dict[object, Number] = field(default_factory=dict, repr=False, compare=False)
+    """What moments were found to be, by what they are of and the values of its symbols."""
 
     @cached_property
     def by_radius(self) -> "Packing":
         """The same, with the weights of all radii as slopes."""
-        geometry = self.geometry  # what is remembered of it has other slopes
-        return Packing(Geometry(geometry.n, geometry.radius, one_by_one=True), self.given)
+        return Packing(self.geometry.by_radius, self.given)
 
     def beads(self) -> int:
         """How many beads have been laid or balanced so far."""

@@ -131,7 +131,14 @@ class Evaluator:
         raise UnreadableError(f"{type(node).__name__} is not evaluated")
 
     def _moment(self, node: sy.Moment) -> Number:
-        """A moment over radii of variance σ², by the weight of each of them."""
+        """A moment over radii of variance σ², by the weight of each; the packing keeps it."""
+        at = node, tuple(self.numbers.items())
+        known = self.packing.moments.get(at)
+        if known is None:
+            known = self.packing.moments[at] = self._over_radii(node)
+        return known
+
+    def _over_radii(self, node: sy.Moment) -> Number:
         each = Evaluator(self.packing.by_radius, self.numbers, self.budget)
         try:
             values = [each._number(argument) for argument in node.args]

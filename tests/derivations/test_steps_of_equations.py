@@ -73,10 +73,14 @@ SAME = {
     ),
     ("14", 8): (NOTHING_THERE, "upper bound m = M − 1 shifted to M"),
     ("14", 9): (NOTHING_THERE, "upper bound m = M − 1 shifted to M"),
+    ("B1", 1): (
+        "all beads of the surface carry the same load",
+        "left: Fˡᵒᵃᵈ_kl shifted to Fˡᵒᵃᵈ_(k+2,l)",
+    ),
     ("B2", 2): (NOTHING_THERE, "upper bound m = M − 1 shifted to M"),
     ("B2", 3): (NOTHING_THERE, "upper bound m = M − 1 shifted to M"),
+    ("B3", 2): (NOTHING_THERE, "upper bound m = M − 1 shifted to M"),
     ("B3", 3): (NOTHING_THERE, "upper bound m = M − 1 shifted to M"),
-    ("B3", 4): (NOTHING_THERE, "upper bound m = M − 1 shifted to M"),
     ("B12", 1): (NOTHING_THERE, "upper bound m = M shifted to M − 1"),
     ("B12", 2): (NOTHING_THERE, "left: upper bound m = M shifted to M − 1"),
 }

@@ -1,25 +1,34 @@
 """The runner: verdicts from checks, premises first, mutants judged."""
 
 import time
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import sympy
+from force_diffusion.derivations.api.derived import Derived
 from force_diffusion.derivations.commands.alone import run_alone
+from force_diffusion.derivations.export.document import document, finding
+from force_diffusion.derivations.export.manifest import FoundEquation
 from force_diffusion.derivations.export.terminal import (
     mutant_counts,
     outcome_text,
     summary_line,
     trouble_lines,
 )
-from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework import loading
+from force_diffusion.derivations.framework.catalogue import THEOREMS, modules
 from force_diffusion.derivations.framework.loading import load, with_premises
-from force_diffusion.derivations.framework.record import KernelError
+from force_diffusion.derivations.framework.record import Derivation, KernelError
 from force_diffusion.derivations.framework.runner import Ruled, rulings, run
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 from force_diffusion.symbolic.search.corpus import Statement
 
 from tests.derivations import fakes
+
+FOLDER = Path(__file__).parents[3] / "derivations" / "beyond"
 
 
 def test_a_sound_derivation_is_proved() -> None:
@@ -40,6 +49,8 @@ def test_a_sound_derivation_is_proved() -> None:
     [
         (fakes.with_claim(Verdict.REFUTED), Verdict.REFUTED),
         (fakes.with_claim(Verdict.UNDECIDED), Verdict.UNDECIDED),
+        (fakes.with_claim(Verdict.NOT_A_STATEMENT), Verdict.UNDECIDED),
+        (fakes.with_step(Verdict.NOT_A_STATEMENT), Verdict.UNDECIDED),
         (fakes.with_step(Verdict.REFUTED), Verdict.REFUTED),
         (fakes.with_step(Verdict.UNDECIDED), Verdict.UNDECIDED),
         (fakes.with_witness(Verdict.DISAGREES), Verdict.REFUTED),
@@ -58,6 +69,62 @@ def test_nothing_is_better_than_its_premises(verdict: Verdict) -> None:
     outcome = run(fakes.CONCLUSION, known={1: verdict})
     assert outcome.verdict is Verdict.UNDECIDED
     assert any(f"Eq. 1 is {verdict}" in line for line in trouble_lines(outcome))
+
+
+@pytest.mark.parametrize("make", [fakes.with_claim, fakes.with_step])
+def test_what_is_assumed_is_told_everywhere(make: Callable[[Verdict], Derivation]) -> None:
+    outcome = run(make(Verdict.ASSUMING))
+    assert outcome.verdict is Verdict.ASSUMING
+    assert outcome.assuming == (fakes.GUESS,)
+    words = f"proved, assuming {fakes.GUESS}"
+    assert not trouble_lines(outcome)
+    assert words in summary_line(outcome)
+    assert outcome_text(outcome).splitlines()[-1].startswith(f"Eq. 2 is {words}")
+    assert Derived((outcome,)).proved
+    assert Derived((outcome,)).counts() == f"1 {words}"
+    data = Derived((outcome,)).data()["equations"][0]
+    assert data["verdict"] == "proved, assuming"
+    assert data["assuming"] == [fakes.GUESS]
+    found = finding(outcome)
+    assert FoundEquation.model_validate_json(found.model_dump_json()) == found
+    latex = document([(outcome.derivation, found)])
+    assert f"\\textbf{{{words}}}" in latex
+    assert run_alone(replace(make(Verdict.ASSUMING), premises=()), []) == 0
+
+
+def test_what_rests_on_an_assumption_assumes_it() -> None:
+    outcome = run(fakes.CONCLUSION, known={1: Verdict.ASSUMING})
+    assert outcome.verdict is Verdict.ASSUMING
+    assert outcome.words == "proved, assuming what Eq. 1 assumes"
+    assert run(fakes.with_claim(Verdict.UNDECIDED), known={1: Verdict.ASSUMING}).assuming == ()
+
+
+def test_mutants_that_are_no_statements_are_counted_by_name() -> None:
+    def decide(_: int, candidate: sympy.Eq) -> Ruling:
+        same = candidate == fakes.TRUE
+        return fakes.always(Verdict.PROVED if same else Verdict.NOT_A_STATEMENT)
+
+    outcome = run(replace(fakes.PREMISE, decide=decide))
+    counts = mutant_counts(outcome)
+    assert counts["no_statements"] == counts["made"] > counts["refuted"] == 0
+    assert f"0 of {counts['made']} mutants refuted, {counts['made']} not a statement" in (
+        summary_line(outcome)
+    )
+    assert outcome.verdict is Verdict.PROVED
+    assert {one.verdict for one in finding(outcome).mutants.changes} == {"not a statement"}
+
+
+def test_a_true_statement_that_is_found_to_be_none_is_open() -> None:
+    statement = Statement(True, "a kind", "because", fakes.SAME)
+
+    def decide(part: int, candidate: sympy.Eq) -> Ruling:
+        if candidate == fakes.SAME:
+            return fakes.always(Verdict.NOT_A_STATEMENT)
+        return fakes.decide(part, candidate)
+
+    outcome = run(replace(fakes.PREMISE, decide=decide, tries=lambda *_: [statement]))
+    assert outcome.verdict is Verdict.UNDECIDED
+    assert any("not a statement: a true statement (because)" in x for x in trouble_lines(outcome))
 
 
 def test_an_equivalent_mutant_is_listed_with_its_proof() -> None:
@@ -122,6 +189,29 @@ def test_run_alone_proves_the_premises_too(capsys: pytest.CaptureFixture[str]) -
     doubtful = replace(fakes.with_claim(Verdict.UNDECIDED), number=1, premises=())
     assert run_alone(replace(fakes.CONCLUSION, premises=(doubtful,)), []) == 1
     assert "Eq. 2 is undecided" in capsys.readouterr().out
+
+
+def test_run_alone_prints_every_equation_of_a_module(capsys: pytest.CaptureFixture[str]) -> None:
+    doubtful = replace(fakes.with_claim(Verdict.UNDECIDED), number=3)
+    several = {2: fakes.CONCLUSION, 3: doubtful}
+    assert run_alone(several, []) == 1
+    printed = capsys.readouterr().out
+    assert printed.index("1  proved") < printed.index("Eq. 2: B") < printed.index("Eq. 3")
+    assert "Eq. 3 is undecided" in printed
+
+
+def test_a_module_may_derive_several(monkeypatch: pytest.MonkeyPatch) -> None:
+    several = SimpleNamespace(DERIVATIONS={2: fakes.CONCLUSION, 1: fakes.PREMISE})
+    monkeypatch.setattr(loading, "import_module", lambda _: several)
+    assert [load(1).number, load(2).number] == [1, 2]
+
+
+def test_every_theorem_is_a_module_of_its_own() -> None:
+    numbers = [number for own in THEOREMS.values() for number in own]
+    assert sorted(numbers) == list(range(1, 22))
+    for stem, own in THEOREMS.items():
+        there = {modules()[f"B{number}"] == f"beyond.{stem}" for number in own}
+        assert there == {(FOLDER / f"{stem}.py").exists()}
 
 
 def test_the_summary_counts(capsys: pytest.CaptureFixture[str]) -> None:

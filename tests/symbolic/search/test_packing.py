@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 from force_diffusion.numeric.mechanics import taylor
 from force_diffusion.symbolic.search.counterexample import WORLDS
-from force_diffusion.symbolic.search.dual import NOWHERE, ZERO, Dual, TooLargeError, Vector
+from force_diffusion.symbolic.search.dual import NOWHERE, ZERO, Dual, TooLargeError, Vector, Weights
 from force_diffusion.symbolic.search.packing import (
     HIGHEST,
     AbsentError,
@@ -15,10 +15,12 @@ from force_diffusion.symbolic.search.packing import (
     drawn,
     given,
 )
+from force_diffusion.symbolic.symbols import L_minus, L_plus, f_load
 from hypothesis import given as examples
 from hypothesis import strategies as st
 
 F_LOAD, WEIGHT = Fraction(11, 7), Fraction(13, 5)
+TILTED = Vector(Dual(Fraction(-2, 7)), Dual(Fraction(-5, 3)))
 PLACES = {
     None: (),
     "loaded": (1, 5),
@@ -27,12 +29,14 @@ PLACES = {
     "entering": (1, 5),
     "surface": (5,),
     "bulk": (5,),
+    "surface tilted": (5,),
+    "bulk tilted": (5,),
 }
 GEOMETRIES = [world.geometry for world in WORLDS]
 
 
 def packing(name: str | None, geometry: Geometry = GEOMETRIES[0]) -> Packing:
-    return Packing(geometry, given(name, PLACES[name], F_LOAD, WEIGHT))
+    return Packing(geometry, given(name, PLACES[name], F_LOAD, WEIGHT, TILTED))
 
 
 def push(made: Packing, branch: str, across: int, layer: int) -> Vector:
@@ -136,6 +140,30 @@ def test_surface_and_weights() -> None:
         surface.quantity("DeltaNPlus", 1, 5)
 
 
+def test_loads_that_are_not_vertical() -> None:
+    surface, bulk = packing("surface tilted"), packing("bulk tilted")
+    assert surface.load(1, 5) == bulk.load(1, 5) == bulk.load(2, 2) == TILTED
+    assert not surface.load(2, 2)
+    # order 0: every contact below carries its own branch's component, −load = L⁺n⁺ + L⁻n⁻
+    x, y = surface.geometry.n
+    across, down = -TILTED.x.value, -TILTED.y.value
+    for branch, side in (("+", 1), ("-", -1)):
+        own = (down / y + side * across / x) / 2
+        for layer in range(5):
+            site = (layer % 2, layer)
+            assert surface.force(branch, *site).value == own
+            assert bulk.force(branch, *site).value == own * (5 - layer)
+
+
+def test_the_load_of_a_world_has_its_components() -> None:
+    for world in WORLDS:
+        values, (x, y) = world.values(), world.n
+        plus, minus = values[L_plus], values[L_minus]
+        load = Packing(world.geometry, world.given("bulk tilted", (3,))).load(1, 1)
+        assert (load.x.value, load.y.value) == (-(plus - minus) * x, -(plus + minus) * y)
+        assert world.given("surface", (3,)).load(1, 3) == Vector(ZERO, Dual(-values[f_load]))
+
+
 def test_another_solver_finds_the_same() -> None:
     """It solves the nonlinear packing, with power series, on a periodic strip that is wider."""
     height, width = 5, 14
@@ -158,6 +186,13 @@ def test_another_solver_finds_the_same() -> None:
             found = made.quantity(kind, across, layer)
             assert found == Vector(*(Dual(0, c[1]) for c in turned))
             assert made.force(branch, across, layer) == Dual(*solved.force(across, layer, branch))
+
+
+def test_weights_of_radii_are_kept_apart_from_drawn_radii() -> None:
+    drawn_ones = packing("surface", Geometry((Fraction(3, 5), Fraction(4, 5)), Fraction(1)))
+    for made in (drawn_ones, drawn_ones.by_radius, drawn_ones):
+        slopes = [made.quantity("DeltaX", 0, 2).x.slope, made.force("+", 0, 2).slope]
+        assert {isinstance(one, Weights) for one in slopes} == {made is not drawn_ones}
 
 
 def test_what_is_not_there_is_said() -> None:
