@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 # Work from which on the compiled sweeps repay loading the compiler (half a second), counted in
 # beads that NumPy sweeps: of this call, and of all before it in this process. A bead, and a row of
 # them, which takes calls of its own, count for so many, without errors and with them. Once the
-# sweeps are loaded, they are always taken.
-COMPILED_FROM = 2_000_000
+# sweeps are loaded, a small part of that is enough, and anything that carries errors.
+COMPILED_FROM, ONCE_LOADED = 2_000_000, 1 / 50
 OF_BEAD, OF_ROW = (1, 10), (40, 2000)
 # Beads of diagonals that are drawn together.
 BLOCK = 10_000
@@ -288,7 +288,7 @@ def compiles(problem: Problem, system: NumberSystem, *, carried: bool = False) -
     kernels, own = sys.modules.get(f"{__package__}.kernels"), (problem.dimension, carried)
     before = _by_numpy[own]
     if kernels is not None and own in kernels.LOADED:
-        before = COMPILED_FROM
+        before = COMPILED_FROM if carried else int(COMPILED_FROM * (1 - ONCE_LOADED))
     if not worth_compiling(problem, system, carried=carried, before=before):
         return False
     try:
