@@ -111,7 +111,7 @@ def fast_ratio(rounds: int = 101) -> float:
     from peers import Problem
 
     height, width = 256, 512
-    solve = Problem(height, width).again()
+    solve = Problem(height, width).compiled(again=True)
     a, b = np.linspace(1, 2, (height + 1) * width), np.linspace(2, 3, (height + 1) * width)
 
     def reference() -> None:

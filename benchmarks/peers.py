@@ -13,13 +13,20 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from force_diffusion.numeric.arithmetic.carried import CARRYING
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, NumberSystem
 from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
 from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics import plain
-from force_diffusion.numeric.mechanics.forces import Forces, Loads, sweep_down
 from force_diffusion.numeric.mechanics.loads import LoadSpec
-from force_diffusion.numeric.mechanics.packing import SolvedPacking, deposit, metric
+from force_diffusion.numeric.mechanics.local import cosine
+from force_diffusion.numeric.mechanics.sweep import (
+    Forces,
+    Loads,
+    SolvedPacking,
+    deposit,
+    sweep_down,
+)
 
 SEED = 1
 
@@ -51,33 +58,46 @@ class Problem:
             return spec.on(self.region.rows, spec.strength(self.n_x, system), system)
 
     def solver(
-        self, system: NumberSystem = FLOAT64, realisations: int = 1, sweeps: Any = None
+        self, system: NumberSystem = FLOAT64, realisations: int = 1
     ) -> Callable[[], tuple[SolvedPacking, Forces]]:
-        """Give a function that solves it from the radii; ``sweeps`` may be the compiled ones."""
-        place = deposit if sweeps is None else sweeps.deposit
-        carry = sweep_down if sweeps is None else sweeps.sweep_down
+        """Give a function that solves it from the radii, by NumPy."""
         region, rho, loads = self.region, self.radii(system, realisations), self.loads(system)
+        phi = cosine(self.n_x)
 
         def solve() -> tuple[SolvedPacking, Forces]:
             with system.active():
-                solved = place(self.n_x, region, rho, system)
-                return solved, carry(solved, region.rows, loads)
+                solved = deposit(phi, region, rho, system)
+                return solved, sweep_down(solved, region.rows, loads)
 
         return solve
 
-    def again(self) -> Callable[[], Any]:
-        """Give a function that solves it by compiled sweeps, in memory that stays."""
-        from force_diffusion.numeric.mechanics.compiled_forces import Descent
-        from force_diffusion.numeric.mechanics.compiled_packing import Deposition
+    def compiled(
+        self, realisations: int = 1, *, again: bool = False, carried: bool = False
+    ) -> Callable[[], tuple[SolvedPacking, Forces]]:
+        """Give a function that solves it by compiled loops; ``again``: in memory that stays."""
+        from force_diffusion.numeric.mechanics.kernels import Deposition, Descent
+        from force_diffusion.numeric.mechanics.sweeps import tell
 
-        region, rho = self.region, self.radii()
-        deposit, sweep = Deposition(self.n_x, region), Descent(region, region.rows, self.loads())
-        flat = np.concatenate(rho)[None]
+        region, phi = self.region, cosine(self.n_x)
+        rho = np.zeros((realisations, 1 + carried, region.beads))
+        rho[:, 0] = np.concatenate(self.radii(realisations=realisations), axis=-1)
+        loads = self.loads(CARRYING if carried else FLOAT64)
 
-        def solve() -> Any:
-            solved = deposit(flat, rho)
-            assert solved is not None
-            return sweep(solved)
+        def parts() -> tuple[Deposition, Descent]:
+            descent = Descent(region, region.rows, loads, carried=carried)
+            return Deposition(phi, region, carried=carried), descent
+
+        ready = parts() if again else None
+
+        def solve() -> tuple[SolvedPacking, Forces]:
+            deposition, descent = ready or parts()
+            block = deposition(rho)
+            assert block is not None
+            g = descent(block)
+            found = tell(phi, region, rho, block, descent, g)
+            assert found.packing is not None
+            assert found.forces is not None
+            return found.packing, found.forces
 
         return solve
 
@@ -165,16 +185,16 @@ class CSweep:
         self.blocks = memory[:, :beads].reshape(10, *shape)
         self.nothing = np.zeros(problem.width)
         self.lost = np.zeros((2, 2, problem.width))
-        m = metric(problem.n_x, FLOAT64)
+        phi = cosine(problem.n_x)
         loads = problem.loads()
         last_plus, last_minus = loads.plus[-1], loads.minus[-1]
         assert last_plus is not None
         assert last_minus is not None
-        scalars = (m.phi, m.inverse_det, last_plus[0], last_minus[0])
+        scalars = (phi, 1 / (1 - phi**2), last_plus[0], last_minus[0])
         self.arguments = (
             ctypes.c_ssize_t(problem.height),
             ctypes.c_ssize_t(problem.width),
-            *(ctypes.c_double(value) for value in scalars),
+            *(ctypes.c_double(float(value)) for value in scalars),
             *(
                 ctypes.c_void_p(a.ctypes.data)
                 for a in (self.nothing, self.lost, self.rho, *self.blocks)

@@ -37,18 +37,19 @@ def scene(quantity: str = "profile", **asked: Any) -> fd.Scene:
 
 def both_sweeps(packings: int) -> Callable[[], None]:
     """Deposit and balance a packing again and again, in memory that stays."""
-    from force_diffusion.numeric.mechanics.compiled import Sweeps
+    from force_diffusion.numeric.mechanics.sweeps import Sweeps
 
     problem = plan(scene()).problem
-    sweeps = Sweeps(problem.radii, problem.n_x, problem.region)
+    sweeps = Sweeps(problem)
     rho = sweeps.radii(range(1))
     strength = problem.load.strength(problem.n_x, FLOAT64)
     loads = problem.load.on(problem.force_rows, strength, FLOAT64)
 
     def solve() -> None:
         for _ in range(packings):
-            solved = sweeps.deposit(problem.n_x, problem.region, rho, FLOAT64)
-            sweeps.sweep_down(solved, problem.force_rows, loads)
+            block = sweeps.deposit(rho)
+            assert block is not None
+            sweeps.descent(problem.force_rows, loads)(block)
 
     return solve
 

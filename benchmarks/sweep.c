@@ -1,6 +1,6 @@
-/* The arithmetic of numeric/fast.py, written out in C: one whole periodic packing in float64.
+/* The sweep for discs, written out by hand in C: one whole periodic packing in float64.
    Blocks are (top + 1) rows of `width`; row 0 of the δn and of the forces is not touched.
-   Built by speed.py only, to be compared with; see numeric/packing.py for the formulas. */
+   Built by speed.py only, to be compared with: as many operations, in another order. */
 #include <math.h>
 #include <stddef.h>
 

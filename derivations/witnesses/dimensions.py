@@ -10,6 +10,8 @@ from typing import Any
 import mpmath
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.numeric.arithmetic.systems import Series, zeros
+from force_diffusion.numeric.lattice.branch import PerAxis
+from force_diffusion.numeric.lattice.layers import whole
 from force_diffusion.numeric.mechanics.any_dimension import (
     Bead,
     force_weights,
@@ -18,7 +20,7 @@ from force_diffusion.numeric.mechanics.any_dimension import (
     stepped,
     together,
 )
-from force_diffusion.numeric.mechanics.spheres import bear, deposit, metric
+from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 
 DIGITS, STRENGTH = 50, mpmath.mpf(10) ** -20
 
@@ -122,16 +124,17 @@ def squares_of_spheres(phi: Fraction, height: int, load: str) -> tuple[Fraction,
     system, width = Series(1), height + 2  # wide enough to see no image, to first order
     found = [Fraction(0)] * height
     with system.active():
-        m = metric(3, phi, system)
-        unit = zeros(system, width, width) + system.number(Fraction(1))
-        loaded = [unit if load == "bulk" or j == height else None for j in range(height + 1)]
+        region = whole(width**2, height, dimension=3)
+        unit = zeros(system, width**2) + system.number(Fraction(1))
+        on = tuple(unit if load == "bulk" or j == height else None for j in range(height + 1))
         for source in range(height + 1):
-            rho = [zeros(system, width, width) for _ in range(height + 1)]
-            rho[source][0, 0] = system.series([Fraction(0), Fraction(1)])
-            borne = bear(deposit(rho, m, system, linear=False), loaded, system, linear=False)
+            rho = [zeros(system, width**2) for _ in range(height + 1)]
+            rho[source][0] = system.series([Fraction(0), Fraction(1)])
+            packing = deposit(phi, region, rho, system)
+            forces = sweep_down(packing, region.rows, PerAxis(on, on, on))
             for j in range(height):
                 ordered = (height - j) if load == "bulk" else 1
-                for change in borne.change[j + 1][0].flat:
+                for change in forces.change.plus[j + 1]:
                     slope = Fraction(int(change[1].p), int(change[1].q)) / ordered
                     found[j] += slope**2
     return tuple(found)
@@ -203,18 +206,20 @@ def response_of_spheres(
     """
     system, width = Series(1), level + 2
     with system.active():
-        layers = [zeros(system, width, width) for _ in range(level + 1)]
+        region = whole(width**2, level, dimension=3)
+        layers = [zeros(system, width**2) for _ in range(level + 1)]
         for bead, value in rho.items():
-            place = (-bead[0] % width, -bead[1] % width)
+            place = -bead[0] % width * width + -bead[1] % width
             layers[level - sum(bead)][place] = system.series([Fraction(0), value])
-        loads: list[Any] = [None] * level + [zeros(system, width, width)]
-        loads[level][0, 0] = system.number(Fraction(1))
-        placed = deposit(layers, metric(3, phi, system), system, linear=False)
-        borne = bear(placed, loads, system, linear=False)
+        loaded = zeros(system, width**2)
+        loaded[0] = system.number(Fraction(1))
+        on = (None,) * level + (loaded,)
+        packing = deposit(phi, region, layers, system)
+        change = [rows for _, rows in sweep_down(packing, region.rows, PerAxis(on, on, on)).change]
         found = {}
         for steps, axis in product(product(range(level + 1), repeat=3), range(3)):
             x, y, _ = upper = stepped(steps, axis, -1)
             if 0 < sum(steps) <= level:
-                force = borne.change[level - sum(upper)][axis][-x % width, -y % width]
+                force = change[axis][level - sum(upper)][-x % width * width + -y % width]
                 found[steps, axis] = Fraction(int(force[1].p), int(force[1].q))
     return found

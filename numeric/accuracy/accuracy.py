@@ -12,9 +12,9 @@ from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
 class Accuracy:
     """Error of the answer's small columns, relative to the largest entry of them.
 
-    ``certified``: a rigorous bound (balls). Otherwise it is estimated from a second solution with a
-    longer significand. ``bits_lost``: bits of the arithmetic that the answer lacks. A bound below
-    what a float can hold is a fraction.
+    ``certified``: a rigorous bound (balls). Otherwise it is estimated, from errors that the sweep
+    carried, or from a second solution with a longer significand. ``bits_lost``: bits of the
+    arithmetic that the answer lacks. A bound below what a float can hold is a fraction.
     """
 
     error_bound: float | Fraction

@@ -10,7 +10,7 @@ import flint
 from ..arithmetic.decimals import short
 from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import MOST_BITS, Balls, midpoint
-from ..mechanics.forces import NotStandingError
+from ..mechanics.sweep import NotStandingError
 from ..mechanics.work import Work
 from ..planning.expected_error import initial_bits
 from ..planning.plan import CERTIFY, Plan

@@ -1,7 +1,7 @@
-"""Estimated errors: what a repeat with a longer significand measured.
+"""Estimated errors: what sweeps carried along, or a repeat with a longer significand measured.
 
-The repeat solves the same packings. Its own error is bounded where balls did it, and allowed for by
-``_floor`` where hardware floats did.
+Numbers of float64 are corrected by the errors that their sweep carried and rounded once; what is
+stated is what that rounding left. Other arithmetics are repeated, in balls, which know their error.
 """
 
 import math
@@ -14,14 +14,11 @@ import numpy as np
 
 from ..arithmetic.systems import (
     FLOAT64,
-    Balls,
-    Hardware,
     NumberSystem,
     as_ball,
-    as_floats,
     midpoint,
 )
-from ..mechanics.work import Work
+from ..mechanics.work import ESTIMATE, Work
 from ..planning.expected_error import (
     PRINTED,
     SAFETY,
@@ -29,30 +26,102 @@ from ..planning.expected_error import (
     merging,
     usual_units,
 )
-from ..planning.plan import ESTIMATE, Plan
+from ..planning.plan import Plan
 from ..quantities.answer import Answer, answer
 from ..quantities.base import Table
 from .accuracy import Accuracy
 
-ESTIMATED = "estimated, not certified"
+CARRIED = "estimated, as the sweep carried it, not certified"
 
 
 def repeated(plan: Plan, work: Work) -> tuple[Answer, Accuracy]:
-    """Answer, and solve the first realisations again with a longer significand to compare."""
-    quantity, problem, longer = plan.quantity, plan.problem, plan.method.longer
-    found = answer(quantity, problem, range(problem.realisations), plan.system, work)
-    few = range(plan.method.repeated)
-    part = replace(problem, realisations=len(few))
+    """Answer, and say how large the error is: as sweeps carried it, or a repeat measured it."""
+    quantity, problem, method = plan.quantity, plan.problem, plan.method
+    longer = method.longer
     assert longer is not None
+    few = range(method.repeated)
+    if method.carries and len(few) >= problem.realisations:
+        beside = longer if plan.system is FLOAT64 else None
+        found = answer(quantity, problem, few, plan.system, work, longer=beside)
+        with longer.active():
+            return found, of_carried(found, plan)
+    found = answer(quantity, problem, range(problem.realisations), plan.system, work)
+    part = replace(problem, realisations=len(few))
     with work.repeat(ESTIMATE):
         table = found.table
         if len(few) < problem.realisations:
             table = answer(quantity, part, few, plan.system, work).table
-        again = answer(quantity, part, few, longer, work).table
-        if plan.tolerance is None and plan.system is FLOAT64:
-            return found, of_floats(table, again, found.table, FLOAT64)
+        if plan.system is FLOAT64:
+            right = answer(quantity, part, few, FLOAT64, work, longer=longer)
+            again = right.table if right.exact is None else right.exact
+        else:
+            again = answer(quantity, part, few, longer, work).table
         with longer.active():
             return found, of_repeat(table, again, found.table, plan)
+
+
+def of_carried(found: Answer, plan: Plan) -> Accuracy:
+    """State the error of an answer whose sweeps carried it, from the table that holds both."""
+    system, table, apart = plan.system, found.table, Fraction(0)
+    if found.left is not None:
+        if not math.isfinite(found.left):
+            return Accuracy(math.inf, False, system.name, float(system.bits))
+        return stated(found, Fraction(found.left), plan)
+    for name in table.small if found.exact is not None else ():
+        assert found.exact is not None
+        one = _apart(table.numbers[name], found.exact.numbers[name], system)
+        if one is None:
+            return Accuracy(math.inf, False, system.name, float(system.bits))
+        apart = max(apart, one)
+    return stated(found, apart, plan)
+
+
+def stated(found: Answer, apart: Fraction, plan: Plan) -> Accuracy:
+    """State the error of an answer whose sweeps carried it.
+
+    ``apart`` is what one rounding left; to it comes what the carried errors leave out themselves
+    (``Sizes.unseen``).
+    """
+    system, table = plan.system, found.table
+    largest = max((_largest(table.numbers[name]) for name in table.small), default=Fraction(0))
+    unseen = _unseen(found, plan, largest)
+    if unseen is None:
+        return Accuracy(math.inf, False, system.name, float(system.bits))
+    if not largest:
+        exact = not apart and not found.sizes.changed and not found.sizes.moved
+        if exact and plan.tolerance is None:
+            return Accuracy(0.0, False, system.name, 0.0, CARRIED)
+        note = "every change is zero here, and only balls can tell whether that is exact"
+        return Accuracy(math.inf, False, system.name, 0.0, note)
+    ratio = (apart + unseen) / largest
+    if plan.tolerance is not None:
+        ratio = PRINTED * max(ratio, Fraction(1, 2**system.bits))
+    lost = max(system.bits + _log2(ratio), 0.0) if ratio else 0.0
+    return Accuracy(_bound(ratio), False, system.name, round(lost, 1), CARRIED)
+
+
+def _unseen(found: Answer, plan: Plan, largest: Fraction) -> Fraction | None:
+    """Give what carried errors leave out, in the unit of the answer; None where that is no number.
+
+    It is doubled for sums of a few numbers. Gathering them in the longer arithmetic rounds, too,
+    relative to the terms that changes are sums of, σ/r times the forces (positions: the radius): a
+    change that is left over where these cancel may be far smaller.
+    """
+    scene, longer = plan.scene, plan.method.longer
+    assert longer is not None
+    force, moved = found.sizes.unseen(scene.packing.height)
+    if not math.isfinite(force + moved):
+        return None
+    if plan.problem.needs_forces:
+        size = Fraction(force) * scene.load.magnitude
+        scale = max(Fraction(found.sizes.force), Fraction(1)) * scene.load.magnitude
+    else:
+        size = Fraction(moved * float(1 / plan.problem.n_x)) * scene.packing.radius
+        scale = scene.packing.radius
+    terms = max(largest, scale * plan.problem.radii.relative_std())
+    rounding: Fraction = usual_units(longer, 1) * terms / 2**longer.bits
+    unseen: Fraction = 2 * size + rounding
+    return unseen
 
 
 def shortfall(found: Answer, accuracy: Accuracy, tolerance: Fraction) -> str:
@@ -64,43 +133,6 @@ def shortfall(found: Answer, accuracy: Accuracy, tolerance: Fraction) -> str:
         if edge_in_doubt(found.table, edges, accuracy):
             return "a change lies within its error of the edge of a bin"
     return ""
-
-
-def of_floats(table: Table, longer: Table, whole: Table, system: Hardware) -> Accuracy:
-    """Estimate the error of a float solution from one with a longer significand.
-
-    ``table`` and ``longer`` are the two solutions of some realisations out of ``whole``.
-    """
-    found = of_distances([distances(table, longer)], system)
-    if not found.error_bound and any(np.any(whole.numbers[name]) for name in whole.small):
-        # what was compared is exactly zero, the rest of the answer is not
-        return replace(found, error_bound=_unit(system))
-    return found
-
-
-def distances(table: Table, longer: Table) -> tuple[float, float]:
-    """Give the largest change of a float solution, and its largest distance from a longer one."""
-    pairs = [(table.numbers[name], longer.numbers[name]) for name in table.small]
-    largest = np.max([np.abs(a).max(initial=0) for a, _ in pairs])
-    return float(largest), float(np.max([abs(as_floats(b - a)).max(initial=0) for a, b in pairs]))
-
-
-def of_distances(parts: Sequence[tuple[float, float]], system: Hardware) -> Accuracy:
-    """Estimate the error of a float solution from the ``distances`` of its parts."""
-    largest, error = map(float, np.max(parts, axis=0))
-    if not largest:
-        bound = math.inf if error else 0.0
-        return Accuracy(bound, False, system.name, 0.0, ESTIMATED)
-    if not math.isfinite(largest) or not math.isfinite(error):
-        return Accuracy(math.inf, False, system.name, float(system.bits))
-    ratio = max(2 * error / largest, _unit(system))
-    lost = max(system.bits + math.log2(ratio), 0.0)
-    return Accuracy(ratio, False, system.name, round(lost, 1), ESTIMATED)
-
-
-def _unit(system: Hardware) -> float:
-    """No estimate can promise less than a few roundings."""
-    return 4 * 2.0**-system.bits
 
 
 def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
@@ -120,37 +152,19 @@ def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
         apart = max(apart, difference)
     largest = max((_largest(whole.numbers[name]) for name in whole.small), default=Fraction(0))
     if not largest:
+        if not apart and plan.tolerance is None:
+            return Accuracy(0.0, False, method.system.name, 0.0, "estimated, not certified")
         note = "every change is zero here, and only balls can tell whether that is exact"
         return Accuracy(math.inf, False, method.system.name, 0.0, note)
     seen = method.repeated >= plan.problem.realisations
     factor = SAFETY if seen else UNSEEN
-    absolute = factor * apart + SAFETY * _floor(plan, whole, largest)
-    ratio = max(absolute / largest, 4 * unit) + merging(method, plan.problem.realisations) * unit
+    ratio = max(factor * apart / largest, 4 * unit)
+    ratio += merging(method, plan.problem.realisations) * unit
     lost = max(method.system.bits + _log2(ratio), 0.0)
     of_all = f"{method.repeated} of {plan.problem.realisations} realisations"
-    note = f"{ESTIMATED}, from {of_all}"
-    return Accuracy(_bound(PRINTED * ratio), False, method.system.name, round(lost, 1), note)
-
-
-def _floor(plan: Plan, whole: Table, largest: Fraction) -> Fraction:
-    """Allow for the error of a repeat in hardware floats, which balls say of themselves.
-
-    It is relative to the terms that changes are sums of, σ/r times the forces (positions: the
-    radius): a change that is left over where these cancel may be far smaller.
-    """
-    longer = plan.method.longer
-    if longer is None or isinstance(longer, Balls):
-        return Fraction(0)
-    if plan.problem.needs_forces:
-        loads = (max(map(abs, force)) for force in plan.problem.load.single.values())
-        scale = max(max(loads, default=Fraction(1)), Fraction(1)) * plan.scene.load.magnitude
-        for name, values in whole.numbers.items():
-            if name not in whole.small:
-                scale = max(scale, _largest(values))
-    else:
-        scale = plan.scene.packing.radius
-    terms = max(largest, scale * plan.problem.radii.relative_std())
-    return Fraction(usual_units(longer, plan.scene.packing.height) * terms / 2**longer.bits)
+    note = f"estimated, not certified, from {of_all}"
+    printed = ratio if plan.tolerance is None else PRINTED * ratio
+    return Accuracy(_bound(printed), False, method.system.name, round(lost, 1), note)
 
 
 def _apart(values: Any, longer: Any, system: NumberSystem) -> Fraction | None:

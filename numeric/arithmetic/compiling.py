@@ -4,10 +4,12 @@ No fast-math, and LLVM is not given leave to fuse a product with a sum, so that 
 those of NumPy to the bit. Import it only where work repays loading the compiler (half a second).
 """
 
+import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache
 from itertools import pairwise
+from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import llvmlite.binding
@@ -17,6 +19,18 @@ from numba.extending import intrinsic
 from .machine import cores
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def _codes() -> Path:
+    """Give a folder of the user's own: what was compiled is loaded from there again."""
+    try:
+        return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "force-diffusion"
+    except RuntimeError:  # nobody knows the user's home
+        return Path(__file__).parent / "__pycache__"
+
+
+CODES = _codes()
+"""Where recorded code lies, and beside it what was compiled of it."""
 
 # Rows never overlap, but LLVM has to check; it gives up vectorising at 8 comparisons by default.
 llvmlite.binding.set_option("force-diffusion", "--runtime-memory-check-threshold=512")
@@ -35,14 +49,6 @@ def compiled(function: Function) -> Function:
         return cast(Function, numba.njit(**options)(function))
 
 
-def inlined(function: Function) -> Function:
-    """Compile into each of the functions of its file that call it, before LLVM sees any of them.
-
-    What it made of a function alone it could no longer take four numbers at a time.
-    """
-    return cast(Function, numba.njit(inline="always", error_model="numpy")(function))
-
-
 def _borrowed_code(typing: Any, array: Any) -> Any:
     def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         given = context.make_array(signature.args[0])(context, builder, arguments[0])
@@ -57,6 +63,86 @@ borrowed: Any = intrinsic(_borrowed_code)
 
 Counting costs as much as thirty beads for each run of them. The caller must hold the array.
 """
+
+
+def _fma_code(typing: Any, a: Any, b: Any, c: Any) -> Any:
+    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.fma(*arguments)
+
+    return numba.float64(numba.float64, numba.float64, numba.float64), code
+
+
+fma: Any = intrinsic(_fma_code)
+"""a b + c, rounded once."""
+
+
+def _scope(builder: Any, name: str) -> Any:
+    """Name a class of numbers that share no memory with those of another name."""
+    domain = builder.module.add_metadata(["force-diffusion"])
+    return builder.module.add_metadata([name, domain])
+
+
+def _address(context: Any, builder: Any, kind: Any, array: Any, index: Any) -> Any:
+    return builder.gep(context.make_array(kind)(context, builder, array).data, [index])
+
+
+def _taken_code(typing: Any, array: Any, index: Any) -> Any:
+    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        number = builder.load(_address(context, builder, signature.args[0], *arguments))
+        scopes = builder.module.add_metadata([_scope(builder, "taken")])
+        number.set_metadata("alias.scope", scopes)
+        return number
+
+    return numba.float64(array, numba.int64), code
+
+
+def _placed_code(typing: Any, array: Any, index: Any, value: Any, number: Any) -> Any:
+    own, most = number.literal_value, 64
+
+    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        place = _address(context, builder, signature.args[0], *arguments[:2])
+        stored = builder.store(arguments[2], place)
+        names = ["taken", *(f"placed {k}" for k in range(most) if k != own)]
+        others = [_scope(builder, name) for name in names]
+        scopes = builder.module.add_metadata([_scope(builder, f"placed {own}")])
+        stored.set_metadata("alias.scope", scopes)
+        stored.set_metadata("noalias", builder.module.add_metadata(others))
+        return context.get_dummy_value()
+
+    return numba.void(array, numba.int64, numba.float64, number), code
+
+
+def _pitch_code(typing: Any, array: Any) -> Any:
+    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        given = context.make_array(signature.args[0])(context, builder, arguments[0])
+        stride = builder.extract_value(given.strides, 0)
+        return builder.sdiv(stride, stride.type(8))
+
+    return numba.int64(array), code
+
+
+def _alone_code(typing: Any) -> Any:
+    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        builder.function.attributes.add("noinline")
+        return context.get_dummy_value()
+
+    return numba.void(), code
+
+
+taken: Any = intrinsic(_taken_code)
+"""Number ``index`` of a flat array, in a function that puts nothing there."""
+
+placed: Any = intrinsic(prefer_literal=True)(_placed_code)
+"""Put a number at ``index`` of a flat array, where nothing is taken, nor under another ``number``.
+
+Told so, LLVM takes several beads at a time without comparing all addresses for each run of them.
+"""
+
+pitch: Any = intrinsic(_pitch_code)
+"""How many numbers the rows of an array lie apart."""
+
+alone: Any = intrinsic(_alone_code)
+"""Keep a function by itself: what it takes, the next call may put."""
 
 
 @lru_cache(maxsize=1)

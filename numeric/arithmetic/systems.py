@@ -61,8 +61,16 @@ class NumberSystem(Protocol):
         """Set the global precision, if any, and put it back at the end."""
 
 
+def like_array(values: Any) -> Array:
+    """Say that numbers are an array to whoever calculates with them, also ``Carried`` ones."""
+    found: Array = values
+    return found
+
+
 def array(system: NumberSystem, values: Iterable[Fraction]) -> Array:
     """Turn rationals into a one-dimensional array of the number system."""
+    if hasattr(system, "array"):  # numbers that carry their errors
+        return like_array(system.array(values))
     listed = [system.number(value) for value in values]
     result = np.empty(len(listed), dtype=system.dtype)
     for q, value in enumerate(listed):  # one by one: a power series looks like a sequence to NumPy
@@ -72,6 +80,8 @@ def array(system: NumberSystem, values: Iterable[Fraction]) -> Array:
 
 def zeros(system: NumberSystem, *shape: int) -> Array:
     """Give an array of exact zeros."""
+    if hasattr(system, "zeros"):
+        return like_array(system.zeros(*shape))
     result = np.empty(shape, dtype=system.dtype)
     result.fill(system.number(Fraction(0)))
     return result
@@ -79,6 +89,8 @@ def zeros(system: NumberSystem, *shape: int) -> Array:
 
 def from_floats(system: NumberSystem, values: Array) -> Array:
     """Turn float64 values into the number system, exactly (balls: of radius zero)."""
+    if hasattr(system, "from_floats"):
+        return like_array(system.from_floats(values))
     if system.dtype is not object:
         return values.astype(system.dtype)
     result = np.empty(values.shape, dtype=object)
@@ -383,22 +395,3 @@ def _rational_root(value: Any) -> Any:
 def _series_sqrt(value: Any) -> Any:
     constant = value[0]
     return (value / constant).sqrt() * _rational_root(constant)
-
-
-def system_of(name: str) -> NumberSystem:
-    """Give a number system by its name; ``ValueError`` says which there are.
-
-    >>> [system_of(name).name for name in ("float64", "mpmath 50", "balls 50")]
-    ['float64', 'mpmath, 50 digits', 'arb balls, 167 bits']
-    """
-    kind, _, digits = str(name).partition(" ")
-    if name in (FLOAT64.name, LONGDOUBLE.name):
-        return FLOAT64 if name == FLOAT64.name else LONGDOUBLE
-    if kind in ("mpmath", "balls") and digits.isdecimal() and 15 <= int(digits) <= MOST_DIGITS:
-        if kind == "mpmath":
-            return BigFloat(int(digits))
-        return Balls(math.ceil(int(digits) * math.log2(10)))
-    raise ValueError(
-        'must be "float64", "longdouble", "mpmath N" or "balls N" with N decimal digits, '
-        f"from 15 to {MOST_DIGITS}"
-    )

@@ -1,7 +1,7 @@
 """Radii drawn by compiled loops: bitwise those of ``radii``, for many packings at once.
 
 The same words of Philox4x64-10 and the same operations on them as in ``radii`` and ``normal``, in
-the same order and each rounded by itself. Only ``mechanics.compiled`` imports this file.
+the same order and each rounded by itself. Only ``mechanics.sweeps`` imports this file.
 """
 
 import math
@@ -187,10 +187,20 @@ def runs_of(radii: DrawnRadii, rows: Sequence[Layer]) -> Array:
     return np.array(found, dtype=np.int64).reshape(-1, 4)
 
 
-def draw(radii: DrawnRadii, runs: Array, realisations: Sequence[int], rho: Array) -> bool:
-    """Fill in δr/r, (packings, beads); say whether all radii are surely positive."""
+def draw(
+    radii: DrawnRadii,
+    runs: Array,
+    realisations: Sequence[int],
+    rho: Array,
+    *,
+    scaled: bool = True,
+) -> bool:
+    """Fill in δr/r, (packings, beads); say whether all radii are surely positive.
+
+    If not ``scaled``, fill in the deviates, of unit variance.
+    """
     keys = np.empty((len(realisations), 2), dtype=np.uint64)
     keys[:, 0], keys[:, 1] = radii.seed, realisations
     std = float(FLOAT64.scalar(radii.std))
-    smallest = _draw(KINDS[radii.kind], std, keys, runs, rho)
+    smallest = _draw(KINDS[radii.kind], std if scaled else 1.0, keys, runs, rho)
     return smallest * std > -_NEARLY

@@ -18,7 +18,15 @@ import numpy as np
 
 from ..arithmetic.decimals import short
 from ..arithmetic.errors import ForceDiffusionError
-from ..arithmetic.systems import Array, NumberSystem, array, from_floats, zeros
+from ..arithmetic.systems import (
+    Array,
+    Hardware,
+    NumberSystem,
+    array,
+    from_floats,
+    like_array,
+    zeros,
+)
 from ..lattice.layers import Layer, Stack
 from .normal import normal_deviates
 
@@ -133,7 +141,7 @@ class DrawnRadii:
             for row in deviates:
                 self._check_sites(row, [(i, layer.j) for i in layer.sites()])
         values = deviates[0] if len(deviates) == 1 else deviates
-        return np.asarray(from_floats(system, values) * system.scalar(self.std))
+        return like_array(from_floats(system, values) * system.scalar(self.std))
 
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
         """Put all counters through Philox at once: a generator for each bead would be slow."""
@@ -145,7 +153,7 @@ class DrawnRadii:
         deviates = self._deviates(*philox(low, high, (self.seed, realisation)))
         if deviates.size and deviates.min() * float(self.std) < -0.999:
             self._check_sites(deviates, sites)
-        return np.asarray(from_floats(system, deviates) * system.scalar(self.std))
+        return like_array(from_floats(system, deviates) * system.scalar(self.std))
 
     def _check_sites(self, deviates: Array, sites: Sequence[tuple[int, int]]) -> None:
         for site, u in zip(sites, deviates, strict=True):
@@ -236,6 +244,11 @@ class ArrayRadii:
         picked = rows[:, columns % self.values.shape[-1]]
         return self._deltas(picked[0] if len(realisations) == 1 else picked, system)
 
+    def layers(self, count: int, realisations: Sequence[int], system: NumberSystem) -> Array:
+        """Look whole layers up, the lowest ones; shape (realisations, beads)."""
+        values = self.values[np.asarray(realisations), :count]
+        return self._deltas(values.reshape(len(realisations), -1), system)
+
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
         """Look single beads up."""
         i, j = np.array(sites, dtype=np.int64).reshape(-1, 2).T
@@ -246,7 +259,7 @@ class ArrayRadii:
         deltas = from_floats(system, values)
         if self.origin:
             deltas = deltas - system.scalar(self.origin)
-        return np.asarray(deltas / system.scalar(self.radius))
+        return like_array(deltas / system.scalar(self.radius))
 
 
 def philox(low: Array, high: Array, key: tuple[int, int]) -> tuple[Array, Array]:
@@ -286,7 +299,7 @@ def rows_of(
     """Give δr/r of several rows, one array a row; rows of equal length lie in one block."""
     rows = []
     block = None
-    if system.dtype is not object and len({layer.count for layer in layers}) == 1:
+    if isinstance(system, Hardware) and len({layer.count for layer in layers}) == 1:
         batch = (len(realisations),) if len(realisations) > 1 else ()
         block = np.empty((*batch, len(layers), layers[0].count), dtype=system.dtype)
     for n, layer in enumerate(layers):

@@ -5,6 +5,7 @@ are those of the engine in float64, and each depends on the scene and the realis
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -149,7 +150,7 @@ class Measurement:
             return [Fraction(force) for force in self.network.ordered(self.problem).tolist()]
         return self._of.ordered(self.problem)
 
-    def theory(self) -> PerBranch[list[Fraction]] | None:
+    def theory(self) -> PerBranch[Sequence[Fraction]] | None:
         """Give σ_f of layers j = 0 … M − 1, exact to first order; None where it does not apply."""
         return first_order_std(self.problem)
 

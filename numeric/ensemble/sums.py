@@ -32,8 +32,7 @@ from . import networks
 from .measure import Measurement
 
 if TYPE_CHECKING:
-    from ..mechanics.compiled_forces import Descent
-    from ..mechanics.compiled_spheres import SphereDescent
+    from ..mechanics.kernels import Descent
     from ..statistics.compiled import Tally
 
 # Packings whose a and b are cut into digits together.
@@ -211,6 +210,8 @@ def _compiled(
     if not engine.compiles(problem, FLOAT64):
         return none(m), [], realisations
     sweeps, loads = engine.ready(problem, FLOAT64)
+    assert sweeps is not None
+    assert loads is not None
     descent = sweeps.descent(problem.force_rows, loads)
     tally, packings, left = _tally(m, descent), list[Array](), list[int]()
     beads, step = problem.region.beads, engine.at_once(problem)
@@ -229,7 +230,7 @@ def _compiled(
     return summed, packings, left
 
 
-def _tally(m: Measurement, descent: "Descent | SphereDescent") -> "Tally":
+def _tally(m: Measurement, descent: "Descent") -> "Tally":
     """Give compiled sums, the same numbers, of groups of many contacts."""
     from ..statistics.compiled import Tally
 
@@ -238,10 +239,10 @@ def _tally(m: Measurement, descent: "Descent | SphereDescent") -> "Tally":
     for group, branch, j in m.pieces:
         if descent.lowest <= j < len(descent.rows):  # some load reaches it
             side = branch.number
-            start = descent.starts[j], descent.F.start[side][j]
-            pieces.append((group, side, *start, descent.rows[j].count))
+            start = descent.starts[j]
+            pieces.append((group, side, start, start, descent.rows[j].count))
     table = np.array(pieces).reshape(-1, 5)
-    return Tally(table, descent.F.values, m.groups, m.members, m.unit, m.edges)
+    return Tally(table, tuple(descent.F), m.groups, m.members, m.unit, m.edges)
 
 
 def _over_contacts(m: Measurement, ordered: Array, changes: Array) -> tuple[Sums, Array]:

@@ -23,8 +23,7 @@ from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
 from ..arithmetic.machine import cores, memory_limit, share_cores, take_one_core
 from ..arithmetic.processes import end_with_parent, without_interrupts
 from ..disorder.radii import RadiusError
-from ..mechanics.forces import NotStandingError
-from ..mechanics.packing import UnbuildableError
+from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Progress, Work
 from ..unilateral.network import UnfinishedError
 from .measure import Measurement

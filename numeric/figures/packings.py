@@ -10,10 +10,8 @@ import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array
 from ..mechanics.engine import packings
-from ..mechanics.first_order import displace
-from ..mechanics.forces import Forces, sweep_down
-from ..mechanics.packing import SolvedPacking
 from ..mechanics.problem import Solved
+from ..mechanics.sweep import Forces, SolvedPacking, deposit, sweep_down
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.base import ContactQuantity
@@ -138,7 +136,7 @@ def impulses(plan: Plan) -> Solved:
     edges = np.cumsum([row.count for row in region.rows])[:-1]
     rho = tuple(np.split(unit, edges, axis=1))
     with FLOAT64.active():
-        packing = displace(ensemble.n_x, region, rho, FLOAT64)
+        packing = deposit(ensemble.phi, region, rho, FLOAT64, linear=True)
         strength = ensemble.load.strength(ensemble.n_x, FLOAT64)
         loads = ensemble.load.on(ensemble.force_rows, strength, FLOAT64)
         forces = sweep_down(packing, ensemble.force_rows, loads, linear=True)
@@ -147,7 +145,7 @@ def impulses(plan: Plan) -> Solved:
 
 def centres(packing: SolvedPacking, j: int) -> tuple[Array, Array, Array, Array]:
     """Give x and y of the beads of a layer, ordered and displaced, in units of r."""
-    nx = float(packing.n_x)
+    nx = sqrt((1 - packing.phi) / 2)
     ny = sqrt(1 - nx**2)
     x = np.array(packing.region.rows[j].sites()) * (2 * nx)
     y = np.full(len(x), 2 * j * ny)

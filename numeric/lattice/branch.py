@@ -1,6 +1,6 @@
 """Along which base vector contacts lead up: two branches, or three axes; what there is of each."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Generic, NamedTuple, TypeVar
@@ -121,3 +121,12 @@ class PerAxis(PerBranch[T]):
 
     def __iter__(self) -> Iterator[tuple[Direction, T]]:
         yield from ((axis, self[axis]) for axis in Axis)
+
+
+def per_direction(values: Sequence[T]) -> PerBranch[T]:
+    """Give what there is of each branch or axis, of which there are two or three.
+
+    >>> per_direction([1, 2]), per_direction([5, 6, 7])[Axis.THIRD]
+    (PerBranch(plus=1, minus=2), 7)
+    """
+    return PerBranch(*values) if len(values) == 2 else PerAxis(*values)

@@ -7,13 +7,14 @@ q of layer j is i = 2q + (j mod 2), 0 ≤ i < 2W. Lengths are in units of the me
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache, partial
+from math import isqrt
 from typing import Any, TypeVar, overload
 
 import numpy as np
 
 from ..arithmetic.systems import Array
-from .branch import Site
+from .branch import Axis, AxisContact, Branch, Contact, Direction, Site
 
 T = TypeVar("T")
 
@@ -50,14 +51,20 @@ def bead_of(site: Site, width: int) -> Bead:
     return (*divmod((i - j % 2) // 2 % width**2, width), j)
 
 
-def bead_of_number(number: int, width: int) -> Bead:
-    """Name a bead by its number, layer after layer.
+def lower_bead(upper: Bead, axis: Direction, width: int) -> Bead:
+    """Give the bead below a contact."""
+    p, q, j = upper
+    return (p - (axis == Axis.FIRST)) % width, (q - (axis == Axis.SECOND)) % width, j - 1
 
-    >>> bead_of_number(29, 5)
-    (0, 4, 1)
-    """
-    j, column = divmod(number, width**2)
-    return (*divmod(column, width), j)
+
+def lower_beads(upper: dict[str, Array], axes: Array, width: int) -> dict[str, Array]:
+    """Do so for columns p, q and j of beads, and the names of axes."""
+    first, second = axes == Axis.FIRST.value, axes == Axis.SECOND.value
+    return {
+        "p": (upper["p"] - first) % width,
+        "q": (upper["q"] - second) % width,
+        "j": upper["j"] - 1,
+    }
 
 
 def site_of(bead: Bead, width: int) -> Site:
@@ -117,17 +124,35 @@ def supports(layer: Layer, width: int | None) -> Layer:
     return row(layer.j - 1, layer.first - 1, layer.last + 1, width)
 
 
-def starts(rows: Sequence[Layer]) -> Array:
-    """Number beads row after row: give each row's first bead, and how many there are."""
-    return np.cumsum([0, *(row.count for row in rows)])
+def table(rows: Sequence[Layer]) -> Array:
+    """Give ``first`` and ``count`` of each row, (rows, 2)."""
+    return np.array([(row.first, row.count) for row in rows], np.int64).reshape(-1, 2)
+
+
+def starts(rows: Array) -> Array:
+    """Number beads row after row, of a table: give each first bead, and how many there are."""
+    return np.concatenate(([0], np.cumsum(rows[:, 1])))
 
 
 @dataclass(frozen=True)
 class Region:
-    """Rows of beads, one a layer from the base (``rows[0]``) up; ``width`` None: infinite slab."""
+    """Rows of beads, one a layer from the base (``rows[0]``) up; ``width`` None: infinite slab.
+
+    In three dimensions a row is a whole layer of W² beads, and ``width`` their number: a step along
+    e_1 (e_2) is one of p (q), and one along e_3 keeps both.
+    """
 
     width: int | None
     rows: tuple[Layer, ...]
+    dimension: int = 2
+
+    def __hash__(self) -> int:
+        """Look at all rows once."""
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.width, self.rows, self.dimension))
 
     @property
     def top(self) -> int:
@@ -139,23 +164,74 @@ class Region:
         """How many beads the region holds."""
         return int(self.starts[-1])
 
-    def site(self, bead: int) -> tuple[int, int]:
-        """Give (i, j) of a bead by its number, row after row."""
-        for row in self.rows:
-            if bead < row.count:
-                return row.first + 2 * bead, row.j
-            bead -= row.count
-        raise LookupError("the region has no such bead")
+    @property
+    def side(self) -> int:
+        """W, in three dimensions."""
+        return isqrt(self.width or 0)
+
+    def bead(self, layer: Layer, column: int) -> tuple[int, ...]:
+        """Name a bead of a row: (i, j), or (p, q, j)."""
+        site = layer.first + 2 * column, layer.j
+        return site if self.dimension == 2 else bead_of(site, self.side)
+
+    def contact_below(self, layer: Layer, branch: Direction, column: int) -> Contact | AxisContact:
+        """Name the contact below a bead of a row."""
+        if self.dimension == 2:
+            return Contact(layer.first + 2 * column - branch.side, layer.j - 1, Branch(branch))
+        p, q, j = bead_of((layer.first + 2 * column, layer.j), self.side)
+        return AxisContact(*lower_bead((p, q, j), branch, self.side), Axis(branch))
+
+    def above(self, values: Array, source: Layer, layer: Layer, axis: int, zero: Any) -> Array:
+        """Read the values of the row above at x + e_axis; what it lacks reads ``zero``."""
+        return self.moved(values, source, layer, self.step(axis, 1), zero)
+
+    def here(self, values: Array, source: Layer, layer: Layer) -> Array:
+        """Read the values of a row at the sites of a part of it."""
+        return values if source == layer else pick(values, source, layer, self.width)
+
+    def step(self, axis: int, count: int) -> tuple[int, ...]:
+        """Give so many steps along one base vector."""
+        return tuple(count if a == axis else 0 for a in range(self.dimension))
+
+    def moved(
+        self,
+        values: Array,
+        source: Layer,
+        layer: Layer,
+        steps: tuple[int, ...],
+        zero: Any = None,
+    ) -> Array:
+        """Read the values of row ``source`` at x + Σ steps_a e_a, for each x of ``layer``.
+
+        Shapes: (…, source.count) → (…, layer.count). Sites that ``source`` lacks read ``zero``;
+        without a ``zero`` they raise ``LookupError``.
+        """
+        return self.look(source, layer, steps, zero)(values)
+
+    def look(
+        self, source: Layer, layer: Layer, steps: tuple[int, ...], zero: Any = None
+    ) -> Callable[[Array], Array]:
+        """Give the function that reads so whatever belongs to the row ``source``."""
+        if self.dimension == 2:
+            first = layer.first + steps[0] - steps[1]
+            wanted = Layer(layer.j + sum(steps), first, layer.count)
+            return partial(pick, source=source, wanted=wanted, width=self.width, zero=zero)
+        return partial(_turned, side=self.side, steps=steps) if any(steps[:2]) else _itself
+
+    @cached_property
+    def table(self) -> Array:
+        """The ``first`` and ``count`` of each row; shape (rows, 2)."""
+        return table(self.rows)
 
     @cached_property
     def starts(self) -> Array:
         """The number of each row's first bead, and that of all beads; shape (rows + 1,)."""
-        return starts(self.rows)
+        return starts(self.table)
 
     @cached_property
     def widest(self) -> int:
         """The beads of the longest row."""
-        return max((row.count for row in self.rows), default=0)
+        return int(self.table[:, 1].max(initial=0))
 
     def has_whole(self, rows: Sequence[Layer]) -> bool:
         """Say whether ``rows`` are its lowest rows, and all of it a periodic packing."""
@@ -164,16 +240,32 @@ class Region:
     @cached_property
     def is_whole(self) -> bool:
         """Whether it is all of a periodic packing, up to its highest layer."""
-        return all(r.count == self.width and r.first == lowest_column(r.j) for r in self.rows)
+        first, count = self.table.T
+        j = np.array([row.j for row in self.rows])
+        return self.width is not None and bool(((count == self.width) & (first == j % 2)).all())
 
 
-def whole(width: int, height: int) -> Region:
-    """Give all (M + 1) W beads of a periodic packing."""
-    return Region(width, tuple(full_layer(j, width) for j in range(height + 1)))
+def _itself(values: Array) -> Array:
+    return values
+
+
+def _turned(values: Array, side: int, steps: tuple[int, ...]) -> Array:
+    """Turn the W rows of W beads of a layer."""
+    shape = values.shape
+    square = values.reshape(*shape[:-1], side, side)
+    return np.roll(square, (-steps[0], -steps[1]), (-2, -1)).reshape(shape)
+
+
+@lru_cache(maxsize=4)
+def whole(width: int, height: int, dimension: int = 2) -> Region:
+    """Give all beads of a periodic packing, (M + 1) rows of ``width``."""
+    return Region(width, tuple(full_layer(j, width) for j in range(height + 1)), dimension)
 
 
 def standing_on_base(rows: Sequence[Layer], width: int | None) -> Region:
     """Close ``rows`` (one for each layer 0, 1, …) downwards: every bead's supports are added."""
+    if rows[-1].count == width and (made := whole(width, len(rows) - 1)).rows == rows:
+        return made
     closed = [rows[-1]]
     for layer in reversed(rows[:-1]):
         closed.append(hull(layer, supports(closed[-1], width), width))
@@ -241,8 +333,3 @@ def pick(values: Array, source: Layer, wanted: Layer, width: int | None, zero: A
     picked[...] = zero
     picked[..., ~missing] = values[..., index[~missing]]
     return picked
-
-
-def shifted(layer: Layer, by: int) -> Layer:
-    """Give the row one step up (by = +1) or down (by = −1) and right: sites (i + 1, j + by)."""
-    return Layer(layer.j + by, layer.first + 1, layer.count)

@@ -2,33 +2,38 @@
 
 import sys
 import threading
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 from weakref import ref
 
+import numpy as np
+
+from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.machine import cores
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
-from ..disorder.radii import rows_of
+from ..disorder.radii import RadiusError, rows_of
 from ..lattice.branch import Branch
-from ..lattice.layers import Layer
-from . import first_order, packing, spheres, three_dimensions
-from .forces import Loads, sweep_down
+from ..lattice.layers import Layer, Region, bead_of
+from . import first_order
 from .physicality import PHYSICAL, Physicality
 from .plain_form import solve_plainly
-from .problem import Problem, Route, Solved
+from .problem import Problem, Route, Solved, rounded
+from .sweep import Loads, deposit, sweep_down
 from .work import Work
 
 if TYPE_CHECKING:
-    from .compiled import Sweeps
-    from .compiled_spheres import SphereSweeps
+    from .sweeps import Sweeps
 
-# Beads from which on the compiled sweeps repay loading the compiler (half a second). A row of a
-# packing, which NumPy draws by a call of its own, counts for so many beads; once the compiler is
-# loaded, a small part of them is enough.
-COMPILED_FROM, OF_ROW, ONCE_LOADED = 2_000_000, 40, 1 / 50
+# Work from which on the compiled sweeps repay loading the compiler (half a second), counted in
+# beads that NumPy sweeps: of this call, and of all before it in this process. A bead, and a row of
+# them, which takes calls of its own, count for so many, without errors and with them. Once the
+# sweeps are loaded, a small part of that is enough, and anything that carries errors.
+COMPILED_FROM, ONCE_LOADED = 2_000_000, 1 / 50
+OF_BEAD, OF_ROW = (1, 10), (40, 2000)
 # Beads of diagonals that are drawn together.
 BLOCK = 10_000
 # Beads that are swept together: their arrays still fit into a cache.
@@ -77,18 +82,21 @@ def packings(
     *,
     plainly: bool = False,
     any_number: bool = False,
+    carried: bool = False,
 ) -> Iterator[tuple[Solved, Sequence[int]]]:
     """Solve realisations in their order, ``chunk_size`` at a time.
 
     Gives what was solved together and its realisations: the first axis of arrays, which a single
     one lacks. The next ones take the memory of the last: what is to stay has to be copied. The
     caller activates ``system``. ``physical`` looks at every packing. ``plainly`` takes the plain
-    form. With ``any_number`` more may come together, so that all cores have some. Raises what the
-    sweeps raise for a packing that can't be built, or not be decided.
+    form. With ``carried`` numbers carry their errors: ``system`` is float64, and ``Solved.rest``
+    holds what one rounding left of them. With ``any_number`` more may come together, so that all
+    cores have some. Raises what the sweeps raise for a packing that can't be built, or not be
+    decided.
     """
     work = Work() if work is None else work
     size = chunk_size(problem, system)
-    sweeps, loads = (None, None) if plainly else ready(problem, system)
+    sweeps, loads = (None, None) if plainly else ready(problem, system, carried=carried)
     together = size
     if sweeps is not None:
         together = size * -(-cores() // size)
@@ -103,7 +111,9 @@ def packings(
             if len(parts) > 1:
                 # If one can't be built, they are solved part by part, so that the first is named.
                 with suppress(ForceDiffusionError):
-                    all_solved = _solved(problem, batch, system, work, sweeps, loads)
+                    all_solved = _solved(
+                        problem, batch, system, work, sweeps, loads, carried=carried
+                    )
             if any_number and all_solved is not None:
                 parts = [slice(0, len(batch))]
             for part in parts:
@@ -111,7 +121,7 @@ def packings(
                 if plainly:
                     solved = solve_plainly(problem, chunk, system, work)
                 elif all_solved is None:
-                    solved = _solved(problem, chunk, system, work, sweeps, loads)
+                    solved = _solved(problem, chunk, system, work, sweeps, loads, carried=carried)
                 else:
                     solved = all_solved if len(parts) == 1 else all_solved.some(part)
                 if physical is not None:
@@ -127,8 +137,6 @@ def packings(
 
 
 def _look(physical: Physicality, solved: Solved) -> None:
-    if isinstance(solved, three_dimensions.Spheres):
-        solved.look_at_gaps(physical)
     if solved.packing is not None:
         physical.look_at_gaps(solved.packing)
     if solved.forces is not None:
@@ -136,11 +144,16 @@ def _look(physical: Physicality, solved: Solved) -> None:
 
 
 def solve(
-    problem: Problem, realisations: Sequence[int], system: NumberSystem, work: Work
+    problem: Problem,
+    realisations: Sequence[int],
+    system: NumberSystem,
+    work: Work,
+    *,
+    carried: bool = False,
 ) -> Solved:
     """Solve some realisations together; the caller activates ``system``."""
-    sweeps, loads = ready(problem, system)
-    return _solved(problem, realisations, system, work, sweeps, loads)
+    sweeps, loads = ready(problem, system, carried=carried)
+    return _solved(problem, realisations, system, work, sweeps, loads, carried=carried)
 
 
 def _solved(
@@ -148,56 +161,76 @@ def _solved(
     realisations: Sequence[int],
     system: NumberSystem,
     work: Work,
-    sweeps: Any,
-    loads: Any,
-) -> Solved:
-    if problem.dimension == 3:
-        return three_dimensions.solve(problem, realisations, system, work, sweeps, loads)
-    return _of_discs(problem, realisations, system, work, sweeps, loads)
-
-
-def _of_discs(
-    problem: Problem,
-    realisations: Sequence[int],
-    system: NumberSystem,
-    work: Work,
     sweeps: "Sweeps | None",
     loads: Loads | None,
+    *,
+    carried: bool,
 ) -> Solved:
     if problem.route == Route.ORDERED:
         with work.timed("closed form"):
             return _ordered(problem, system)
+    own: NumberSystem = CARRYING if carried else system
     if problem.route == Route.LINE_SUMS:
-        return _line_sums(problem, realisations[0], system, work)
-    n_x = problem.n_x
+        found = _line_sums(problem, realisations[0], own, work)
+        return rounded(found) if carried else found
+    region, rows, n = problem.region, problem.force_rows, len(realisations)
+    linear = problem.route != Route.EXACT
     with work.timed("radii"):
-        rho = (
-            rows_of(problem.radii, problem.region.rows, realisations, system)
-            if sweeps is None
-            else sweeps.radii(realisations)
-        )
-    beads = problem.region.beads * len(realisations)
-    work.did_rows("radii", problem.region.rows, beads)
-    if problem.route == Route.EXACT:
-        deposit = packing.deposit if sweeps is None else sweeps.deposit
-        with work.timed("deposit"):
-            solved = deposit(n_x, problem.region, rho, system, work)
-    else:
-        with work.timed("line sums"):
-            solved = first_order.displace(n_x, problem.region, rho, system, work)
-    if loads is None:
-        return Solved(system, solved, None, None)
-    sweep = sweep_down if sweeps is None else sweeps.sweep_down
-    with work.timed("balance forces"):
-        forces = sweep(
-            solved,
-            problem.force_rows,
-            loads,
-            linear=problem.route == Route.FIRST_ORDER,
-            stop_at_tension=problem.stop_at_tension,
-            work=work,
-        )
-    return Solved(system, solved, forces, None)
+        rho = _radii(problem, realisations, own, sweeps)
+    work.did_rows("radii", region.rows, region.beads * n)
+    block = None
+    with work.timed("line sums" if linear else "deposit"):
+        if sweeps is not None:
+            block = sweeps.deposit(rho)
+        if block is None:
+            beads = rho if sweeps is None else _rows(problem, rho, carried=carried)
+            packing = deposit(problem.phi, region, beads, own, work, linear=linear)
+            if system is FLOAT64 and not linear:
+                _by_numpy[problem.dimension, carried] += _work(region, n, 1, carried=carried)
+        else:
+            work.did_rows("deposited", region.rows, region.beads * n)
+    if sweeps is not None and block is not None:
+        if loads is None:
+            return sweeps.told(rho, block, None, None)
+        with work.timed("balance forces"):
+            descent = sweeps.descent(rows, loads)
+            g = None if problem.stop_at_tension else descent(block)
+        if g is not None:
+            work.did_rows("balanced", rows[:0:-1], descent.beads * n)
+            return sweeps.told(rho, block, descent, g)
+        packing = sweeps.swept(rho, block)
+    forces = None
+    if loads is not None:
+        with work.timed("balance forces"):
+            forces = sweep_down(
+                packing, rows, loads, linear=linear, stop_at_tension=problem.stop_at_tension,
+                work=work,
+            )  # fmt: skip
+    found = Solved(own, packing, forces, None)
+    return rounded(found) if carried else found
+
+
+def _radii(
+    problem: Problem, realisations: Sequence[int], system: NumberSystem, sweeps: "Sweeps | None"
+) -> Any:
+    """Give δr/r: row by row, or of compiled sweeps in one block."""
+    try:
+        if sweeps is not None:
+            return sweeps.radii(realisations)
+        return rows_of(problem.radii, problem.region.rows, realisations, system)
+    except RadiusError as error:
+        if problem.dimension == 2:
+            raise
+        i, j = error.site
+        raise RadiusError(bead_of((i, j), problem.side), error.reason) from None
+
+
+def _rows(problem: Problem, rho: Array, *, carried: bool) -> list[Any]:
+    """Give the rows of a block of δr/r."""
+    starts = problem.region.starts
+    values = rho[0] if len(rho) == 1 else rho.swapaxes(0, 1)
+    parts = [np.split(part, starts[1:-1], axis=-1) for part in values]
+    return [Carried(*pair) for pair in zip(*parts, strict=True)] if carried else parts[0]
 
 
 def keep(problem: Problem, sweeps: Any, loads: Any) -> None:
@@ -207,59 +240,71 @@ def keep(problem: Problem, sweeps: Any, loads: Any) -> None:
         last[:] = [(ref(problem, lambda _: last.clear()), sweeps, loads)]
 
 
-def ready(problem: Problem, system: NumberSystem) -> tuple[Any, Any]:
-    """Give what all realisations have alike: the compiled sweeps, if they are taken, and loads.
-
-    ``Sweeps`` and ``Loads``; in three dimensions ``SphereSweeps`` and those of ``spheres.bear``.
-    """
+def ready(
+    problem: Problem, system: NumberSystem, *, carried: bool = False
+) -> tuple["Sweeps | None", Loads | None]:
+    """Give what all realisations have alike: the compiled sweeps, if they are taken, and loads."""
     with suppress(IndexError):
         last, sweeps, loads = _kept.last.pop()
-        if last() is problem:
+        if last() is problem and sweeps.carried == carried:
             return sweeps, loads
-    return _compiled(problem, system), _loads(problem, system)
+    return _compiled(problem, system, carried=carried), _loads(
+        problem, CARRYING if carried else system
+    )
 
 
-def _loads(problem: Problem, system: NumberSystem) -> Loads | Sequence[Array | None] | None:
+def _loads(problem: Problem, system: NumberSystem) -> Loads | None:
     """Give the loads, the same for all realisations; None where no sweep needs them."""
     if not problem.needs_forces or problem.route not in {Route.EXACT, Route.FIRST_ORDER}:
         return None
-    if problem.dimension == 3:
-        return three_dimensions.loads(problem, system)
     strength = problem.load.strength(problem.n_x, system)
     return problem.load.on(problem.force_rows, strength, system)
 
 
-def worth_compiling(problem: Problem, system: NumberSystem, *, loaded: bool = False) -> bool:
-    """Say whether there is so much to do that compiled sweeps are taken, where numba is."""
-    region = problem.region
-    beads = (region.beads + OF_ROW * len(region.rows)) * problem.realisations
-    much = beads >= COMPILED_FROM * (ONCE_LOADED if loaded else 1)
-    swept = problem.route in {Route.EXACT, Route.FIRST_ORDER}  # of the latter only the radii
-    return much and swept and system is FLOAT64
+_by_numpy: Counter[tuple[int, bool]] = Counter()
+"""Work that NumPy did so far in each dimension, without errors and with them."""
 
 
-def compiles(problem: Problem, system: NumberSystem) -> bool:
+def _work(region: Region, packings: int, calls: int, *, carried: bool) -> int:
+    rows = OF_ROW[carried] * len(region.rows) * calls
+    return OF_BEAD[carried] * region.beads * packings + rows
+
+
+def worth_compiling(
+    problem: Problem, system: NumberSystem, *, carried: bool = False, before: int = 0
+) -> bool:
+    """Say whether there is so much to do that compiled sweeps are taken, where numba is.
+
+    ``before``: work that NumPy has done.
+    """
+    if problem.route != Route.EXACT or system is not FLOAT64:
+        return False
+    n = problem.realisations
+    return before + _work(problem.region, n, n, carried=carried) >= COMPILED_FROM
+
+
+def compiles(problem: Problem, system: NumberSystem, *, carried: bool = False) -> bool:
     """Say whether compiled sweeps are taken: for much work in float64, where numba is."""
-    loaded = f"{__package__}.compiled" in sys.modules
-    if not worth_compiling(problem, system, loaded=loaded):
+    kernels, own = sys.modules.get(f"{__package__}.kernels"), (problem.dimension, carried)
+    before = _by_numpy[own]
+    if kernels is not None and own in kernels.LOADED:
+        before = COMPILED_FROM if carried else int(COMPILED_FROM * (1 - ONCE_LOADED))
+    if not worth_compiling(problem, system, carried=carried, before=before):
         return False
     try:
-        import_module(".compiled", __package__)
+        import_module(".sweeps", __package__)
     except ImportError:
         return False
     return True
 
 
-def _compiled(problem: Problem, system: NumberSystem) -> "Sweeps | SphereSweeps | None":
+def _compiled(problem: Problem, system: NumberSystem, *, carried: bool) -> "Sweeps | None":
     """Give the compiled sweeps, same numbers, if they are taken."""
-    if not compiles(problem, system):
+    if not compiles(problem, system, carried=carried):
         return None
-    from . import compiled, compiled_spheres
+    from .sweeps import Sweeps
 
-    if problem.dimension == 3:
-        m = spheres.metric(3, three_dimensions.cosine(problem), system)
-        return compiled_spheres.SphereSweeps(problem.radii, m, problem.region)
-    return compiled.Sweeps(problem.radii, problem.n_x, problem.region)
+    return Sweeps(problem, carried=carried)
 
 
 def _ordered(problem: Problem, system: NumberSystem) -> Solved:
@@ -271,7 +316,9 @@ def _ordered(problem: Problem, system: NumberSystem) -> Solved:
             zero = system.number(problem.n_x * 0)
             single = (problem.load.ordered_force(problem.contact, strength, system), zero)
         else:
-            forces = problem.load.ordered_forces(problem.force_rows, strength, system)
+            forces = problem.load.ordered_forces(
+                problem.region, problem.force_rows, strength, system
+            )
     return Solved(system, None, forces, single)
 
 

@@ -10,18 +10,15 @@ two line sums c⁺, so that radii on three neighbouring diagonals decide the sum
 gives f⁻.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from ..arithmetic.systems import Array, NumberSystem, zeros
-from ..lattice.branch import PerBranch
-from ..lattice.layers import Layer, Region, pick, shifted
+from ..arithmetic.systems import NumberSystem
 from .loads import LoadSpec
-from .packing import SolvedPacking, metric, raised
-from .work import Work
+from .local import cosine
 
 RadiusAt = Callable[[int, int], Any]
 """δr/r of a site, already in the number system."""
@@ -86,7 +83,9 @@ def contact_change(
     """
     i, j, branch = contact
     side = 1 if branch == "+" else -1
-    m = metric(n_x, system)
+    phi = cosine(n_x)
+    over = system.scalar(1 / (1 - phi**2))
+    phi = system.scalar(phi)
     lines = Diagonals(i, j, side, radius_at, {})
     total = system.number(Fraction(0))
     if above:
@@ -95,21 +94,21 @@ def contact_change(
         c_outer, c_main = line_sum(outer), line_sum(main)
         for layer, f in above.items():
             rho = outer[layer + 1] + main[layer]
-            beta = (c_outer[layer + 1] - c_main[layer] - m.phi * rho) / 2
-            total = total + f * beta * m.inverse_det
+            beta = (c_outer[layer + 1] - c_main[layer] - phi * rho) / 2
+            total = total + f * beta * over
     if below:
         top = max(below)
         main, inner = lines.along(0, top), lines.along(2 * side, top - 1)
         c_main, c_inner = line_sum(main), line_sum(inner)
         for layer, f in below.items():
             rho = main[layer] + inner[layer - 1]
-            beta = (c_main[layer] - c_inner[layer - 1] - m.phi * rho) / 2
-            total = total - f * beta * m.inverse_det
+            beta = (c_main[layer] - c_inner[layer - 1] - phi * rho) / 2
+            total = total - f * beta * over
     if own is not None:
         upper, lower = lines.across(i + side, j + 1), lines.across(i, j)
         rho = upper[-1] + lower[-1]
-        beta = (line_sum(upper)[-1] - line_sum(lower)[-1] - m.phi * rho) / 2
-        total = total + own * m.phi * beta * m.inverse_det
+        beta = (line_sum(upper)[-1] - line_sum(lower)[-1] - phi * rho) / 2
+        total = total + own * phi * beta * over
     return total, len(lines.known)
 
 
@@ -191,46 +190,3 @@ def contact_beads(j: int, height: int) -> int:
     cross = j + max(j - 1, 0)
     parallel = 3 * height + 2 if j <= height - 2 else 2 * height + 1
     return parallel + cross
-
-
-def displace(
-    n_x: Fraction,
-    region: Region,
-    rho: Sequence[Array],
-    system: NumberSystem,
-    work: Work | None = None,
-) -> SolvedPacking:
-    """Solve Eqs. 2–5 to first order over a region; arrays as in ``packing.deposit``."""
-    m = metric(n_x, system)
-    if work is not None:
-        work.did("summed", region.rows[0], rho[0].size // region.rows[0].count)
-    nothing = zeros(system, 0)
-    base = zeros(system, *rho[0].shape)
-    c_plus, c_minus = [base], [base]
-    plus, minus = [(nothing, nothing)], [(nothing, nothing)]
-    for j in range(1, region.top + 1):
-        layer, under = region.rows[j], region.rows[j - 1]
-        left, right = Layer(j - 1, layer.first - 1, layer.count), shifted(layer, -1)
-
-        def at(values: Array, wanted: Layer, under: Layer = under) -> Array:
-            return pick(values, under, wanted, region.width)
-
-        rho_plus = rho[j] + at(rho[j - 1], left)
-        rho_minus = rho[j] + at(rho[j - 1], right)
-        cp, cm = at(c_plus[-1], left) + rho_plus, at(c_minus[-1], right) + rho_minus
-        beta_plus = (cm - at(c_minus[-1], left) - m.phi * rho_plus) / 2
-        beta_minus = (cp - at(c_plus[-1], right) - m.phi * rho_minus) / 2
-        if work is not None:
-            work.did("summed", layer, cp.size // layer.count)
-        c_plus.append(cp)
-        c_minus.append(cm)
-        plus.append(raised(0, beta_plus, m))
-        minus.append(raised(beta_minus, 0, m))
-    return SolvedPacking(
-        n_x,
-        system,
-        region,
-        rho,
-        PerBranch(tuple(c_plus), tuple(c_minus)),
-        PerBranch(tuple(plus), tuple(minus)),
-    )

@@ -11,7 +11,7 @@ from itertools import combinations, pairwise
 
 from ..lattice.branch import Branch, Contact, Site
 from ..lattice.layers import full_layer
-from . import first_order, three_dimensions
+from . import first_order
 from .loads import LoadSpec
 from .problem import Problem, Route
 
@@ -22,7 +22,7 @@ def sees_images(problem: Problem, lowest_layer: int) -> bool:
     ``lowest_layer``: of the beads that are asked about (1: by the contacts below them).
     """
     if problem.dimension == 3:
-        return three_dimensions.sees_images(problem, lowest_layer)
+        return _of_spheres(problem, lowest_layer)
     width, load, contact = problem.width, problem.load, problem.contact
     if width is None:
         return False
@@ -47,6 +47,25 @@ def sees_images(problem: Problem, lowest_layer: int) -> bool:
         _first_order((i, 0), [Contact(i, 0, branch) for branch in Branch], load, width)
         for i in beads
     )
+
+
+def _of_spheres(problem: Problem, lowest_layer: int) -> bool:
+    """Say whether any row of the answer differs, with radii in general, from that of W → ∞.
+
+    Above a bead of layer J its loads span M − J columns, and below these there are M more. To first
+    order one contact depends on lines down from its own, M − J columns, and beside these.
+    """
+    width, loaded = problem.side, problem.load.loaded
+    height = problem.region.top
+    if problem.route == Route.ORDERED:
+        return lowest_layer == 0 and any(j and j % width == 0 for _, j in loaded or [])
+    if not problem.needs_forces:
+        return height >= width
+    if loaded is not None and len(loaded) == 1:
+        return width <= height
+    if problem.route == Route.FIRST_ORDER and lowest_layer == 1:
+        return width <= min(height + 1, 2 * height - 1)
+    return width <= 2 * height - lowest_layer
 
 
 def _highest(load: LoadSpec) -> int:

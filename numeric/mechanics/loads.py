@@ -12,13 +12,14 @@ from typing import Any
 
 import flint
 
+from ..arithmetic.carried import Carrying
 from ..arithmetic.systems import Balls, NumberSystem, zeros
-from ..lattice.branch import Branch, PerBranch, Site
-from ..lattice.layers import Layer
+from ..lattice.branch import Branch, Site, per_direction
+from ..lattice.layers import Layer, Region
 from . import plain
-from .forces import Forces, Loads
+from .sweep import Forces, Loads, straight_down
 
-Components = tuple[Any, Any]
+Components = tuple[Any, ...]
 
 
 def components(fx: Any, fy: Any, n_x: Any, n_y: Any) -> Components:
@@ -31,41 +32,65 @@ def components(fx: Any, fy: Any, n_x: Any, n_y: Any) -> Components:
     return (-(fx / n_x) - fy / n_y) / 2, (fx / n_x - fy / n_y) / 2
 
 
+def components_of_spheres(fx: Any, fy: Any, fz: Any, n_x: Any, root: Any) -> Components:
+    """Turn a Cartesian load into (L^1, L^2, L^3), n^1 − n^3 along x; ``root`` is √(1 + 2φ).
+
+    Of a force straight down all are 1/|Σ n^a| = 1/√(3 + 6φ).
+    """
+    three = flint.arb(3).sqrt()
+    down, x, y = -fz / (three * root), fx / (2 * n_x), fy / (2 * three * n_x)
+    return down + y - x, down - 2 * y, down + y + x
+
+
 def on_rows(
     loads: Mapping[tuple[int, int], Components],
     rows: tuple[Layer, ...],
     width: int | None,
     system: NumberSystem,
+    dimension: int = 2,
 ) -> Loads:
-    """Put the loads of single beads {(i, j): (L⁺, L⁻)} on the rows; beads outside are left out."""
-    plus: list[Any] = [None] * len(rows)
-    minus: list[Any] = [None] * len(rows)
-    for (i, j), (up, um) in loads.items():
+    """Put the loads of single beads {(i, j): (L^a)} on the rows; beads outside are left out."""
+    found: dict[int, dict[int, Components]] = {}
+    for (i, j), load in loads.items():
         if j >= len(rows):
             continue
         q = (i - rows[j].first) // 2
         if width is not None:
             q %= width
-        if not 0 <= q < rows[j].count:
-            continue
-        if plus[j] is None:
-            plus[j] = zeros(system, rows[j].count)
-            minus[j] = zeros(system, rows[j].count)
-        plus[j][q] = plus[j][q] + up
-        minus[j][q] = minus[j][q] + um
-    return Loads(tuple(plus), tuple(minus))
+        if 0 <= q < rows[j].count:
+            on = found.setdefault(j, {})
+            on[q] = tuple(a + b for a, b in zip(on[q], load, strict=True)) if q in on else load
+
+    def row(j: int, a: int) -> Any:
+        if j not in found:
+            return None
+        return placed({q: load[a] for q, load in found[j].items()}, rows[j].count, system)
+
+    return per_direction([tuple(row(j, a) for j in range(len(rows))) for a in range(dimension)])
+
+
+def placed(values: Mapping[int, Any], count: int, system: NumberSystem) -> Any:
+    """Give an array that is zero but for some values."""
+    if isinstance(system, Carrying):
+        none = system.number(Fraction(0))
+        return system.column([values.get(q, none) for q in range(count)])
+    row = zeros(system, count)
+    for q, value in values.items():
+        row[q] = value
+    return row
 
 
 def on_layers(
     load: Components, rows: tuple[Layer, ...], layers: range, system: NumberSystem
 ) -> Loads:
     """Put the same load on every bead of some layers (surface: only M; bulk: all)."""
-    plus: list[Any] = [None] * len(rows)
-    minus: list[Any] = [None] * len(rows)
-    for j in layers:
-        plus[j] = zeros(system, rows[j].count) + load[0]
-        minus[j] = zeros(system, rows[j].count) + load[1]
-    return Loads(tuple(plus), tuple(minus))
+
+    def along(share: Any) -> tuple[Any, ...]:
+        return tuple(
+            zeros(system, row.count) + share if j in layers else None for j, row in enumerate(rows)
+        )
+
+    return per_direction([along(share) for share in load])
 
 
 def _exact(system: NumberSystem) -> Balls:
@@ -75,7 +100,7 @@ def _exact(system: NumberSystem) -> Balls:
 
 @dataclass(frozen=True)
 class Strength:
-    """A load's components (L⁺, L⁻) in a number system: one pair, or one pair a loaded bead."""
+    """A load's components (L^a) in a number system, of all loads or of each loaded bead."""
 
     unit: Components
     single: Mapping[Site, Components]
@@ -87,7 +112,7 @@ class LoadSpec:
 
     ``angle_deg`` turns the load away from straight down, positive towards +i; in three dimensions
     towards +x. ``single`` holds {(i, j): (fx, fy)} in units of the magnitude, or (fx, fy, fz).
-    ``height`` and ``width`` are the packing's.
+    ``height`` and ``width`` are the packing's; in three dimensions a row has W² beads.
     """
 
     kind: str
@@ -96,6 +121,7 @@ class LoadSpec:
     angle_deg: Fraction = Fraction(0)
     at: Site | None = None
     single: Mapping[Site, tuple[Fraction, ...]] = field(default_factory=dict)
+    dimension: int = 2
 
     @property
     def loaded(self) -> list[Site] | None:
@@ -105,26 +131,32 @@ class LoadSpec:
         return [self.at] if self.at is not None else sorted(self.single)
 
     def strength(self, n_x: Fraction, system: NumberSystem) -> Strength:
-        """Give (L⁺, L⁻) = (cos θ/n_y ∓ sin θ/n_x)/2 of the unit load, or of each loaded bead."""
+        """Give (L^a) of the unit load, or of each loaded bead.
+
+        Of discs it is (cos θ/n_y ∓ sin θ/n_x)/2.
+        """
         exact = _exact(system)
         with exact.active():
-            nx, ny = plain.axes(n_x, exact)
             sin, cos = self._turn()
-            unit = components(sin, -cos, nx, ny)
-            single = {
-                site: components(exact.number(fx), exact.number(fy), nx, ny)
-                for site, (fx, fy) in self.single.items()
+            forces: dict[Site, Components] = {
+                site: tuple(map(exact.number, force)) for site, force in self.single.items()
             }
+            single: dict[Site, Components]
+            if self.dimension == 2:
+                nx, ny = plain.axes(n_x, exact)
+                unit = components(sin, -cos, nx, ny)
+                single = {site: components(fx, fy, nx, ny) for site, (fx, fy) in forces.items()}
+            else:
+                nx, root = exact.number(n_x), exact.root(3 - 4 * n_x**2)
+                unit = components_of_spheres(sin, 0 * sin, -cos, nx, root)
+                single = {
+                    site: components_of_spheres(fx, fy, fz, nx, root)
+                    for site, (fx, fy, fz) in forces.items()
+                }
         return Strength(
-            (system.from_ball(unit[0]), system.from_ball(unit[1])),
-            {s: (system.from_ball(p), system.from_ball(m)) for s, (p, m) in single.items()},
+            tuple(map(system.from_ball, unit)),
+            {site: tuple(map(system.from_ball, load)) for site, load in single.items()},
         )
-
-    def turn(self, system: NumberSystem) -> tuple[Any, Any]:
-        """Give sin θ and cos θ of the load's angle."""
-        with _exact(system).active():
-            sin, cos = self._turn()
-        return system.from_ball(sin), system.from_ball(cos)
 
     def _turn(self) -> tuple[flint.arb, flint.arb]:
         angle = flint.fmpq(self.angle_deg.numerator, self.angle_deg.denominator) / 180
@@ -134,9 +166,9 @@ class LoadSpec:
     def on(self, rows: tuple[Layer, ...], strength: Strength, system: NumberSystem) -> Loads:
         """Put the load on the beads of ``rows`` (layers 0 … top)."""
         if self.kind == "file":
-            return on_rows(strength.single, rows, self.width, system)
+            return on_rows(strength.single, rows, self.width, system, self.dimension)
         if self.at is not None:
-            return on_rows({self.at: strength.unit}, rows, self.width, system)
+            return on_rows({self.at: strength.unit}, rows, self.width, system, self.dimension)
         layers = range(len(rows)) if self.kind == "bulk" else range(self.height, len(rows))
         return on_layers(strength.unit, rows, layers, system)
 
@@ -181,24 +213,29 @@ class LoadSpec:
         return total
 
     def ordered_forces(
-        self, rows: tuple[Layer, ...], strength: Strength, system: NumberSystem
+        self, region: Region, rows: tuple[Layer, ...], strength: Strength, system: NumberSystem
     ) -> Forces:
-        """Give all ordered forces below the beads of ``rows`` in closed form; changes are 0."""
-        plus = [zeros(system, 0)] + [zeros(system, row.count) for row in rows[1:]]
-        minus = [zeros(system, 0)] + [zeros(system, row.count) for row in rows[1:]]
-        if self.kind in {"surface", "bulk"}:
-            for j in range(1, len(rows)):
-                times = 1 if self.kind == "surface" else self.height - j + 1
-                plus[j].fill(strength.unit[0] * times)
-                minus[j].fill(strength.unit[1] * times)
-        for i, j in self.loaded or []:
-            pair = strength.single[i, j] if self.kind == "file" else strength.unit
-            for m in range(1, j + 1):
-                for values, step, share in ((plus, -1, pair[0]), (minus, 1, pair[1])):
-                    q = (i + step * (j - m) - rows[m].first) // 2
-                    q = q if self.width is None else q % self.width
-                    values[m][q] = values[m][q] + share
-        changes = tuple(zeros(system, len(v)) for v in plus)
+        """Give all ordered forces below the beads of ``rows``; changes are 0."""
+        d = len(strength.unit)
+        if self.kind in {"surface", "bulk"}:  # in closed form
+            times = [1 if self.kind == "surface" else self.height - j + 1 for j in range(len(rows))]
+            found = [
+                [zeros(system, row.count if j else 0) + share * times[j]
+                 for j, row in enumerate(rows)]
+                for share in strength.unit
+            ]  # fmt: skip
+        else:
+            down = straight_down(rows, region, self.on(rows, strength, system), system)
+            found = [
+                [down[j][a] if len(down[j][a]) or not j else zeros(system, row.count)
+                 for j, row in enumerate(rows)]
+                for a in range(d)
+            ]  # fmt: skip
+        changes = tuple(zeros(system, row.count if j else 0) for j, row in enumerate(rows))
         return Forces(
-            system, rows, PerBranch(tuple(plus), tuple(minus)), PerBranch(changes, changes)
+            system,
+            region,
+            rows,
+            per_direction([tuple(of) for of in found]),
+            per_direction([changes] * d),
         )

@@ -3,21 +3,19 @@
 Signs of forces are those of the arithmetic that solved them: with balls they are certified.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from functools import cache, reduce
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from ..arithmetic.systems import Array, as_floats
-from ..lattice.branch import AxisContact, Contact, Site
-from .forces import Forces, pulling
-from .gaps import NEIGHBOURS, RESOLUTION, gaps
-from .packing import CompiledPacking, SolvedPacking
-from .pairs import Extent, Steps, extent, further, may_meet
+from ..arithmetic.systems import Array
+from ..lattice.branch import AxisContact, Contact
+from ..lattice.layers import Layer
+from .gaps import gaps, named
+from .sweep import SIGNS, Forces, SolvedPacking, pulling
 
 PHYSICAL = "check that it is physical"
-_NEAR = frozenset(((di + dj) // 2, (dj - di) // 2) for di, dj in NEIGHBOURS)
 
 
 @dataclass
@@ -38,8 +36,6 @@ class Physicality:
     first_tensile_in: int = 0
     """Realisations, or packings of a batch, that the two were found in."""
     looks_at: Sequence[int] = (0,)
-    extent: Extent | None = field(default=None, compare=False)
-    """Of the beads of the last packing whose gaps were measured, that of layers above included."""
 
     @property
     def sound(self) -> bool:
@@ -67,141 +63,24 @@ class Physicality:
         return self.smallest_gap, upper[-1] - lower[-1], lower[-1]
 
     def look_at_gaps(
-        self,
-        packing: SolvedPacking,
-        layers: range | None = None,
-        above: "Physicality | None" = None,
+        self, packing: SolvedPacking, layers: range | None = None, *, more: bool = False
     ) -> None:
-        """Measure the gaps of every pair of near neighbours, and of all others that may overlap.
+        """Measure the gaps of all pairs of beads that could meet within the region.
 
-        Of the lower bead's ``layers`` only, if some are given. ``above``: what was found of layers
-        above the packing's, if there are any; pairs with those that may overlap stay undecided.
+        Of the lower bead's ``layers`` only, if some are given; ``more``: rows above are not there.
         """
-        top = packing.region.top
-        layers = range(top + 1) if layers is None else layers
+        layers = range(packing.region.top + 1) if layers is None else layers
+        found = gaps(packing, layers, more=more)
+        self.overlaps += found.overlaps
+        self.undecided_gaps += found.undecided + found.unseen
+        if found.between is not None and not found.smallest >= self._smallest:
+            lower, upper = found.between
+            self.smallest_gap, self.smallest_in = found.smallest, self.looks_at[found.packing]
+            self.between = named(packing, lower), named(packing, upper)
 
-        @cache
-        def rows(j: int) -> tuple[Array, Array, Array]:
-            of = packing.c.plus[j], packing.c.minus[j], packing.rho[j]
-            return as_floats(of[0]), as_floats(of[1]), as_floats(of[2])
-
-        def bounds(j: int) -> Extent:
-            return extent(rows(j)[:2], rows(j)[2])
-
-        if isinstance(packing, CompiledPacking):
-            block = packing.block[..., : packing.region.beads]
-            here = extent((block[:, 0], block[:, 1]), packing.flat)
-        else:
-            here = reduce(Extent.joined, map(bounds, range(layers.start, top + 1)))
-        self._look(packing, layers, NEIGHBOURS, rows)
-        phi = float(1 - 2 * packing.n_x**2)
-        others = self.further(phi, _NEAR, here, bounds, layers, top)
-        if others:
-            self._look(packing, layers, [(p - q, p + q) for p, q in others], rows)
-        self.extent = here
-        if above is not None and above.extent is not None:
-            own = reduce(Extent.joined, map(bounds, layers))
-            self.extent = here.joined(above.extent)
-            self.undecided_gaps += may_meet(phi, own, above.extent, top + 1 - layers[-1])
-
-    def further(
-        self,
-        phi: float,
-        known: frozenset[Steps],
-        all_beads: Extent,
-        bounds: Callable[[int], Extent],
-        layers: range,
-        top: int,
-    ) -> list[Steps]:
-        """Give what else may overlap, or be nearer than what was found (see ``pairs``)."""
-        try:
-            return further(phi, known, self.smallest_gap, all_beads, bounds, layers, top)
-        except OverflowError:
-            self.undecided_gaps += 1
-            return []
-
-    def _look(
-        self,
-        packing: SolvedPacking,
-        layers: range,
-        offsets: Sequence[tuple[int, int]],
-        rows: Callable[[int], tuple[Array, Array, Array]],
-    ) -> None:
-        """Measure the gaps of pairs at some lattice distances."""
-        if isinstance(packing, CompiledPacking):
-            from . import compiled_gaps
-
-            region, width = packing.region, packing.region.width
-            period = None if width is None else 2 * width
-
-            def named(bead: int) -> Site:
-                i, j = region.site(bead)
-                return _home(i, period), j
-
-            if self.took(compiled_gaps.gaps(packing, layers, offsets), named):
-                return
-        for dj in sorted({dj for _, dj in offsets}):
-            for j in range(layers.start, min(layers.stop, packing.region.top + 1 - dj)):
-                for di, dj_of in offsets:
-                    if dj_of == dj:
-                        self._pairs(packing, (rows(j), rows(j + dj)), j, (di, dj))
-
-    def took(
-        self,
-        found: tuple[float, tuple[int, int, int] | None, int, int] | None,
-        named: Callable[[int], tuple[int, ...]],
-    ) -> bool:
-        """Take in what ``compiled_gaps`` found; ``named`` names a bead. Say whether it could."""
-        if found is None:
-            return False
-        smallest, beads, overlaps, undecided = found
-        self.overlaps += overlaps
-        self.undecided_gaps += undecided
-        if beads is not None and (self.smallest_gap is None or not smallest >= self.smallest_gap):
-            self.smallest_gap, self.smallest_in = smallest, self.looks_at[beads[2]]
-            self.between = named(beads[0]), named(beads[1])
-        return True
-
-    def _pairs(
-        self,
-        packing: SolvedPacking,
-        values: tuple[tuple[Array, Array, Array], tuple[Array, Array, Array]],
-        j: int,
-        offset: tuple[int, int],
-    ) -> None:
-        di, dj = offset
-        width = packing.region.width
-        here, there = packing.region.rows[j], packing.region.rows[j + dj]
-        index = np.arange(here.count) + (here.first + di - there.first) // 2
-        if width is not None:
-            index %= width
-        inside = (index >= 0) & (index < there.count)
-        if not inside.any():
-            return
-        (c_plus, c_minus, rho), upper = values
-        other = index[inside]
-        up = upper[0][..., other] - c_plus[..., inside]
-        um = upper[1][..., other] - c_minus[..., inside]
-        both = rho[..., inside] + upper[2][..., other]
-        period = 2 * width if width is not None else None
-
-        def pair(bead: int) -> tuple[Site, Site]:
-            i = here.first + 2 * int(np.flatnonzero(inside)[bead])
-            return (_home(i, period), here.j), (_home(i + di, period), there.j)
-
-        self.count_gaps(gaps(packing.n_x, offset, up, um, both), pair)
-
-    def count_gaps(
-        self, gap: Array, pair: Callable[[int], tuple[tuple[int, ...], tuple[int, ...]]]
-    ) -> None:
-        """Take in gaps, shape (…, beads); ``pair`` names the two beads of one."""
-        self.overlaps += int(np.count_nonzero(gap < -RESOLUTION))
-        self.undecided_gaps += int(np.count_nonzero(np.abs(gap) <= RESOLUTION))
-        smallest = float(gap.min())
-        if self.smallest_gap is None or not smallest >= self.smallest_gap:
-            *batch, at = np.argwhere(gap == gap.min())[0]
-            self.smallest_in = self.looks_at[int(batch[0]) if batch else 0]
-            self.smallest_gap, self.between = smallest, pair(int(at))
+    @property
+    def _smallest(self) -> float:
+        return math.inf if self.smallest_gap is None else self.smallest_gap
 
     def look_at_forces(self, forces: Forces, layers: range | None = None) -> None:
         """Count the contacts that surely pull and those whose sign stays open.
@@ -209,23 +88,47 @@ class Physicality:
         Of the upper bead's ``layers`` only, if some are given.
         """
         self.forces_known = True
-        top = len(forces.rows) - 1
-        layers = range(top + 1) if layers is None else layers
-        for j in range(layers.start, min(layers.stop, top + 1)):
-            layer = forces.rows[j]
-            for branch, F, g in forces.below(j):
-                if not len(F):
-                    continue
-                f = F + g
-                pulls, undecided = pulling(f, g, forces.system)
-                self.contacts += f.size
-                self.tensile += int(np.count_nonzero(pulls))
-                self.undecided_signs += int(np.count_nonzero(undecided))
-                if pulls.any() and self.first_tensile is None:
-                    *batch, q = map(int, np.argwhere(pulls)[0])
-                    self.first_tensile_in = self.looks_at[batch[0] if batch else 0]
-                    self.first_tensile = forces.contact(layer, branch, q)
+        if layers is None and forces.F is not None and forces.g is not None:
+            pulling_rows = self._count(forces.rows, forces.F, forces.g)
+        else:
+            every = range(len(forces.rows))
+            pulling_rows = []
+            for j in every if layers is None else every[layers.start : layers.stop]:
+                for _, F, g in forces.below(j):
+                    pulls, undecided = pulling(F + g, g, forces.system)
+                    self.contacts += g.size
+                    self.tensile += int(np.count_nonzero(pulls))
+                    self.undecided_signs += int(np.count_nonzero(undecided))
+                    if pulls.any():
+                        pulling_rows.append(j)
+        if pulling_rows and self.first_tensile is None:
+            self._name(forces, pulling_rows[0])
 
+    def _count(self, rows: Sequence[Layer], F: Array, g: Array) -> Sequence[int]:
+        """Count all contacts of compiled loops together; give the first row of which one pulls."""
+        self.contacts += g.size
+        f, changes = F + g, np.abs(g).max(axis=0, initial=0)
+        if not g.size or f.min() > SIGNS * changes.max():  # all surely hold
+            return []
+        ends = np.cumsum([row.count for row in reversed(rows)])
+        ends = ends[: int(np.searchsorted(ends, F.shape[1])) + 1]
+        cuts = F.shape[1] - ends[::-1]
+        counts = np.diff(np.append(cuts, F.shape[1]))
+        room = SIGNS * np.maximum.reduceat(changes, cuts, axis=1).repeat(counts, axis=1)
+        pulls = f < -room
+        self.tensile += int(np.count_nonzero(pulls))
+        self.undecided_signs += int(np.count_nonzero((np.abs(f) <= room) & (f != 0)))
+        if not pulls.any():
+            return []
+        first = int(np.argmax(pulls.any(axis=(0, 1))))
+        return [len(rows) - len(cuts) + int(np.searchsorted(cuts, first, "right")) - 1]
 
-def _home(i: int, period: int | None) -> int:
-    return i if period is None else i % period
+    def _name(self, forces: Forces, j: int) -> None:
+        """Name the first contact below a row that pulls."""
+        for branch, F, g in forces.below(j):
+            pulls, _ = pulling(F + g, g, forces.system)
+            if pulls.any():
+                *batch, q = map(int, np.argwhere(pulls)[0])
+                self.first_tensile_in = self.looks_at[batch[0] if batch else 0]
+                self.first_tensile = forces.contact(forces.rows[j], branch, q)
+                return

@@ -16,7 +16,7 @@ import numpy as np
 from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import Array, NumberSystem, array, zeros
 from ..lattice.layers import Layer, Region, full_layer, pick, whole
-from .packing import UnbuildableError
+from .sweep import UnbuildableError
 
 
 class Vector(NamedTuple):

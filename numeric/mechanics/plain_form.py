@@ -12,9 +12,8 @@ from ..disorder.radii import rows_of
 from ..lattice.branch import PerBranch
 from ..lattice.layers import Layer, LazyRows, Region, full_layer, pick, whole
 from . import plain
-from .forces import Forces
-from .packing import SolvedPacking
 from .problem import Problem, Solved
+from .sweep import Forces, SolvedPacking
 from .work import Work
 
 
@@ -60,7 +59,7 @@ def _balanced(
 
     found = plain.forces(packing, tuple(cartesian(row) for row in region.rows))
     # The ordered forces on all beads: rows above the highest load, if there are any, have none.
-    ordered = problem.load.ordered_forces(region.rows, strength, system)
+    ordered = problem.load.ordered_forces(region, region.rows, strength, system)
     zero = zeros(system, 1)[0]
 
     def wanted(values: Sequence[Array]) -> tuple[Array, ...]:
@@ -75,6 +74,7 @@ def _balanced(
     ]
     return Forces(
         system,
+        region,
         problem.force_rows,
         PerBranch(wanted(ordered.ordered.plus), wanted(ordered.ordered.minus)),
         PerBranch(wanted(changes[0]), wanted(changes[1])),
@@ -87,7 +87,7 @@ def _placed(problem: Problem, packing: plain.PlainPacking, rho: Sequence[Array])
     moved = plain.displacements(packing)
     layers = len(packing.plus)
     return SolvedPacking(
-        problem.n_x,
+        problem.phi,
         packing.system,
         packing.region,
         rho,

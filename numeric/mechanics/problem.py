@@ -4,16 +4,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
+from math import isqrt
 from typing import Any
 
-from ..arithmetic.systems import Array, NumberSystem
+import numpy as np
+
+from ..arithmetic.carried import NONE, Sizes
+from ..arithmetic.systems import FLOAT64, NumberSystem, from_floats
 from ..disorder.radii import Radii
-from ..lattice.branch import Contact, PerBranch, Site
+from ..lattice.branch import Contact, PerBranch, Site, per_direction
 from ..lattice.layers import LazyRows, Region
 from ..lattice.regions import Rows
-from .forces import Forces
 from .loads import LoadSpec
-from .packing import CompiledPacking, SolvedPacking
+from .local import cosine
+from .sweep import Forces, Memory, SolvedPacking
 
 
 class Route(StrEnum):
@@ -35,8 +39,7 @@ class Problem:
     one. ``realisations``: how many there are in all; it decides who sweeps, never a number.
     ``protocol``: how beads come to rest where contacts are unilateral, and when that is given up:
     after ``most_events``, or ``most_seconds`` of the processor. ``segment``: how many layers are in
-    memory at a time, 0 for all of them. ``dimension``: 3 for ``three_dimensions``, whose layers of
-    W² beads count as one row.
+    memory at a time, 0 for all of them. In three dimensions layers of W² beads count as one row.
     """
 
     n_x: Fraction
@@ -54,7 +57,21 @@ class Problem:
     most_events: int | None = None
     most_seconds: Fraction | None = None
     segment: int = 0
-    dimension: int = 2
+
+    @property
+    def dimension(self) -> int:
+        """2 for discs, 3 for spheres."""
+        return self.region.dimension
+
+    @property
+    def side(self) -> int:
+        """W, in three dimensions."""
+        return isqrt(self.width or 0)
+
+    @property
+    def phi(self) -> Fraction:
+        """φ = n^a·n^b = 1 − s²/8r²."""
+        return cosine(self.n_x)
 
     @property
     def width(self) -> int | None:
@@ -72,13 +89,16 @@ class Solved:
     """Some realisations, solved; what the question does not need is None.
 
     ``single`` is the (force, change) of the one contact, or the (c⁺, c⁻) of the one bead, that
-    line sums give alone.
+    line sums give alone. Where the sweep carried errors, all numbers are rounded only once, and
+    ``rest`` holds what that left of them, number by number, and ``sizes`` how large errors were.
     """
 
     system: NumberSystem
     packing: SolvedPacking | None
     forces: Forces | None
     single: tuple[Any, Any] | None
+    rest: "Solved | None" = None
+    sizes: Sizes = NONE
 
     def one(self, number: int) -> "Solved":
         """Give the ``number``-th realisation of those that were solved together."""
@@ -88,36 +108,137 @@ class Solved:
         """Give some of those that were solved together; one alone has no axis of realisations."""
         return self.one(of.start) if of.stop == of.start + 1 else self._at(of)
 
-    def _at(self, at: int | slice) -> "Solved":
-        def of(rows: Sequence[Array]) -> LazyRows[Array]:
-            return LazyRows(len(rows), lambda j: rows[j][at] if rows[j].size else rows[j])
+    def longer(self, system: NumberSystem) -> "Solved":
+        """Give all numbers in a longer arithmetic, with what rounding left of them."""
+        rest = self.rest
+        assert rest is not None
 
-        def turns(rows: Sequence[tuple[Array, Array]]) -> LazyRows[tuple[Array, Array]]:
-            def row(j: int) -> tuple[Array, Array]:
-                a, b = rows[j]
-                return (a[at], b[at]) if a.size else (a, b)
+        def sums(pairs: Any, empty: bool = False) -> Any:
+            a, b = pairs
+            if isinstance(a, tuple):
+                return tuple(map(sums, zip(a, b, strict=True)))
+            if isinstance(a, np.ndarray):
+                return from_floats(system, a) + from_floats(system, b)
+            return system.from_float(float(a)) + system.from_float(float(b))
+
+        def rows(near: Sequence[Any], rests: Sequence[Any]) -> LazyRows[Any]:
+            return LazyRows(len(near), lambda j: sums((near[j], rests[j])))
+
+        def each(near: PerBranch[Any], rests: PerBranch[Any]) -> PerBranch[Any]:
+            both = zip(near, rests, strict=True)
+            return per_direction([rows(a, b) for (_, a), (_, b) in both])
+
+        packing, forces, single = self.packing, self.forces, self.single
+        if packing is not None:
+            own = rest.packing
+            assert own is not None
+            packing = SolvedPacking(
+                packing.phi,
+                system,
+                packing.region,
+                rows(packing.rho, own.rho),
+                each(packing.c, own.c),
+                each(packing.dn, own.dn),
+            )
+        if forces is not None:
+            of = rest.forces
+            assert of is not None
+            ordered, change = each(forces.ordered, of.ordered), each(forces.change, of.change)
+            forces = Forces(system, forces.region, forces.rows, ordered, change, forces.stopped)
+        if single is not None:
+            single = sums((tuple(single), tuple(rest.single or ())))
+        return Solved(system, packing, forces, single)
+
+    def _at(self, at: int | slice) -> "Solved":
+        def of(rows: Sequence[Any]) -> LazyRows[Any]:
+            def row(j: int) -> Any:
+                if isinstance(rows[j], tuple):
+                    return tuple(x[at] if x.size else x for x in rows[j])
+                return rows[j][at] if rows[j].size else rows[j]
 
             return LazyRows(len(rows), row)
 
+        def each(values: PerBranch[Any]) -> PerBranch[Any]:
+            return per_direction([of(rows) for _, rows in values])
+
+        part = at if isinstance(at, slice) else slice(at, at + 1)
         packing, forces = self.packing, self.forces
         if packing is not None:
-            c, dn = packing.c, packing.dn
+            memory = packing.memory
+            if memory is not None:
+                memory = Memory(memory.rho[part], memory.block[part], memory.carried)
             packing = replace(
                 packing,
                 rho=of(packing.rho),
-                c=PerBranch(of(c.plus), of(c.minus)),
-                dn=PerBranch(turns(dn.plus), turns(dn.minus)),
+                c=each(packing.c),
+                dn=each(packing.dn),
+                memory=memory,
             )
-        if isinstance(packing, CompiledPacking):
-            part = at if isinstance(at, slice) else slice(at, at + 1)
-            packing = replace(packing, flat=packing.flat[part], block=packing.block[part])
         if forces is not None:
-            change = forces.change
-            forces = Forces(
-                forces.system,
-                forces.rows,
-                forces.ordered,
-                PerBranch(of(change.plus), of(change.minus)),
-                forces.stopped,
+            g = None if forces.g is None else forces.g[part]
+            forces = replace(forces, change=each(forces.change), g=g)
+        rest = None if self.rest is None else self.rest._at(at)
+        return Solved(self.system, packing, forces, self.single, rest, self.sizes)
+
+
+def rounded(solved: Solved) -> Solved:
+    """Round numbers that carry their errors once, and keep what that leaves."""
+
+    def part(values: Any, which: int) -> Any:
+        if isinstance(values, tuple):
+            return tuple(part(x, which) for x in values)
+        return values.nearest[which]
+
+    def rows(values: Sequence[Any], which: int) -> LazyRows[Any]:
+        return LazyRows(len(values), lambda j: part(values[j], which))
+
+    def each(values: PerBranch[Any], which: int) -> PerBranch[Any]:
+        return per_direction([rows(one, which) for _, one in values])
+
+    def parts(which: int) -> Solved:
+        packing, forces, single = solved.packing, solved.forces, solved.single
+        if packing is not None:
+            packing = replace(
+                packing,
+                system=FLOAT64,
+                rho=rows(packing.rho, which),
+                c=each(packing.c, which),
+                dn=each(packing.dn, which),
             )
-        return Solved(self.system, packing, forces, self.single)
+        if forces is not None:
+            ordered, change = each(forces.ordered, which), each(forces.change, which)
+            forces = replace(forces, system=FLOAT64, ordered=ordered, change=change)
+        if single is not None:
+            single = part(tuple(single), which)
+        return Solved(FLOAT64, packing, forces, single)
+
+    return replace(parts(0), rest=parts(1), sizes=_sizes(solved))
+
+
+def _sizes(solved: Solved) -> Sizes:
+    """Give the largest errors, of rows of numbers that carry theirs."""
+
+    def error(values: Any) -> float:
+        return float(np.abs(values.error).max(initial=0))
+
+    def size(values: Any) -> float:
+        return float(np.abs(values.value).max(initial=0))
+
+    packing, forces, single = solved.packing, solved.forces, solved.single
+    found = Sizes()
+    if packing is not None and packing.memory is None:
+        found |= Sizes(
+            max(error(row) for _, rows in packing.c for row in rows),
+            max(error(x) for _, rows in packing.dn for row in rows for x in row),
+        )
+    if forces is not None:
+        rows = [pair for j in range(len(forces.rows)) for pair in forces.below(j)]
+        largest = [size(F + g) for _, F, g in rows]
+        found |= Sizes(
+            changed=max((error(g) for _, _, g in rows), default=0.0),
+            force=max(largest, default=0.0),
+        )
+    if single is not None:
+        errors = [abs(float(one.error or 0)) for one in single]
+        found |= Sizes(max(errors), 0.0, max(errors), max(abs(float(s.value)) for s in single))
+    return found

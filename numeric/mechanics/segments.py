@@ -2,8 +2,7 @@
 
 On the way up only the positions of every k-th layer are kept. On the way down the layers between
 are drawn and deposited again, so that a segment at a time is there, as if all had been solved
-together: no bit differs. With k near the root of the height that takes half as long again. float64
-is compiled; other arithmetics, which repeat a packing to estimate its error, are swept by NumPy.
+together: no bit differs. With k near the root of the height that takes half as long again.
 """
 
 from collections.abc import Sequence
@@ -12,26 +11,22 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
+from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.errors import NotReachedError
-from ..arithmetic.systems import FLOAT64, Array, NumberSystem, zeros
-from ..disorder.radii import rows_of
-from ..lattice.branch import PerBranch
-from ..lattice.layers import Layer, LazyRows, Region, pick
-from ..lattice.regions import Rows
-from . import forces, packing
-from .compiled import Drawing
-from .compiled_forces import Descent
-from .compiled_packing import Deposition
-from .forces import Forces, Loads
-from .gaps import ABOVE
-from .loads import on_rows
-from .packing import CompiledPacking, SolvedPacking
+from ..arithmetic.systems import FLOAT64, Array
+from ..lattice.branch import PerBranch, per_direction
+from ..lattice.layers import Layer, LazyRows, Region
+from . import local
+from .kernels import Deposition, Descent
+from .loads import on_layers, on_rows
 from .problem import Problem, Solved
+from .sweep import Forces, Loads, NotStandingError, SolvedPacking, check_standing, deposit
+from .sweeps import Drawing, tell
 from .work import Work
 
 T = TypeVar("T", Drawing, Deposition, Descent)
 # Layers above a segment that are deposited, too: beads look for gaps so far up.
-OVER = ABOVE
+OVER = 3
 # Names under which a segment's number follows: positions below it, and forces on its lowest layer.
 KEPT = ("c", "g", "F")
 
@@ -89,11 +84,6 @@ class Segment:
     solved: Solved
     packing: SolvedPacking
 
-    @property
-    def layers(self) -> range:
-        """Its layers, ``first`` … ``last``."""
-        return range(self.first, self.last + 1)
-
 
 class Segments:
     """Solves one realisation of a problem, ``layers`` at a time (an even number)."""
@@ -107,186 +97,165 @@ class Segments:
         kept: Kept,
         *,
         again: bool = False,
-        system: NumberSystem = FLOAT64,
     ) -> None:
-        """``kept`` may hold what an earlier run has kept; ``again``: all will go down once more.
-
-        The caller activates ``system``; files keep float64 alone.
-        """
+        """``kept`` may hold what an earlier run has kept; ``again``: all will go down once more."""
         self.problem, self.realisation, self.work, self.kept = problem, realisation, work, kept
-        self.again, self.system = again, system
+        self.again = again
         self.layers, self.top = layers, problem.region.top
         self.count = count(problem, layers)
         self._parts: dict[type, Any] = {}
-        self._strength = problem.load.strength(problem.n_x, system)
+        self._strength = problem.load.strength(problem.n_x, CARRYING)
 
     def up(self, highest: int) -> None:
         """Deposit all segments below the ``highest``; keep the layer below each.
 
         Raises ``RadiusError``, and ``UnbuildableError`` for a bead that can't rest.
         """
+        d = self.problem.dimension
+        rows = [*range(d), *range(d + d * d, 2 * d + d * d)]
         for number in range(1, highest + 1):
             if self.kept.get(f"c{number}") is None:
-                solved = self._deposited(number - 1)
-                c = solved.c
-                place = self.layers
-                self.kept.put(f"c{number}", np.stack([c.plus[place], c.minus[place]]))
+                region, _, block = self._deposited(number - 1)
+                of = slice(region.starts[self.layers], region.starts[self.layers + 1])
+                self.kept.put(f"c{number}", block[0, rows, of])
 
     def down(self, number: int) -> Segment:
         """Solve a segment: the highest first, and then one after the other.
 
         Raises what ``up`` does, and ``NotStandingError``.
         """
-        solved = self._deposited(number)
+        region, rho, block = self._deposited(number)
         low = number * self.layers
         last = min(low + self.layers, self.top)
-        found = None
-        if self.problem.needs_forces:
-            found = self._balanced(number, solved)
+        descent, g = None, None
+        rows = self.problem.force_rows[low : low + self.layers + 2]
+        if self.problem.needs_forces and len(rows) > 1:  # else it lies above all loads
+            descent = self._ready(
+                Descent(region, rows, self._loads_on(rows, number), carried=True), "g"
+            )
+            g = self._balanced(number, descent, region, rho, block)
         for name in (f"c{number}", f"g{number + 1}", f"F{number + 1}")[self.again :]:
             self.kept.drop(name)
-        whole, first = self._whole(solved, found, low), low + 1 if number else 0
-        return Segment(number, self.count, first, last, whole, solved)
+        solved = tell(self.problem.phi, region, rho, block, descent, g)
+        assert solved.packing is not None
+        first = low + 1 if number else 0
+        return Segment(number, self.count, first, last, self._whole(solved, low), solved.packing)
 
-    def _deposited(self, number: int) -> SolvedPacking:
+    def _deposited(self, number: int) -> tuple[Region, Array, Array]:
         problem, work, low = self.problem, self.work, number * self.layers
-        region = Region(problem.width, problem.region.rows[low : low + self.layers + OVER + 1])
-        base = self.kept.get(f"c{number}") if number else None
-        on = None if base is None else (base[0], base[1])
-        if self.system is not FLOAT64:
-            with work.timed("radii"):
-                drawn = rows_of(problem.radii, region.rows, [self.realisation], self.system)
-            work.did_rows("radii", region.rows, region.beads)
-            with work.timed("deposit"):
-                return packing.deposit(problem.n_x, region, drawn, self.system, work, on=on)
+        rows = problem.region.rows[low : low + self.layers + OVER + 1]
+        region = Region(problem.width, rows, problem.dimension)
         with work.timed("radii"):
-            draw = self._ready(Drawing(problem.radii, region), "rho")
-            rho, rows = draw([self.realisation])
+            draw = self._ready(Drawing(problem.radii, region, carried=True), "rho")
+            rho = draw([self.realisation])
         work.did_rows("radii", region.rows, region.beads)
         with work.timed("deposit"):
-            deposit = self._ready(Deposition(problem.n_x, region), "block")
-            solved = deposit(rho, rows, base)
-            if solved is None:  # then this names the bead
-                return packing.deposit(problem.n_x, region, rows, FLOAT64, work, on=on)
+            rest = self._ready(Deposition(problem.phi, region, carried=True), "block")
+            base = self.kept.get(f"c{number}") if number else None
+            block = rest(rho, base)
+            if block is None:  # then this names the bead
+                d = problem.dimension
+                on = None if base is None else tuple(map(Carried, base[:d], base[d:]))
+                deposit(problem.phi, region, self._rows(region, rho), CARRYING, work, on=on)
+                raise NotReachedError("a position is beyond the range of float64")
         work.did_rows("deposited", region.rows, region.beads)
-        return solved
+        return region, rho, block
 
-    def _balanced(self, number: int, solved: SolvedPacking) -> Forces | None:
-        low = number * self.layers
-        rows = self.problem.force_rows[low : low + self.layers + 2]
-        if len(rows) < 2:
-            return None  # above all loads
-        above = self.kept.get(f"g{number + 1}")
-        ordered = self.kept.get(f"F{number + 1}")
+    def _rows(self, region: Region, rho: Array) -> list[Carried]:
+        values, errors = (np.split(part, region.starts[1:-1]) for part in rho[0])
+        return [Carried(*pair) for pair in zip(values, errors, strict=True)]
+
+    def _balanced(
+        self, number: int, descent: Descent, region: Region, rho: Array, block: Array
+    ) -> Array:
+        rows = descent.rows
         with self.work.timed("balance forces"):
-            loads = [self._loads(row) for row in rows]
-            if ordered is not None:
-                loads[-1] = (ordered[0], ordered[1])
-            plus, minus = zip(*loads, strict=True)
-            sweep = self._compiled if self.system is FLOAT64 else self._swept
-            found, lowest = sweep(solved, rows, Loads(plus, minus), above)
+            g = descent(block, self.kept.get(f"g{number + 1}"))
+            if g is None:
+                packing = tell(self.problem.phi, region, rho, block).packing
+                assert packing is not None
+                raise _not_balanced(packing, rows)
             if number and rows[1].count:
-                self.kept.put(f"g{number}", lowest)
-                self.kept.put(
-                    f"F{number}", np.stack([found.ordered.plus[1], found.ordered.minus[1]])
-                )
-        return found
-
-    def _compiled(
-        self, solved: SolvedPacking, rows: Rows, loads: Loads, above: Array | None
-    ) -> tuple[Forces, Array]:
-        """Balance the forces by compiled sweeps; give also what the segment below takes along.
-
-        That, as ``above`` of this one: g^± and what their sums have lost, (2, 2, beads).
-        """
-        descent = self._ready(Descent(solved.region, rows, loads), "g", "lost")
-        found = descent(solved, above) if isinstance(solved, CompiledPacking) else None
-        if found is None:
-            raise _not_balanced(solved, rows)
+                self.kept.put(f"g{number}", descent.row(1))
+                of = slice(descent.starts[1], descent.starts[2])
+                self.kept.put(f"F{number}", descent.F[:, of].copy())
         self.work.did_rows("balanced", rows[:0:-1], descent.beads)
-        return found, descent.row(1)
+        return g
 
-    def _swept(
-        self, solved: SolvedPacking, rows: Rows, loads: Loads, above: Array | None
-    ) -> tuple[Forces, Array]:
-        """Do the same in any arithmetic."""
-        known = None
-        if above is not None:
-            plus, minus = loads.plus[-1], loads.minus[-1]
-            assert plus is not None
-            assert minus is not None
-            known = (plus, minus), (above[0, 0], above[0, 1]), (above[1, 0], above[1, 1])
-        found = forces.sweep_down(solved, rows, loads, work=self.work, above=known)
-        if not rows[1].count:
-            return found, zeros(self.system, 2, 2, 0)
-        g = found.change.plus[1], found.change.minus[1]
-        lost = g if self.system.dtype is object else found.lost  # not looked at there
-        return found, np.array([g, lost])
-
-    def _loads(self, row: Layer) -> tuple[Array | None, Array | None]:
-        load = self.problem.load
+    def _loads_on(self, rows: tuple[Layer, ...], number: int) -> Loads:
+        """Give the loads of a segment's rows; the highest bears all that lies above it."""
+        load, d = self.problem.load, self.problem.dimension
         if load.kind in {"surface", "bulk"}:
-            if load.kind == "surface" and row.j < load.height:
-                return None, None
-            plus, minus = self._strength.unit
-            nothing = zeros(self.system, row.count)
-            return nothing + plus, nothing + minus
-        loaded = load.loaded or []
-        single = self._strength.single if load.kind == "file" else {}
-        here = {(i, 0): single.get((i, j), self._strength.unit) for i, j in loaded if j == row.j}
-        loads = on_rows(here, (row,), load.width, self.system)
-        return loads.plus[0], loads.minus[0]
+            first = rows[0].j if load.kind == "bulk" else load.height
+            on = on_layers(self._strength.unit, rows, range(first - rows[0].j, len(rows)), CARRYING)
+        else:
+            single = self._strength.single if load.kind == "file" else {}
+            low = rows[0].j
+            here = {
+                (i, j - low): single.get((i, j), self._strength.unit)
+                for i, j in load.loaded or []
+                if low <= j < low + len(rows)
+            }
+            on = on_rows(here, rows, load.width, CARRYING, d)
+        above = self.kept.get(f"F{number + 1}")
+        if above is None:
+            return on
+        shares: list[tuple[Any, ...]] = [of for _, of in on]
+        return per_direction([(*shares[a][:-1], Carried(above[a], above[d + a])) for a in range(d)])
 
     def _ready(self, part: T, *memory: str) -> T:
         """Give a part the memory of the last of its kind, if that fits."""
         old = self._parts.get(type(part))
-        if old is not None and old.size == part.size:
-            for name in memory:
+        for name in memory:
+            if old is not None and getattr(old, name).shape[1:] == part.shape:
                 setattr(part, name, getattr(old, name))
         self._parts[type(part)] = part
         return part
 
-    def _whole(self, solved: SolvedPacking, found: Forces | None, low: int) -> Solved:
+    def _whole(self, solved: Solved, low: int) -> Solved:
         """Number rows as in the whole packing; those that are not there are empty."""
-        nothing = zeros(self.system, 0)
+        nothing, problem = np.empty(0), self.problem
 
-        def placed(rows: Sequence[Any], count: int, empty: Any = nothing) -> LazyRows[Any]:
+        def placed(rows: Sequence[Any], count: int) -> LazyRows[Any]:
             def row(j: int) -> Any:
-                return rows[j - low] if low <= j < low + len(rows) else empty
+                return rows[j - low] if low <= j < low + len(rows) else nothing
 
             return LazyRows(count, row)
 
-        layers, pair = self.top + 1, (nothing, nothing)
-        whole = SolvedPacking(
-            solved.n_x,
-            self.system,
-            self.problem.region,
-            placed(solved.rho, layers),
-            PerBranch(placed(solved.c.plus, layers), placed(solved.c.minus, layers)),
-            PerBranch(placed(solved.dn.plus, layers, pair), placed(solved.dn.minus, layers, pair)),
+        def each(values: PerBranch[Any], count: int) -> PerBranch[Any]:
+            return per_direction([placed(rows, count) for _, rows in values])
+
+        layers, rows = self.top + 1, problem.force_rows
+        packing, forces = solved.packing, solved.forces
+        assert packing is not None
+        packing = SolvedPacking(
+            problem.phi,
+            FLOAT64,
+            problem.region,
+            placed(packing.rho, layers),
+            each(packing.c, layers),
+            each(packing.dn, layers),
         )
-        rows = self.problem.force_rows
-        there: Sequence[tuple[Sequence[Array], Sequence[Array]]] = (((), ()), ((), ()))
-        if found is not None:
-            F, g = found.ordered, found.change
-            there = (F.plus, F.minus), (g.plus, g.minus)
-        ordered, change = (
-            PerBranch[Sequence[Array]](placed(plus, len(rows)), placed(minus, len(rows)))
-            for plus, minus in there
+        none = per_direction([()] * problem.dimension)
+        ordered, change = (none, none) if forces is None else (forces.ordered, forces.change)
+        forces = Forces(
+            FLOAT64, problem.region, rows, each(ordered, len(rows)), each(change, len(rows))
         )
-        return Solved(self.system, whole, Forces(self.system, rows, ordered, change), None)
+        rest = None if solved.rest is None else self._whole(solved.rest, low)
+        return Solved(FLOAT64, packing, forces, None, rest, solved.sizes)
 
 
-def _not_balanced(solved: SolvedPacking, rows: Sequence[Layer]) -> Exception:
+def _not_balanced(packing: SolvedPacking, rows: Sequence[Layer]) -> Exception:
     """Name the bead whose contacts are parallel, if that is why."""
+    region = packing.region
     for j in range(len(rows) - 1, 0, -1):
-        row, own = rows[j], solved.region.rows[j]
-        plus, minus = (
-            [pick(v, own, row, solved.region.width) for v in dn[j]] for _, dn in solved.dn
-        )
-        minor = plus[0] * minus[1] - minus[0] * plus[1]
+        row, own = rows[j], region.rows[j]
+        dn = [[region.here(v, own, row) for v in of[j]] for _, of in packing.dn]
+        d = len(dn)
+        turned = [[dn[a][b] for a in range(d)] for b in range(d)]
+        _, det = local.solved(turned, ([np.zeros(row.count)] * d,))
         try:
-            forces.check_standing(1 + (plus[0] + minus[1] + minor), row, FLOAT64)
-        except forces.NotStandingError as error:
+            check_standing(det, row, region, FLOAT64)
+        except NotStandingError as error:
             return error
     return NotReachedError("a force is beyond the range of float64")

@@ -12,8 +12,9 @@ from typing import Any
 
 from ..arithmetic.systems import Array, NumberSystem, array, zeros
 from ..lattice.layers import column, whole
-from . import forces, packing, plain
+from . import plain, sweep
 from .loads import components, on_rows
+from .local import cosine
 
 Site = tuple[int, int]
 Rational = Fraction | int | str
@@ -79,7 +80,7 @@ def deviation_form(
     strength: Rational,
     system: NumberSystem,
 ) -> Solution:
-    """Solve by ``packing.deposit`` and ``forces.sweep_down``: no ordered value is ever subtracted.
+    """Solve by ``sweep.deposit`` and ``sweep.sweep_down``: no ordered value is ever subtracted.
 
     ``rho``: {(i, j): ρ}; ``loads``: {(i, j): (fx, fy)}. Raises what the sweeps raise.
     """
@@ -89,12 +90,12 @@ def deviation_form(
     with system.active():
         nx, ny = plain.axes(n_x, system)
         radii = tuple(array(system, r) for r in rows)
-        solved = packing.deposit(n_x, region, radii, system)
+        solved = sweep.deposit(cosine(n_x), region, radii, system)
         supported = {
             site: components(system.number(fx), system.number(fy), nx, ny)
             for site, (fx, fy) in cartesian.items()
         }
-        f = forces.sweep_down(solved, region.rows, on_rows(supported, region.rows, width, system))
+        f = sweep.sweep_down(solved, region.rows, on_rows(supported, region.rows, width, system))
         return Solution(
             width,
             tuple((p - m) / (2 * nx) for p, m in zip(solved.c.plus, solved.c.minus, strict=True)),

@@ -16,9 +16,9 @@ from typing import Any
 from ..arithmetic.systems import Series, zeros
 from ..lattice.branch import Branch
 from ..lattice.layers import column, whole
-from .forces import Forces, sweep_down
 from .loads import components, on_rows
-from .packing import SolvedPacking, deposit
+from .local import cosine
+from .sweep import Forces, SolvedPacking, deposit, sweep_down
 
 Site = tuple[int, int]
 Coefficients = list[Fraction]
@@ -117,7 +117,7 @@ def solve(
             column(i, j, width)
             up, um = components(fx, fy, n_x, n_y)
             supported[i, j] = (system.number(up), system.number(um))
-        packing = deposit(n_x, region, tuple(rows), system)
+        packing = deposit(cosine(n_x), region, tuple(rows), system)
         contact_forces = sweep_down(
             packing, region.rows, on_rows(supported, region.rows, width, system)
         )

@@ -8,6 +8,8 @@ from typing import Any
 
 from ..lattice.layers import Layer
 
+ESTIMATE = "estimate the error"
+
 Progress = Callable[[str, int], None]
 """Called with the kind of work and the number of beads just done."""
 

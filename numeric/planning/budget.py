@@ -1,15 +1,16 @@
 """The memory and the time that a scene takes, and what is refused as too much."""
 
+from ..arithmetic.carried import Pairs
 from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
 
 # Bytes that a bead takes while it is solved, a row of the answer, a line of a file and a layer of
 # the plan; measured, rounded up. The rest is the interpreter with its libraries.
-FLOAT_BEAD, BALL_BEAD, FLOAT_ROW, BALL_ROW, FILE_LINE, PLAN_LAYER = 450, 2200, 1200, 2800, 600, 900
+FLOAT_BEAD, BALL_BEAD, FLOAT_ROW, BALL_ROW, FILE_LINE, PLAN_LAYER = 900, 2200, 1200, 2800, 600, 900
 INTERPRETER = 100_000_000
 # The compiler that the extra ``fast`` brings, and what it leaves behind.
-COMPILER, COMPILED = 100_000_000, 50_000_000
+COMPILER, COMPILED = 100_000_000, 150_000_000
 LONGEST = 24 * 3600.0
 
 
@@ -24,7 +25,7 @@ def memory(*, beads: int, rows: int, layers: int, system: NumberSystem, file: bo
     answer; ``file`` says whether the radii are held in memory.
     """
     each = FLOAT_BEAD if system is FLOAT64 else 2 * FLOAT_BEAD
-    if system.dtype is object:
+    if system.dtype is object and not isinstance(system, Pairs):
         each = BALL_BEAD * max(64 + system.bits, 128) // 128
     return (
         beads * (each + (FILE_LINE if file else 0))

@@ -1,4 +1,4 @@
-"""A tolerance chooses the arithmetic: the first of float64, long double and balls that should do.
+"""A tolerance chooses the arithmetic: the first of float64, pairs and balls that should do.
 
 An expected error only orders the methods. What is promised is measured afterwards: a bound by
 balls, or an estimate from a repeat, and a method whose estimate misses the tolerance gives way to
@@ -11,10 +11,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
+from ..arithmetic.carried import LONGER, PAIRS, Pairs
 from ..arithmetic.decimals import short
 from ..arithmetic.systems import (
     FLOAT64,
-    LONGDOUBLE,
     MOST_BITS,
     Balls,
     BigFloat,
@@ -102,15 +102,11 @@ def _methods(tolerance: Fraction, problem: Problem) -> Iterator[tuple[int, Metho
     bits = initial_bits(tolerance, height)
     balls = Balls(initial_bits(Fraction(1, 10**25), height))
     digits = _digits(tolerance, height)
-    systems: list[tuple[NumberSystem, NumberSystem]] = [
-        (FLOAT64, LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else balls)
-    ]
-    if LONGDOUBLE.bits > FLOAT64.bits:
-        systems.append((LONGDOUBLE, balls))
+    systems: list[tuple[NumberSystem, NumberSystem]] = [(FLOAT64, LONGER), (PAIRS, PAIRS)]
     systems.append((BigFloat(digits), Balls(max(bits, balls.bits) + 32)))
     for order, (system, longer) in enumerate(systems):
         yield order, Method(system, longer, realisations)
-        if realisations > FEW:
+        if realisations > FEW and system is not PAIRS:
             yield order, Method(system, longer, FEW)
     yield len(systems), Method(Balls(bits))
 
@@ -140,7 +136,7 @@ def _why_not(
     """Say why an estimate won't do; an empty string where it may."""
     if certified:
         return "its error would be estimated, and certified was asked for"
-    if isinstance(method.system, BigFloat):
+    if isinstance(method.system, BigFloat) and not isinstance(method.system, Pairs):
         return "balls of as many digits take less time, and certify"
     if problem.stop_at_tension:
         return "where the sweep stops hangs on the signs of forces, which only balls decide"

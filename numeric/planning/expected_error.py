@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from ..arithmetic.systems import NumberSystem
+from ..arithmetic.systems import FLOAT64, NumberSystem
 from .plan import Method
 
 # A measured error is doubled: what repeats it is not exact.
@@ -38,6 +38,9 @@ def expected(method: Method, height: int, realisations: int, lost: int = 0) -> F
     that the plain form has ``lost``.
     """
     bits = method.system.bits
+    if method.carries and method.repeated >= realisations:
+        few = 4 if method.system is FLOAT64 else 8 * height
+        return Fraction(PRINTED * few + merging(method, realisations), 2**bits)
     if method.certified:
         return Fraction(max(height, 4) ** 2 * 2**12, 2 ** (bits - lost))
     seen = method.repeated >= realisations

@@ -54,22 +54,20 @@ class Outline:
         images = problem.route == Route.UNILATERAL or sees_images(
             problem, self.quantity.lowest_layer
         )
-        if method.system.dtype is not object:
+        if method.carries or method.system.dtype is not object:
             float_range.check(scene, problem.radii, problem.load)
         steps = steps_of(self.quantity, problem, method)
         visited = max((step.beads for step in steps), default=0)
         memory = self._memory(method, together, visited)
         seconds = predicted(self.quantity, problem, method, together)
         cut = None
-        if memory > self.limit:
+        if memory > self.limit or problem.region.beads > segments.QUICKER:
             cut = segments.cut(problem, method, scene, self.tolerance)
         if cut is not None:
             steps = segments.steps(steps, cut, self.quantity, memory, self.limit)
-            longer = method.longer
-            assert longer is not None  # float64 is the one that is cut
-            memory = segments.memory(cut, self.quantity, longer)
+            memory = segments.memory(cut, self.quantity)
             memory += self.quantity.gathered(problem.region, 1) * budget.FLOAT_BEAD
-            problem, seconds = cut, segments.seconds(cut, self.quantity, longer)
+            problem, seconds = cut, segments.seconds(cut, self.quantity)
         budget.refuse_memory(scene, memory, self.limit)
         budget.refuse_seconds(scene, problem.realisations, seconds)
         return Plan(
@@ -98,9 +96,12 @@ class Outline:
         elif problem.route == Route.ORDERED and problem.dimension == 2:
             at_once = 0
         at_once += self.quantity.gathered(region, min(n, together))
-        systems = [s for s in (method.system, method.longer) if s is not None]
+        longer = None if method.carries else method.longer  # only gathered in
+        systems = [s for s in (method.system, longer) if s is not None]
         most = max(_memory(self.scene, self.quantity, region, at_once, n, s) for s in systems)
-        return most + budget.COMPILED * worth_compiling(problem, method.system)
+        return most + budget.COMPILED * worth_compiling(
+            problem, method.system, carried=method.carries
+        )
 
 
 def _memory(
@@ -167,7 +168,6 @@ def outline(
         scene.effects.protocol if route == Route.UNILATERAL else "",
         scene.effects.most_events,
         scene.effects.most_seconds,
-        dimension=scene.packing.dimension,
     )
     return Outline(scene, quantity, problem, tuple(skipped), limit, closed, tolerance)
 

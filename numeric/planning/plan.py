@@ -5,12 +5,11 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from ..arithmetic.carried import Pairs
 from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import (
     FLOAT64,
-    LONGDOUBLE,
     Balls,
-    BigFloat,
     NumberSystem,
 )
 from ..disorder.radii import ArrayRadii, MeasuredRadii
@@ -20,9 +19,7 @@ from ..scene.scene import Scene
 from ..theory.critical_height import critical_height
 from ..theory.expected import ExpectedTension, expected_tension, expected_tension_of_spheres
 
-ESTIMATE, CERTIFY = "estimate the error", "certify"
-# What errors of float64 are estimated with: an own long double, where the platform has one.
-LONGER: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
+CERTIFY = "certify"
 
 
 @dataclass(frozen=True)
@@ -47,7 +44,9 @@ class Skipped:
 class Method:
     """An arithmetic, and how the error of its answer becomes known.
 
-    ``longer`` repeats the first ``repeated`` realisations; None stands for balls, which certify.
+    In float64 and pairs, sweeps of the first ``repeated`` realisations carry their errors, and
+    ``longer`` holds both together; what is longer still is repeated in ``longer``. None stands for
+    balls, which certify.
     """
 
     system: NumberSystem
@@ -58,6 +57,11 @@ class Method:
     def certified(self) -> bool:
         """Whether the error is a rigorous bound."""
         return isinstance(self.system, Balls)
+
+    @property
+    def carries(self) -> bool:
+        """Whether sweeps carry their own errors."""
+        return self.system is FLOAT64 or isinstance(self.system, Pairs)
 
 
 @dataclass(frozen=True)

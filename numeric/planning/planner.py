@@ -4,9 +4,12 @@ One planner serves both explaining and running: ``run`` takes its problem and it
 and adds nothing but the measured cost.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
+from functools import lru_cache
+from time import monotonic
 
+from ..arithmetic.carried import LONGER, Pairs
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.machine import memory_limit as free_memory
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
@@ -18,7 +21,7 @@ from . import budget
 from .choice import choose
 from .expected_error import initial_bits
 from .outline import Outline, outline
-from .plan import LONGER, Method, Plan
+from .plan import Method, Plan
 
 # Realisations that are solved twice to estimate the error: four of packings that are small.
 FEW, SMALL = 4, 20_000
@@ -36,7 +39,7 @@ def plan(
 ) -> Plan:
     """Plan a scene; ``tolerance`` and ``certified`` override the scene's own.
 
-    With a tolerance the first of float64, long double and balls is chosen that should meet it;
+    With a tolerance the first of float64, pairs and balls is chosen that should meet it;
     ``certified`` keeps the choice to balls. Without one ``system`` is the arithmetic. Reads the
     scene's files. Raises ``SceneError`` for a scene that is too large for the memory
     (``memory_limit`` bytes, by default most of what is free) or for a lifetime, and ``TableError``.
@@ -45,7 +48,7 @@ def plan(
     certified = certified or scene.ask.certified
     if certified and tolerance is None:
         raise SceneError("ask.certified", True, "needs a tolerance, as tolerance = 1e-30")
-    limit = free_memory() if memory_limit is None else memory_limit
+    limit = _free(int(monotonic()), free_memory) if memory_limit is None else memory_limit
     try:
         return _plan(scene, tolerance, limit, system, certified=certified)
     except budget.TooLargeError as refused:
@@ -58,6 +61,12 @@ def plan(
         takes = f"about {free.estimated_seconds:.2g} s and {budget.size(free.memory)}"
         said = f"{refused.allowed}; without the tolerance it would take {takes}"
         raise budget.TooLargeError(refused.key, refused.value, said) from None
+
+
+@lru_cache(maxsize=1)
+def _free(second: int, look: Callable[[], int]) -> int:
+    """Give the free memory; it is looked up once in a second."""
+    return look()
 
 
 def _plan(
@@ -78,7 +87,9 @@ def _plan(
         return outlines[0].plan(Method(Balls(initial_bits(tolerance or TOUCHING, 1))))
     if tolerance is None:
         few = FEW if first.region.beads < SMALL else 1
-        return outlines[0].plan(_method(system, min(first.realisations, few)))
+        all_listed = _method(system, 1).carries and not outlines[0].quantity.merged
+        few = first.realisations if all_listed else min(first.realisations, few)
+        return outlines[0].plan(_method(system, few))
     return choose(outlines, tolerance, certified=certified)
 
 
@@ -86,6 +97,8 @@ def _method(system: NumberSystem, repeated: int) -> Method:
     """Say how the error of an answer in this arithmetic becomes known."""
     if isinstance(system, Balls):
         return Method(system)
+    if isinstance(system, Pairs):
+        return Method(system, system, repeated)
     return Method(system, LONGER if system is FLOAT64 else Balls(system.bits + 128), repeated)
 
 

@@ -44,16 +44,16 @@ def _load_of_spheres(scene: Scene, single: dict[Site, tuple[Fraction, ...]]) -> 
     load, width, top = scene.load, scene.packing.width, scene.packing.height
     assert width is not None
     if load.at is None:
-        return LoadSpec(load.kind, top, width**2, load.angle_deg, single=single)
+        return LoadSpec(load.kind, top, width**2, load.angle_deg, single=single, dimension=3)
     p, q, j = map(int, load.at)
     at = site_of((p, q, j), width)
     if not load.pressure:
-        return LoadSpec(load.kind, top, width**2, load.angle_deg, at)
+        return LoadSpec(load.kind, top, width**2, load.angle_deg, at, dimension=3)
     down = -Fraction(load.pressure) / load.magnitude
     none = Fraction(0)
     single = {(i, top): (none, none, down) for i in full_layer(top, width**2).sites()}
     single[at] = none, none, single.get(at, (none,))[-1] - 1
-    return LoadSpec("file", top, width**2, single=single)
+    return LoadSpec("file", top, width**2, single=single, dimension=3)
 
 
 def radii_of(scene: Scene, rows: Rows) -> Radii:

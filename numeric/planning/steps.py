@@ -5,8 +5,9 @@ from dataclasses import replace
 from ..disorder.radii import DrawnRadii
 from ..mechanics.physicality import PHYSICAL
 from ..mechanics.problem import Problem, Route
+from ..mechanics.work import ESTIMATE
 from ..quantities.base import Quantity
-from .plan import CERTIFY, ESTIMATE, Method, Step
+from .plan import CERTIFY, Method, Step
 from .times import compiles
 
 _WHOLE = "spheres are always swept in whole layers"
@@ -64,14 +65,22 @@ def _judging(one: list[Step], problem: Problem, method: Method) -> Step:
     if method.longer is None:
         why = "balls enclose the answer; bits are added, and all is done again, until it fits"
         return Step(CERTIFY, why, 0, method.system.name)
+    if method.carries and method.repeated == problem.realisations:
+        why = "the sweep carried the rounding error of every number along"
+        return Step(ESTIMATE, why, 0, method.system.name)
     passes = 1 if method.repeated == problem.realisations else 2
     visits = sum(step.beads for step in one if step.step != PHYSICAL)
     longer = method.longer.name
+    again = "their rounding errors carried along" if method.carries else "a longer significand"
     return Step(
         ESTIMATE,
-        "the first realisations again with a longer significand",
+        f"the first realisations again with {again}",
         passes * method.repeated * visits,
-        longer if passes == 1 else f"{method.system.name}, then {longer}",
+        longer
+        if passes == 1
+        else method.system.name
+        if method.carries
+        else f"{method.system.name}, then {longer}",
     )
 
 

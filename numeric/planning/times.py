@@ -10,6 +10,7 @@ from dataclasses import replace
 from importlib.util import find_spec
 from typing import NamedTuple
 
+from ..arithmetic.carried import PAIRS, Pairs
 from ..arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, NumberSystem
 from ..mechanics.engine import worth_compiling
 from ..mechanics.problem import Problem, Route
@@ -34,6 +35,9 @@ _SWEEPS = {
     ("longdouble", Route.EXACT): _Times(1.6e-4, 6.5e-7),
     ("longdouble", Route.FIRST_ORDER): _Times(1.2e-4, 3e-7),
     ("longdouble", Route.LINE_SUMS): _Times(5e-4, 4e-6),
+    ("pairs", Route.EXACT): _Times(4e-3, 3e-6),
+    ("pairs", Route.FIRST_ORDER): _Times(2e-3, 2e-6),
+    ("pairs", Route.LINE_SUMS): _Times(5e-4, 2e-5),
     ("mpmath", Route.EXACT): _Times(7e-4, 2.5e-4, 5e-5),
     ("mpmath", Route.FIRST_ORDER): _Times(4e-4, 8e-5, 2e-5),
     ("mpmath", Route.LINE_SUMS): _Times(5e-4, 1.6e-5, 1e-6),
@@ -42,8 +46,8 @@ _SWEEPS = {
     ("balls", Route.LINE_SUMS): _Times(5e-4, 5e-6, 1e-6),
 }
 # Seconds of a row of the answer: gathered, certified, and printed; of one that is compared only.
-_ROWS = {"float64": 1e-6, "longdouble": 2e-5, "mpmath": 6e-5, "balls": 1e-5}
-_COMPARED = {"float64": 1e-7, "longdouble": 1e-7, "mpmath": 6e-5, "balls": 1e-5}
+_ROWS = {"float64": 1e-6, "longdouble": 2e-5, "pairs": 6e-5, "mpmath": 6e-5, "balls": 1e-5}
+_COMPARED = {"float64": 1e-7, "longdouble": 1e-7, "pairs": 6e-5, "mpmath": 6e-5, "balls": 1e-5}
 # Loading the compiled sweeps; a bead with them, all steps together.
 _COMPILER, _COMPILED = 0.8, 8e-8
 # How much longer a bead takes in three dimensions.
@@ -56,7 +60,10 @@ def predicted(quantity: Quantity, problem: Problem, method: Method, together: in
     ``together``: realisations that are swept at once.
     """
     seconds = _pass(quantity, problem, method.system, problem.realisations, together)
-    if method.longer is not None:
+    if method.carries:
+        each = _pass(quantity, problem, PAIRS, method.repeated, together, _COMPARED)
+        seconds = each + (seconds if method.repeated < problem.realisations else 0)
+    elif method.longer is not None:
         if method.repeated < problem.realisations:
             seconds += _pass(quantity, problem, method.system, method.repeated, together, _COMPARED)
         seconds += _pass(quantity, problem, method.longer, method.repeated, together, _COMPARED)
@@ -117,4 +124,6 @@ def _family(system: NumberSystem) -> str:
         return "balls"
     if system in (FLOAT64, LONGDOUBLE):
         return system.name
+    if isinstance(system, Pairs):
+        return "pairs"
     return "mpmath"

@@ -6,15 +6,15 @@ from fractions import Fraction
 
 import numpy as np
 
-from ..arithmetic.systems import NumberSystem
+from ..arithmetic.carried import NONE, Pairs, Sizes
+from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import ArrayRadii, RadiusError
 from ..lattice.branch import AxisContact, Contact
 from ..mechanics.engine import chunk_size, packings
-from ..mechanics.forces import NotStandingError
-from ..mechanics.packing import UnbuildableError
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route
-from ..mechanics.work import Work
+from ..mechanics.sweep import NotStandingError, UnbuildableError
+from ..mechanics.work import ESTIMATE, Work
 from ..unilateral.network import Network, Relaxed, UnfinishedError
 from .base import RATIO, Quantity, Table
 
@@ -28,7 +28,9 @@ class Answer:
 
     ``physical``: None where nothing exact was solved, or the same packings a second time.
     ``stopped``: the contact at which a sweep stopped, if it was asked to. ``networks``: where beads
-    came to rest, one a realisation, under unilateral contacts.
+    came to rest, one a realisation, under unilateral contacts. Where sweeps carried their errors,
+    ``exact`` is the table with them, in a longer arithmetic, and ``sizes`` how large they were;
+    or ``left`` says how far changes are from those in it.
     """
 
     table: Table
@@ -36,6 +38,9 @@ class Answer:
     physical: Physicality | None
     stopped: Contact | AxisContact | None
     networks: tuple[Network, ...] = ()
+    exact: Table | None = None
+    sizes: Sizes = NONE
+    left: float | None = None
 
 
 def answer(
@@ -46,8 +51,11 @@ def answer(
     work: Work | None = None,
     *,
     plainly: bool = False,
+    longer: NumberSystem | None = None,
 ) -> Answer:
     """Answer a question for some realisations; ``plainly`` solves them in the plain form.
+
+    With a ``longer`` arithmetic, ``system`` is float64 and numbers carry their errors.
 
     Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
@@ -57,14 +65,20 @@ def answer(
     physical = Physicality() if exact and not work.repeating else None
     stopped: Contact | AxisContact | None = None
     networks: list[Network] = []
-    with system.active():
+    pairs, carried = isinstance(system, Pairs), longer is not None or isinstance(system, Pairs)
+    own = FLOAT64 if carried else system
+    sizes = NONE
+    with system.active(), own.active():
         gatherer = quantity.gatherer(problem, system)
+        beside = None if longer is None else quantity.gatherer(problem, longer)
         if problem.route == Route.UNILATERAL:
             from ..unilateral.relaxation import packings as relaxed  # SciPy's solvers take 35 MB
 
             solved_all = relaxed(problem, realisations, system, work)
         else:
-            solved_all = packings(problem, realisations, system, work, physical, plainly=plainly)
+            solved_all = packings(
+                problem, realisations, own, work, physical, plainly=plainly, carried=carried
+            )
         done = 0
         try:
             for solved, chunk in solved_all:
@@ -72,7 +86,11 @@ def answer(
                     stopped = solved.forces.stopped
                 if isinstance(solved, Relaxed):
                     networks.append(solved.network)
-                gatherer.add(solved, chunk)
+                gatherer.add(solved.longer(system) if pairs else solved, chunk)
+                if beside is not None and longer is not None and gatherer.left() is None:
+                    with work.timed(ESTIMATE):
+                        beside.add(solved.longer(longer), chunk)
+                sizes |= solved.sizes
                 done += len(chunk)
         except (*UNBUILDABLE, UnfinishedError) as error:
             if problem.route == Route.UNILATERAL and len(realisations) > 1:
@@ -81,11 +99,16 @@ def answer(
                 error.add_note(_which(problem, realisations[done:], system, plainly))
             raise
         table = in_units(quantity, gatherer.table().sorted(), system)
+        again = None
+        left = gatherer.left() if beside is not None else None
+        if beside is not None and longer is not None and left is None:
+            with work.timed(ESTIMATE):
+                again = in_units(quantity, beside.table().sorted(), longer)
         bins = None if work.repeating else quantity.bins_of(table, system)
     if physical is not None and physical.first_tensile is not None:
         physical.first_tensile = at_home(quantity, physical.first_tensile)
     stopped = None if stopped is None else at_home(quantity, stopped)
-    return Answer(table, bins, physical, stopped, tuple(networks))
+    return Answer(table, bins, physical, stopped, tuple(networks), again, sizes, left)
 
 
 def in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:

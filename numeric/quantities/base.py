@@ -8,6 +8,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cache
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -16,13 +17,12 @@ from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
 from ..lattice.branch import Branch, Direction, PerAxis, PerBranch
-from ..lattice.layers import Layer, Region, pick, standing_on_base, whole
+from ..lattice.layers import Layer, LazyRows, Region, pick, standing_on_base, whole
 from ..lattice.regions import Rows
 from ..mechanics import plain
-from ..mechanics.forces import Forces
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Route, Solved
-from ..mechanics.three_dimensions import side
+from ..mechanics.sweep import Forces
 from ..scene.scene import Scene
 from ..theory.first_order import std_of_spheres, stds_of_discs
 
@@ -43,13 +43,14 @@ class Table:
     ``index`` names the rows (sites, branches, realisations), ``numbers`` are in the arithmetic of
     the run. ``small`` columns are the deviations from the ordered packing: accuracy is judged by
     their error, relative to the largest of them. ``errors`` are standard errors of the columns that
-    are statistics over packings.
+    are statistics over packings. ``in_order``: rows are as ``sorted`` gives them.
     """
 
     index: dict[str, Array]
     numbers: dict[str, Array]
     small: tuple[str, ...]
     errors: dict[str, Array] = field(default_factory=dict)
+    in_order: bool = False
 
     @property
     def rows(self) -> int:
@@ -58,6 +59,8 @@ class Table:
 
     def sorted(self) -> "Table":
         """Give the rows by realisation, j, i (or p, q) and branch, as numbers, "+" before "-"."""
+        if self.in_order:
+            return self
         names = ("branch", "q", "p", "i", "j", "realisation")
         keys = [self.index[name] for name in names if name in self.index]
         if not keys:
@@ -80,6 +83,13 @@ class Gatherer(ABC):
     @abstractmethod
     def table(self) -> Table:
         """Give the answer."""
+
+    def left(self) -> float | None:
+        """Give how far numbers are, at the most, from those that their sweeps' errors belong to.
+
+        None where the rows have to be gathered with them to know that.
+        """
+        return None
 
 
 class Quantity(ABC):
@@ -211,6 +221,8 @@ class Listing(Gatherer):
     def table(self) -> Table:
         """Put the realisations below each other."""
         first = self.parts[0]
+        if len(self.parts) == 1:
+            return first
         return Table(
             {k: np.concatenate([part.index[k] for part in self.parts]) for k in first.index},
             {k: np.concatenate([part.numbers[k] for part in self.parts]) for k in first.numbers},
@@ -277,11 +289,16 @@ class ContactQuantity(Quantity):
 
     def ordered_blocks(self, problem: Problem) -> list[list[Fraction]]:
         """Give the ordered forces, block by block; nothing above the highest load."""
+        return self.ordered_of(problem, self.blocks(problem))
+
+    def ordered_of(self, problem: Problem, blocks: "Sequence[Block]") -> list[list[Fraction]]:
+        """Give the ordered forces of some blocks."""
         load, rows = problem.load, problem.force_rows
-        forces = load.ordered_forces(rows, load.strength(problem.n_x, FLOAT64), FLOAT64)
+        strength = load.strength(problem.n_x, FLOAT64)
+        forces = load.ordered_forces(problem.region, rows, strength, FLOAT64)
         return [
             [Fraction(float(F)) for F in forces.ordered[branch][row.j]] if row.j < len(rows) else []
-            for branch, row in self.blocks(problem)
+            for branch, row in blocks
         ]
 
 
@@ -339,7 +356,7 @@ def has_theory(problem: Problem) -> bool:
     if not drawn or load.loaded is not None:
         return False
     if problem.dimension == 3:
-        return not load.angle_deg and side(problem) > problem.height + 1
+        return not load.angle_deg and problem.side > problem.height + 1
     return problem.width is None or problem.width > problem.height
 
 
@@ -350,32 +367,38 @@ def slope(problem: Problem, system: NumberSystem) -> Any:
     return plain.axes(problem.n_x, system)[1]
 
 
-def first_order_std(problem: Problem) -> PerBranch[list[Fraction]] | None:
+def first_order_std(problem: Problem) -> PerBranch[Sequence[Fraction]] | None:
     """Give σ_f of layers j = 0 … M − 1, exact to first order (Eqs. 13, 14, B2, B3 at finite M).
 
-    None where they don't apply. Each is a float64 times the exact σ/r, in units of the load.
+    None where they don't apply. Each is a float64 times the exact σ/r, in units of the load, and is
+    found when it is first asked for.
     """
-    load, radii = problem.load, problem.radii
+    load, radii, height = problem.load, problem.radii, problem.height
     if problem.route == Route.ORDERED or not has_theory(problem):
         return None
     assert isinstance(radii, DrawnRadii)
-    phi = float(1 - 2 * problem.n_x**2)
-    over = [problem.height - j if load.kind == "bulk" else 1 for j in range(problem.height)]
+    std, phi = radii.std, float(1 - 2 * problem.n_x**2)
+
+    def over(j: int) -> int:
+        return height - j if load.kind == "bulk" else 1
+
     if problem.dimension == 3:
         root = math.sqrt(3 * (1 + 2 * phi))
-        found = [
-            Fraction(std_of_spheres(load.kind, problem.height, j, phi) * (n / root)) * radii.std
-            for j, n in enumerate(over)
-        ]
+
+        @cache
+        def alike(j: int) -> Fraction:
+            return Fraction(std_of_spheres(load.kind, height, j, phi) * (over(j) / root)) * std
+
+        found = LazyRows(height, alike)
         return PerAxis(found, found, found)
     plus, minus = map(float, load.strength(problem.n_x, FLOAT64).unit)
-    stds = [
-        stds_of_discs(load.kind, problem.height, j, phi, (plus, minus))
-        for j in range(problem.height)
-    ]
-    return PerBranch(
-        *(
-            [Fraction(std * n) * radii.std for std, n in zip(own, over, strict=True)]
-            for own in zip(*stds, strict=True)
-        )
-    )
+
+    def of(side: int) -> LazyRows[Fraction]:
+        @cache
+        def one(j: int) -> Fraction:
+            both = stds_of_discs(load.kind, height, j, phi, (plus, minus))
+            return Fraction(both[side] * over(j)) * std
+
+        return LazyRows(height, one)
+
+    return PerBranch(of(0), of(1))

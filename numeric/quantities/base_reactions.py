@@ -1,8 +1,7 @@
 """What the base bears."""
 
 from ..arithmetic.systems import Array, zeros
-from ..lattice.branch import Branch, Direction
-from ..lattice.layers import Layer, Region, full_layer, pick
+from ..lattice.layers import Layer, Region, full_layer
 from ..mechanics import plain
 from ..mechanics.problem import Problem, Route, Solved
 from .base import Listed, Table
@@ -22,25 +21,13 @@ class BaseReactions(Listed):
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give a row a bead of the base, from left to right."""
-        system, forces = solved.system, solved.forces
-        nx, ny = plain.axes(problem.n_x, system)
+        forces = solved.forces
+        nx, ny = plain.axes(problem.n_x, solved.system)
         rows = problem.force_rows
         layer = rows[0] if self.width is None else full_layer(0, self.width)
         if forces is not None and forces.stopped is not None and forces.stopped.j:
             layer = Layer(0, 0, 0)  # the sweep did not come down to the base
-        own = problem.load.on((layer,), problem.load.strength(problem.n_x, system), system)
-        zero = zeros(system, layer.count)
-        plus = zero if own.plus[0] is None else own.plus[0]
-        minus = zero if own.minus[0] is None else own.minus[0]
-        change_plus, change_minus = zero, zero
-        if forces is not None and len(rows) > 1 and layer.count:
-            F, g, a, b = self._above(solved, layer)
-            p, m = Branch.PLUS, Branch.MINUS
-            plus, minus = plus + F[p], minus + F[m]
-            # to first order, a change of the force times one of its direction is left out
-            f = F if problem.route == Route.FIRST_ORDER else {s: F[s] + g[s] for s in Branch}
-            change_plus = g[p] + (f[p] * a[p] + f[m] * a[m])
-            change_minus = g[m] + (f[p] * b[p] + f[m] * b[m])
+        (plus, minus), (change_plus, change_minus) = on_base(problem, solved, layer)
         cx, cy = (change_plus - change_minus) * nx, (change_plus + change_minus) * ny
         return Table(
             self.sites_of([layer]),
@@ -53,20 +40,28 @@ class BaseReactions(Listed):
             ("change_x", "change_y"),
         )
 
-    def _above(self, solved: Solved, layer: Layer) -> tuple[dict[Direction, Array], ...]:
-        """F, g and the components of δn of the two contacts above each base bead."""
-        assert solved.forces is not None
-        zero = zeros(solved.system, 1)[0]
-        found: tuple[dict[Direction, Array], ...] = {}, {}, {}, {}
-        F, g, a, b = found
-        for branch, ordered, change in solved.forces.below(1):
-            at = Layer(1, layer.first + branch.side, layer.count)
-            F[branch] = pick(ordered, solved.forces.rows[1], at, self.width, zero)
-            g[branch] = pick(change, solved.forces.rows[1], at, self.width, zero)
-            a[branch] = b[branch] = zeros(solved.system, layer.count)
-            if solved.packing is not None:
-                source = solved.packing.region.rows[1]
-                a[branch], b[branch] = (
-                    pick(v, source, at, self.width, zero) for v in solved.packing.dn[branch][1]
-                )
-        return found
+
+def on_base(
+    problem: Problem, solved: Solved, layer: Layer
+) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
+    """Give what contacts and loads press onto the base, as Σ v^a n^a: ordered, and change."""
+    system, forces, region = solved.system, solved.forces, problem.region
+    own = problem.load.on((layer,), problem.load.strength(problem.n_x, system), system)
+    nothing = zeros(system, layer.count)
+    ordered = [nothing if load[0] is None else nothing + load[0] for _, load in own]
+    change = [nothing] * len(ordered)
+    if forces is None or len(forces.rows) < 2 or not layer.count:
+        return tuple(ordered), tuple(change)
+    zero = zeros(system, 1)[0]
+    for a, (branch, *values) in enumerate(forces.below(1)):
+        F, g = (region.above(v, forces.rows[1], layer, a, zero) for v in values)
+        ordered[a] = ordered[a] + F
+        change[a] = change[a] + g
+        if solved.packing is None:
+            continue
+        # to first order, a change of the force times one of its direction is left out
+        f = F if problem.route == Route.FIRST_ORDER else F + g
+        source = solved.packing.region.rows[1]
+        for b, of in enumerate(solved.packing.dn[branch][1]):
+            change[b] = change[b] + f * region.above(of, source, layer, a, zero)
+    return tuple(ordered), tuple(change)

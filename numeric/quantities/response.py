@@ -133,8 +133,8 @@ class Response(ContactQuantity):
         if solved.packing is None:
             return zeros(solved.system, row.count)
         source, width = solved.packing.region.rows[row.j], solved.packing.region.width
-        a, b = (pick(v, source, row, width) for v in solved.packing.dn[branch][row.j])
-        return np.asarray(a + b)
+        parts = [pick(v, source, row, width) for v in solved.packing.dn[branch][row.j]]
+        return np.asarray(sum(parts[1:], parts[0]))
 
     def ordered(self, problem: Problem) -> list[Fraction]:
         """Give the ordered forces, then their vertical components."""

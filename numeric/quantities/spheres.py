@@ -1,6 +1,6 @@
 """The questions in three dimensions: beads (p, q, j), and contacts along three axes.
 
-Rows of W² beads take the place of layers of W (see ``mechanics.three_dimensions``).
+Rows of W² beads take the place of layers of W (see ``lattice.layers.Region``).
 """
 
 from collections.abc import Callable, Sequence
@@ -9,16 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.systems import FLOAT64, Array, NumberSystem, from_floats, zeros
-from ..lattice.branch import Axis, Direction
-from ..lattice.layers import Layer, Region, full_layer, whole
+from ..arithmetic.systems import Array, NumberSystem, from_floats, zeros
+from ..lattice.branch import Axis
+from ..lattice.layers import Layer, Region, full_layer, lower_beads, whole
 from ..lattice.regions import Rows
-from ..mechanics import three_dimensions
 from ..mechanics.loads import LoadSpec
-from ..mechanics.problem import Problem, Route, Solved
-from ..mechanics.three_dimensions import Spheres
+from ..mechanics.problem import Problem, Solved
 from ..scene.scene import Scene
 from .base import Block, ContactQuantity, Listed, Quantity, Table, contact_changes, slope
+from .base_reactions import on_base
 from .contact_forces import ContactForces
 from .histogram import Histogram
 from .profile import Profile
@@ -50,7 +49,7 @@ class SphereQuantity(Quantity):
     def beads(self, load: LoadSpec) -> tuple[Rows, Region]:
         """Give all beads that bear load or are asked for, and those below them."""
         assert self.width is not None
-        region = whole(self.width, self.top)
+        region = whole(self.width, self.top, dimension=3)
         return region.rows, region
 
     def most_beads(self) -> int:
@@ -69,21 +68,12 @@ class SphereQuantity(Quantity):
         found = self.sites_of([row for _, row in blocks])
         names = np.array([branch.value for branch, _ in blocks], dtype="U1")
         branch = np.repeat(names, [row.count for _, row in blocks])
-        below = three_dimensions.lower_beads(found, branch, self.side)
+        below = lower_beads(found, branch, self.side)
         return {**below, "branch": branch}
 
 
 class SphereContacts(SphereQuantity, ContactQuantity):
     """A question about contact forces."""
-
-    def ordered_blocks(self, problem: Problem) -> list[list[Fraction]]:
-        """Give the ordered forces, block by block; nothing above the highest load."""
-        forces = three_dimensions.ordered_forces(problem, FLOAT64)
-        found = []
-        for branch, row in self.blocks(problem):
-            values = forces.ordered[branch][row.j] if row.j < len(forces.rows) else ()
-            found.append([Fraction(float(F)) for F in values])
-        return found
 
 
 class SphereForces(SphereContacts, ContactForces):
@@ -100,11 +90,6 @@ class SphereHistogram(SphereContacts, Histogram):
 
 class SphereResponse(SphereContacts, Response):
     """All contacts below a point load; those that it does not reach bear nothing."""
-
-    def tilt(self, solved: Solved, branch: Direction, row: Layer) -> Array:
-        """Give N_z/n_z − 1 of the contacts below a row."""
-        assert isinstance(solved, Spheres)
-        return three_dimensions.tilt(solved, branch, row.j)
 
 
 class SphereContact(SphereContacts, Listed):
@@ -140,11 +125,8 @@ class SphereContact(SphereContacts, Listed):
     def ordered(self, problem: Problem) -> list[Fraction]:
         """Give the ordered force."""
         block, column = self.place
-        forces = three_dimensions.ordered_forces(problem, FLOAT64)
-        reached = block.row.j < len(forces.rows)
-        return [
-            Fraction(float(forces.ordered[block.branch][block.row.j][column]) if reached else 0)
-        ]
+        (forces,) = self.ordered_of(problem, [block])
+        return [forces[column] if forces else Fraction(0)]
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give the one row."""
@@ -168,10 +150,12 @@ class SpherePositions(SphereQuantity, Listed):
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give a row a bead, from the base up."""
-        assert isinstance(solved, Spheres)
         system, r = solved.system, solved.system.number(self.scene.packing.radius)
         rows = list(problem.region.rows)
-        c = [v.reshape(3, -1) for v in solved.placed.c]
+        c = [zeros(system, 3, row.count) for row in rows]
+        if solved.packing is not None:
+            of = [values for _, values in solved.packing.c]
+            c = [np.stack([values[j] for values in of]) for j in range(len(rows))]
         if self.scene.ask.at is not None:
             p, q, j = map(int, self.scene.ask.at)
             column = p * self.side + q
@@ -204,27 +188,19 @@ class SphereBase(SphereQuantity, Listed):
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give a row a bead of the base."""
-        assert isinstance(solved, Spheres)
-        system = solved.system
-        shape = (3, self.side, self.side)
-        F, change = zeros(system, *shape), zeros(system, *shape)
-        forces = solved.forces
-        if forces is not None and len(forces.rows) > 1:
-            exact = problem.route == Route.EXACT
-            F, change = three_dimensions.on_base(solved, exact=exact)
-        own = three_dimensions.loads(problem, system)[0]
-        F = F if own is None else F + own
+        system, layer = solved.system, full_layer(0, self.width or 0)
+        F, change = map(np.stack, on_base(problem, solved, layer))
         numbers = {}
         for name, value, moved in zip(
             ("x", "y", "z"),
-            _cartesian(F.reshape(3, -1), problem, system, raised=True),
-            _cartesian(change.reshape(3, -1), problem, system, raised=True),
+            _cartesian(F, problem, system, raised=True),
+            _cartesian(change, problem, system, raised=True),
             strict=True,
         ):
             numbers[f"f{name}"], numbers[f"change_{name}"] = value + moved, moved
         small = ("change_x", "change_y", "change_z")
         ordered = {k: numbers[k] for k in ("fx", "fy", "fz", *small)}
-        return Table(self.sites_of([full_layer(0, self.width or 0)]), ordered, small)
+        return Table(self.sites_of([layer]), ordered, small)
 
 
 def _cartesian(

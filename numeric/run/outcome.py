@@ -14,8 +14,8 @@ from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import Array, as_floats
 from ..lattice.branch import AxisContact, Contact
 from ..mechanics.physicality import PHYSICAL, Physicality
-from ..mechanics.work import Work
-from ..planning.plan import ESTIMATE, Plan, plan_lines
+from ..mechanics.work import ESTIMATE, Work
+from ..planning.plan import Plan, plan_lines
 from ..quantities.answer import Answer
 from ..statistics import histogram
 from ..tables import SHOWN, Row, html_table, rows_of
@@ -178,7 +178,8 @@ class Outcome:
             name = step["step"]
             clock = "radii" if name in {"read radii", "draw radii"} else name
             step["seconds"] = round(work.seconds.get(clock, 0.0), 6)
-            names = work.arithmetic_again if name == ESTIMATE else work.arithmetic
+            again = work.arithmetic_again if name == ESTIMATE else []
+            names = again or work.arithmetic
             step["arithmetic"] = ", then ".join(names)
             step["beads"] = visited.get(name, 0)
         data["results"] = {self.quantity: self.decimals() if rows else []}

@@ -15,8 +15,7 @@ from ..accuracy.accuracy import Accuracy, ToleranceError
 from ..accuracy.enclosed import enclosed
 from ..accuracy.repeated import repeated, shortfall
 from ..arithmetic.decimals import exact, parse
-from ..mechanics.forces import NotStandingError
-from ..mechanics.packing import UnbuildableError
+from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Progress, Work
 from ..planning.plan import Choice, Plan
 from ..planning.planner import plan

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from ..accuracy.accuracy import Accuracy
-from ..arithmetic.systems import FLOAT64, Array, as_floats, system_of
+from ..arithmetic.named import system_of
+from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Route
 from ..planning.planner import plan
@@ -160,10 +161,11 @@ def solve(
             where ``delta_r`` is given.
         spacing: s, the distance of neighbours in the base, 2 r < s < 2√3 r; by default 3 r.
         load: ``SurfaceLoad()`` by default, ``BulkLoad()`` or ``PointLoad(at=(k, l))``.
-        tolerance: error allowed, relative to the largest change; the first of float64, long double
+        tolerance: error allowed, relative to the largest change; the first of float64, pairs
             and balls that meets it is taken.
         certified: with a tolerance, only a rigorous bound will do.
-        arithmetic: "float64" (the default), "longdouble", "mpmath N" or "balls N" with N decimal
+        arithmetic: "float64" (the default), "pairs" (a number
+            and its error, about 28 digits), "longdouble", "mpmath N" or "balls N" with N decimal
             digits; not with a tolerance, which chooses it.
         allow_images: let W be as small as M or smaller, so that a bead bears on one by two ways
             around the period; without it such an array, a transposed one perhaps, is refused.

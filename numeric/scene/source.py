@@ -2,6 +2,7 @@
 
 import hashlib
 from fractions import Fraction
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from .sections import GivenRadii, Section
 PROGRAM = "force-diffusion"
 
 
+@cache
 def program_version() -> str:
     """Version of this package, or "unknown" where it is not installed."""
     try:

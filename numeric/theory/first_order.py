@@ -4,10 +4,12 @@ All are for σ = r = 1.
 """
 
 import math
+from functools import lru_cache
 
 from .. import closed_forms
 
 
+@lru_cache(maxsize=4096)
 def stds_of_discs(
     load: str, M: int, j: int, phi: float, components: tuple[float, float]
 ) -> tuple[float, float]:
@@ -33,6 +35,7 @@ def stds_of_discs(
     return std_of(plus, minus), std_of(minus, plus)
 
 
+@lru_cache(maxsize=4096)
 def std_of_spheres(load: str, M: int, j: int, phi: float) -> float:
     """Give σ_f/⟨f⟩ of layer j in three dimensions, alike along all axes (Eqs. B13 and B14)."""
     bulk = load == "bulk"

@@ -15,9 +15,9 @@ from ..lattice.branch import Branch
 from ..lattice.layers import Region, column, whole
 from ..mechanics import plain
 from ..mechanics.engine import solve
-from ..mechanics.packing import UnbuildableError
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route, Solved
+from ..mechanics.sweep import UnbuildableError
 from ..mechanics.work import Work
 from . import event_driven, linear_programs
 from .certificate import Certificate, certify, smallest_gap

@@ -220,7 +220,7 @@ def test_a_checkpoint_that_was_needed_is_removed_with_the_answer(
     status, out, err = call(capsys, "run", path, "--checkpoint", checkpoint)
     assert (status, err) == (usual[0], usual[2])
     assert out.startswith(usual[1])
-    assert "three times, 10 of 601 layers at a time" in out
+    assert "three times, 8 of 601 layers at a time" in out
     assert not checkpoint.exists()
     fd.read_scene(path).run(checkpoint=checkpoint)
     damaged = checkpoint.read_bytes().replace(b'"words4"', b'"words5"')

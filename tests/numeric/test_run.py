@@ -13,7 +13,7 @@ import pytest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.disorder.radii import RadiusError
-from force_diffusion.numeric.mechanics.packing import UnbuildableError
+from force_diffusion.numeric.mechanics.sweep import UnbuildableError
 from force_diffusion.numeric.quantities.answer import answer as answered
 from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.run.running import run
@@ -353,7 +353,7 @@ def test_a_load_file_of_one_bead_is_a_point_load(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "quantity", ["contact_forces", "base_reactions", "profile", "histogram", "response", "contact"]
 )
-@pytest.mark.parametrize("tolerance", [None, "=1e-25"])
+@pytest.mark.parametrize("tolerance", [None, "=1e-25", "=1e-40"])
 def test_forces_come_back_in_the_unit_of_the_load(quantity: str, tolerance: str | None) -> None:
     """A power of two as magnitude: every number is multiplied, and not a bit is lost."""
     sections = basic(4, 9, quantity=quantity)
@@ -367,7 +367,8 @@ def test_forces_come_back_in_the_unit_of_the_load(quantity: str, tolerance: str 
         same = column.dtype.kind in "iU" or name == "std_over_mean"
         expected, found = column if same else column * 64, many.arrays[name]
         if column.dtype == object:
-            assert all((a - b).contains(0) for a, b in zip(expected, found, strict=True))
+            for a, b in zip(expected, found, strict=True):
+                assert (a - b).contains(0) if hasattr(a, "contains") else a == b
         elif name == "first_order_std":  # twelve digits
             np.testing.assert_allclose(found, expected, rtol=1e-11)
         else:
@@ -601,7 +602,7 @@ def test_a_realisation_that_can_not_be_built_is_named() -> None:
     assert len(answer(sections).rows()) == k * 6 * 8 * 2  # those before it can
 
 
-@pytest.mark.parametrize("tolerance", [None, "=1e-25"])
+@pytest.mark.parametrize("tolerance", [None, "=1e-25", "=1e-40"])
 @pytest.mark.parametrize("top", [6, 4])
 def test_a_point_load_beside_a_pressure_is_the_file_of_both(
     top: int, tolerance: str | None, tmp_path: Path

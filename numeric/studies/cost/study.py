@@ -13,9 +13,8 @@ from functools import partial
 from ...arithmetic.errors import UndecidedError
 from ...arithmetic.systems import FLOAT64, LONGDOUBLE, NumberSystem
 from ...disorder.radii import RadiusError
-from ...mechanics.forces import NotStandingError
-from ...mechanics.packing import UnbuildableError
 from ...mechanics.problem import Route
+from ...mechanics.sweep import NotStandingError, UnbuildableError
 from ...planning import planner
 from ...planning.plan import Skipped
 from ...quantities.base import Table, first_order_std

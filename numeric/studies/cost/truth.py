@@ -10,7 +10,7 @@ import flint
 from ...accuracy.accuracy import ToleranceError
 from ...arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
 from ...arithmetic.systems import MOST_BITS, Balls, as_ball
-from ...mechanics.forces import NotStandingError
+from ...mechanics.sweep import NotStandingError
 from ...planning.expected_error import initial_bits
 from ...planning.plan import Plan
 from ...quantities.base import Table

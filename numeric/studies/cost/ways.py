@@ -45,7 +45,7 @@ def answer(
         gatherer = plan.quantity.gatherer(plan.problem, system)
         for solved, chunk in packings(plan.problem, realisations, system, plainly=plainly):
             gatherer.add(solved, chunk)
-        return gatherer.table()
+        return gatherer.table().sorted()
 
 
 def why_not_plain(plan: Plan) -> str | None:

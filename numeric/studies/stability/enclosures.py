@@ -15,8 +15,7 @@ from ...arithmetic.errors import UndecidedError
 from ...arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem
 from ...disorder.radii import DrawnRadii, rows_of
 from ...lattice.layers import whole
-from ...mechanics.forces import NotStandingError
-from ...mechanics.packing import UnbuildableError
+from ...mechanics.sweep import NotStandingError, UnbuildableError
 from ...theory.critical_height import critical_height
 from .forms import (
     SEED,

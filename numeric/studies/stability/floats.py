@@ -17,9 +17,8 @@ from ...arithmetic.errors import UndecidedError
 from ...arithmetic.systems import FLOAT64, Balls
 from ...disorder.radii import DrawnRadii, MeasuredRadii, Radii, rows_of
 from ...lattice.layers import whole
-from ...mechanics.forces import NotStandingError
-from ...mechanics.packing import UnbuildableError
 from ...mechanics.physicality import Physicality
+from ...mechanics.sweep import NotStandingError, UnbuildableError
 from ...theory.critical_height import critical_height
 from .forms import (
     SEED,

@@ -18,9 +18,9 @@ import flint
 from ...arithmetic.systems import Array, NumberSystem, zeros
 from ...lattice.layers import whole
 from ...mechanics import plain
-from ...mechanics.forces import Forces, sweep_down
 from ...mechanics.loads import LoadSpec
-from ...mechanics.packing import SolvedPacking, deposit
+from ...mechanics.local import cosine
+from ...mechanics.sweep import Forces, SolvedPacking, deposit, sweep_down
 
 SEED = 1
 Changes = tuple[Sequence[Array], Sequence[Array]]
@@ -36,7 +36,7 @@ def deviation_form(
     """Solve a whole packing for its deviations; the caller activates ``system``."""
     height, width = len(rho) - 1, len(rho[0])
     region, load = whole(width, height), LoadSpec("surface", height, width)
-    solved = deposit(n_x, region, rho, system)
+    solved = deposit(cosine(n_x), region, rho, system)
     strength = load.strength(n_x, system)
     return solved, sweep_down(solved, region.rows, load.on(region.rows, strength, system))
 

@@ -21,8 +21,7 @@ from force_diffusion.numeric.ensemble.store import Block, Store, StoreError, ope
 from force_diffusion.numeric.ensemble.sums import Sums, measured
 from force_diffusion.numeric.ensemble.workers import InProcess, Pool, RealisationError, WorkersError
 from force_diffusion.numeric.mechanics import engine
-from force_diffusion.numeric.mechanics.forces import NotStandingError
-from force_diffusion.numeric.mechanics.packing import UnbuildableError
+from force_diffusion.numeric.mechanics.sweep import NotStandingError, UnbuildableError
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.statistics.confidence import Rule
 from hypothesis import given, settings

@@ -19,12 +19,13 @@ from force_diffusion.numeric.arithmetic.systems import (
 from force_diffusion.numeric.disorder.normal import cosine_of_turn, logarithm
 from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii
 from force_diffusion.numeric.lattice.layers import Layer, column, whole
-from force_diffusion.numeric.mechanics import first_order, packing, taylor
+from force_diffusion.numeric.mechanics import sweep, taylor
 from force_diffusion.numeric.mechanics.engine import solve
-from force_diffusion.numeric.mechanics.forces import Forces, sweep_down
 from force_diffusion.numeric.mechanics.loads import LoadSpec
+from force_diffusion.numeric.mechanics.local import cosine
 from force_diffusion.numeric.mechanics.problem import Solved
 from force_diffusion.numeric.mechanics.small_packing import plain_form
+from force_diffusion.numeric.mechanics.sweep import Forces, sweep_down
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.theory.critical_height import critical_height
@@ -138,7 +139,7 @@ def test_first_order_sweep_is_the_first_taylor_coefficient(case: Case) -> None:
         radii = MeasuredRadii(rho, case.width)
         rows = tuple(radii.row(layer, [0], system) for layer in region.rows)
         loads = spec.on(region.rows, rational_strength(spec, case.n, system), system)
-        p = first_order.displace(case.n[0], region, rows, system)
+        p = sweep.deposit(cosine(case.n[0]), region, rows, system, linear=True)
         f = sweep_down(p, region.rows, loads, linear=True)
     for i, j in sites(case.width, case.height):
         q = column(i, j, case.width)
@@ -240,8 +241,8 @@ def test_an_unbuildable_packing_names_the_bead() -> None:
         region = whole(3, 1)
         with system.active():
             rows = tuple(MeasuredRadii(radii, 3).row(r, [0], system) for r in region.rows)
-            with pytest.raises(packing.UnbuildableError, match=r"\(1, 1\)"):
-                packing.deposit(Fraction(3, 4), region, rows, system)
+            with pytest.raises(sweep.UnbuildableError, match=r"\(1, 1\)"):
+                sweep.deposit(Fraction(-1, 8), region, rows, system)
 
 
 @pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, -1.0, -1.5])
@@ -252,9 +253,9 @@ def test_a_radius_that_is_none_names_the_bead(wrong: float, layer: int) -> None:
     rho[layer][2] = wrong
     with (
         FLOAT64.active(),
-        pytest.raises(packing.UnbuildableError, match=rf"\({4 + layer % 2}, {layer}\)"),
+        pytest.raises(sweep.UnbuildableError, match=rf"\({4 + layer % 2}, {layer}\)"),
     ):
-        packing.deposit(Fraction(3, 4), region, rho, FLOAT64)
+        sweep.deposit(Fraction(-1, 8), region, rho, FLOAT64)
 
 
 # Radii

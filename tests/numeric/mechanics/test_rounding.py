@@ -7,9 +7,9 @@ import pytest
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Array, Hardware
 from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
 from force_diffusion.numeric.lattice.layers import whole
-from force_diffusion.numeric.mechanics.forces import sweep_down
 from force_diffusion.numeric.mechanics.loads import LoadSpec
-from force_diffusion.numeric.mechanics.packing import deposit
+from force_diffusion.numeric.mechanics.local import cosine
+from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 
 N_X = Fraction(3, 4)
 
@@ -19,7 +19,7 @@ def changes(system: Hardware, height: int, width: int) -> Array:
     radii = DrawnRadii("uniform", Fraction(1, 10**6), 1, width)
     load = LoadSpec("surface", height, width)
     with system.active():
-        packing = deposit(N_X, region, rows_of(radii, region.rows, [0], system), system)
+        packing = deposit(cosine(N_X), region, rows_of(radii, region.rows, [0], system), system)
         loads = load.on(region.rows, load.strength(N_X, system), system)
         forces = sweep_down(packing, region.rows, loads)
     return np.concatenate([*forces.change.plus, *forces.change.minus])

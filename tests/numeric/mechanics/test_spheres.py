@@ -22,23 +22,35 @@ from force_diffusion.numeric.arithmetic.systems import (
     from_floats,
     zeros,
 )
+from force_diffusion.numeric.lattice.branch import PerAxis
+from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics.any_dimension import force_weights, together
 from force_diffusion.numeric.mechanics.engine import packings
-from force_diffusion.numeric.mechanics.forces import NotStandingError
-from force_diffusion.numeric.mechanics.packing import UnbuildableError
-from force_diffusion.numeric.mechanics.spheres import (
-    Placed,
-    bear,
+from force_diffusion.numeric.mechanics.gaps import by_distance, gaps
+from force_diffusion.numeric.mechanics.sweep import (
+    NotStandingError,
+    SolvedPacking,
+    UnbuildableError,
     deposit,
-    gaps,
-    metric,
-    near_pairs,
+    sweep_down,
 )
 
 import force_diffusion as fd
 from tests.numeric.spheres import columns, drawn, scene
 
 STEPS = ((1, 0), (0, 1), (0, 0))  # of (p, q), one layer up along each axis
+
+
+def spheres(rho: list[Array]) -> tuple[Region, list[Array]]:
+    """The region of layers (W, W), and their rows."""
+    region = whole(rho[0].size, len(rho) - 1, dimension=3)
+    return region, [row.reshape(-1) for row in rho]
+
+
+def from_above(region: Region, load: Array) -> PerAxis[Any]:
+    """A load on the highest layer, the same along all axes."""
+    on = (None,) * region.top + (load,)
+    return PerAxis(on, on, on)
 
 
 class Lattice:
@@ -149,23 +161,6 @@ def random_radii(dimension: int, height: int, width: int, size: float) -> list[A
     return [size * rng.uniform(-1, 1, (width,) * (dimension - 1)) for _ in range(height + 1)]
 
 
-def test_for_two_dimensions_it_is_the_sweep_of_discs() -> None:
-    """Two codes, one packing: column p here is q + ⌈j/2⌉ there."""
-    M, W = 6, 9
-    rho = random_radii(2, M, W, 1e-2)
-    given = np.stack([np.roll(row, -((j + 1) // 2)) for j, row in enumerate(rho)])
-    change = fd.solve(delta_r=given, spacing=3).change
-    with FLOAT64.active():
-        placed = deposit(rho, metric(2, Fraction(-1, 8), FLOAT64), FLOAT64, linear=False)
-        load = np.full(W, 1 / np.sqrt(1.75))
-        borne = bear(placed, [None] * M + [load], FLOAT64, linear=False)
-    for j in range(1, M + 1):
-        lower = [np.roll(borne.change[j][0], -1), borne.change[j][1]]
-        ours = np.stack([np.roll(row, -(j // 2)) for row in lower])
-        # roundings of numbers of size 0.1, a few in each of six layers
-        assert np.abs(ours - change[:, j - 1]).max() < 1e-15
-
-
 @pytest.mark.parametrize("linear", [False, True])
 def test_number_systems_agree(linear: bool) -> None:
     rho = random_radii(3, 5, 4, 1e-3)
@@ -173,10 +168,13 @@ def test_number_systems_agree(linear: bool) -> None:
 
     def solved(system: NumberSystem) -> Array:
         with system.active():
-            placed = deposit([from_floats(system, r) for r in rho], metric(3, phi, system),
-                             system, linear=linear)  # fmt: skip
-            load = zeros(system, 4, 4) + system.number(Fraction(1))
-            return bear(placed, [None] * 5 + [load], system, linear=linear).change[1]
+            region, rows = spheres(rho)
+            placed = deposit(
+                phi, region, [from_floats(system, r) for r in rows], system, linear=linear
+            )
+            loads = from_above(region, zeros(system, 16) + system.number(Fraction(1)))
+            forces = sweep_down(placed, region.rows, loads, linear=linear)
+            return np.stack([change[1] for _, change in forces.change])
 
     enclosed = solved(Balls(200))
     assert max(float(ball.rad()) for ball in enclosed.reshape(-1)) < 1e-50
@@ -216,7 +214,7 @@ def test_small_disorder_is_first_order() -> None:
 @pytest.mark.usefixtures("digits")
 def test_the_smallest_gap_is_that_of_all_pairs() -> None:
     asked = scene("positions", height=3, width=4, std=5e-2)
-    outcome = asked.run(tolerance="1e-20")
+    outcome = asked.run(tolerance="1e-40")
     lattice, radii = Lattice(asked, outcome), drawn(asked)
     physical = outcome.physical
     assert physical is not None
@@ -238,31 +236,74 @@ def test_the_smallest_gap_is_that_of_all_pairs() -> None:
 
 def test_gaps_of_touching_beads_are_told_apart() -> None:
     """At s = 2r beads of a layer touch: no gap, to the last place."""
-    rho = [np.zeros((3, 3))] * 2
-    m = metric(3, Fraction(1, 2), FLOAT64)
-    placed = Placed(m, rho, [np.zeros((3, 3, 3))] * 2, [])
-    found = gaps(placed, Fraction(1, 2), 0, (1, -1, 0))
-    assert found is not None
-    assert not found.any()
+    region, rho = spheres([np.zeros((3, 3))] * 2)
+    with FLOAT64.active():
+        found = gaps(deposit(Fraction(1, 2), region, rho, FLOAT64), range(2))
+    assert found.smallest == 0
+    # three pairs a bead, in each of two layers
+    assert (found.overlaps, found.undecided) == (0, 3 * 9 * 2)
 
 
-@pytest.mark.parametrize(("dimension", "least"), [(2, 2.25), (3, 2.6)])
-def test_pairs_that_are_not_looked_at_are_far_apart(dimension: int, least: float) -> None:
-    near = set(near_pairs(dimension))
-    for steps in product(range(-4, 5), repeat=dimension):
-        contact = sorted(map(abs, steps)) == [0] * (dimension - 1) + [1]
-        if not any(steps) or contact or near & {steps, tuple(-s for s in steps)}:
-            continue
-        for phi in (-1 / dimension, 0.5):  # linear in φ: extremes are at the ends
-            square = sum(s * s for s in steps) * (1 - phi) + sum(steps) ** 2 * phi
-            assert square > least
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize("size", [1e-6, 0.05])
+def test_the_smallest_gap_is_that_of_all_pairs_and_images(dimension: int, size: float) -> None:
+    """Of a strip so narrow that beads meet their own images, from positions and periods."""
+    rng, phi, height = np.random.default_rng(11), Fraction(7, 20), 3
+    for width in (1, 2):
+        beads = width ** (dimension - 1)
+        region = whole(beads, height, dimension)
+        rho = [size * rng.uniform(-1, 1, beads) for _ in range(height + 1)]
+        with FLOAT64.active():
+            packing = deposit(phi, region, rho, FLOAT64)
+        found = gaps(packing, range(height + 1))
+        gram = np.full((dimension, dimension), float(phi)) + (1 - float(phi)) * np.eye(dimension)
+        base = np.linalg.cholesky(gram)
+        dual = np.linalg.inv(gram)
+        least = np.inf
+        reach = range(-4, 5)
+        for lower in product(reach, repeat=dimension):
+            if not 0 <= sum(lower) <= height or any(not 0 <= x < width for x in lower[:-1]):
+                continue
+            for upper in product(reach, repeat=dimension):
+                apart = np.subtract(upper, lower)
+                contact = abs(apart).sum() == 1
+                if upper <= lower or contact or not 0 <= sum(upper) <= height:
+                    continue
+                ends = []
+                for x in (lower, upper):
+                    j = sum(x)
+                    column = 0
+                    for step in x[:-1]:
+                        column = column * width + step % width
+                    if dimension == 2:  # i = x_1 − x_2 = 2 x_1 − j
+                        column = (2 * x[0] - j - j % 2) // 2 % width
+                    c = np.array([rows[j][column] for _, rows in packing.c])
+                    ends.append((2 * np.array(x) @ base + (dual @ c) @ base, rho[j][column]))
+                (a, r), (b, s) = ends
+                least = min(least, float(np.linalg.norm(b - a)) - 2 - r - s)
+        assert found.smallest == pytest.approx(least, abs=1e-13)
+
+
+@pytest.mark.parametrize(("dimension", "phi"), [(2, Fraction(-2, 5)), (3, Fraction(-3, 10))])
+def test_pairs_come_by_distance_each_once(dimension: int, phi: Fraction) -> None:
+    found = [pair for pair, _ in zip(by_distance(dimension, phi), range(400), strict=False)]
+    assert [distance for distance, _ in found] == sorted(distance for distance, _ in found)
+    steps = {one for _, one in found}
+    assert len(steps) == len(found)
+    assert not steps & {tuple(-s for s in one) for one in steps}
+    last = found[-1][0]
+    for one in product(range(-5, 6), repeat=dimension):
+        square = 4 * (sum(s * s for s in one) * (1 - phi) + sum(one) ** 2 * phi)
+        contact = sum(map(abs, one)) == 1
+        if any(one) and not contact and float(square) ** 0.5 < last - 1e-9:
+            assert one in steps or tuple(-s for s in one) in steps
 
 
 def test_a_support_that_is_too_large_is_named() -> None:
     rho = [np.zeros((4, 4)), np.zeros((4, 4))]
     rho[0][2, 1] = 6.0
     with FLOAT64.active(), pytest.raises(UnbuildableError) as raised:
-        deposit(rho, metric(3, Fraction(1, 5), FLOAT64), FLOAT64, linear=False)
+        deposit(Fraction(1, 5), *spheres(rho), FLOAT64)
     # it holds up (2, 1, 1), (3, 1, 1) and (2, 2, 1): the first in order is named
     assert raised.value.site == (2, 1, 1)
 
@@ -288,11 +329,11 @@ def test_roundings_of_forces_do_not_pile_up() -> None:
 
     def solved(system: NumberSystem) -> list[Array]:
         with system.active():
-            beads = [from_floats(system, row) for row in rho]
-            placed = deposit(beads, metric(3, phi, system), system, linear=False)
-            load = zeros(system, 3, 3) + system.number(Fraction(1))
-            borne = bear(placed, [None] * M + [load], system, linear=False)
-            return [as_floats(row) for row in borne.change[1:]]
+            region, rows = spheres(rho)
+            placed = deposit(phi, region, [from_floats(system, row) for row in rows], system)
+            loads = from_above(region, zeros(system, 9) + system.number(Fraction(1)))
+            change = sweep_down(placed, region.rows, loads).change
+            return [as_floats(row) for _, rows in change for row in rows[1:]]
 
     near, enclosed = np.array(solved(FLOAT64)), np.array(solved(Balls(120)))
     assert np.abs(near - enclosed).max() < 4 * 2.0**-52 * np.abs(enclosed).max()
@@ -308,20 +349,21 @@ def test_roundings_of_forces_do_not_pile_up() -> None:
 def test_supports_that_lie_too_steeply_are_named(rho: list[list[list[float]]]) -> None:
     """In the first their plane is steeper than a base vector, in the second two change places."""
     with FLOAT64.active(), pytest.raises(UnbuildableError, match="steeper") as raised:
-        deposit([np.array(row) for row in rho], metric(3, Fraction(1, 5), FLOAT64), FLOAT64,
-                linear=False)  # fmt: skip
+        deposit(Fraction(1, 5), *spheres([np.array(row) for row in rho]), FLOAT64)
     assert raised.value.site[2] == 2
 
 
 def test_contacts_in_one_plane_hold_nothing_up() -> None:
     """The first contact of bead (1, 0, 1) is turned onto the second."""
-    m = metric(3, Fraction(1, 5), FLOAT64)
-    dn = np.zeros((3, 3, 2, 2))
-    dn[0, 0, 1, 0], dn[0, 1, 1, 0] = -1, 1
-    nothing = [np.zeros((2, 2))] * 2
-    placed = Placed(m, nothing, [np.zeros((3, 2, 2))] * 2, [np.zeros(0), dn])
+    dn = np.zeros((3, 3, 4))
+    dn[0, 0, 2], dn[0, 1, 2] = -1, 1
+    region, nothing = spheres([np.zeros((2, 2))] * 2)
+    none = (np.zeros(0),) * 3
+    still = PerAxis(nothing, nothing, nothing)
+    turned = PerAxis(*([none, tuple(dn[a])] for a in range(3)))
+    placed = SolvedPacking(Fraction(1, 5), FLOAT64, region, nothing, still, turned)
     with FLOAT64.active(), pytest.raises(NotStandingError, match=r"\(1, 0, 1\).*one plane"):
-        bear(placed, [None, np.ones((2, 2))], FLOAT64, linear=False)
+        sweep_down(placed, region.rows, from_above(region, np.ones(4)))
 
 
 @pytest.mark.parametrize("layer", [0, 1])
@@ -329,7 +371,7 @@ def test_a_radius_below_zero_is_named_in_any_layer(layer: int) -> None:
     rho = [np.zeros((2, 2)), np.zeros((2, 2))]
     rho[layer][0, 1] = -1.5
     with FLOAT64.active(), pytest.raises(UnbuildableError, match="no positive number") as raised:
-        deposit(rho, metric(3, Fraction(1, 5), FLOAT64), FLOAT64, linear=False)
+        deposit(Fraction(1, 5), *spheres(rho), FLOAT64)
     assert raised.value.site == (0, 1, layer)
 
 
@@ -339,4 +381,4 @@ def test_what_balls_leave_open_is_undecided() -> None:
         rho = [zeros(system, 2, 2), zeros(system, 2, 2)]
         rho[0][0, 1] = flint.arb(3, 3)  # a support of any size from r to 7 r
         with pytest.raises(UndecidedError, match="layer 1"):
-            deposit(rho, metric(3, Fraction(1, 5), system), system, linear=False)
+            deposit(Fraction(1, 5), *spheres(rho), system)

@@ -254,7 +254,7 @@ def test_clocks_do_not_overlap(geometry: str, quantity: str, tolerance: str | No
 
 
 def test_precisions_that_failed_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
-    sections = basic(quantity="contact", at=[2, 2, "+"], tolerance="=1e-20")
+    sections = basic(quantity="contact", at=[2, 2, "+"], tolerance="=1e-40")
     monkeypatch.setattr(choice, "initial_bits", lambda tolerance, height: 24)
     plan = planned(sections)
     outcome = run(plan)

@@ -10,8 +10,7 @@ from typing import Any
 import pytest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.disorder.radii import RadiusError
-from force_diffusion.numeric.mechanics.forces import NotStandingError
-from force_diffusion.numeric.mechanics.packing import UnbuildableError
+from force_diffusion.numeric.mechanics.sweep import NotStandingError, UnbuildableError
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run import read_scene, run
 from force_diffusion.numeric.scene.sections import SceneError

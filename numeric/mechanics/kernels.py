@@ -1,0 +1,486 @@
+"""The sweep compiled: ``local`` recorded, and ``loops`` around it; bitwise that of ``sweep``.
+
+The source that is compiled is put together when it is first needed, from what is recorded and from
+``loops``, and lies in a file whose name is made from its content: so machine code that was kept of
+an earlier run is taken only where nothing of what it was made from has changed. A packing out of
+the ordinary (a bead that can't rest, a number that is not finite) is given back, and left to
+``sweep``, whose errors name the bead.
+"""
+
+import hashlib
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from fractions import Fraction
+from functools import lru_cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..arithmetic import compiling
+from ..arithmetic.carried import CARRYING, Carried
+from ..arithmetic.compiling import CODES, on_all_cores
+from ..arithmetic.recording import Code, module, positive_root
+from ..arithmetic.systems import FLOAT64, Array
+from ..lattice.branch import per_direction
+from ..lattice.layers import Layer, LazyRows, Region
+from . import local
+from .local import RESOLUTION
+from .sweep import Forces, Loads, Memory, SolvedPacking
+
+FINITE = "abs({0}) < inf"
+POSITIVE = "{0} > 0) & ({0} < inf"
+# Zeros in memory, for beads that are not there: a run of such is no longer.
+NONE = 32
+# Gaps that are looked at together, in the nearest cache.
+MOST = 512
+
+
+class Kernels(NamedTuple):
+    """The compiled loops of one dimension, with or without errors."""
+
+    runs: Callable[..., int]
+    deposit: Callable[..., bool]
+    straight_down: Callable[..., None]
+    sweep_down: Callable[..., bool]
+    gaps: Callable[..., float]
+
+
+def source(dimension: int, *, carried: bool) -> str:
+    """Put together the source of all kernels of one dimension."""
+    names = f"D, PARTS, NONE, RESOLUTION = {dimension}, {1 + carried}, {NONE}, {RESOLUTION!r}"
+    loops = Path(__file__).with_name("loops.py").read_text(encoding="utf-8")
+    recorded = [
+        _rest(dimension, carried=carried),
+        _balance(dimension, carried=carried),
+        _order(dimension, carried=carried),
+        _gap(dimension),
+    ]
+    imports = (
+        "from math import inf, sqrt\nfrom force_diffusion.numeric.arithmetic.compiling import "
+        "alone, fma, pitch, placed, taken"
+    )
+    # what compiles them has no part in the text, but in what comes of it
+    with_what = hashlib.sha256(Path(compiling.__file__).read_text(encoding="utf-8").encode())
+    loops = f"{loops}\n# compiled as said in {with_what.hexdigest()[:24]}"
+    return module(recorded, f"{loops}\n\n{imports}\n{names}")
+
+
+LOADED: set[tuple[int, bool]] = set()
+"""Dimensions, and whether errors are carried, whose loops are compiled in this process."""
+
+
+@lru_cache(maxsize=8)
+def kernels(dimension: int, *, carried: bool = False) -> Kernels:
+    """Give the compiled loops; what an earlier run compiled is kept where that is possible."""
+    text = source(dimension, carried=carried)
+    name = f"force_diffusion_sweeps_{hashlib.sha256(text.encode()).hexdigest()[:24]}"
+    found = ModuleType(name)
+    found.__file__ = _kept(text, name)
+    made = Path(found.__file__).parent.glob(f"__pycache__/{name}.sweep_down*")
+    if not any(made) and sys.stderr is not None and sys.stderr.isatty():
+        print("compiling the sweeps for this machine, once: about 3 s", file=sys.stderr, flush=True)
+    sys.modules[name] = found  # machine code that was kept asks for it
+    LOADED.add((dimension, carried))
+    exec(compile(text, found.__file__, "exec"), vars(found))
+    return Kernels(*(vars(found)[field] for field in Kernels._fields))
+
+
+def _kept(text: str, name: str) -> str:
+    """Lay a source down where the compiler keeps what it made of it; give the file's name."""
+    path = CODES / f"{name}.py"
+    with suppress(OSError):
+        if not path.exists():
+            CODES.mkdir(parents=True, exist_ok=True)
+            handle, made = tempfile.mkstemp(dir=CODES)
+            with open(handle, "w", encoding="utf-8") as file:
+                file.write(text)
+            os.replace(made, path)
+    return str(path)
+
+
+class _Recording:
+    """Names of quantities of beads, and of constants, that carry errors or not.
+
+    ``arrays`` says how many quantities each array has, whose errors lie behind them.
+    """
+
+    def __init__(self, name: str, arrays: dict[str, int], constants: int, *, carried: bool) -> None:
+        self.code, self.carried, self.arrays = Code(name, list(arrays)), carried, arrays
+        self.constants: list[Any] = [self.code.constant() for _ in range(constants)]
+        if carried:
+            self.constants = [Carried(one, self.code.constant()) for one in self.constants]
+
+    def take(self, array: str, row: int, place: int) -> Any:
+        """Give a quantity of the beads at a place of the run."""
+        value = self.code.takes(array, row, place)
+        if not self.carried:
+            return value
+        return Carried(value, self.code.takes(array, self.arrays[array] + row, place))
+
+    def several(self, array: str, first: int, count: int, place: int) -> tuple[Any, ...]:
+        """Give quantities that lie one behind the other."""
+        return tuple(self.take(array, first + k, place) for k in range(count))
+
+    def give(self, array: str, first: int, place: int | None, values: Sequence[Any]) -> None:
+        """Put quantities there."""
+        for row, value in enumerate(values, first):
+            self.code.gives(array, row, place, value.value if self.carried else value)
+            if self.carried:
+                self.code.gives(array, self.arrays[array] + row, place, value.error)
+
+    def demand(self, value: Any, condition: str) -> None:
+        """Let the code say False where a condition does not hold."""
+        self.code.demand(value.value if self.carried else value, condition)
+
+
+def _sqrt(value: Any) -> Any:
+    return value.sqrt()
+
+
+def _rest(d: int, *, carried: bool) -> Code:
+    of = _Recording("rest", {"rho": 1, "block": d + d * d}, 3, carried=carried)
+    own, *supports = range(1 + d)
+    under = [of.several("block", 0, d, place) for place in supports]
+    rho_under = tuple(of.take("rho", 0, place) for place in supports)
+    rho, m = of.take("rho", 0, own), local.Metric(*of.constants)
+    found = local.rest(under, rho, rho_under, m, _sqrt, linear=False)
+    of.demand(1 + rho, POSITIVE)
+    for value in found.holds:
+        of.demand(value, POSITIVE)
+    of.give("block", 0, own, [*found.c, *(x for v in found.dn for x in v)])
+    return of.code
+
+
+def _balance(d: int, *, carried: bool) -> Code:
+    of = _Recording("balance", {"F": d, "block": d + d * d, "g": d, "lost": d}, 0, carried=carried)
+    own, here, new = range(3)
+    above = []
+    for a in range(d):
+        up, over, old = (3 * (a + 1) + k for k in range(3))
+        dn = of.several("block", d + a * d, d, over)
+        above.append((of.take("F", a, up), of.take("g", a, up), dn, of.take("lost", a, old)))
+    below = [of.several("block", d + a * d, d, here) for a in range(d)]
+    found = local.balance(above, of.several("F", 0, d, own), below, linear=False, compensated=True)
+    of.demand(found.det * found.det, POSITIVE)
+    for value in found.g:
+        of.demand(value, FINITE)
+    of.give("g", 0, own, found.g)
+    of.give("lost", 0, new, found.lost)
+    return of.code
+
+
+def _order(d: int, *, carried: bool) -> Code:
+    """Loads go straight down: ordered forces, of the same runs as ``_balance``."""
+    of = _Recording("order", {"F": d, "shares": d}, 0, carried=carried)
+    of.give("F", 0, 0, [of.take("F", a, 3 * (a + 1)) + of.take("shares", a, 0) for a in range(d)])
+    return of.code
+
+
+def _gap(d: int) -> Code:
+    of = _Recording("gap", {"rho": 1, "block": d, "gaps": 1}, 5 + d, carried=False)
+    here, there = (of.several("block", 0, d, place) for place in range(2))
+    rho, other = (of.take("rho", 0, place) for place in range(2))
+    phi, own, cross, *steps, square, excess = of.constants
+    found = local.gap(steps, square, excess, local.less(there, here), rho + other,
+                      local.Metric(phi, own, cross), positive_root)  # fmt: skip
+    of.give("gaps", 0, None, [found])
+    return of.code
+
+
+@lru_cache(maxsize=4)
+def constants(dimension: int, phi: Fraction, *, carried: bool) -> Array:
+    """Give what the ordered packing decides, as kernels take it."""
+    m = local.metric(dimension, phi, (CARRYING if carried else FLOAT64).scalar)
+    numbers = [one.value for one in m] + [one.error for one in m] if carried else list(m)
+    return np.array(numbers, dtype=np.float64)
+
+
+def memory(batch: int, quantities: int, size: int) -> Array:
+    """Give memory, (batch, quantities, size and more).
+
+    It is one piece, since the system hands out big pieces faster. Quantities at distances that are
+    multiples of 4096 bytes would compete for the same places of the cache. The last ``NONE`` of
+    each are zeros.
+    """
+    block = np.empty((batch, *padded(quantities, size)))
+    block[..., -NONE:] = 0.0
+    return block
+
+
+def padded(quantities: int, size: int) -> tuple[int, int]:
+    """Give the shape of ``memory`` of one packing."""
+    end = size + NONE
+    return quantities, end + (72 - end) % (512 if end > 512 else 64)
+
+
+def layers_of(region: Region, rows: Array, starts: Array) -> Array:
+    """Give each layer's first bead, beads, and beads in a row, of a ``layers.table``."""
+    counts = rows[:, 1]
+    own = np.maximum(counts, 1) if region.dimension == 2 else np.full_like(counts, region.side)
+    return np.stack((starts[: len(rows)], counts, own), 1)
+
+
+def turns_of(region: Region, steps: tuple[int, ...]) -> Array:
+    """Say for each row of a layer in which one the beads lie that are so many steps on."""
+    if region.dimension == 2:
+        return np.zeros(1, np.int64)
+    return (np.arange(region.side) + steps[0]) % region.side
+
+
+def links_of(
+    region: Region, rows: Array, sources: Array, starts: Array, steps: tuple[int, ...]
+) -> Array:
+    """Say where the beads lie that are so many steps on from each row of beads, (layers, 4).
+
+    ``rows``, and ``sources`` in which they lie, are tables of layers; ``starts`` are the first
+    beads of the latter. See ``loops``. Where no row is there, its length is 0.
+    """
+    on = np.arange(len(rows)) + sum(steps)
+    there = (on >= 0) & (on < len(sources)) & (rows[:, 1] > 0)
+    on = np.where(there, on, 0)
+    if region.dimension == 2:
+        shift = (rows[:, 0] + steps[0] - steps[1] - sources[on, 0]) // 2
+        length, period = sources[on, 1], region.width or 0
+    else:
+        shift, length, period = np.full(len(rows), steps[1]), region.side, region.side
+    found = np.empty((len(rows), 4), np.int64)
+    for column, values in enumerate((starts[on], length, shift, period)):
+        found[:, column] = values * there
+    return found
+
+
+def runs_of(
+    dimension: int, layers: Array, links: Sequence[Array], turns: Sequence[Array],
+    nothing: Sequence[int], most: int, *, carried: bool,
+) -> Array:  # fmt: skip
+    """Give the table ``loops.runs``, the lowest layer first; ``links`` and ``turns`` by place."""
+    cut = kernels(dimension, carried=carried).runs
+    own = np.stack(links, 1), np.stack(turns), np.array(nothing)
+    count, found = 3 * len(layers) * turns[0].size, np.empty((0, 0), np.int64)
+    while len(found) <= count:
+        found = np.empty((count + 1, len(links) + 1), np.int64)
+        count = cut(layers, *own, most, found)
+    return found[:count]
+
+
+def rows_of(values: Array, starts: Array, counts: Array, lowest: int = 0) -> LazyRows[Any]:
+    """Give the rows of (…, beads), of which those below ``lowest`` have nothing to say."""
+
+    def row(j: int) -> Array:
+        return values[..., starts[j] : starts[j] + counts[j]] if j >= lowest else np.empty(0)
+
+    return LazyRows(len(counts), row)
+
+
+def pairs_of(
+    region: Region, steps: Sequence[tuple[int, ...]], most: int, *, carried: bool
+) -> Array:
+    """Give runs of beads and of those that lie so many steps on, where all of them are there."""
+    d, rows = region.dimension, region.table
+    both = [(0,) * d, *steps]
+    links = [links_of(region, rows, rows, region.starts, one) for one in both]
+    turns = [turns_of(region, one) for one in both]
+    layers, nothing = layers_of(region, rows, region.starts), [-1] * len(both)
+    return runs_of(d, layers, links, turns, nothing, most, carried=carried)
+
+
+# Packings of one shape are often solved one after the other: their tables stay.
+@lru_cache(maxsize=4)
+def _supports(region: Region, *, carried: bool) -> Array:
+    """Give the runs of ``loops.deposit``. Raise ``LookupError`` where a support is lacking."""
+    steps = [region.step(a, -1) for a in range(region.dimension)]
+    found = pairs_of(region, steps, max(region.widest, 1), carried=carried)
+    before = np.append(0, np.cumsum(found[:, -1]))
+    held = np.diff(before[np.searchsorted(found[:, 0], region.starts[1:])])
+    lacking = held != region.table[1:, 1]
+    if lacking.any():
+        j = int(np.argmax(lacking)) + 1
+        raise LookupError(f"layer {j - 1} lacks supports of layer {j}")
+    return found
+
+
+class Deposition:
+    """Deposits packings of one region, in memory that is used again for the next ones."""
+
+    def __init__(self, phi: Fraction, region: Region, *, carried: bool = False) -> None:
+        """``carried``: numbers carry their errors."""
+        self.region, self.carried = region, carried
+        d = region.dimension
+        self.constants = constants(d, phi, carried=carried)
+        self.runs = _supports(region, carried=carried)
+        self.counts = region.table[:, 1]
+        self.quantities = d + d * d
+        self.block = np.empty((0, 0, 0))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Quantities, and the numbers of each, in memory."""
+        return padded((1 + self.carried) * self.quantities, self.region.beads)
+
+    def __call__(self, rho: Array, base: Array | None = None) -> Array | None:
+        """Deposit packings of δr/r, (packings, parts, beads); None where not all rest.
+
+        Gives the ``block`` of ``loops.deposit``. ``base`` holds c of the lowest row, if it is not
+        the ordered base. What was given before is overwritten.
+        """
+        batch, (parts, beads) = len(rho), rho.shape[1:]
+        lowest = 1 + rho[:, 0, : self.counts[0]]
+        if not ((lowest > 0) & (lowest < np.inf)).all():
+            return None
+        if len(self.block) < batch:
+            self.block = memory(batch, parts * self.quantities, beads)
+        d, block = self.region.dimension, self.block[:batch]
+        loop = kernels(d, carried=self.carried)
+        for k in range(parts):
+            own = slice(k * self.quantities, k * self.quantities + d)
+            block[:, own, : self.counts[0]] = 0 if base is None else base[k * d : (k + 1) * d]
+
+        def part(of: slice) -> bool:
+            return loop.deposit(rho[of], block[of], self.runs, self.constants)
+
+        return block if on_all_cores(part, batch) else None
+
+
+def told(
+    phi: Fraction, region: Region, rho: Array, block: Array, *, carried: bool = False
+) -> SolvedPacking:
+    """Tell a ``block`` of values row by row; ``rho`` is (packings, beads).
+
+    ``carried``: the loops that gave it carried errors.
+    """
+    d, starts, counts = region.dimension, region.starts, region.table[:, 1]
+
+    def rows(values: Array, lowest: int = 0) -> LazyRows[Any]:
+        return rows_of(values[0] if len(values) == 1 else values, starts, counts, lowest)
+
+    def turned(a: int) -> LazyRows[tuple[Array, ...]]:
+        parts = [rows(block[:, d + a * d + b], 1) for b in range(d)]
+        return LazyRows(len(counts), lambda j: tuple(part[j] for part in parts))
+
+    return SolvedPacking(
+        phi,
+        FLOAT64,
+        region,
+        rows(rho),
+        per_direction([rows(block[:, a]) for a in range(d)]),
+        per_direction([turned(a) for a in range(d)]),
+        Memory(rho, block, carried),
+    )
+
+
+@lru_cache(maxsize=4)
+def _loads(region: Region, own: Region, lowest: int, *, carried: bool) -> Array:
+    """Give the runs of ``loops.sweep_down`` for the beads ``own`` of a region, above ``lowest``."""
+    rows, d, starts, wide = own.table, region.dimension, own.starts, own.widest
+    turn = np.arange(len(rows)) % 2 * wide  # where a layer loses
+    links, turns = [], []
+    for one in [(0,) * d, *(region.step(a, 1) for a in range(d))]:
+        forces = links_of(region, rows, rows, starts, one)
+        lose = forces.copy()
+        lose[:, 0] = (turn + sum(one) * wide) % (2 * max(wide, 1))
+        links += [forces, links_of(region, rows, region.table, region.starts, one), lose]
+        turns += [turns_of(region, one)] * 3
+    ends = [padded(1, size)[1] - NONE for size in (own.beads, region.beads)]
+    nothing, layers = [*ends, 2 * wide] * (1 + d), layers_of(region, rows, starts)
+    found = runs_of(d, layers, links, turns, nothing, max(wide, 1), carried=carried)
+    first = np.searchsorted(found[:, 0], starts[lowest])
+    return np.ascontiguousarray(found[first:][::-1])
+
+
+class Descent:
+    """Carries loads down through packings of one region, in memory that is used again."""
+
+    def __init__(
+        self, region: Region, rows: tuple[Layer, ...], loads: Loads, *, carried: bool = False
+    ) -> None:
+        """``rows`` are those whose forces are balanced, ``loads`` belong to them."""
+        d, self.carried = region.dimension, carried
+        self.region, self.rows = region, rows
+        own = Region(region.width, rows, d)
+        own = region if own == region else own
+        self.counts, self.starts, self.widest = own.table[:, 1], own.starts, own.widest
+        empty = np.flatnonzero(self.counts[1:] == 0)
+        self.lowest = int(empty[-1]) + 2 if len(empty) else 1
+        self.beads = int(self.starts[-1] - self.starts[1])  # that pass forces on
+        self.runs = _loads(region, own, self.lowest, carried=carried)
+        self.g, self.lost = np.empty((0, 0, 0)), np.empty((0, 0))
+        self.set(loads)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Quantities, and the numbers of each, in memory."""
+        return padded((1 + self.carried) * self.region.dimension, int(self.starts[-1]))
+
+    def set(self, loads: Loads) -> None:
+        """Take other loads."""
+        d, self.loads = self.region.dimension, loads
+        self.F, shares = np.zeros(self.shape), np.zeros(self.shape)
+        for a, (_, rows) in enumerate(loads):
+            for j in range(self.lowest, len(self.rows)):
+                of, share = slice(self.starts[j], self.starts[j + 1]), rows[j]
+                if isinstance(share, Carried):
+                    shares[a, of], shares[d + a, of] = share.value, share.error
+                elif share is not None:
+                    shares[a, of] = share
+        loop = kernels(d, carried=self.carried)
+        loop.straight_down(self.F, shares, self.runs, np.empty(0))
+
+    def __call__(self, block: Array, above: Array | None = None) -> Array | None:
+        """Balance the forces of packings whose ``block`` that is; None where not all is in order.
+
+        Gives ``g`` of ``loops.sweep_down``. ``above`` holds what ``row`` gave of the highest row,
+        if that is balanced already.
+        """
+        batch, rows, top = len(block), self.F.shape[0], len(self.rows) - 1
+        if len(self.g) < batch:
+            self.g = memory(batch, rows, int(self.starts[-1]))
+        g, runs = self.g[:batch], self.runs
+        loop = kernels(self.region.dimension, carried=self.carried)
+        if above is not None:
+            runs = runs[runs[:, 0] < self.starts[top]]
+
+        def part(of: slice) -> bool:
+            lost = np.zeros((rows, 2 * self.widest + NONE))
+            if above is not None:
+                g[of, :, self.starts[top] : self.starts[top + 1]] = above[0]
+                lost[:, top % 2 * self.widest :][:, : self.counts[top]] = above[1]
+            good = loop.sweep_down(self.F, block[of], g[of], lost, runs, np.empty(0))
+            if batch == 1:
+                self.lost = lost
+            return good
+
+        return g if on_all_cores(part, batch) else None
+
+    def row(self, j: int) -> Array:
+        """Give g and what was lost of the lowest row but one that was balanced, (2, …, beads)."""
+        turn = j % 2 * self.widest
+        lost = self.lost[:, turn : turn + self.counts[j]]
+        return np.stack([self.g[0, :, self.starts[j] : self.starts[j + 1]], lost])
+
+    @property
+    def beads_below(self) -> slice:
+        """Which of all numbers belong to beads that bear something."""
+        return slice(self.starts[self.lowest], self.starts[-1])
+
+    def told(self, F: Array, g: Array) -> Forces:
+        """Tell ``beads_below`` row by row: ordered forces (d, …), changes (packings, d, …)."""
+        d = self.region.dimension
+
+        def rows(values: Array) -> LazyRows[Any]:
+            return rows_of(values, self.starts - self.starts[self.lowest], self.counts, self.lowest)
+
+        changes = [g[0, a] if len(g) == 1 else g[:, a] for a in range(d)]
+        return Forces(
+            FLOAT64,
+            self.region,
+            self.rows,
+            per_direction([rows(F[a]) for a in range(d)]),
+            per_direction([rows(one) for one in changes]),
+            F=F,
+            g=g,
+        )
