@@ -182,7 +182,7 @@ def _drawn(where: Where) -> Iterator[tuple[Point, World]]:
 
 def _values(at: Point, world: World) -> dict[sympy.Symbol, Number]:
     """Values of indices, then of continuous symbols; z = j/M where both are indices."""
-    values = {**world.values(), **at}
+    values = {**at, **world.values(), **at}  # N is one of both: an index first
     if sy.j in at and at.get(sy.M):
         values[sy.z] = Fraction(at[sy.j], at[sy.M])
     return values

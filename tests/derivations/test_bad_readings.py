@@ -19,6 +19,7 @@ from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.attacks.every import succeeded
 from force_diffusion.symbolic.kernel import language, moments, rules, theorem
 from force_diffusion.symbolic.kernel.decisions import Verdict, proved
+from force_diffusion.symbolic.kernel.theorem import NotProvedError
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.variances import weights
@@ -91,20 +92,6 @@ def test_divisors_are_unchecked(monkeypatch: Plant, number: int) -> None:
     assert is_noticed(number)
 
 
-@pytest.mark.parametrize("number", [15])
-def test_roots_of_what_is_negative_are_taken(monkeypatch: Plant, number: int) -> None:
-    whole = signs.sign
-
-    def careless(expression: sympy.Expr, *others: Any) -> int:
-        if isinstance(expression, sympy.Pow) and not expression.exp.is_Integer:
-            return 1
-        return whole(expression, *others)
-
-    monkeypatch.setattr(language, "sign", lambda *_: 1)
-    monkeypatch.setattr(signs, "sign", careless)
-    assert is_noticed(number)
-
-
 # elsewhere the divisor that a factor becomes is refused as well
 @pytest.mark.parametrize("number", [1, 3, 4, 5, 6])
 def test_a_statement_may_say_nothing_somewhere(monkeypatch: Plant, number: int) -> None:
@@ -171,9 +158,10 @@ SUM = sympy.Sum(sy.m, (sy.m, 1, sy.n))
 
 @pytest.mark.parametrize("more", [1, sy.M, sympy.Rational(1, 10**6), -1])
 def test_a_certificate_starts_at_zero(more: sympy.Expr) -> None:
-    right = sy.n * (sy.n + 1) / 2
-    assert follows.is_sum(0, equation(SUM, right)).verdict is Verdict.PROVED
-    assert follows.is_sum(0, equation(SUM, right + more)).verdict is Verdict.REFUTED
+    right, where = sy.n * (sy.n + 1) / 2, Where.of(sy.n >= 0, indices=(sy.M,))
+    assert rules.rewrite()(equation(SUM, right), where).rule == "rewrite"
+    with pytest.raises(NotProvedError, match="differ"):
+        rules.rewrite()(equation(SUM, right + more), where)
 
 
 @pytest.mark.parametrize("decide", [follows.identity(), follows.linear(), follows.summed()])
