@@ -1,6 +1,6 @@
 """Build expressions that keep the paper's order of terms and factors."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import sympy
@@ -31,24 +31,48 @@ def equation(left: sympy.Expr, right: sympy.Expr) -> sympy.Eq:
     return sympy.Eq(left, right, evaluate=False)
 
 
-def in_place(node: sympy.Basic, meaning: Mapping[Any, Any]) -> sympy.Basic:
+def nodes(tree: sympy.Basic) -> Iterator[sympy.Basic]:
+    """What a tree is made of, parts before what is made of them; one it holds twice comes once."""
+    seen: set[int] = set()
+    left: list[tuple[sympy.Basic, bool]] = [(tree, False)]
+    while left:
+        node, its_parts_came = left.pop()
+        if its_parts_came:
+            yield node
+        elif id(node) not in seen:
+            seen.add(id(node))
+            left.append((node, True))
+            left += [(one, False) for one in node.args]
+
+
+def written_out(tree: sympy.Basic) -> int:
+    """How many nodes a tree has when a part that it holds twice is counted twice."""
+    count: dict[int, int] = {}
+    for node in nodes(tree):
+        count[id(node)] = 1 + sum(count[id(one)] for one in node.args)
+    return count[id(tree)]
+
+
+def in_place(tree: sympy.Basic, meaning: Mapping[Any, Any]) -> sympy.Basic:
     """What is written in short, put in one after the other; no divisor is cancelled by it."""
     for what, image in meaning.items():
-        node = _in_place(node, what, image)
-    return node
+        tree = _in_place(tree, what, image)
+    return tree
 
 
-def _in_place(node: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
-    if node == what:
-        result: sympy.Basic = image
-        return result
-    if not node.has(what):
-        return node
-    args = [_in_place(one, what, image) for one in node.args]
-    if isinstance(what, type) and isinstance(node, what):
-        result = image(*args)
-    elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow | sympy.Eq):
-        result = node.func(*args, evaluate=False)
-    else:
-        result = node.func(*args)
-    return result
+def _in_place(tree: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
+    """`what`, a node or a class of them, put in wherever the tree has it, without recursion."""
+    put: dict[int, sympy.Basic] = {}
+    for node in nodes(tree):
+        args = [put[id(one)] for one in node.args]
+        if node == what:
+            put[id(node)] = image
+        elif isinstance(what, type) and isinstance(node, what):
+            put[id(node)] = image(*args)
+        elif all(new is old for new, old in zip(args, node.args, strict=True)):
+            put[id(node)] = node
+        elif isinstance(node, sympy.Add | sympy.Mul | sympy.Pow | sympy.Eq):
+            put[id(node)] = node.func(*args, evaluate=False)
+        else:
+            put[id(node)] = node.func(*args)
+    return put[id(tree)]

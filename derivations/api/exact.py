@@ -1,5 +1,6 @@
 """An exact form at finite size as a Python user holds it."""
 
+import re
 from typing import Any
 
 from force_diffusion.derivations.api.deciding import decided
@@ -37,7 +38,7 @@ class ExactForm(Formula):
     """
 
     def __init__(self, derivation: Derivation, case: str, form: ExactCase) -> None:
-        name = f"{derivation.name}_{case.replace('+', '_plus_').replace('-', '_')}"
+        name = f"{derivation.name}_{_in_code(case)}"
         line = Eq(form.quantity, form.expression, evaluate=False)
         super().__init__(name, f"Eq. {derivation.number}", (line,))
         self._case, self._form, self._number = case, form, derivation.number
@@ -152,3 +153,10 @@ class ExactForm(Formula):
         if self.missed:
             lines += ["", "Not covered by this form:", *("  " + line for line in self._edges())]
         return "\n".join(lines)
+
+
+def _in_code(case: str) -> str:
+    """The name of a case in the name of a function: of "N=M-j" N_is_M_minus_j."""
+    for sign, word in {"+": "_plus_", ">": "_above_", "=": "_is_"}.items():
+        case = case.replace(sign, word)
+    return re.sub(r"\W+", "_", re.sub(r"(?<=[jM])-", "_minus_", case))

@@ -186,7 +186,8 @@ class Means:
             if window.added is None:
                 form = self.value(self.symbol, where)
             else:
-                form = terms(self.printed.rhs, times(window.added / N**2, UNIT))
+                added = sympy.factor(window.added / N**2)
+                form = terms(self.printed.rhs, times(added, UNIT))
             domain, missed = window.relations, tuple[Missed, ...]()
             if window.missed:
                 domain = tuple(one for one in domain if not one.has(M))

@@ -26,25 +26,6 @@ class Form(StrEnum):
     STEPS = "steps"
 
 
-class Place(StrEnum):
-    """What an exact form is for: layers (13, 14), a load (15, B18), a place in the cone (16)."""
-
-    INTERIOR = "interior"
-    BASE = "base"
-    NEXT = "base+1"
-    SURFACE = "surface"
-    BULK_INTERIOR = "bulk-interior"
-    BULK_BASE = "bulk-base"
-    BULK_NEXT = "bulk-base+1"
-    BULK_SURFACE = "bulk-surface"
-    SURFACE_LOAD = "surface-load"
-    BULK_LOAD = "bulk-load"
-    BEAD = "bead"
-    CONTACT = "contact"
-    LEG = "leg"
-    LEG_FORCE = "leg-force"
-
-
 Columns = Annotated[
     int, typer.Option(min=1, max=2, help="Columns of the text that the LaTeX goes into.")
 ]
@@ -90,15 +71,16 @@ def show(
         bool, typer.Option("--exact", help="The exact form at finite size, where there is one.")
     ] = False,
     at_j: Annotated[
-        Place | None,
+        str | None,
         typer.Option(
             "--at-j",
             "--case",
+            metavar="CASE",
             help="Which exact form. Eqs. 13 and 14: interior (2 ≤ j ≤ M − 2, the default), "
             "base (j = 0), base+1 (j = 1) or surface (j = M − 1). Eq. 15: surface-load (the "
             "default) or bulk-load. Eq. 16: bead (both upper contacts, the default), contact (one "
             "of them), leg (the contact on a leg of the cone) or leg-force (its magnitude). Beyond "
-            "the paper: as for 13 and 14, bulk-… for a bulk load beside another; B19 as 16.",
+            "the paper, a case that is none of them is answered by a list of them.",
         ),
     ] = None,
     columns: Columns = 1,

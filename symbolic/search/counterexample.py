@@ -8,6 +8,7 @@ from itertools import islice, product
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.as_printed import nodes
 from force_diffusion.symbolic.kernel.where import LATTICE, Loading, Where
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search import any_dimension, limits
@@ -132,7 +133,7 @@ def counterexample(
     vector, a sum whose upper bound is below its lower one by more than one, what is too large.
     """
     try:
-        if where.dimension != 2 or statement.has(*sy.CONTACTS):
+        if where.dimension != 2 or any(isinstance(one, sy.CONTACTS) for one in nodes(statement)):
             return any_dimension.counterexample(statement, where, at_most)
         if where.limit:
             return limits.counterexample(statement, where, force)

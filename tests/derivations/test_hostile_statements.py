@@ -228,7 +228,8 @@ def test_a_sum_without_terms_is_no_way_to_write_zero_unless_it_is_one(number: in
 
 CASES = [(number, case) for number in NUMBERS for case in fd.equation(number).cases]
 ELSEWHERE = re.compile(r"N|next|(base|base\+1|surface)$")
-"""Forms of an edge, or of other windows and layers: false where the printed equation is said."""
+"""Forms of an edge, or of other windows and layers: false where the printed equation is said,
+but for windows that reach below the base, whose form is the printed one (Eq. B8, N ≥ j + 2)."""
 
 
 @pytest.mark.parametrize(("number", "case"), CASES)
@@ -240,7 +241,8 @@ def test_an_exact_form_is_proved_and_a_millionth_more_is_not(number: int | str, 
     assert equation.decide(more).verdict != "proved"
     assert equation.decide(less).verdict != "proved"
     found = equation.decide(form)
-    if ELSEWHERE.search(case):
+    printed = any(sympy.simplify(form.rhs - line.rhs) == 0 for line in lines(number))
+    if ELSEWHERE.search(case) and not printed:
         assert found.verdict != "proved"
     elif any(sympy.expand(form.lhs - line.lhs) == 0 for line in lines(number)):
         assert found.verdict == "proved", str(found)
