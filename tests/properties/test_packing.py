@@ -4,7 +4,7 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from tests.properties.drawn import exactly
@@ -33,13 +33,16 @@ def disordered(draw: st.DrawFn) -> Packing:
     """Two or three dimensions, radii that differ by up to a tenth, seams across every cone."""
     d = draw(st.sampled_from([2, 3]))
     width, height = draw(st.integers(1, 3)), draw(st.integers(1, 6 - d))
-    # no horizontal neighbours overlap, and no bead falls through
+    # no horizontal neighbours overlap
     cosine = draw(st.fractions(Fraction(-1, 5), Fraction(2, 5), max_denominator=20))
     r = draw(st.builds(Fraction, st.integers(1, 9), st.integers(1, 9)))
     packing = Packing(exactly(cosine), width, height, exactly(r), {}, d)
     parts = st.integers(-9, 9)
     change = {site: packing.r * draw(parts) / 90 for site in every(packing)}
-    return replace(packing, change=change)
+    packing = replace(packing, change=change)
+    # a small bead above large ones far apart may fall through all the same, above all in 3D
+    assume(all(mp.im(part) == 0 for site in every(packing) for part in packing.centre(site)))
+    return packing
 
 
 @st.composite
