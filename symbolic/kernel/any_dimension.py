@@ -2,7 +2,7 @@
 
 Every bead rests on d others, along base vectors of equal mutual dot product φ, −1/d < φ < ½, and a
 load points along their sum. What the forces are in the radii is part of what is trusted:
-``symbolic.variances.any_dimension`` and ``symbolic.variances.point_load`` say it, and sum squares.
+``weights_any_dimension`` and ``point_load`` say it, and sum squares.
 """
 
 from dataclasses import replace
@@ -11,13 +11,13 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
+from force_diffusion.symbolic.algebra.weights import UndeterminedError
+from force_diffusion.symbolic.kernel import weights_any_dimension
+from force_diffusion.symbolic.kernel.point_load import AXES, Weights
 from force_diffusion.symbolic.kernel.theorem import NotProvedError
 from force_diffusion.symbolic.kernel.where import Loading, Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.variances import any_dimension
-from force_diffusion.symbolic.variances.point_load import AXES, Weights
-from force_diffusion.symbolic.variances.weights import UndeterminedError
 
 _WORDS = "the same load along the sum of the base vectors"
 SURFACE = Loading(
@@ -139,7 +139,7 @@ def _of_layers(form: Linear, where: Where) -> RationalFunction:
     for force, factor in form[1].items():
         layer, height = (sympy.expand(one.xreplace(where.solved)) for one in (force.args[0], sy.M))
         geometry = replace(where, loading=None, limit=None, dimension=sy.d)
-        squares = any_dimension.squares(layer, height, where.loading == BULK, geometry)
+        squares = weights_any_dimension.squares(layer, height, where.loading == BULK, geometry)
         if where.dimension != sy.d:
             squares = squares.substitute({sy.d: FIELD.constant(where.dimension)}).reduced()
         total = total + factor**2 * squares

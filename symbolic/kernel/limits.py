@@ -20,6 +20,7 @@ from force_diffusion.symbolic.algebra.exact import (
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
 from force_diffusion.symbolic.algebra.reading import Reader
 from force_diffusion.symbolic.algebra.signs import never_zero
+from force_diffusion.symbolic.algebra.weights import Pieces
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.moments import in_the_radii, pieces, value, without_moments
 from force_diffusion.symbolic.kernel.rules import Rule
@@ -35,7 +36,6 @@ from force_diffusion.symbolic.kernel.theorem import (
 from force_diffusion.symbolic.kernel.where import Limit, Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.variances.weights import Pieces
 
 _NEVER = 10**9  # no order is as large
 FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}

@@ -17,6 +17,12 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.exact import FIELD, UNKNOWNS, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm
+from force_diffusion.symbolic.algebra.weights import (
+    Pieces,
+    UndeterminedError,
+    sum_of_products,
+    take_apart,
+)
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel import any_dimension, second_order
 from force_diffusion.symbolic.kernel.rules import Rule
@@ -33,12 +39,6 @@ from force_diffusion.symbolic.kernel.theorem import (
 from force_diffusion.symbolic.kernel.where import LATTICE, Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.variances.weights import (
-    Pieces,
-    UndeterminedError,
-    sum_of_products,
-    take_apart,
-)
 
 _KNOWN = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS} - {sy.epsilon}
 _RADII = (sy.DeltaR, sy.SecondDifference)

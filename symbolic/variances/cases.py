@@ -13,8 +13,8 @@ from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
+from force_diffusion.symbolic.algebra.weights import UndeterminedError
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.variances.weights import UndeterminedError
 
 DEEPEST = 9  # no coincidence of the paper's forms is left open for indices from here on
 

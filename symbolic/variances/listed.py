@@ -8,9 +8,9 @@ import sympy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.affine import Affine
 from force_diffusion.symbolic.algebra.exact import LAYER, RationalFunction
+from force_diffusion.symbolic.algebra.weights import Order, Pieces, Run
 from force_diffusion.symbolic.as_printed import power, terms, times
 from force_diffusion.symbolic.symbols import DeltaR, M, j, m
-from force_diffusion.symbolic.variances.weights import Order, Pieces, Run
 
 
 @dataclass(frozen=True)

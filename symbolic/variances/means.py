@@ -11,12 +11,12 @@ from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
 from force_diffusion.symbolic.algebra.reading import Reader
+from force_diffusion.symbolic.algebra.weights import take_apart
 from force_diffusion.symbolic.variances.cases import Case, by_case
 from force_diffusion.symbolic.variances.variance import (
     variance,
     without_constant,
 )
-from force_diffusion.symbolic.variances.weights import take_apart
 
 
 def covariance(x: sympy.Expr, y: sympy.Expr, region: Region) -> RationalFunction:

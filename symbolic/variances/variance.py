@@ -14,8 +14,8 @@ from force_diffusion.symbolic.algebra.exact import FIELD, LAYER, RationalFunctio
 from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm
 from force_diffusion.symbolic.algebra.reading import Reader
 from force_diffusion.symbolic.algebra.signs import never_zero
+from force_diffusion.symbolic.algebra.weights import Pieces, take_apart
 from force_diffusion.symbolic.symbols import M, j, sigma, z
-from force_diffusion.symbolic.variances.weights import Pieces, take_apart
 
 
 @cache

@@ -13,7 +13,7 @@ from force_diffusion.derivations.framework import follows, proving, record, runn
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.record import KernelError, Step
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import signs
+from force_diffusion.symbolic.algebra import signs, weights
 from force_diffusion.symbolic.algebra.reading import read_with
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.attacks.every import succeeded
@@ -22,7 +22,6 @@ from force_diffusion.symbolic.kernel.decisions import Verdict, proved
 from force_diffusion.symbolic.kernel.theorem import NotProvedError
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.mechanics import lattice
-from force_diffusion.symbolic.variances import weights
 
 Plant = pytest.MonkeyPatch
 

@@ -10,12 +10,12 @@ from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import LAYER, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
 from force_diffusion.symbolic.algebra.reading import Reader, UnsafeBoundsError
-from force_diffusion.symbolic.kernel.decisions import GEOMETRIES, Verdict, decide_linear
-from force_diffusion.symbolic.variances.weights import (
+from force_diffusion.symbolic.algebra.weights import (
     UndeterminedError,
     sum_of_products,
     take_apart,
 )
+from force_diffusion.symbolic.kernel.decisions import GEOMETRIES, Verdict, decide_linear
 from hypothesis import given
 from hypothesis import strategies as st
 

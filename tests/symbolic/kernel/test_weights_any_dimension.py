@@ -10,11 +10,11 @@ from force_diffusion.derivations.witnesses import dimensions
 from force_diffusion.numeric.mechanics.any_dimension import force_weights, squared, together
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.exact import FIELD
+from force_diffusion.symbolic.algebra.weights import UndeterminedError
+from force_diffusion.symbolic.kernel.point_load import Weights
+from force_diffusion.symbolic.kernel.weights_any_dimension import squares
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.symbols import M, d, j, l, p, phi, q, r, sigma
-from force_diffusion.symbolic.variances.any_dimension import squares
-from force_diffusion.symbolic.variances.point_load import Weights
-from force_diffusion.symbolic.variances.weights import UndeterminedError
 from sympy import Eq, Integer
 
 CASES = {

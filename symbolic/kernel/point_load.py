@@ -16,9 +16,9 @@ import sympy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.affine import Affine
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
+from force_diffusion.symbolic.algebra.weights import UndeterminedError
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.symbols import phi
-from force_diffusion.symbolic.variances.weights import UndeterminedError
 
 Bead = tuple[Affine, Affine, Affine]
 AXES = (0, 1, 2)

@@ -27,8 +27,8 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction, sum_polynomial
+from force_diffusion.symbolic.algebra.weights import UndeterminedError
 from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.variances.weights import UndeterminedError
 
 OWN = 1 + (sy.d - 2) * sy.phi
 """b^a·b^a of the reciprocal vectors, times ``BELOW``."""
