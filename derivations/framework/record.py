@@ -195,7 +195,11 @@ class Derivation:
             for name, case in cases.items()
             if case.quantity == printed.lhs
             # at finite size, forms of other layers may be the same there, or not
-            and (where is None or where.limit or all(map(where.implies, case.domain)))
+            and (
+                where is None
+                or where.limit
+                or all(where.implies(in_whole_numbers(one)) for one in case.domain)
+            )
         )
         return Source(printed, self.relation, tuple(forms), where, self.dimension)
 
@@ -306,6 +310,16 @@ class Derivation:
             f"the checker is at fault, and its verdicts count for nothing. Of Eq. {self.number} it "
             f"got wrong: {_shown(statement)} ({words})"
         )
+
+
+def in_whole_numbers(relation: sympy.Basic) -> sympy.Basic:
+    """A relation without fractions."""
+    left, right = relation.args
+    apart = sympy.expand(left - right)
+    common = sympy.ilcm(1, *(one.q for one in apart.as_coefficients_dict().values()))
+    return (
+        relation.func(sympy.expand(common * apart), 0, evaluate=False) if common > 1 else relation
+    )
 
 
 def proved_by_line(
