@@ -38,9 +38,9 @@ def mean_below(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
         check(formula, where)
         about, stated = isolated(formula, where)
-        force = about.args[0]
-        if not (isinstance(about, sy.Shift) and type(force) in _BRANCHES):
+        if not isinstance(about, sy.Shift):
             raise NotProvedError(f"{text(about)} is not the mean of a contact's force")
+        (force,) = about.args
         loads = axioms.loads(where.loading) if where.loading else ()
         found = _from_above(force, where, (loads, *facts))
         if not (found - FIELD.from_sympy(stated.xreplace(where.solved))).is_zero():
