@@ -14,7 +14,7 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.framework.proving import facts_of
-from force_diffusion.derivations.framework.record import ExactCase, usual
+from force_diffusion.derivations.framework.record import ExactCase, Piece, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
     Beside,
@@ -64,7 +64,6 @@ from force_diffusion.symbolic.symbols import (
     r,
     sigma,
 )
-from force_diffusion.symbolic.variances.cases import Piece
 from sympy import Eq, Integer, Rational
 
 INSIDE = Symbol(

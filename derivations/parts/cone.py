@@ -6,7 +6,7 @@ import sympy
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
-from force_diffusion.derivations.framework.record import ExactCase, Missed
+from force_diffusion.derivations.framework.record import ExactCase, Missed, Piece
 from force_diffusion.derivations.framework.vocabulary import (
     Beside,
     Where,
@@ -41,7 +41,6 @@ from force_diffusion.symbolic.symbols import (
     phi,
     q,
 )
-from force_diffusion.symbolic.variances.cases import Piece
 from sympy import Eq, Rational
 
 ORDERED = f_load / (2 * n_y)

@@ -5,7 +5,7 @@ only its diagonal is left: one bead at a time is enlarged, and the changes of al
 layer are added up, which by translation is the sum over all beads for one contact.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
 from itertools import product
@@ -113,30 +113,6 @@ def positions(stated: sympy.Expr, packing: SmallPacking) -> Ruling:
 
 
 N = (Fraction(21, 29), Fraction(20, 29))
-
-
-PACKINGS = ((4, 2), (5, 2), (5, 3))
-
-
-def fails(
-    candidate: sympy.Eq,
-    exact: Callable[[int, int], dict[sympy.Symbol, Fraction]],
-    layers: Iterable[tuple[int, int]] = PACKINGS,
-) -> str | None:
-    """Where an equation of means, M and j fails on exact packings, r = σ = 1; None if nowhere.
-
-    ``exact`` says what its means are there, for M and j; loads at an angle have t = SHARE.
-    """
-    values = {**explicit.geometry(*N, Fraction(1)), sy.sigma: 1, sy.t: SHARE}
-    for height, layer in layers:
-        try:
-            at = {**values, sy.M: height, sy.j: layer, **exact(height, layer)}
-            left, right = (explicit.number(side, at) for side in candidate.args)
-        except explicit.AmbiguousError:
-            return None
-        if left != right:
-            return f"for M = {height}, j = {layer}, n_x = {N[0]}: {left} on the left, {right}"
-    return None
 
 
 def response(
