@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 import sympy
+from force_diffusion.derivations.framework import runner
 from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proving import Line
@@ -69,6 +70,7 @@ def in_all_derivations(monkeypatch: Plant, name: str, planted: object) -> None:
 
 @pytest.mark.parametrize("number", modules())
 def test_it_proves_all(derive: Callable[..., Any], monkeypatch: Plant, number: Number) -> None:
+    monkeypatch.setattr(runner, "attacked", lambda: None)  # they are not fooled
     monkeypatch.setattr(Line, "rule_on", lambda *_: proved("of course"))
     status, _, said = derive(number)
     assert status == 1
@@ -77,6 +79,7 @@ def test_it_proves_all(derive: Callable[..., Any], monkeypatch: Plant, number: N
 
 @pytest.mark.parametrize("number", modules())
 def test_it_refutes_all(derive: Callable[..., Any], monkeypatch: Plant, number: Number) -> None:
+    monkeypatch.setattr(runner, "attacked", lambda: None)
     monkeypatch.setattr(Line, "rule_on", lambda *_: refuted("never"))
     status, printed, said = derive(number)
     assert status == 1

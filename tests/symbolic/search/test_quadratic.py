@@ -86,3 +86,13 @@ def test_a_push_is_read_as_one() -> None:
     where = Where.of(j >= 0, j + 1 <= M, loading=SURFACE)
     assert counterexample(equation(whole, 0), where, at_most=40) is None
     assert counterexample(equation(whole, f_load * phi**2), where, at_most=40)
+
+
+def test_a_mean_that_is_off_by_little_is_refuted() -> None:
+    where = Where.of(j >= 2, j + 2 <= M, loading=SURFACE)
+    mean, printed = Shift(ForcePlus(i, j) / (f_load / (2 * n_y))), t4.ON_SURFACE.printed[0].rhs
+    assert counterexample(equation(mean, printed), where, at_most=2) is None
+    assert counterexample(equation(mean, printed * (1 + phi / 1000)), where, at_most=2)
+    sunk, above = Shift(Dot(e_y, DeltaX(i, j))), Where.of(j >= 1)
+    assert counterexample(equation(sunk, t4.SETTLING.rhs), above, at_most=4) is None
+    assert counterexample(equation(sunk, 2 * t4.SETTLING.rhs), above, at_most=4)
