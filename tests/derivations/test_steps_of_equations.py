@@ -2,13 +2,15 @@
 
 import re
 from collections.abc import Callable
+from copy import copy
 from dataclasses import replace
 
 import pytest
 import sympy
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
-from force_diffusion.derivations.framework.record import Derivation, Step
+from force_diffusion.derivations.framework.proving import Lines
+from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.derivations.framework.runner import proofs, run
 from force_diffusion.derivations.parts.tensile import HEIGHT
 from force_diffusion.symbolic import symbols as sy
@@ -147,8 +149,8 @@ def test_a_changed_step_is_not_proved(derivation: Derivation) -> None:
 def with_step(derivation: Derivation, place: int, formula: sympy.Basic) -> Derivation:
     """The derivation with another formula in one of its steps."""
 
-    def steps() -> list[Step]:
-        told = list(derivation.steps())
+    def steps() -> Lines:
+        told = copy(derivation.steps())
         told[place - 1] = replace(told[place - 1], formula=formula)
         return told
 

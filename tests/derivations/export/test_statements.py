@@ -9,8 +9,8 @@ from force_diffusion.derivations.export.prose import both, prose_latex
 from force_diffusion.derivations.export.terminal import heading, relation_of
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
-from force_diffusion.derivations.framework.proving import Refuted
-from force_diffusion.derivations.framework.record import Derivation, Step
+from force_diffusion.derivations.framework.proving import Refuted, Shown
+from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, latex_body, text_lines
 
@@ -25,7 +25,7 @@ def compare(path: Path, found: str, update: bool) -> None:
     assert path.read_text(encoding="utf-8") == found, "run pytest --update-golden and review"
 
 
-def step_shown(derivation: Derivation, place: int, step: Step) -> str:
+def step_shown(derivation: Derivation, place: int, step: Shown) -> str:
     """A step as text and below it as LaTeX: the reason, and the formula that it gives."""
     relation = relation_of(derivation, step)
     uses = f", from {both(step.uses)}" if step.uses else ""
