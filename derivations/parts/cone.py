@@ -203,11 +203,16 @@ def exact_case(
     to_order: str = "first order",
 ) -> ExactCase:
     """Closed forms as users get them; ``steps_below`` are those from the loaded bead."""
+
+    def put_in(piece: Piece) -> sympy.Expr:
+        at = {symbol: sympy.Integer(value) for symbol, value in piece.at.items()}
+        return sympy.together(piece.expression.xreplace(at)) * unit  # one fraction, of integers
+
     *edges, main = (
         Missed(
             piece.where,
             tuple(Eq(s.xreplace(dict(steps_below)), value) for s, value in piece.at.items()),
-            piece.expression.xreplace({s: sympy.Integer(n) for s, n in piece.at.items()}) * unit,
+            put_in(piece),
         )
         for piece in pieces
     )
