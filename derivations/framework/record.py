@@ -21,6 +21,7 @@ from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.algebra.explicit import AmbiguousError
+from force_diffusion.symbolic.as_printed import too_large
 from force_diffusion.symbolic.kernel import rules
 from force_diffusion.symbolic.kernel.decisions import (
     NO_VALUE,
@@ -89,6 +90,8 @@ class Step:
 
     def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
         """Rule on a candidate for one of its equations; what can't be read is undecided."""
+        if large := too_large(candidate):
+            return undecided(large)
         try:
             ruling = self.decide(part, candidate)
         except NO_VALUE as reason:
