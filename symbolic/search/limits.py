@@ -21,7 +21,7 @@ from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.values import WithoutValue
 
 HIGHEST_POWER = 20
-DIGITS, MOST_DIGITS = 100, 1500
+DIGITS, MOST_DIGITS, MOST_OF_ROOTS = 100, 4000, 1500
 """Of a size, beside those of all numbers of what is compared; and of these, at the most."""
 HEIGHTS = tuple(Fraction(*z) for z in ((1, 2), (1, 3), (1, 4), (1, 6), (3, 4), (1, 100), (99, 100)))
 COSINES = tuple(Fraction(*c) for c in ((0, 1), (-1, 4), (1, 4), (1, 3), (49, 100), (-49, 100)))
@@ -64,10 +64,10 @@ def _number(exact: sympy.Expr, values: tuple[tuple[sympy.Symbol, Fraction], ...]
     return explicit.number(exact, dict(values))
 
 
-def _size(*compared: sympy.Basic) -> int | None:
+def _size(most: int, *compared: sympy.Basic) -> int | None:
     """The digits of a size beyond all their coefficients; None where that would take for ever."""
     own = sum(map(bits, compared)) // 3
-    return DIGITS + own if own <= MOST_DIGITS else None
+    return DIGITS + own if own <= most else None
 
 
 def _shown(number: Fraction) -> str:
@@ -84,7 +84,7 @@ def parts_in_the_limit(
     Each place gives the symbols that grow, as multiples of one size; in ``dimension`` d, φ is
     above −1/d. Nothing is found for what is no rational function.
     """
-    digits = _size(exact, candidate)
+    digits = _size(MOST_DIGITS, exact, candidate)
     if digits is None or not _is_rational(candidate):
         return None
     geometries = [one for one in _geometries(candidate) if one[sy.phi] * dimension > -1]
@@ -168,7 +168,7 @@ def not_proportional(side: sympy.Expr, ratio: sympy.Expr) -> str | None:
     The ratio has to be the same at one φ whatever else is put in, M being large: to 30 digits, of
     which three are compared.
     """
-    digits = _size(side, ratio)
+    digits = _size(MOST_OF_ROOTS, side, ratio)
     if digits is None or side.has(sympy.Sum):
         return None  # SymPy has a value of its own for reversed bounds
     for cosine in COSINES:
