@@ -401,7 +401,7 @@ def _claim(lines: Lines) -> None:
 
 # witnesses
 
-LEVELS = (1, 2, 3, 6)
+LEVELS = (1, 2, 3, 5)
 """Layers of the load; below the last there are contacts of every closed form."""
 
 
