@@ -18,7 +18,13 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction, sum_polynomial
 from force_diffusion.symbolic.kernel.theorem import NotProvedError
-from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.kernel.where import (
+    BULK,
+    BULK_TILTED,
+    SURFACE,
+    SURFACE_TILTED,
+    Where,
+)
 from force_diffusion.symbolic.printing.text import text
 
 Value = Callable[[sy.Moment, Where], RationalFunction]
@@ -28,6 +34,8 @@ _R, _PHI, _TWO = FIELD.generator(sy.r), FIELD.generator(sy.phi), FIELD.constant(
 _SQUARE = FIELD.one - _PHI**2
 _UP = {sy.n_plus: FIELD.one, sy.n_minus: FIELD.one, sy.e_y: FIELD.one / FIELD.generator(sy.n_y)}
 """What a displacement with the line sum 1 along both n⁺ and n⁻ is along a vector."""
+_ALIKE = (SURFACE, BULK, SURFACE_TILTED, BULK_TILTED)
+"""Loads that are alike along a layer and do not fluctuate."""
 
 
 def shift(expression: sympy.Expr, where: Where, value: Value) -> RationalFunction:
@@ -78,8 +86,7 @@ def _line_sum(bead: sy.DeltaX, where: Where, value: Value) -> RationalFunction:
 
 
 def _force(force: sympy.Expr, where: Where, value: Value) -> RationalFunction:
-    loading = where.loading
-    if loading is None or not uniform(loading):
+    if where.loading not in _ALIKE:
         raise NotProvedError("the loads are not shown to be alike along a layer")
     across, layer = force.args
     branch = 1 if isinstance(force, sy.ForcePlus) else -1
@@ -95,18 +102,3 @@ def _force(force: sympy.Expr, where: Where, value: Value) -> RationalFunction:
     products = products - value(sy.Covariance(beside, other), where)
     units = (_PHI * carried - ordered) * along + (_PHI * ordered - carried) * turned
     return (products + units) / _SQUARE
-
-
-def uniform(loading: object) -> bool:
-    """Whether a loading says the same of all beads of a layer."""
-    place = getattr(loading, "place", ())
-    everywhere = getattr(loading, "everywhere", ())
-    here = {sy.site_r, sy.k, sy.i}
-    return (
-        set(place) == {sy.M}
-        and bool(everywhere)
-        and not any(
-            one.rhs.free_symbols & here or any(rel.free_symbols & here for rel in when)
-            for one, when in everywhere
-        )
-    )
