@@ -18,7 +18,7 @@ from force_diffusion.derivations.api.evaluation import (
 from force_diffusion.derivations.api.exact import ExactForm
 from force_diffusion.derivations.api.formula import Formula, vocabulary
 from force_diffusion.derivations.coq.record import Recorded, recorded
-from force_diffusion.derivations.export.prose import either
+from force_diffusion.derivations.export.prose import both, either
 from force_diffusion.derivations.export.terminal import (
     check_text,
     counts_text,
@@ -30,8 +30,8 @@ from force_diffusion.derivations.export.terminal import (
     steps_text,
     summary_line,
 )
+from force_diffusion.derivations.framework.catalogue import THEOREMS, allowed, modules, theorem_of
 from force_diffusion.derivations.framework.catalogue import Number as EquationNumber
-from force_diffusion.derivations.framework.catalogue import allowed, modules
 from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.derivations.framework.proving import Shown
 from force_diffusion.derivations.framework.record import (
@@ -229,6 +229,17 @@ class Equation(Formula):
         'Variance of the forces under a surface load'
         """
         return self._derivation.title
+
+    @property
+    def theorem(self) -> str | None:
+        """The theorem beyond the paper that it is a case of; None for the paper's own.
+
+        >>> import force_diffusion as fd
+        >>> fd.equation("B5").theorem, fd.equation(13).theorem
+        ('T4', None)
+        """
+        theorem = theorem_of(self.number)
+        return theorem.name if theorem else None
 
     @property
     def relation(self) -> str:
@@ -480,7 +491,7 @@ def equation(number: EquationNumber) -> Equation:
         or not isinstance(number, Integral | str)
         or number not in modules()
     ):
-        raise NoSuchFormError(
-            f"there is no equation {number!r}: give a number {allowed()}", "number"
-        )
+        cases = next((one.cases for one in THEOREMS if one.name == number), None)
+        known = f"that theorem has {both(cases)}" if cases else f"give a number {allowed()}"
+        raise NoSuchFormError(f"there is no equation {number!r}: {known}", "number")
     return _equation(number)

@@ -36,6 +36,10 @@ _TOGETHER: dict[tuple[sympy.Symbol, ...], tuple[str, Callable[[Any, Any], bool]]
 }
 
 
+_ROUNDING = sympy.Rational(4, 2**53)
+"""Of n_y, relative: a rounding of each of n_y and φ, and those of a square root and of a sum."""
+
+
 class ArgumentError(ForceDiffusionError, ValueError):
     """A formula can't be evaluated with these arguments; the message says what is allowed."""
 
@@ -45,7 +49,8 @@ def read_arguments(
 ) -> tuple[dict[sympy.Symbol, sympy.Rational], bool]:
     """Values of the symbols that a formula needs, and whether all of them are exact.
 
-    In place of z, ``j`` may be given: z = j/M.
+    In place of z, ``j`` may be given: z = j/M. κ is worked out from φ; of φ and n_y, where both
+    are held, one may be left out.
 
     Args:
         about: what is evaluated, for messages.
@@ -63,16 +68,48 @@ def read_arguments(
             raise ArgumentError("z and j are given, and z is j/M: leave one of them out")
         del by_name["z"]
         by_name |= {"M": sy.M, "j": sy.j}
-    _compare_names(about, by_name, given)
+    holds_kappa = by_name.pop("kappa", None) is not None
+    if holds_kappa:
+        by_name["phi"] = sy.phi
+    spared = [name for name in ("n_y", "phi") if {"n_y", "phi"} <= set(by_name)]
+    left_out = next((name for name in spared if name not in given), None)
+    _compare_names(about, {n: s for n, s in by_name.items() if n != left_out}, given)
     values = {by_name[name]: _exactly(name, value) for name, value in given.items()}
+    if sy.d in values:
+        _assert_allowed(sy.d, values[sy.d], given["d"], dimension)
+        dimension = int(values[sy.d])
     for symbol, value in values.items():
         _assert_allowed(symbol, value, given[symbol.in_code], dimension)
+    if spared:
+        _put_angle(values, given)
+    if holds_kappa:
+        values[sy.kappa] = _kappa(values[sy.phi], dimension)
     for pair, (words, allowed) in _TOGETHER.items():
         if set(pair) <= set(values) and not allowed(*(values[symbol] for symbol in pair)):
             raise ArgumentError(f"{told(pair, values)}: {words} is allowed")
     if by_layer:
         values[sy.z] = values[sy.j] / values[sy.M]
     return values, all(isinstance(value, numbers.Rational) for value in given.values())
+
+
+def _put_angle(values: dict[sympy.Symbol, sympy.Expr], given: Mapping[str, Number]) -> None:
+    """Put φ beside n_y, or n_y beside φ, by 2n_y² = 1 + φ; two that differ are refused."""
+    if sy.phi not in values:
+        values[sy.phi] = 2 * values[sy.n_y] ** 2 - 1
+        _assert_allowed(sy.phi, values[sy.phi], values[sy.phi], 2)
+    expected = sympy.sqrt((1 + values[sy.phi]) / 2)
+    rounded = any(isinstance(given.get(name), float) for name in ("n_y", "phi"))
+    allowed = expected * _ROUNDING if rounded else 0
+    if sy.n_y in values and abs(values[sy.n_y] - expected) > allowed:
+        raise ArgumentError(
+            f"n_y = {given['n_y']} and phi = {given['phi']} contradict each other: 2 n_y² = 1 + φ. "
+            "Leave one of them out"
+        )
+    values.setdefault(sy.n_y, expected)
+
+
+def _kappa(phi: sympy.Rational, d: int) -> sympy.Rational:
+    return (1 + (d - 2) * phi) / ((1 - phi) * (1 + (d - 1) * phi))
 
 
 def _compare_names(about: str, known: Mapping[str, Symbol], given: Mapping[str, Number]) -> None:

@@ -28,7 +28,7 @@ COMMANDS = {
         "certify",
         "Ask Coq, an unrelated checker, whether it accepts the printed equations.",
     ),
-    "show": ("equations", "Print one equation, without deriving it."),
+    "show": ("equations", "Print an equation, or all of a theorem, without deriving it."),
     "list": ("equations", "List the equations."),
     "examples": ("examples", "Copy the example scenes into a folder."),
     "run": ("scenes", "Answer a scene's question."),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from force_diffusion.derivations.commands.cli import STATUSES
 from force_diffusion.derivations.commands.output import Overwrite, out_option
-from force_diffusion.derivations.framework.catalogue import Number, allowed, modules
+from force_diffusion.derivations.framework.catalogue import THEOREMS, Number, allowed, modules
 
 import force_diffusion as fd
 
@@ -45,10 +45,20 @@ def equation_number(word: str) -> Number:
     )
 
 
+def equations_of(word: str) -> list[Number]:
+    """The number of an equation, or those of all cases of a theorem, such as "T4"."""
+    for theorem in THEOREMS:
+        if word.upper() == theorem.name:
+            return list(theorem.cases)
+    return [equation_number(word)]
+
+
 def derive(
     numbers: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[N...]", help="Equations to derive; all of them by default."),
+        typer.Argument(
+            metavar="[N...]", help="Equations, or theorems such as T4; all of them by default."
+        ),
     ] = None,
     out: Annotated[Path | None, out_option("LaTeX and a manifest")] = None,
     as_json: Annotated[
@@ -60,12 +70,14 @@ def derive(
     """Prove equations, and the ones that they rest on, and check them."""
     from force_diffusion.derivations.commands import deriving
 
-    wanted = [equation_number(word) for word in numbers] if numbers else list(modules())
+    wanted = [one for word in numbers or () for one in equations_of(word)] or list(modules())
     raise typer.Exit(deriving.derive(wanted, out, as_json, overwrite, columns))
 
 
 def show(
-    number: Annotated[str, typer.Argument(metavar="N", help="Number of the equation.")],
+    number: Annotated[
+        str, typer.Argument(metavar="N", help="Number of the equation, or a theorem's name.")
+    ],
     form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
     exact: Annotated[
         bool, typer.Option("--exact", help="The exact form at finite size, where there is one.")
@@ -85,23 +97,30 @@ def show(
     ] = None,
     columns: Columns = 1,
 ) -> None:
-    """Print one equation, without deriving it."""
-    place = equation_number(number)
+    """Print an equation, or all of a theorem, without deriving it."""
+    numbers = equations_of(number)
+    if exact and len(numbers) > 1:
+        names = ", ".join(map(str, numbers))
+        raise typer.BadParameter(
+            f"{number} has several equations; name one: {names}.", param_hint="N"
+        )
     if at_j is not None and not exact:
         raise typer.BadParameter("goes with --exact only; add it.", param_hint="--at-j")
     from force_diffusion.derivations.api.equation import NoSuchFormError
 
-    wanted = fd.equation(place)
-    try:
-        shown = wanted.exact(at_j) if exact else wanted
-    except NoSuchFormError as unknown:
-        hint = "--exact" if unknown.hint == "exact" else "--at-j / --case"
-        raise typer.BadParameter(str(unknown), param_hint=hint) from None
     if exact and form is Form.STEPS:
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
-    print(_written(shown, wanted, form, columns))
+    written = []
+    for wanted in map(fd.equation, numbers):
+        try:
+            shown = wanted.exact(at_j) if exact else wanted
+        except NoSuchFormError as unknown:
+            hint = "--exact" if unknown.hint == "exact" else "--at-j / --case"
+            raise typer.BadParameter(str(unknown), param_hint=hint) from None
+        written.append(_written(shown, wanted, form, columns))
+    print("\n\n".join(written))
 
 
 def _written(shown: "Formula", wanted: "Equation", form: Form, columns: int) -> str:
@@ -123,7 +142,10 @@ def list_equations() -> None:
     Beside each stands what Coq said of it when it was last asked.
     """
     for one in map(fd.equation, modules()):
-        print(f"{one.number!s:>3}  {one.name:<26}  {one.coq.verdict:<13}  {one.title}")
+        theorem = one.theorem or ""
+        print(
+            f"{one.number!s:>3}  {theorem:<2}  {one.name:<26}  {one.coq.verdict:<13}  {one.title}"
+        )
 
 
 def register(app: typer.Typer) -> None:

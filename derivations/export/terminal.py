@@ -8,6 +8,7 @@ from typing import Any
 from force_diffusion.derivations.coq.record import recorded
 from force_diffusion.derivations.export.manifest import FoundCheck
 from force_diffusion.derivations.export.prose import both
+from force_diffusion.derivations.framework.catalogue import theorem_of
 from force_diffusion.derivations.framework.proving import Shown
 from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome
 from force_diffusion.symbolic.kernel.decisions import Verdict, in_words
@@ -68,6 +69,8 @@ def statement_text(derivation: Derivation) -> str:
         parts.append(_paragraph(f"{text(symbol)}: {meaning}", later="      "))
     parts += ["", "Assumptions"]
     parts += [_paragraph(words, "  - ", "    ") for words in derivation.assumptions]
+    if theorem := theorem_of(derivation.number):
+        parts += ["", f"A case of theorem {theorem.name}: {theorem.title}"]
     if derivation.premises:
         numbers = ", ".join(str(premise.number) for premise in derivation.premises)
         parts += ["", f"Rests on Eq{'s' * (len(derivation.premises) > 1)}. {numbers}"]

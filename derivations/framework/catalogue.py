@@ -1,12 +1,13 @@
 """Where the derivations are: one module an equation of the paper, one a theorem beyond it.
 
 The paper's equations have its numbers, 1 to 16; those of ``beyond/`` are this project's own and
-have labels, "B1" and so on: several of them are cases of one theorem.
+have labels, "B1" and so on. Each is a case of a theorem, "T1" and so on.
 
 Nothing here imports SymPy.
 """
 
 import re
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import TypeAlias
@@ -16,19 +17,46 @@ Number: TypeAlias = int | str
 
 _FOLDER = Path(__file__).parents[1]
 _MODULE = re.compile(r"eq(\d\d)_\w+")
-_BEYOND = re.compile(r"b(\d+)_\w+")
 
-THEOREMS = {
-    "t1_forces": (1,),
-    "t2_variance": (2, 3),
-    "t4_second_order": (4, 5, 6, 15, 16),
-    "t5_stress": (10, 17, 18),
-    "t6_correlations": (7, 8, 12, 21),
-    "t7_response": (9,),
-    "t8_any_dimension": (11, 13, 14, 20),
-    "t9_spheres_response": (19,),
-}
-"""Modules of ``beyond/``, and the numbers of the equations that each derives."""
+
+@dataclass(frozen=True)
+class Theorem:
+    """What one module of ``beyond/`` proves, for every load and direction that its cases have.
+
+    Attributes:
+        name: "T1" and so on.
+        title: what it is about.
+        module: the file below ``beyond/``.
+        cases: the labels of its equations.
+    """
+
+    name: str
+    title: str
+    module: str
+    cases: tuple[str, ...]
+
+
+THEOREMS = (
+    Theorem("T1", "forces under loads in any direction", "t1_forces", ("B1",)),
+    Theorem("T2", "variance of the forces", "t2_variance", ("B2", "B3")),
+    Theorem(
+        "T4",
+        "mean positions and forces, to second order",
+        "t4_second_order",
+        ("B4", "B5", "B6", "B15", "B16"),
+    ),
+    Theorem("T5", "mean stress, and closures for it", "t5_stress", ("B10", "B17", "B18")),
+    Theorem(
+        "T6",
+        "correlations, and means over neighbours",
+        "t6_correlations",
+        ("B7", "B8", "B12", "B21"),
+    ),
+    Theorem("T7", "mean response to a point load", "b9_mean_response", ("B9",)),
+    Theorem("T8", "any dimension", "t8_any_dimension", ("B11", "B13", "B14", "B20")),
+    Theorem("T9", "response in three dimensions", "t9_spheres_response", ("B19",)),
+)
+"""The theorems beyond the paper; T3, how far Eq. 13 is valid, is not proved yet."""
 
 
 @cache
@@ -38,14 +66,15 @@ def modules() -> dict[Number, str]:
     printed: dict[Number, str] = {
         int(found[1]): stem for stem in stems if (found := _MODULE.fullmatch(stem))
     }
-    beyond = {
-        int(found[1]): path.stem
-        for path in _FOLDER.glob("beyond/b*.py")
-        if (found := _BEYOND.fullmatch(path.stem))
+    beyond: dict[Number, str] = {
+        label: f"beyond.{one.module}" for one in THEOREMS for label in one.cases
     }
-    there = {path.stem for path in _FOLDER.glob("beyond/t*.py")}
-    beyond |= {one: stem for stem, own in THEOREMS.items() if stem in there for one in own}
-    return {**printed, **{f"B{number}": f"beyond.{beyond[number]}" for number in sorted(beyond)}}
+    return {**printed, **dict(sorted(beyond.items(), key=lambda one: int(str(one[0])[1:])))}
+
+
+def theorem_of(number: Number) -> Theorem | None:
+    """The theorem that an equation is a case of; None for those of the paper."""
+    return next((one for one in THEOREMS if number in one.cases), None)
 
 
 def paper() -> list[int]:
@@ -56,5 +85,4 @@ def paper() -> list[int]:
 def allowed() -> str:
     """The numbers that there are, in words."""
     own = [number for number in modules() if isinstance(number, str)]
-    further = f", or {own[0]} to {own[-1]}" if len(own) > 1 else f", or {own[0]}" if own else ""
-    return f"from {min(paper())} to {max(paper())}{further}"
+    return f"from {min(paper())} to {max(paper())}, or {own[0]} to {own[-1]}"

@@ -473,26 +473,57 @@ def placed(
     if own and here and own.everywhere and own.name == here.name:
         image = {s: e for s, e in zip(own.place, here.place, strict=True) if s in theorem.indices}
     unknown = [s for s in theorem.indices if s not in image and any(one.has(s) for one in at)]
-    names = {s: sympy.Dummy(s.name) for s in unknown}
-    rows = [
-        sympy.expand(_on(one.xreplace({**names, **image}) - other, where))
-        for one, other in zip(at, wanted, strict=True)
-    ]
-    for symbol, name in names.items():
-        for number, row in enumerate(rows):
-            c = row.coeff(name)
-            value = sympy.expand(-(row - c * name) / c) if c else None
-            if value is not None and all(
-                one.is_Integer for one in value.as_coefficients_dict().values()
-            ):
-                rows = [sympy.expand(other.xreplace({name: value})) for other in rows]
-                rows[number] = sympy.S.Zero
-                image = {s: sympy.expand(e.xreplace({name: value})) for s, e in image.items()}
-                image[symbol] = value
+    try:
+        rows = list(_rows(unknown, image, at, wanted, where))
+    except NotExactError:
+        return None
+    found: dict[sympy.Symbol, _Row] = {}
+    for place, symbol in enumerate(unknown):
+        for number, (factors, rest) in enumerate(rows):
+            c = factors[place]
+            if c and not any(one % c for one in (*factors, *rest)):
+                others = (*factors[:place], 0, *factors[place + 1 :])
+                value = tuple(-one // c for one in others), tuple(-one // c for one in rest)
+                rows[number] = (0,) * len(unknown), affine.ZERO
+                rows = [_with(row, place, value) for row in rows]
+                found = {s: _with(row, place, value) for s, row in found.items()}
+                found[symbol] = value
                 break
         else:
             return None
-    return image
+    return image | {symbol: affine.to_sympy(rest) for symbol, (_, rest) in found.items()}
+
+
+_Row = tuple[tuple[int, ...], affine.Affine]
+"""The factors of unknown indices, and what is known."""
+
+
+def _rows(
+    unknown: Sequence[sympy.Symbol],
+    image: Mapped,
+    at: tuple[sympy.Expr, ...],
+    wanted: tuple[sympy.Expr, ...],
+    where: Where,
+) -> Iterator[_Row]:
+    """What must vanish if a place is the wanted one."""
+    known = {s: affine.from_sympy(_on(one, where)) for s, one in {**where.solved, **image}.items()}
+    for one, other in zip(at, wanted, strict=True):
+        rest = affine.from_sympy(one)
+        factors = tuple(affine.coefficient(rest, symbol) for symbol in unknown)
+        for symbol in unknown:
+            rest = affine.without(rest, symbol)
+        yield (
+            factors,
+            affine.add(affine.put_in(rest, known), affine.from_sympy(_on(other, where)), -1),
+        )
+
+
+def _with(row: _Row, place: int, value: _Row) -> _Row:
+    """A row with the value of an unknown index put in."""
+    factors, rest = row
+    c, left = factors[place], (*factors[:place], 0, *factors[place + 1 :])
+    together = tuple(a + c * b for a, b in zip(left, value[0], strict=True))
+    return together, affine.add(rest, value[1], c)
 
 
 def applies(theorem: Theorem, image: Mapped, where: Where, background: Facts) -> bool:

@@ -117,6 +117,14 @@ def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int, place: str
         assert f"{missed.where}: " in text
 
 
+def test_a_theorem_is_all_its_equations(capsys: pytest.CaptureFixture[str]) -> None:
+    text = shown(capsys, "t4")
+    titles = [load(number).title for number in ("B4", "B5", "B6", "B15", "B16")]
+    places = [text.index(f"{title}\n") for title in titles]
+    assert places == sorted(places)
+    assert text.count("A case of theorem T4: mean positions and forces, to second order") == 5
+
+
 def test_interior_is_the_default(capsys: pytest.CaptureFixture[str]) -> None:
     plain = shown(capsys, "13", "--exact", "--as", "sympy")
     assert plain == shown(capsys, "13", "--exact", "--as", "sympy", "--at-j", "interior")

@@ -32,6 +32,8 @@ WRONG = [
     (["show", "13", "--at-j", "base"], "--exact"),
     (["show", "13", "--exact", "--at-j", "top"], "Use interior, base, base+1 or surface"),
     (["show", "13", "--exact", "--at-j", "3"], "no exact form for '3'"),
+    (["show", "T4", "--exact"], "several equations; name one: B4, B5, B6, B15, B16"),
+    (["show", "T3"], "'T3' is not an equation"),
     (["show", "12", "--exact"], "13, 14, 15, 16, B2"),
     (["show", "15", "--exact", "--case", "base"], "Use surface-load or bulk-load"),
     (["show", "16", "--exact", "--case", "cone"], "no exact form for 'cone'"),

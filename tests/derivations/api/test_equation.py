@@ -245,13 +245,48 @@ def test_a_missing_name_is_named() -> None:
     ("number", "arguments", "message"),
     [
         ("B19", {"j": 3, "q": 1, "l": 6, "phi": -0.4}, "−1/3 < φ < 1/2 is allowed"),
-        ("B11", {"M": 9, "z": 0.5, "d": 1, "kappa": 2}, "d = 1: a whole number from 2 on"),
-        ("B20", {"M": 9, "z": 0.5, "d": 0, "kappa": 2}, "d = 0: a whole number from 2 on"),
+        ("B11", {"M": 9, "z": 0.5, "d": 1, "phi": 0}, "d = 1: a whole number from 2 on"),
+        ("B20", {"M": 9, "z": 0.5, "d": 0, "phi": 0}, "d = 0: a whole number from 2 on"),
+        ("B20", {"M": 9, "z": 0.5, "phi": 0, "d": 2.5}, "d = 2.5: a whole number from 2 on"),
+        ("B11", {"M": 9, "z": 0.5, "d": 4, "phi": -0.25}, "−1/4 < φ < 1/2 is allowed"),
+        ("B11", {"M": 9, "z": 0.5, "d": 4, "phi": 0, "kappa": 1}, "holds no kappa"),
     ],
 )
 def test_what_is_allowed_goes_with_the_dimension(number, arguments, message) -> None:
     with pytest.raises(fd.ForceDiffusionError, match=message):
         fd.equation(number).at(sigma=1, r=1, **arguments)
+
+
+@pytest.mark.parametrize(("number", "paper"), [("B11", 13), ("B20", 14)])
+def test_any_dimension_is_the_paper_s_for_discs(number, paper) -> None:
+    at = {"M": 9, "z": Fraction(1, 3), "phi": Fraction(-1, 8), "sigma": 1, "r": 3}
+    assert fd.equation(number).at(d=2, **at) == fd.equation(paper).at(**at)
+
+
+@pytest.mark.parametrize(("number", "spheres"), [("B11", "B13"), ("B20", "B14")])
+def test_any_dimension_is_that_of_spheres_for_three(number, spheres) -> None:
+    at = {"M": 9, "z": Fraction(1, 3), "phi": Fraction(-1, 8), "sigma": 1, "r": 3}
+    assert fd.equation(number).at(d=3, **at) == fd.equation(spheres).at(**at)
+
+
+def test_of_phi_and_its_cosine_one_may_be_left_out() -> None:
+    at = {"j": 3, "sigma": 1, "r": 1}
+    phi, n_y = Fraction(7, 25), Fraction(4, 5)
+    both = fd.equation("B4").at(phi=phi, n_y=n_y, **at)
+    assert fd.equation("B4").at(phi=phi, **at) == both
+    assert fd.equation("B4").at(n_y=n_y, **at) == both
+    assert fd.equation("B4").at(n_y=math.sqrt(0.64), phi=0.28, **at) == pytest.approx(float(both))
+
+
+@pytest.mark.parametrize(("phi", "n_y"), [(Fraction(7, 25), Fraction(3, 5)), (0.28, 0.8001)])
+def test_two_that_contradict_each_other_are_refused(phi, n_y) -> None:
+    with pytest.raises(ArgumentError, match=r"contradict each other: 2 n_y² = 1 \+ φ"):
+        fd.equation("B4").at(j=3, sigma=1, r=1, phi=phi, n_y=n_y)
+
+
+def test_a_cosine_out_of_range_is_refused() -> None:
+    with pytest.raises(ArgumentError, match="−1/2 < φ < 1/2 is allowed"):
+        fd.equation("B4").at(j=3, sigma=1, r=1, n_y=0.9)
 
 
 @pytest.mark.parametrize("number", ["B13", "B14"])
