@@ -46,6 +46,11 @@ def along(weight: sympy.Expr) -> sympy.Expr:
     return Sum(weight * DeltaR(i - j + m, m), (m, 1, M))
 
 
+def _line(across: sympy.Expr) -> sympy.Expr:
+    """Radii of a diagonal, from a bead of the base up to the surface."""
+    return Sum(DeltaR(across + m, m), (m, 0, M - 1))
+
+
 STEEP = M**2 / (M * phi**2 + 1) ** 2
 """Of order 1, but for φ = 0, where it is M²."""
 
@@ -84,6 +89,9 @@ for tried, most, bound, where, false, refused in (
     ("weights that fall with the distance", LargestWeight(
         Sum(DeltaR(i - j + n, n) / (j - n), (n, 0, j - 1))), 1 / M, AT_ORDER,
      "that of the bead below is 1", "divided by what depends on the layer"),
+    ("a share where two lines may be one",
+     LargestShare(_line(i - j) - _line(i + 2 * q - j) + DeltaR(i - j + M, M)), 1 / M,
+     OTHER.in_the_limit(at_fixed_height("O")), "it is 1 for q = 0", "are one"),
     ("a weight over a layer", LargestWeight(along(1 / m)), 1 / M, AT_ORDER, "it is 1 at m = 1",
      "a divisor vanishes"),
     ("a strength", LargestWeight(epsilon * HERE), 1, AT_ORDER, "it is no number",
