@@ -5,7 +5,6 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
-from force_diffusion.derivations.framework.follows import certificate
 from force_diffusion.derivations.framework.record import usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
@@ -25,6 +24,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     times,
 )
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
+from force_diffusion.symbolic.as_printed import certificate
 from force_diffusion.symbolic.kernel.where import SURFACE, at_fixed_height
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import M, Variance, j, m, n, phi, r, sigma, z

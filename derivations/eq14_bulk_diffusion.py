@@ -9,7 +9,6 @@ from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
-from force_diffusion.derivations.framework.follows import certificate
 from force_diffusion.derivations.framework.record import usual
 from force_diffusion.derivations.framework.vocabulary import (
     SUPPOSED,
@@ -34,6 +33,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     times,
 )
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
+from force_diffusion.symbolic.as_printed import certificate
 from force_diffusion.symbolic.kernel.where import BULK, Limit, at_fixed_height
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (

@@ -7,8 +7,9 @@ from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.framework.record import ExactCase, Missed, usual
+from force_diffusion.derivations.framework.record import ExactCase, usual
 from force_diffusion.derivations.framework.vocabulary import (
+    UNIT,
     Derivation,
     Lines,
     Witness,
@@ -45,8 +46,6 @@ from force_diffusion.symbolic.symbols import (
     r,
     sigma,
 )
-from force_diffusion.symbolic.variances.cases import Piece
-from force_diffusion.symbolic.variances.orders import UNIT
 from sympy import Eq, Rational
 
 RESPONSE = Symbol(
@@ -78,35 +77,12 @@ PRINTED = equation(
 
 def at_finite_size() -> dict[str, ExactCase]:
     """The exact forms, for a bead, one contact, and a leg of the cone."""
-
-    def case(
-        quantity: sympy.Expr,
-        pieces: tuple[Piece, ...],
-        unit: sympy.Expr,
-        steps_below: dict[sympy.Symbol, sympy.Expr],
-    ) -> ExactCase:
-        *edges, main = (
-            Missed(
-                piece.where,
-                tuple(sympy.Eq(s.xreplace(steps_below), value) for s, value in piece.at.items()),
-                piece.expression.xreplace(_numbers(piece.at)) * unit,
-            )
-            for piece in pieces
-        )
-        inside = tuple(sympy.Ge(steps, 1) for steps in steps_below.values())
-        return ExactCase(quantity, main.where, main.expression, inside, tuple(edges))
-
-    in_cone, on_leg = STEPS_BELOW, {p: l - j}
     return {
-        "bead": case(RESPONSE, cone.BEAD, UNIT / 4, in_cone),
-        "contact": case(ONE_CONTACT, cone.CONTACT, UNIT / 4, in_cone),
-        "leg": case(ON_LEG, cone.LEG, UNIT / 4, on_leg),
-        "leg-force": case(LEG_MAGNITUDE, cone.LEG_FORCE, UNIT, on_leg),
+        "bead": cone.exact_case(RESPONSE, cone.BEAD, UNIT / 4, STEPS_BELOW),
+        "contact": cone.exact_case(ONE_CONTACT, cone.CONTACT, UNIT / 4, STEPS_BELOW),
+        "leg": cone.exact_case(ON_LEG, cone.LEG, UNIT / 4, cone.STEPS_DOWN_LEG),
+        "leg-force": cone.exact_case(LEG_MAGNITUDE, cone.LEG_FORCE, UNIT, cone.STEPS_DOWN_LEG),
     }
-
-
-def _numbers(at: dict[sympy.Symbol, int]) -> dict[sympy.Symbol, sympy.Integer]:
-    return {symbol: sympy.Integer(value) for symbol, value in at.items()}
 
 
 MEANING = {

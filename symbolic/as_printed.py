@@ -76,3 +76,13 @@ def _in_place(tree: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
         else:
             put[id(node)] = node.func(*args)
     return put[id(tree)]
+
+
+def certificate(total: sympy.Sum, up_to_n: sympy.Expr) -> tuple[sympy.Eq, sympy.Eq]:
+    """What a sum up to n is, and its term at n as what that gains there: two lines of a step."""
+    index, _, high = total.limits[0]
+    parts = up_to_n.args if isinstance(up_to_n, sympy.Add) else (up_to_n,)
+    after = [part for part in parts if part.has(high)]  # the others cancel
+    before = [-part.xreplace({high: high - 1}) for part in after]
+    term = total.function.xreplace({index: high})
+    return equation(total, up_to_n), equation(term, terms(*after, *before))

@@ -245,7 +245,8 @@ class Tensile(Function):  # type: ignore[misc]
 class Shift(Moment):
     """⟨X⟩ less its value in the ordered packing, at second order in the deviations of the radii.
 
-    Forces and displacements in X stand for what they are to second order.
+    Forces, displacements and vertical components f (n_y + e_y·δn) of forces in X stand for what
+    they are to second order.
     """
 
     nargs = 1

@@ -1,9 +1,10 @@
 """T6 (Eqs. B7, B8, B12, B21): correlations of contact forces, and means over N neighbours."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache, cached_property
+from itertools import product
 
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
@@ -25,6 +26,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     Within,
     Witness,
     asymptotic,
+    cases,
     equation,
     minus,
     moment,
@@ -114,12 +116,14 @@ class Window:
         added: what it has beyond the printed form, in units of ``UNIT``/N²; None for a closed form
             that is found.
         missed: the height M with a value of its own, if there is one.
+        parts: on which it is proved one by one, where too many places may be one on all of it.
     """
 
     validity: str
     relations: tuple[sympy.Basic, ...]
     added: sympy.Expr | None = None
     missed: int | None = None
+    parts: tuple[tuple[sympy.Basic, ...], ...] = ((),)
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,6 +175,10 @@ class Means:
         """How all of it is proved."""
         return moment(*self.facts, alone=self.alone)
 
+    def in_parts(self, window: Window) -> By:
+        """How the form of a window is proved."""
+        return self.by if window.parts == ((),) else cases(self.by, *window.parts)
+
     def value(self, symbol: sympy.Symbol, where: Where) -> sympy.Expr:
         """What one of the symbols is found to be; a line says that this is right."""
         facts = facts_of(self.facts)
@@ -194,7 +202,8 @@ class Means:
                 small = Eq(M, window.missed)
                 value = self.value(self.symbol, self.on(*domain, small))
                 missed = (Missed(f"M = {window.missed}", (small,), value),)
-            line = Line(window.validity, equation(self.symbol, form), self.by, where, self.meaning)
+            by = self.in_parts(window)
+            line = Line(window.validity, equation(self.symbol, form), by, where, self.meaning)
             found[name] = ExactCase(self.symbol, window.validity, form, domain, missed, line=line)
         return found
 
@@ -202,13 +211,14 @@ class Means:
         """Claim what all windows, layers and heights have that the printed form is not for."""
         forms = []
         for case, form in self.exact.items():
-            forms.append((self.on(*self.windows[case].relations), form.expression))
-            forms += [(self.on(*form.domain, *one.when), one.expression) for one in form.missed]
+            by, domain = self.in_parts(self.windows[case]), self.windows[case].relations
+            forms.append((self.on(*domain), form.expression, by))
+            forms += [(self.on(*form.domain, *one.when), one.expression, by) for one in form.missed]
         lines.claim(
             name,
-            sympy.Tuple(*(equation(self.symbol, form) for _, form in forms)),
-            self.by,
-            where=tuple(where for where, _ in forms),
+            sympy.Tuple(*(equation(self.symbol, form) for _, form, _ in forms)),
+            tuple(by for *_, by in forms),
+            where=tuple(where for where, *_ in forms),
             meaning=self.meaning,
         )
 
@@ -557,6 +567,53 @@ class _Mirrored:
 BOTH = Chain((_Mirrored(), DIRECTIONS))
 SHORTER = Ge(M, j + N + 1)
 """N ≤ M − j − 1: windows that are shorter than the way to the surface."""
+
+
+def _windows_of_beads() -> dict[str, Window]:
+    """All windows but the printed ones: what reaches the base adds to what reaches the surface."""
+    low = {
+        "": ("2 ≤ N ≤ j − 2", (N >= 2, Le(N, j - 2)), 0),
+        "N=j-1": ("N = j − 1 ≥ 2", (Eq(N, j - 1), N >= 2), -3 * K**2 / 8),
+        "N=j": ("N = j ≥ 2", (Eq(N, j), j >= 2), K**2 / 4),
+        "N=j+1": ("N = j + 1 ≥ 3", (Eq(N, j + 1), j >= 2), K**2 / 8),
+        "N>j+1": ("N ≥ j + 2 ≥ 4", (Ge(N, j + 2), j >= 2), 0),
+        "base+1": ("j = 1 and N ≥ 3", (Eq(j, 1), N >= 3), 3 * K**2 / 4),
+        "base+1, N=2": ("j = 1 and N = 2", (Eq(j, 1), Eq(N, 2)), 7 * K**2 / 8),
+        "base": ("j = 0 and N ≥ 2", (Eq(j, 0), N >= 2), M * (2 - 2 * phi - M) / 2),
+    }
+    long = -(1 + phi**2) / 2
+    high = {
+        "": ("N ≤ M − j − 1", (SHORTER,), 0),
+        "N=M-j": ("N = M − j", (Eq(M, j + N),), -(3 * phi**2 - 2 * phi + 3) / 8),
+        "N>M-j": ("N ≥ M − j + 1 ≥ 2", (Ge(M, j + 1), Le(M, j + N - 1)), long),
+    }
+    parts = (
+        (Eq(M, j + 1),),
+        (Eq(M, j + 2),),
+        (Ge(M, j + 3), Eq(M, 2 * j)),
+        (Ge(M, j + 3), Le(M, 2 * j - 1)),
+    )
+    found = {}
+    for (below, (start, there, first)), (above, (end, here, last)) in product(
+        low.items(), high.items()
+    ):
+        name = ", ".join(one for one in (below, above) if one)
+        parted = above == "N>M-j" and below in ("N=j-1", "N=j", "N=j+1")
+        found[name] = Window(
+            f"{start}, {end}",
+            (*there, *here),
+            first + last,
+            parts=parts if parted else ((),),
+        )
+    # N = 2 > M − j leaves one packing, which is fixed by its height
+    lowest = found["base+1, N=2, N>M-j"]
+    found["base+1, N=2, N>M-j"] = replace(
+        lowest, validity="j = 1, N = 2 and M = 2", relations=(Eq(j, 1), Eq(N, 2), Eq(M, 2))
+    )
+    del found[""]  # the printed form
+    return found
+
+
 OF_BEADS = Means(
     BEAD_MEAN_OF_N,
     ON_BEAD,
@@ -564,22 +621,7 @@ OF_BEADS = Means(
     (*map(sympy.Integer, (1, 2)), *(j + one for one in (-2, -1, 0, 1, 2)), K - 1, K, K + 1),
     (N >= 2, Le(N, j - 2), SHORTER),
     BEAD_MEAN,
-    {
-        "N=j-1": Window("N = j − 1 ≥ 2", (Eq(N, j - 1), N >= 2, SHORTER), -3 * K**2 / 8),
-        "N=j": Window("N = j ≥ 3", (Eq(N, j), j >= 3, SHORTER), K**2 / 4),
-        "N=j+1": Window("N = j + 1 ≥ 4", (Eq(N, j + 1), j >= 3, SHORTER), K**2 / 8),
-        "N>j+1": Window("N ≥ j + 2 ≥ 5", (Ge(N, j + 2), j >= 3, SHORTER), sympy.S.Zero),
-        "N=M-j": Window(
-            "2 ≤ N = M − j ≤ j − 2",
-            (N >= 2, Le(N, j - 2), Eq(M, j + N)),
-            -(3 * phi**2 - 2 * phi + 3) / 8,
-        ),
-        "N>M-j": Window(
-            "3 ≤ M − j + 1 ≤ N ≤ j − 2",
-            (Ge(M, j + 2), Le(M, j + N - 1), Le(N, j - 2)),
-            -(1 + phi**2) / 2,
-        ),
-    },
+    _windows_of_beads(),
     (BOTH,),
 )
 
@@ -1029,7 +1071,8 @@ B8 = Derivation(
     witnesses=(
         OF_BEADS.witness(
             "bead", ((10, 5, 3), (12, 6, 4), (8, 4, 3), (8, 3, 3), (9, 3, 4), (9, 3, 5), (7, 5, 2),
-                     (8, 6, 3))
+                     (8, 6, 3), (5, 4, 3), (6, 4, 4), (6, 4, 5), (5, 3, 6), (5, 2, 2), (6, 1, 2),
+                     (2, 1, 2), (3, 1, 4), (4, 0, 2), (3, 0, 3), (2, 0, 4), (1, 0, 2))
         ),
     ),
 )  # fmt: skip

@@ -13,7 +13,7 @@ from itertools import product
 import sympy
 from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.beyond import t8_any_dimension as t8
-from force_diffusion.derivations.framework.record import ExactCase, Missed, usual
+from force_diffusion.derivations.framework.record import ExactCase, Missed, Piece, usual
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
@@ -49,7 +49,6 @@ from force_diffusion.symbolic.symbols import (
     r,
     sigma,
 )
-from force_diffusion.symbolic.variances.cases import Piece
 from sympy import Eq, Integer, Rational
 
 ON_FACE = Symbol(

@@ -23,10 +23,10 @@ from force_diffusion.derivations.beyond import t6_correlations as t6
 from force_diffusion.derivations.beyond import t8_any_dimension as t8
 from force_diffusion.derivations.beyond import t9_spheres_response as t9
 from force_diffusion.derivations.framework.catalogue import Number
+from force_diffusion.derivations.framework.record import Piece
+from force_diffusion.derivations.framework.vocabulary import UNIT
 from force_diffusion.derivations.parts import cone
 from force_diffusion.symbolic.symbols import M, N, d, i, j, k, kappa, l, n_y, p, phi, r, sigma, z
-from force_diffusion.symbolic.variances.cases import Piece
-from force_diffusion.symbolic.variances.orders import UNIT
 from force_diffusion.symbolic.variances.variance import ClosedForm
 
 TARGET = Path(__file__).parents[2] / "numeric" / "closed_forms.py"

@@ -5,7 +5,12 @@ from typing import Any
 
 import sympy
 from force_diffusion.derivations.framework.proving import no_statement
-from force_diffusion.derivations.framework.record import Derivation, ExactCase, proved_by_line
+from force_diffusion.derivations.framework.record import (
+    Derivation,
+    ExactCase,
+    in_whole_numbers,
+    proved_by_line,
+)
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel.decisions import (
@@ -109,13 +114,13 @@ def _whens(case: ExactCase) -> list[sympy.Basic]:
 
 def _parts(case: ExactCase, own: sympy.Eq, given: sympy.Eq) -> Iterator[Where]:
     """The domain of a form, without the packings that it is not for, in parts with packings."""
-    domain = [_in_whole_numbers(one) for one in case.domain]
+    domain = [in_whole_numbers(one) for one in case.domain]
     held = (*domain, *_whens(case), own, given)
     free = set().union(*(one.free_symbols for one in held)) & {*sy.INDICES}
     general = [one for one in _EVERYWHERE if one.free_symbols <= free]
     parts = [Where.of(*domain, *general, indices=by_name(free))]
     for missed in case.missed:
-        outside = [_in_whole_numbers(one) for one in _opposites(missed.when)]
+        outside = [in_whole_numbers(one) for one in _opposites(missed.when)]
         parts = [part.also(one) for part in parts for one in outside]
         parts = [part for part in parts if not part.is_empty]
     yield from parts
@@ -130,13 +135,3 @@ def _opposites(relations: tuple[sympy.Basic, ...]) -> Iterator[sympy.Basic]:
             yield sympy.Gt(left, right, evaluate=False)
         else:
             yield one.negated
-
-
-def _in_whole_numbers(relation: sympy.Basic) -> sympy.Basic:
-    """A relation without fractions."""
-    left, right = relation.args
-    apart = sympy.expand(left - right)
-    common = sympy.ilcm(1, *(one.q for one in apart.as_coefficients_dict().values()))
-    return (
-        relation.func(sympy.expand(common * apart), 0, evaluate=False) if common > 1 else relation
-    )

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import partial
 
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number
@@ -10,23 +10,19 @@ from force_diffusion.derivations.framework.proving import (
     Line,
     Lines,
     Refuted,
-    Shown,
     assumptions,
     fixes_it,
     no_statement,
 )
-from force_diffusion.derivations.witnesses.both_sides import AbsentError, Points, compare
+from force_diffusion.derivations.witnesses.both_sides import Points, compare
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
-from force_diffusion.symbolic.algebra.explicit import AmbiguousError
 from force_diffusion.symbolic.kernel import rules
 from force_diffusion.symbolic.kernel.decisions import (
-    NO_VALUE,
     Ruling,
     Verdict,
-    all_of,
     in_words,
     not_a_statement,
     proved,
@@ -38,7 +34,6 @@ from force_diffusion.symbolic.kernel.language import (
     says_less,
     unreadable,
     usual_form,
-    without_value,
 )
 from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
 from force_diffusion.symbolic.kernel.where import Where
@@ -55,62 +50,6 @@ class KernelError(ForceDiffusionError, RuntimeError):
 
 
 _ALARM = 24  # points at which what was proved is looked at all the same
-
-Search = Callable[[sympy.Eq], str | None]
-"""Looks for explicit values at which a candidate is false, and tells them."""
-
-
-@dataclass(frozen=True)
-class Step:
-    """One line of reasoning: a statement, and the procedure that rules on it.
-
-    Attributes:
-        reason: why it holds, in plain words (Unicode).
-        formula: an equation, or a Tuple of equations.
-        decide: rules on a candidate for one of these, by its place among them; the same procedure
-            for what is shown and for anything else.
-        uses: what it follows from: "Eq. 2" for a premise, "step 1" for an earlier step.
-        relation: how the equation relates its sides: "=", "≈" or "∼".
-        positive: what it divides by, or takes a root of, and what is positive by its meaning.
-    """
-
-    reason: str
-    formula: sympy.Basic
-    decide: Callable[[int, sympy.Eq], Ruling]
-    uses: tuple[str, ...] = ()
-    relation: str = "="
-    positive: tuple[sympy.Basic, ...] = ()
-
-    @property
-    def equations(self) -> tuple[sympy.Eq, ...]:
-        """Its equations, one by one."""
-        formula = self.formula
-        return tuple(formula) if isinstance(formula, sympy.Tuple) else (formula,)
-
-    def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
-        """Rule on a candidate for one of its equations; what can't be read is undecided."""
-        try:
-            ruling = self.decide(part, candidate)
-        except NO_VALUE as reason:
-            return not_a_statement(str(reason))
-        except (ArithmeticError, TypeError, ValueError) as failure:
-            return undecided(f"it could not be read: {failure or type(failure).__name__}")
-        if not ruling.verdict.is_proved:
-            return ruling
-        known = {one: sympy.Dummy(positive=True) for one in self.positive}
-        sides = (side.xreplace(known) for side in candidate.args)
-        less = without_value(sympy.Eq(*sides, evaluate=False), in_the_limit=self.relation != "=")
-        return not_a_statement(less) if less else ruling
-
-    @cached_property
-    def ruling(self) -> Ruling:
-        """What is decided of the step as it is shown."""
-        return all_of(*(self.rule_on(part, one) for part, one in enumerate(self.equations)))
-
-    @property
-    def verdict(self) -> Verdict:
-        """That of ``ruling``."""
-        return self.ruling.verdict
 
 
 @dataclass(frozen=True)
@@ -155,7 +94,7 @@ class Derivation:
 
     ``steps`` is a function so that importing a derivation proves nothing and costs nothing. One
     of its lines is the printed equation: anything said in its place is proved by the same rule, or
-    not. Where the kernel does not prove it yet, ``decide`` rules on a candidate.
+    not.
     """
 
     number: Number
@@ -165,8 +104,7 @@ class Derivation:
     assumptions: tuple[str, ...]
     premises: tuple["Derivation", ...]
     printed: tuple[sympy.Eq, ...]
-    steps: Callable[[], Iterable[Shown]]
-    decide: Callable[[int, sympy.Eq], Ruling] | None = None  # none where the kernel proves it
+    steps: Callable[[], Lines]
     claims: tuple[Claim, ...] = ()
     witnesses: tuple[Witness, ...] = ()
     remarks: tuple[str, ...] = ()
@@ -176,7 +114,6 @@ class Derivation:
     loads: tuple[str, ...] = ()  # "single", "surface", "bulk", or "any" but on the bead passed
     relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
     exact: Callable[[], dict[str, "ExactCase"]] | None = None  # forms at finite size, by case
-    search: Search | None = None  # knows nothing of how a candidate is decided
     # mechanical changes that say the same at the order decided, each with the reason why
     equivalent: Mapping[str, str] = field(default_factory=dict)
     # false statements, and true ones in another form, that the procedure is tried on
@@ -185,17 +122,19 @@ class Derivation:
     def source(self, part: int) -> Source:
         """One of ``printed``, as other statements are made from it."""
         printed = self.printed[part]
-        where = None
-        if self.decide is None:
-            line = self._line(printed)
-            where = line.domain(line.equations.index(printed))
+        line = self._line(printed)
+        where = line.domain(line.equations.index(printed))
         cases = self.exact() if self.exact else {}
         forms = (
             Form(name, case.expression, any(isinstance(one, sympy.Eq) for one in case.domain))
             for name, case in cases.items()
             if case.quantity == printed.lhs
             # at finite size, forms of other layers may be the same there, or not
-            and (where is None or where.limit or all(map(where.implies, case.domain)))
+            and (
+                where is None
+                or where.limit
+                or all(where.implies(in_whole_numbers(one)) for one in case.domain)
+            )
         )
         return Source(printed, self.relation, tuple(forms), where, self.dimension)
 
@@ -211,36 +150,7 @@ class Derivation:
         if refusal := unreadable(candidate, self.printed, named, self.dimension):
             return refusal
         candidate = usual_form(candidate, self.printed)
-        if self.decide is None:
-            return self._by_the_kernel(part, candidate, where)
-        try:
-            ruling = self.decide(part, candidate)
-        except NO_VALUE as failure:
-            ruling = not_a_statement(str(failure))
-        except (NotExactError, AmbiguousError, RecursionError) as failure:
-            ruling = undecided(str(failure))
-        if (reason := without_value(candidate, in_the_limit=self.relation != "=")) and (
-            ruling.verdict is not Verdict.REFUTED
-        ):
-            return not_a_statement(reason)
-        proven = ruling.verdict.is_proved
-        if proven and (less := says_less(candidate, self.printed[part])):
-            proven, ruling = False, undecided(less)
-        if ruling.verdict is Verdict.REFUTED and not self._needs_packings(part, candidate):
-            return ruling
-        try:
-            found = self.search(candidate) if self.search else None
-        except AbsentError as absent:
-            return not_a_statement(str(absent))
-        if found and proven:
-            raise self.fault(candidate, f"proved, yet false: {found}")
-        if isinstance(found, WithoutValue):
-            return not_a_statement(reason or str(found))
-        if found:
-            return refuted(found)
-        if ruling.verdict is Verdict.REFUTED:
-            return undecided("it differs from what is derived, yet no exact packing refutes it")
-        return ruling
+        return self._by_the_kernel(part, candidate, where)
 
     @property
     def words(self) -> str:
@@ -258,27 +168,21 @@ class Derivation:
     @property
     def assumed(self) -> list[str]:
         """What is assumed of its printed equations that no rule ends."""
-        return assumptions(self.theorems) if self.decide is None else []
-
-    @cached_property
-    def _lines(self) -> list[Line]:
-        return [line for line in self.steps() if isinstance(line, Line)]
+        return assumptions(self.theorems)
 
     @property
     def all_claims(self) -> tuple[Claim, ...]:
         """What else is claimed of it, by the kernel's lines and by procedures of its own."""
-        lines = self.steps() if self.decide is None else ()
-        further = lines.claims if isinstance(lines, Lines) else ()
+        further = self.steps().claims
         return (*(Claim(one.reason, one.decide) for one in further), *self.claims)
 
     @property
     def refuted(self) -> tuple[Refuted, ...]:
         """The printed statements that are known not to hold; ``printed`` are those that do."""
-        lines = self.steps() if self.decide is None else ()
-        return tuple(lines.refuted) if isinstance(lines, Lines) else ()
+        return tuple(self.steps().refuted)
 
     def _line(self, printed: sympy.Eq) -> Line:
-        return next(line for line in self._lines if printed in line.equations)
+        return next(line for line in self.steps() if printed in line.equations)
 
     def _by_the_kernel(self, part: int, candidate: sympy.Eq, where: Where | None) -> Ruling:
         printed = self.printed[part]
@@ -290,22 +194,22 @@ class Derivation:
             return undecided("it rests on what is only supposed")
         return ruling
 
-    def _needs_packings(self, part: int, candidate: sympy.Eq) -> bool:
-        """Whether unequal weights refute nothing, as it holds quantities that depend on others."""
-        if self.relation != "=" or not self.search:
-            return False
-        printed = self.printed[part]
-        held = candidate.rhs.atoms(sy.SiteFunction) | printed.rhs.atoms(sy.SiteFunction)
-        if candidate.lhs == printed.lhs and candidate.rhs:
-            return not all(isinstance(one, sy.DeltaR | sy.SecondDifference) for one in held)
-        return True
-
     def fault(self, statement: sympy.Eq, words: str) -> KernelError:
         """The error that says what the checker got wrong."""
         return KernelError(
             f"the checker is at fault, and its verdicts count for nothing. Of Eq. {self.number} it "
             f"got wrong: {_shown(statement)} ({words})"
         )
+
+
+def in_whole_numbers(relation: sympy.Basic) -> sympy.Basic:
+    """A relation without fractions."""
+    left, right = relation.args
+    apart = sympy.expand(left - right)
+    common = sympy.ilcm(1, *(one.q for one in apart.as_coefficients_dict().values()))
+    return (
+        relation.func(sympy.expand(common * apart), 0, evaluate=False) if common > 1 else relation
+    )
 
 
 def proved_by_line(
@@ -353,6 +257,19 @@ def _component(line: Line, place: int, candidate: sympy.Eq) -> Ruling:
 def _shown(candidate: sympy.Eq) -> str:
     shown = f"{text(candidate.lhs)} = {text(candidate.rhs)}"
     return shown if len(shown) <= 200 else shown[:198] + " …"
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A closed form for the indices named in ``at``; the first of several that fits holds.
+
+    ``further`` says in relations where none before it fits.
+    """
+
+    where: str
+    at: dict[sympy.Symbol, int]
+    expression: sympy.Expr
+    further: tuple[sympy.Basic, ...] = ()
 
 
 @dataclass(frozen=True)

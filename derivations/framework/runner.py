@@ -288,8 +288,7 @@ def run_all(
     """Run derivations in their order, premises first, each with the verdicts found before.
 
     ``start`` calls functions in another process: of many derivations mutants and statements are
-    ruled on there, while proofs and witnesses are run here. Where the kernel proves one of them, it
-    is attacked first.
+    ruled on there, while proofs and witnesses are run here. The kernel is attacked first.
 
     Raises:
         KernelError: the checker is at fault.
@@ -298,7 +297,7 @@ def run_all(
     known: dict[Number, Verdict] = {}
     ruled = [start(rulings, one.number) if start else Ruled for one in wanted]
     with _rarely_collected():
-        if any(one.decide is None for one in wanted):
+        if wanted:
             attacked()
         for derivation, found in zip(wanted, ruled, strict=True):
             outcome = run(derivation, watch, known, found)

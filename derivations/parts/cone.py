@@ -1,11 +1,12 @@
 """Forces below a point load, and closed forms of their variances: inside of its cone and on it."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import sympy
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
+from force_diffusion.derivations.framework.record import ExactCase, Missed, Piece
 from force_diffusion.derivations.framework.vocabulary import (
     Beside,
     Where,
@@ -40,7 +41,6 @@ from force_diffusion.symbolic.symbols import (
     phi,
     q,
 )
-from force_diffusion.symbolic.variances.cases import Piece
 from sympy import Eq, Rational
 
 ORDERED = f_load / (2 * n_y)
@@ -189,3 +189,27 @@ def domains(whole: Where, pieces: Iterable[Piece]) -> tuple[Where, ...]:
         whole.also(*(Eq(symbol, at) for symbol, at in piece.at.items()), *piece.further)
         for piece in pieces
     )
+
+
+STEPS_DOWN_LEG = {p: l - j}
+"""Steps from the loaded bead down a leg."""
+
+
+def exact_case(
+    quantity: sympy.Expr,
+    pieces: Iterable[Piece],
+    unit: sympy.Expr,
+    steps_below: Mapping[sympy.Symbol, sympy.Expr],
+    to_order: str = "first order",
+) -> ExactCase:
+    """Closed forms as users get them; ``steps_below`` are those from the loaded bead."""
+    *edges, main = (
+        Missed(
+            piece.where,
+            tuple(Eq(s.xreplace(dict(steps_below)), value) for s, value in piece.at.items()),
+            piece.expression.xreplace({s: sympy.Integer(n) for s, n in piece.at.items()}) * unit,
+        )
+        for piece in pieces
+    )
+    inside = tuple(sympy.Ge(steps, 1) for steps in steps_below.values())
+    return ExactCase(quantity, main.where, main.expression, inside, tuple(edges), to_order)

@@ -8,18 +8,16 @@ equation whose left-hand side is not what the derivation speaks of.
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cached_property
 from typing import Any
 
 import sympy
-from force_diffusion.derivations.witnesses.draws import SmallPacking, draw
+from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
-    decide_identity,
-    refuted,
     undecided,
 )
 
@@ -273,31 +271,13 @@ def inside_cone(packing: SmallPacking) -> Iterator[Values]:
 
 def compare(equation: sympy.Eq, packing: SmallPacking, load: str, points: Points) -> Ruling:
     """Agree when both sides are equal at every place, as fractions, at orders ε⁰ and ε¹."""
-    return _compare(equation, Truth(packing, load), points)
-
-
-def _beside(side: Dual | Vector, other: Dual | Vector) -> Dual | Vector:
-    """The number 0 beside a vector is the zero vector."""
-    zero = Dual(Fraction(0))
-    return (zero, zero) if side == zero and isinstance(other, tuple) else side
-
-
-def _compare(
-    equation: sympy.Eq, truth: Truth, points: Points, *, where_it_is: bool = False
-) -> Ruling:
-    """Compare at every place; ``where_it_is`` passes over those that the packing does not hold."""
+    truth = Truth(packing, load)
     count = 0
-    for at in points(truth.packing):
+    for at in points(packing):
         try:
             left, right = (evaluate(side, truth, at) for side in equation.args)
-        except NoSiteError:
-            raise
         except explicit.ReversedError:
             continue  # the equation has no one meaning there
-        except AbsentError:
-            if where_it_is:
-                continue
-            raise
         left, right = _beside(left, right), _beside(right, left)
         if left != right:
             where = ", ".join(f"{symbol} = {value}" for symbol, value in at.items())
@@ -312,46 +292,7 @@ def _compare(
     return Ruling(Verdict.AGREES, f"equal as fractions, {count} compared")
 
 
-@cache
-def _drawn(seed: int, load: str) -> Truth:
-    return Truth(draw(seed), load)
-
-
-def search(load: str, points: Points) -> Callable[[sympy.Eq], str | None]:
-    """What looks for an exact packing on which an equation fails.
-
-    It raises ``AbsentError`` for an equation that speaks of what no packing holds.
-    """
-
-    def fails(candidate: sympy.Eq) -> str | None:
-        whole = candidate.has(sy.M)  # M is the height of these packings: nothing is above it
-        for seed in range(4):
-            try:
-                found = _compare(candidate, _drawn(seed, load), points, where_it_is=not whole)
-            except explicit.DivisionError as reason:
-                return f"on an exact packing: {reason}"
-            except explicit.AmbiguousError:
-                return None
-            if found.verdict is Verdict.DISAGREES:
-                return f"on an exact packing, {found.note}"
-        return None
-
-    return fails
-
-
-def refute(candidate: sympy.Eq, load: str, points: Points) -> Ruling:
-    """Refute an equation by an exact packing on which it fails, or leave it undecided."""
-    try:
-        found = search(load, points)(candidate)
-    except AbsentError as reason:
-        return refuted(f"on an exact packing: {reason}")
-    if found:
-        return refuted(found)
-    return undecided("no exact packing refutes it, and it is not decided in this form")
-
-
-def about(candidate: sympy.Eq, subject: sympy.Expr, load: str, points: Points) -> Ruling | None:
-    """None for an equation about ``subject``; any other left-hand side is judged on packings."""
-    if decide_identity(candidate.lhs, subject).verdict is Verdict.PROVED:
-        return None
-    return refute(candidate, load, points)
+def _beside(side: Dual | Vector, other: Dual | Vector) -> Dual | Vector:
+    """The number 0 beside a vector is the zero vector."""
+    zero = Dual(Fraction(0))
+    return (zero, zero) if side == zero and isinstance(other, tuple) else side

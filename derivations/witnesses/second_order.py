@@ -5,7 +5,7 @@ only its diagonal is left: one bead at a time is enlarged, and the changes of al
 layer are added up, which by translation is the sum over all beads for one contact.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
 from itertools import product
@@ -115,44 +115,38 @@ def positions(stated: sympy.Expr, packing: SmallPacking) -> Ruling:
 N = (Fraction(21, 29), Fraction(20, 29))
 
 
-PACKINGS = ((4, 2), (5, 2), (5, 3))
-
-
-def fails(
-    candidate: sympy.Eq,
-    exact: Callable[[int, int], dict[sympy.Symbol, Fraction]],
-    layers: Iterable[tuple[int, int]] = PACKINGS,
-) -> str | None:
-    """Where an equation of means, M and j fails on exact packings, r = σ = 1; None if nowhere.
-
-    ``exact`` says what its means are there, for M and j; loads at an angle have t = SHARE.
-    """
-    values = {**explicit.geometry(*N, Fraction(1)), sy.sigma: 1, sy.t: SHARE}
-    for height, layer in layers:
-        try:
-            at = {**values, sy.M: height, sy.j: layer, **exact(height, layer)}
-            left, right = (explicit.number(side, at) for side in candidate.args)
-        except explicit.AmbiguousError:
-            return None
-        if left != right:
-            return f"for M = {height}, j = {layer}, n_x = {N[0]}: {left} on the left, {right}"
-    return None
-
-
-@cache
 def response(
     level: int, n: tuple[Fraction, Fraction]
 ) -> dict[tuple[tuple[int, int], str], Fraction]:
     """Means at order σ² below a load on one bead of layer ``level``, r = σ = 1.
 
-    In units of f_load/2n_y, by ((i − k, j), branch). Many equal loads share one packing, so far
-    apart that none feels the bead that is enlarged below another; below each, it is another bead.
+    In units of f_load/2n_y, by ((i − k, j), branch).
+    """
+    return {contact: force for contact, (force, _) in _below_one(level, n).items()}
+
+
+def pushes(level: int, n: tuple[Fraction, Fraction]) -> dict[tuple[int, int], Fraction]:
+    """The same of the vertical force of both upper contacts of a bead, over f_load."""
+    found: dict[tuple[int, int], Fraction] = {}
+    for (bead, _), (_, push) in _below_one(level, n).items():
+        found[bead] = found.get(bead, Fraction(0)) + push / (2 * n[1])
+    return found
+
+
+@cache
+def _below_one(
+    level: int, n: tuple[Fraction, Fraction]
+) -> dict[tuple[tuple[int, int], str], tuple[Fraction, Fraction]]:
+    """The mean force of each contact at order σ², and its vertical component, f_load being 2n_y.
+
+    Many equal loads share one packing, so far apart that none feels the bead that is enlarged below
+    another; below each, it is another bead.
     """
     from force_diffusion.numeric.mechanics import taylor
 
     reach = 2 * level + 2
     apart = 2 * reach + 2
-    found: dict[tuple[tuple[int, int], str], Fraction] = {}
+    found: dict[tuple[tuple[int, int], str], tuple[Fraction, Fraction]] = {}
     for source in range(level + 1):
         offsets = [o for o in range(-reach, reach + 1) if (o + level - source) % 2 == 0]
         tops = [level % 2 + apart * place for place in range(len(offsets))]
@@ -166,13 +160,15 @@ def response(
             loads={(top, level): (Fraction(0), -2 * n[1]) for top in tops},
             order=2,
         )
-        for top in tops:
-            for layer in range(level):
-                for across in range(-(level - layer) - 2, level - layer + 3, 2):
-                    for branch in "+-":
-                        contact = (across, layer), branch
-                        change = solved.force((top + across) % (2 * width), layer, branch)[2]
-                        found[contact] = found.get(contact, Fraction(0)) + change
+        for top, layer in product(tops, range(level)):
+            for across in range(-(level - layer) - 2, level - layer + 3, 2):
+                for branch in "+-":
+                    at = (top + across) % (2 * width), layer, branch
+                    force, up = solved.force(*at), solved.direction(*at)[1]
+                    push = force[2] * n[1] + force[1] * up[1] + force[0] * up[2]
+                    contact = (across, layer), branch
+                    before = found.get(contact, (Fraction(0), Fraction(0)))
+                    found[contact] = before[0] + force[2], before[1] + push
     return found
 
 

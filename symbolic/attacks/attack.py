@@ -34,6 +34,7 @@ from force_diffusion.symbolic.symbols import (
     k,
     l,
     n,
+    p,
     q,
 )
 from sympy import Eq, Integer, Pow, Sum
@@ -132,7 +133,7 @@ def over_itself(quantity: sympy.Expr, number: int) -> Theorem:
 
 def only_supposed(left: sympy.Expr, right: sympy.Expr, where: Where) -> Theorem:
     """What nobody has proved, and what rests on it is no theorem."""
-    return made(equation(left, right), where, "supposition", supposed=(Supposition(k),))
+    return made(equation(left, right), where, "supposition", supposed=(Supposition(p),))
 
 
 def another(_formula: sympy.Eq, where: Where) -> Theorem:

@@ -1,14 +1,16 @@
 """Attacks on means at second order."""
 
+from collections.abc import Callable
 from functools import cache
 
 import sympy
-from force_diffusion.symbolic.attacks.attack import BEADS, attack, only_supposed, told
+from force_diffusion.symbolic.attacks.attack import BEADS, HERE, attack, only_supposed, told
 from force_diffusion.symbolic.kernel import axioms, moments, rules
 from force_diffusion.symbolic.kernel.any_dimension import SURFACE as IN_ANY_DIMENSION
+from force_diffusion.symbolic.kernel.mean_balance import mean_below
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import Theorem
-from force_diffusion.symbolic.kernel.where import POINT, SURFACE, Loading, Where
+from force_diffusion.symbolic.kernel.where import LOADED, PASSING, POINT, SURFACE, Loading, Where
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
     DeltaNPlus,
@@ -33,6 +35,7 @@ from force_diffusion.symbolic.symbols import (
     l,
     n_minus,
     n_plus,
+    n_x,
     n_y,
     phi,
     r,
@@ -40,7 +43,7 @@ from force_diffusion.symbolic.symbols import (
     site_r,
     site_s,
 )
-from sympy import Eq, Symbol
+from sympy import Eq, Expr, S, Symbol
 
 UNKNOWN = Symbol("nu", real=True)
 FORCE = ForcePlus(i, j) / f_load
@@ -157,3 +160,89 @@ def _() -> object:
     above = only_supposed(DeltaNPlus(i, j), DeltaR(i, j) * b_minus / r, Where.of(j >= 1))
     value = sigma**2 * (1 + phi - phi**2) / (2 * r * n_y * (1 - phi**2))
     return told(moments.moment(above, *_radii()), Shift(RAISED), value, Where.of(Eq(j, 0)))
+
+
+# the mean balance of a bead
+
+STILL = tuple(only_supposed(kind(i, j), S.Zero, BEADS) for kind in (DeltaNPlus, DeltaNMinus))
+"""No contact turns."""
+ENTERS = Where.of(site_s >= 2, loading=PASSING)
+BELOW_ONE = Where.of(l >= 2, loading=POINT)
+AT_LOADED = Where.of(l >= 2, loading=LOADED)
+LEFT = ForcePlus(k - 1, l - 1)
+
+
+def _carried(where: Where) -> tuple[Theorem, ...]:
+    """All forces are f_load."""
+    beads = where.also(j >= 0, indices=(i, j))
+    return tuple(only_supposed(kind(i, j), f_load, beads) for kind in (ForcePlus, ForceMinus))
+
+
+def _mean(kind: type[Expr], value: Expr, where: Where) -> Theorem:
+    return only_supposed(Shift(kind(i, j)), value, where.also(j >= 0, indices=(i, j)))
+
+
+for tried, left, right, where, false, refused in (
+    ("another value", Shift(LEFT), S.One, BELOW_ONE, "it is 0", "gives another value"),
+    ("a load that is not known", Shift(LEFT), S.Zero, AT_LOADED, "it may fluctuate",
+     "fluctuates is not known"),
+    ("no load", Shift(FORCE * f_load), S.Zero, BEADS, "it may fluctuate",
+     "fluctuates is not known"),
+    ("a force that enters", Shift(ForcePlus(site_r - 1, site_s - 1)), S.Zero, ENTERS,
+     "its mean is not known", "alike along a layer"),
+    ("the force itself", LEFT, f_load, BELOW_ONE, "it fluctuates", "is not the mean"),
+    ("an unknown number", UNKNOWN, S.Zero, BELOW_ONE, "it is none", "is not the mean"),
+    ("a radius", Shift(HERE), S.Zero, BEADS, "no force balances it", "is not one quantity"),
+    ("a square", Shift(LEFT**2), S.Zero, BELOW_ONE, "it is the variance", "is not one quantity"),
+    ("twice the force", Shift(2 * LEFT), S.Zero, BELOW_ONE, "it is another mean",
+     "is not one quantity"),
+    ("where it vanishes, perhaps", phi * Shift(LEFT), S.Zero, BELOW_ONE, "φ may be 0",
+     "is not shown to vanish"),
+):  # fmt: skip
+
+    @attack("mean_below", tried, false, refused)
+    def _(left: Expr = left, right: Expr = right, where: Where = where) -> object:
+        return told(mean_below(_carried(where), STILL), left, right, where)
+
+
+for tried, fact, left, where, false, refused in (
+    ("the mean of the other branch", lambda: _mean(ForceMinus, S.Zero, BELOW_ONE), Shift(LEFT),
+     BELOW_ONE, "each branch has its own", "alike along a layer"),
+    ("a force for its mean", lambda: only_supposed(LEFT, S.Zero, BELOW_ONE), Shift(LEFT), BELOW_ONE,
+     "zero to first order may be another at second", "alike along a layer"),
+    ("the mean of another place", lambda: only_supposed(Shift(ForcePlus(k + 1, l - 1)), S.Zero,
+                                                    BELOW_ONE), Shift(LEFT), BELOW_ONE,
+     "contacts of a layer differ", "alike along a layer"),
+    ("the mean of other layers", lambda: _mean(ForcePlus, S.Zero, BELOW_ONE.also(j >= l)),
+     Shift(LEFT), BELOW_ONE, "it is known above alone", "alike along a layer"),
+    ("the mean under another load", lambda: _mean(ForcePlus, S.Zero, AT_LOADED), Shift(LEFT),
+     BELOW_ONE, "each load has its own", "alike along a layer"),
+    ("a mean that is not a number", lambda: _mean(ForcePlus, UNKNOWN, BELOW_ONE), Shift(LEFT),
+     BELOW_ONE, "nothing is known of it", "not"),
+    ("a push of another direction", lambda: _mean(ForcePlus, S.Zero, BELOW_ONE), Shift(
+        LEFT * (n_x + Dot(e_y, DeltaNPlus(k - 1, l - 1)))), BELOW_ONE, "n_x is not upright",
+     "at second order is not known"),
+    ("a push along another contact", lambda: _mean(ForcePlus, S.Zero, BELOW_ONE), Shift(
+        LEFT * (n_y + Dot(e_y, DeltaNPlus(k + 1, l - 1)))), BELOW_ONE, "it turns by itself",
+     "at second order is not known"),
+    ("a push along the other branch", lambda: _mean(ForcePlus, S.Zero, BELOW_ONE), Shift(
+        LEFT * (n_y + Dot(e_y, DeltaNMinus(k - 1, l - 1)))), BELOW_ONE, "it turns by itself",
+     "at second order is not known"),
+    ("half of a push", lambda: _mean(ForcePlus, S.Zero, BELOW_ONE), Shift(
+        LEFT * Dot(e_y, DeltaNPlus(k - 1, l - 1))), BELOW_ONE, "the rest is missing",
+     "at second order is not known"),
+):  # fmt: skip
+
+    @attack("moment", f"at second order: {tried}", false, refused)
+    def _(fact: Callable[[], Theorem] = fact, left: Expr = left, where: Where = where) -> object:
+        return told(moments.moment((fact(),), _carried(where), STILL), left, 0, where)
+
+
+@attack("reach", "the mean of a force", "it belongs to no bead", "belongs to no bead")
+def _() -> object:
+    return told(rules.reach(axioms.ordered()[0], axioms.ordered()[1:]), Shift(FORCE * f_load), 0)
+
+
+@attack("reach", "an unknown number", "it belongs to no bead", "belongs to no bead")
+def _() -> object:
+    return told(rules.reach(axioms.ordered()[0], axioms.ordered()[1:]), UNKNOWN, 0)

@@ -5,24 +5,15 @@ a normal form that is zero. The two share no code, and what neither settles is u
 no value, or no single meaning, somewhere on its domain is not a statement: neither is asked.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
-from functools import cache
-from itertools import islice, product
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
-from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.algebra.bases import CARTESIAN, LINE_SUM, Basis
 from force_diffusion.symbolic.algebra.exact import Domain, NotExactError, RationalFunction
-from force_diffusion.symbolic.algebra.reading import (
-    Reader,
-    UnsafeBoundsError,
-    UnsafeDivisorError,
-)
 from force_diffusion.symbolic.notation import by_name
 
 
@@ -97,109 +88,11 @@ def not_a_statement(note: str) -> Ruling:
     return Ruling(Verdict.NOT_A_STATEMENT, note)
 
 
-NO_VALUE = (
-    UnsafeBoundsError,
-    UnsafeDivisorError,
-    explicit.DivisionError,
-    explicit.ReversedError,
-)
-"""What is raised of an expression without a value somewhere."""
-
 GEOMETRIES = (
     explicit.geometry(Fraction(3, 5), Fraction(4, 5), Fraction(7, 3)),
     explicit.geometry(Fraction(21, 29), Fraction(20, 29), Fraction(5, 11)),
 )
 """Two rational lattices, with φ of either sign, on which counterexamples are looked for."""
-
-_OTHERS = {
-    sy.sigma: Fraction(3, 7),
-    sy.f_load: Fraction(11, 5),
-    sy.m_g: Fraction(13, 9),
-    sy.L_plus: Fraction(5, 3),
-    sy.L_minus: Fraction(7, 11),
-    sy.t: Fraction(21, 55),
-}
-
-
-def _samples(
-    region: Region, free: tuple[sympy.Symbol, ...]
-) -> Iterator[dict[sympy.Symbol, Fraction | int]]:
-    """Yield a generic point of the region on either lattice, then corners on the first.
-
-    Indices that the region leaves free take any value.
-    """
-    anywhere = {symbol: 5 + 2 * a for a, symbol in enumerate(free)}
-    generic = tuple(3 + 2 * a for a in range(len(region)))
-    corners = islice(product((0, 1), repeat=len(region)), 4)
-    first, second = GEOMETRIES
-    for geometry, excess in ((first, generic), (second, generic), *((first, c) for c in corners)):
-        yield {**geometry, **_OTHERS, **anywhere, **region.sample(*excess)}
-
-
-def counterexample(
-    left: sympy.Expr, right: sympy.Expr, region: Region, *, is_vector: bool
-) -> str | None:
-    """Look for a small packing on which two linear expressions have different weights."""
-    free = tuple(
-        by_name(
-            (left.free_symbols | right.free_symbols) & set(sy.INDICES) - set(region.lower_bounds)
-        )
-    )
-    for values in _samples(region, free):
-        try:
-            if is_vector:
-                both = [explicit.vector_weights(side, values) for side in (left, right)]
-                pairs = list(zip(*both, strict=True))
-            else:
-                pairs = [(explicit.weights(left, values), explicit.weights(right, values))]
-        except explicit.ReversedError:
-            continue
-        for one, other in pairs:
-            if one != other:
-                key = min(k for k in one.keys() | other.keys() if one.get(k) != other.get(k))
-                where = ", ".join(f"{s} = {values[s]}" for s in (*free, *region.lower_bounds))
-                name = f"{key[0]}({key[1]}, {key[2]})" if key[0] else "the constant term"
-                return (
-                    f"at {where or 'any site'}, φ = {values[sy.phi]}: {name} has the weight "
-                    f"{one.get(key, 0)} on the left and {other.get(key, 0)} on the right"
-                )
-    return None
-
-
-def equal_forms(
-    left: sympy.Expr, right: sympy.Expr, region: Region, *, is_vector: bool, basis: Basis
-) -> Ruling | None:
-    """A proof of left = right by their normal forms, or None.
-
-    Raises:
-        NotExactError: one of them could not be read.
-    """
-    reader = Reader(region, basis)
-    read = reader.vector if is_vector else lambda side: (reader.scalar(side),)
-    if all((a - b).is_zero() for a, b in zip(read(left), read(right), strict=True)):
-        return proved("the normal forms are equal" + (f" for {region}" if len(region) else ""))
-    return None
-
-
-def decide_linear(
-    left: sympy.Expr,
-    right: sympy.Expr,
-    region: Region,
-    *,
-    is_vector: bool = False,
-    basis: Basis = LINE_SUM,
-) -> Ruling:
-    """Rule on left = right, both linear in lattice quantities, for all indices in the region."""
-    try:
-        found = counterexample(left, right, region, is_vector=is_vector)
-        if found:
-            return refuted(found)
-        equal = equal_forms(left, right, region, is_vector=is_vector, basis=basis)
-    except NO_VALUE as reason:
-        return not_a_statement(str(reason))
-    except (NotExactError, explicit.AmbiguousError) as reason:
-        return undecided(str(reason))
-    return equal or undecided("the normal forms differ, yet no counterexample was found")
 
 
 def decide_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
@@ -239,33 +132,6 @@ def _apart(difference: RationalFunction) -> Ruling:
             where = ", ".join(f"{g} = {values[g]}" for g in generators if difference.holds(g))
             return refuted(f"left minus right is {found} at {where or 'any value'}")
     return undecided("the difference is not the zero function, yet no values show it")
-
-
-@cache
-def _base_components(axis: int) -> dict[sympy.Basic, sympy.Expr]:
-    return {symbol: CARTESIAN.vectors[symbol][axis].to_sympy() for symbol in sy.VECTORS}
-
-
-@cache
-def _component(atom: sympy.Expr, axis: int) -> sympy.Symbol:
-    """An unknown of its own: a symbol made from the atom's text could be another atom's too."""
-    return sympy.Dummy(f"{atom}_{'xy'[axis]}")
-
-
-def cartesian(vector: sympy.Expr, axis: int) -> sympy.Expr:
-    """One Cartesian component of a vector expression; unknown vectors get unknown components."""
-    image = dict(_base_components(axis))
-    for atom in vector.atoms(sy.SiteFunction):
-        if atom.is_vector:
-            image[atom] = _component(atom, axis)
-    return vector.xreplace(image)
-
-
-def decide_vector_identity(left: sympy.Expr, right: sympy.Expr) -> Ruling:
-    """Rule on an equality of vectors that may be multiplied by unknown numbers, by components."""
-    return all_of(
-        *(decide_identity(cartesian(left, axis), cartesian(right, axis)) for axis in range(2))
-    )
 
 
 def all_of(*rulings: Ruling) -> Ruling:

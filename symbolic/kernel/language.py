@@ -6,11 +6,11 @@ value everywhere there. What has none, or is not shown to, is not a statement; w
 written in words that no procedure reads is left undecided.
 """
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.signs import never_zero, sign
+from force_diffusion.symbolic.algebra.signs import never_zero
 from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.decisions import Ruling, not_a_statement, undecided
 from force_diffusion.symbolic.notation import by_name
@@ -143,14 +143,6 @@ def _factors(side: sympy.Expr) -> list[sympy.Expr]:
     return [factor for part in side.args for factor in _factors(part)]
 
 
-def without_value(candidate: sympy.Eq, *, in_the_limit: bool) -> str:
-    """Why it is not shown to have a value everywhere; "" when it is.
-
-    In a limit at fixed z layers are above the base; elsewhere they may be the base.
-    """
-    return next(_values(candidate, in_the_limit), "")
-
-
 def says_less(candidate: sympy.Eq, printed: sympy.Eq) -> str:
     """Why it may say less than the printed equation of what that is about; "" when it does not.
 
@@ -255,29 +247,6 @@ def _sum(series: sympy.Sum) -> str:
                 f"a sum from {text(limit[1])} to {text(limit[2])} has no agreed value"
             )
     return _sort(series.function)
-
-
-def _values(candidate: sympy.Eq, in_the_limit: bool) -> Iterator[str]:
-    # in an unevaluated tree two equal powers are one node, and a/a keeps its divisor
-    for power in by_name(candidate.atoms(sympy.Pow)):
-        if power.exp.is_Integer and power.exp.is_negative:
-            of_force = isinstance(power.base, _FORCES)
-            if not of_force and not _has_one_sign(power.base, in_the_limit):
-                yield f"the divisor {text(power.base)} is not shown to differ from zero"
-        elif not power.exp.is_Integer and _has_one_sign(power.base, in_the_limit) != 1:
-            yield f"{text(power.base)}, of which a root is taken, is not shown to be positive"
-
-
-def _has_one_sign(base: sympy.Expr, in_the_limit: bool) -> int:
-    """The sign, with j between 0 and M where both stand, and between 0 and l."""
-    image, positive = {}, []
-    for higher in (sy.M, sy.l):
-        if base.has(sy.j) and base.has(higher):
-            positive.append(sympy.Dummy("above", positive=True))
-            image[higher] = sy.j + positive[-1]
-    if in_the_limit:
-        positive += [sy.j, sy.l, sy.p, sy.q]
-    return sign(base.xreplace(image), tuple(positive), _LAYERS)
 
 
 def _refuse_sums(candidate: sympy.Basic, free: Collection[sympy.Basic]) -> None:

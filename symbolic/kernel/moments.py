@@ -148,7 +148,7 @@ def value(
         return any_dimension.value(one, part)
     if isinstance(one, sy.Shift):
         inside = one.args[0].xreplace(part.solved)
-        found = second_order.shift(inside, part, lambda of, there: value(of, facts, there))
+        found = second_order.shift(inside, part, lambda of, there: value(of, facts, there), facts)
         return found.reduced()
     try:
         if isinstance(one, sy.Variance) and (mean := _neighbours(one.args[0], facts, where, alone)):

@@ -448,6 +448,8 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
         check(formula, where)
         about, value = isolated(formula, where)
+        if not isinstance(about, sy.SiteFunction):
+            raise NotProvedError(f"{text(about)} belongs to no bead")
 
         def known(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
             return value.xreplace({sy.i: across, sy.j: layer})

@@ -337,12 +337,21 @@ def holds(formula: sympy.Eq, where: Where) -> bool:
 
 
 def subject(side: sympy.Expr) -> sympy.Expr | None:
-    """What a side is about: a quantity that is a factor of it, or an unknown number alone."""
-    found = [one for one in sympy.Mul.make_args(side) if isinstance(one, sy.SiteFunction)]
+    """What a side is about: a quantity that is a factor of it, or an unknown number alone.
+
+    The mean of a force at second order is a quantity, too.
+    """
+    found = [one for one in sympy.Mul.make_args(side) if _is_quantity(one)]
     if len(found) == 1:
         return found[0]
     known = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
     return side if isinstance(side, sympy.Symbol) and side not in known else None
+
+
+def _is_quantity(node: sympy.Basic) -> bool:
+    if isinstance(node, sy.Shift):
+        return isinstance(node.args[0], FORCES)
+    return isinstance(node, sy.SiteFunction)
 
 
 def isolated(formula: sympy.Eq, where: Where) -> tuple[sympy.Expr, sympy.Expr]:
@@ -429,23 +438,37 @@ def _put_in(
     return node.xreplace(image) if image else node
 
 
+def said_of(quantity: sympy.Expr, facts: Facts, where: Where) -> sympy.Expr | None:
+    """What one of several theorems says of a quantity on all of a domain; None if none does."""
+    told = (_instance_of(one, quantity, where, facts) for one in flat(facts))
+    return next((one for one in told if one is not None), None)
+
+
 @lru_cache(maxsize=20_000)
 def _instance_of(
-    theorem: Theorem, atom: sy.SiteFunction, where: Where, background: Facts
+    theorem: Theorem, atom: sympy.Expr, where: Where, background: Facts
 ) -> sympy.Expr | None:
     """What a theorem says of a quantity, if it holds there."""
     about, value = theorem.solved
-    if type(about) is not type(atom):
+    (kind, own), (wanted_kind, wanted_at) = map(_kind_and_place, (about, atom))
+    if kind != wanted_kind:
         return None
-    image = placed(theorem, about.args, atom.args, where)
+    image = placed(theorem, own, wanted_at, where)
     if image is None or not applies(theorem, image, where, background):
         return None
     wanted = [affine.from_sympy(sympy.expand(_on(a - b.xreplace(image), where)))
-              for a, b in zip(atom.args, about.args, strict=True)]  # fmt: skip
+              for a, b in zip(wanted_at, own, strict=True)]  # fmt: skip
     if any(any(one) for one in wanted):
         return None
     found = _renamed(value, image, where).xreplace(image)
     return None if found.has(atom) else found  # the same quantity again says nothing
+
+
+def _kind_and_place(quantity: sympy.Expr) -> tuple[tuple[type, ...], tuple[sympy.Expr, ...]]:
+    """What a quantity is, and where; the mean of a force is where that is."""
+    if isinstance(quantity, sy.Shift):
+        return (sy.Shift, type(quantity.args[0])), quantity.args[0].args
+    return (type(quantity),), quantity.args
 
 
 def _renamed(value: sympy.Expr, image: Mapped, where: Where) -> sympy.Expr:

@@ -153,12 +153,14 @@ class Given:
         force: force of such a contact.
         load: load on a bead up to this layer; above it the load is what balances the bead.
         surface: the layer above which there is no bead, if there is one.
+        place: the one bead that carries a load, if there is one.
     """
 
     top: int
     force: Callable[[Branch, int, int], Dual]
     load: Callable[[int, int], Vector]
     surface: int | None = None
+    place: Site | None = None
 
 
 def _any_force(branch: Branch, across: int, layer: int) -> Dual:
@@ -224,7 +226,10 @@ def given(
             )
         if name == "point":
             down = Vector(ZERO, Dual(-f_load))
-            return Given(place[1], lambda *_: ZERO, lambda *at: down if at == place else NOWHERE)
+            here = (place[0], place[1])
+            return Given(
+                here[1], lambda *_: ZERO, lambda *at: down if at == here else NOWHERE, place=here
+            )
         if name == "entering":
             entry = (place[0] - 1, place[1] - 1)
             return Given(
@@ -249,7 +254,8 @@ def _mirrored(made: Given) -> Given:
         straight = made.load(-across, layer)
         return Vector(-straight.x, straight.y)
 
-    return replace(made, force=force, load=load)
+    place = made.place and (-made.place[0], made.place[1])
+    return replace(made, force=force, load=load, place=place)
 
 
 @dataclass(frozen=True)

@@ -2,14 +2,15 @@
 
 The coefficient of ε² is a quadratic form in the radii; in the mean only its diagonal is left. Under
 loads that are alike along a layer one bead of each layer is enlarged, and what all sites of a layer
-feel of it is added up: by translation, what one site feels of all beads.
+feel of it is added up: by translation, what one site feels of all beads. Below one load each bead
+that counts is enlarged in turn.
 """
 
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 
-from force_diffusion.symbolic.search.dual import TooLargeError
+from force_diffusion.symbolic.search.dual import NOWHERE, ZERO, Dual, TooLargeError, Vector
 from force_diffusion.symbolic.search.packing import Given, Site
 
 HIGHEST = 6
@@ -97,16 +98,25 @@ class Enlarged:
 
     def force(self, branch: int, site: Site) -> Series:
         """Force of the contact above a bead."""
-        assert self.given.surface is not None
-        if site[1] >= self.given.surface:
+        if site[1] >= self.given.top:
+            force = self.given.force("+" if branch == 1 else "-", *site)
+            if force.value or force.slope:
+                raise TooLargeError("what comes from above may fluctuate")
             return _NOTHING
         above = (site[0] + branch, site[1] + 1)
         return self._supports(above)[0 if branch == 1 else 1]
+
+    def push(self, branch: int, site: Site) -> Series:
+        """Its vertical component."""
+        force = self.force(branch, site)
+        return _times(force, self.unit(branch, site)[1]) if any(force) else _NOTHING
 
     def _supports(self, site: Site) -> tuple[Series, Series]:
         """Forces f⁺ and f⁻ below a bead that balance what it carries."""
         if site not in self._below:
             load = self.given.load(*site)
+            if load.x.slope or load.y.slope:
+                raise TooLargeError("the loads fluctuate")
             carried: Pair = tuple(  # type: ignore[assignment]
                 (-Fraction(part.value), Fraction(0), Fraction(0)) for part in (load.x, load.y)
             )
@@ -118,6 +128,9 @@ class Enlarged:
                         _plus(one, _times(force, part))
                         for one, part in zip(carried, unit, strict=True)
                     )
+            if not any(map(any, carried)):
+                self._below[site] = _NOTHING, _NOTHING
+                return self._below[site]
             plus = self.unit(1, (site[0] - 1, site[1] - 1))
             minus = self.unit(-1, (site[0] + 1, site[1] - 1))
             over = _inverse(_cross(plus, minus))
@@ -135,14 +148,26 @@ def _enlarged(
     return Enlarged(n, radius, (source % 2, source), given)
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=1024)
 def forces(
-    n: tuple[Fraction, Fraction], radius: Fraction, given: Given, branch: int, layer: int
-) -> Fraction:
-    """Σ over all beads of the coefficient of ε² of a contact's force, of height ``surface``."""
-    height = given.surface
-    if height is None or height > HIGHEST:
-        raise TooLargeError("it is no packing with a surface, or too high")
+    n: tuple[Fraction, Fraction], radius: Fraction, given: Given, branch: int, site: Site,
+    vertical: bool = False,
+) -> Fraction:  # fmt: skip
+    """Σ over all beads of the coefficient of ε² of a contact's force, or vertical component.
+
+    Raises:
+        TooLargeError: the packing is too high, or what it bears may fluctuate.
+    """
+    height, layer = given.surface, site[1]
+    if given.top > HIGHEST:
+        raise TooLargeError("it is too high")
+    if height is None:
+        if given.place is None:
+            raise TooLargeError("it is no packing with a surface, nor below one load")
+        at = (site[0] - given.place[0] + given.top, layer)
+        load = given.load(*given.place)
+        below = _below(n, radius, given.top, (Fraction(load.x.value), Fraction(load.y.value)))
+        return sum((_of(one, branch, at, vertical)[2] for one in below), Fraction(0))
     for one in range(height + 1):
         load = given.load(one % 2, one)
         if load != given.load(one % 2 + 2, one) or load.x.slope or load.y.slope:
@@ -153,8 +178,28 @@ def forces(
         wide = 2 * height + 2
         for across in range(-wide, wide + 1):
             if (across + layer) % 2 == 0:
-                total += packing.force(branch, (across, layer))[2]
+                total += _of(packing, branch, (across, layer), vertical)[2]
     return total
+
+
+def _of(packing: Enlarged, branch: int, site: Site, vertical: bool) -> Series:
+    return packing.push(branch, site) if vertical else packing.force(branch, site)
+
+
+@lru_cache(maxsize=64)
+def _below(
+    n: tuple[Fraction, Fraction], radius: Fraction, top: int, load: tuple[Fraction, Fraction]
+) -> tuple[Enlarged, ...]:
+    """Packings below a load on bead (top, top), each with one bead enlarged that forces feel."""
+    here, carried = (top, top), Vector(*map(Dual, load))
+    given = Given(top, lambda *_: ZERO, lambda *at: carried if at == here else NOWHERE, place=here)
+    sources = (
+        (top + apart, layer)
+        for layer in range(top + 1)
+        for apart in range(layer - top - 1, top - layer + 2)
+        if (top + apart + layer) % 2 == 0
+    )
+    return tuple(Enlarged(n, radius, source, given) for source in sources)
 
 
 @lru_cache(maxsize=64)

@@ -27,6 +27,8 @@ HIGHEST_POWER = 64
 MOST_TERMS = 1000
 """Of one sum."""
 
+_TURNS = {sy.ForcePlus: sy.DeltaNPlus, sy.ForceMinus: sy.DeltaNMinus}
+
 A_BEAD = 20
 """Laying or balancing a bead takes as long as so many reads."""
 
@@ -159,21 +161,35 @@ class Evaluator:
 
     def _shift(self, inside: sympy.Expr) -> Number:
         """The mean at second order of what is linear in forces or displacements, σ = 1."""
-        forces = inside.atoms(sy.ForcePlus, sy.ForceMinus)
         moved = {one for one in inside.atoms(sy.Dot) if isinstance(one.args[1], sy.DeltaX)}
-        names = {one: sympy.Dummy() for one in (*forces, *moved)}
-        linear = inside.xreplace(names)
+        names = {one: sympy.Dummy() for one in (*inside.atoms(*_TURNS), *moved)}
+        turned = {
+            sy.n_y + sy.Dot(sy.e_y, _TURNS[type(one)](*one.args)): sympy.Dummy()
+            for one in names
+            if one not in moved
+        }
+        vertical = dict(zip(names, turned.values(), strict=False))  # forces come first
+        linear = inside.replace(
+            lambda one: isinstance(one, sympy.Add) and one.func(*one.args) in turned,
+            lambda one: turned[one.func(*one.args)],
+        ).xreplace(names)
         if linear.has(sy.SiteFunction):
             raise UnreadableError(f"the mean of {_brief(inside)} at second order")
         total: Number = 0
         for one, name in names.items():
-            slope = sympy.diff(linear, name)
-            if slope.has(*names.values()):
+            upright = vertical.get(one, sympy.Dummy())
+            slope = sympy.expand(sympy.diff(linear, name))
+            parts = slope.coeff(upright, 0), slope.coeff(upright, 1)
+            if slope != sympy.expand(parts[0] + parts[1] * upright) or any(
+                part.has(*names.values(), *turned.values()) for part in parts
+            ):
                 raise UnreadableError(f"{_brief(inside)} is not linear")
-            total += self._plain(slope) * self._second_order(one)
+            for part, of_push in zip(parts, (False, True), strict=True):
+                if part:
+                    total += self._plain(part) * self._second_order(one, of_push)
         return total
 
-    def _second_order(self, one: sympy.Expr) -> Number:
+    def _second_order(self, one: sympy.Expr, vertical: bool) -> Number:
         geometry, given = self.packing.geometry, self.packing.given
         n, radius = geometry.n, geometry.radius
         self._spend(A_BEAD * quadratic.HIGHEST**2)
@@ -185,7 +201,7 @@ class Evaluator:
         branch = 1 if isinstance(one, sy.ForcePlus) else -1
         across, layer = map(self._index, one.args)
         self.packing.quantity(type(one).__name__, across, layer)  # it is there
-        return quadratic.forces(n, radius, given, branch, layer)
+        return quadratic.forces(n, radius, given, branch, (across, layer), vertical)
 
     def _spend(self, reads: int) -> None:
         self.budget.left -= reads

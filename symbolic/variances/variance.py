@@ -4,44 +4,14 @@ The radii are independent with variance σ², so the variance of a form is σ² 
 squared weights. Orders count M and j together, as at a fixed relative height z = j/M.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 
 import sympy
 from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.algebra.exact import FIELD, LAYER, RationalFunction
-from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm
-from force_diffusion.symbolic.algebra.reading import Reader
-from force_diffusion.symbolic.algebra.signs import never_zero
-from force_diffusion.symbolic.algebra.weights import Pieces, take_apart
-from force_diffusion.symbolic.symbols import M, j, sigma, z
-
-
-@cache
-def fluctuation(expression: sympy.Expr, region: Region) -> LinearForm:
-    """The part of a linear expression that depends on the radii."""
-    return without_constant(Reader(region).scalar(expression))
-
-
-def without_constant(form: LinearForm) -> LinearForm:
-    """A form without its constant term, which is its mean."""
-    return LinearForm(
-        {site: weight for site, weight in form.sites.items() if site.family != CONSTANT},
-        dict(form.rays),
-    )
-
-
-@cache
-def pieces_of(expression: sympy.Expr, region: Region) -> Pieces:
-    """The fluctuation of a linear expression, taken apart."""
-    return take_apart(fluctuation(expression, region), region)
-
-
-@cache
-def variance(expression: sympy.Expr, region: Region) -> RationalFunction:
-    """σ² Σ weight² of a linear expression in δr, in closed form, exact in the region."""
-    return pieces_of(expression, region).sum_of_squares() * FIELD.from_sympy(sigma**2)
+from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
+from force_diffusion.symbolic.symbols import M, j
 
 
 def order(value: RationalFunction, *sizes: sympy.Expr) -> int:
@@ -58,37 +28,6 @@ def leading(value: RationalFunction, *sizes: sympy.Expr) -> RationalFunction:
     """
     sizes = sizes or (M, j)
     return _top(value.numerator, sizes) / _top(value.denominator, sizes)
-
-
-def grows_evenly(value: RationalFunction, *sizes: sympy.Expr) -> bool:
-    """Whether its order in M holds uniformly on closed parts of 0 < z < 1 and the range of φ.
-
-    It does when what the denominator goes as vanishes nowhere there.
-    """
-    below = _top(value.denominator, sizes or (M, j)).to_sympy()
-    if sizes:
-        return never_zero(below, sizes)
-    upper = sympy.Dummy("M - j", positive=True)
-    return never_zero(below.xreplace({M: j + upper}), (j, upper))
-
-
-def largest_weight(expression: sympy.Expr, region: Region) -> int:
-    """The order of the largest weight of a linear expression in δr, over all sites."""
-    return _largest(pieces_of(expression, region))
-
-
-def _largest(pieces: Pieces) -> int:
-    sizes = (M, j, LAYER)
-    orders = [order(run.weight, *sizes) for run in pieces.runs]
-    orders += [order(full, *sizes) for full, _ in pieces.special.values()]
-    return max(orders, default=-(10**9))
-
-
-def at_fixed_z(value: RationalFunction) -> sympy.Expr:
-    """Leading part with j = zM and its power of M taken out, in the symbol z."""
-    image = FIELD.generator(z) * FIELD.generator(M)
-    power = FIELD.generator(M) ** order(value)
-    return (leading(value).substitute({j: image}) / power).to_sympy()
 
 
 @dataclass(frozen=True)
@@ -120,31 +59,6 @@ CASES: dict[str, tuple[dict[sympy.Symbol, sympy.Expr], Region, str, tuple[int, .
     "surface": ({j: M - 1}, Region({M: 3}), "j = M − 1 and M ≥ 3", (1, 2)),
 }
 """Layers with a closed form of their own: substitution, region, its words, heights missed."""
-
-
-Layered = Callable[[dict[sympy.Symbol, sympy.Expr], Region], RationalFunction]
-"""A value of a layer: what stands for indices there, and the region of those that are left."""
-
-
-def by_layer(value: Layered) -> dict[str, ClosedForm]:
-    """Closed forms at every 0 ≤ j < M: interior, both edges, and the packings that these miss."""
-
-    def form(name: str) -> ClosedForm:
-        at, region, validity, missed = CASES[name]
-        exceptions = []
-        for height in missed:
-            size = {M: sympy.Integer(height)}
-            layer = at[j].xreplace(size)
-            small = value({**size, j: layer}, Region({}))
-            exceptions.append((height, int(layer), small.to_sympy()))
-        return ClosedForm(validity, tuple(exceptions), value(at, region))
-
-    return {name: form(name) for name in CASES}
-
-
-def exact_variances(expression: sympy.Expr) -> dict[str, ClosedForm]:
-    """Closed forms of the variance at every 0 ≤ j < M."""
-    return by_layer(lambda at, region: variance(expression.xreplace(at), region))
 
 
 def packings(up_to: int) -> Iterator[tuple[int, int, str]]:

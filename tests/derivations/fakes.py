@@ -1,12 +1,16 @@
 """Tiny derivations with a known fate, for tests of all that surrounds a derivation."""
 
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import sympy
-from force_diffusion.derivations.framework.record import Claim, Derivation, Step, Witness
+from force_diffusion.derivations.framework.proving import Lines
+from force_diffusion.derivations.framework.record import Claim, Derivation, Witness
 from force_diffusion.symbolic.as_printed import equation, terms
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
+from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.search.mutants import mutants
+from force_diffusion.symbolic.search.sources import Source
 from force_diffusion.symbolic.symbols import DeltaR, SecondDifference, i, j
 
 TRUE = equation(SecondDifference(i, j), terms(DeltaR(i, j), DeltaR(i - 1, j)))
@@ -26,7 +30,56 @@ def always(verdict: Verdict) -> Ruling:
     return Ruling(verdict, "said so", (GUESS,) if verdict is Verdict.ASSUMING else ())
 
 
-PREMISE = Derivation(
+@dataclass(frozen=True)
+class Step:
+    """A line whose fate is said."""
+
+    reason: str
+    formula: sympy.Eq
+    fate: Callable[[int, sympy.Eq], Ruling]
+    uses: tuple[str, ...] = ()
+    relation: str = "="
+
+    @property
+    def equations(self) -> tuple[sympy.Eq, ...]:
+        return (self.formula,)
+
+    def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
+        return self.fate(part, candidate)
+
+    @property
+    def ruling(self) -> Ruling:
+        return self.rule_on(0, self.formula)
+
+    @property
+    def verdict(self) -> Verdict:
+        return self.ruling.verdict
+
+
+def lines(*steps: Step) -> Lines:
+    made = Lines(Where())
+    made.extend(steps)  # type: ignore[arg-type]
+    return made
+
+
+@dataclass(frozen=True)
+class Fake(Derivation):
+    """A derivation whose printed equation has a procedure of its own."""
+
+    decide: Callable[[int, sympy.Eq], Ruling] = decide
+
+    def rule_on(self, part: int, candidate: sympy.Eq, where: Where | None = None) -> Ruling:
+        return self.decide(part, candidate)
+
+    def source(self, part: int) -> Source:
+        return Source(self.printed[part], self.relation)
+
+    @property
+    def assumed(self) -> list[str]:
+        return []
+
+
+PREMISE = Fake(
     number=1,
     name="premise",
     title="A premise, with δr_(i−1,j) in its title",
@@ -34,11 +87,10 @@ PREMISE = Derivation(
     assumptions=("j ≥ 1",),
     premises=(),
     printed=(TRUE,),
-    steps=lambda: [
+    steps=lambda: lines(
         Step("Add the two radii.", TRUE, decide, ("an assumption",)),
         Step("They are n⁺ apart.", SAME, lambda _, one: always(Verdict.PROVED), ("step 1",)),
-    ],
-    decide=decide,
+    ),
     claims=(Claim("a claim", lambda: always(Verdict.PROVED)),),
     witnesses=(Witness("a witness", lambda seed: always(Verdict.AGREES)),),
     remarks=("A remark about n⁺·δn⁺ = 0.",),
@@ -58,7 +110,7 @@ def with_witness(verdict: Verdict) -> Derivation:
 
 def with_step(verdict: Verdict) -> Derivation:
     doubtful = Step("So it is.", SAME, lambda *_: always(verdict), ("step 1",))
-    return replace(CONCLUSION, steps=lambda: [*CONCLUSION.steps(), doubtful])
+    return replace(CONCLUSION, steps=lambda: lines(*CONCLUSION.steps(), doubtful))
 
 
 def lenient() -> Derivation:

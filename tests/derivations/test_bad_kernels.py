@@ -8,8 +8,10 @@ from typing import Any
 
 import pytest
 import sympy
+from force_diffusion.derivations.framework import runner
 from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.proving import Line
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine, signs
 from force_diffusion.symbolic.algebra.exact import FIELD
@@ -67,24 +69,29 @@ def in_all_derivations(monkeypatch: Plant, name: str, planted: object) -> None:
 
 
 @pytest.mark.parametrize("number", modules())
-def test_it_proves_all(derive: Callable[..., Any], number: Number) -> None:
-    status, _, said = derive(number, decide=lambda *_: proved("of course"))
+def test_it_proves_all(derive: Callable[..., Any], monkeypatch: Plant, number: Number) -> None:
+    monkeypatch.setattr(runner, "attacked", lambda: None)  # they are not fooled
+    monkeypatch.setattr(Line, "rule_on", lambda *_: proved("of course"))
+    status, _, said = derive(number)
     assert status == 1
     assert said.startswith(FAULT)
 
 
 @pytest.mark.parametrize("number", modules())
-def test_it_refutes_all(derive: Callable[..., Any], number: Number) -> None:
-    status, printed, said = derive(number, decide=lambda *_: refuted("never"))
+def test_it_refutes_all(derive: Callable[..., Any], monkeypatch: Plant, number: Number) -> None:
+    monkeypatch.setattr(runner, "attacked", lambda: None)
+    monkeypatch.setattr(Line, "rule_on", lambda *_: refuted("never"))
+    status, printed, said = derive(number)
     assert status == 1
     assert said.startswith(FAULT) or "0 proved" in printed or "1 undecided." in printed
 
 
 def test_nothing_is_written_by_a_checker_at_fault(
-    derive: Callable[..., Any], tmp_path: Path
+    derive: Callable[..., Any], monkeypatch: Plant, tmp_path: Path
 ) -> None:
     folder = tmp_path / "out"
-    status, _, said = derive(3, "--out", str(folder), decide=lambda *_: proved("of course"))
+    monkeypatch.setattr(Line, "rule_on", lambda *_: proved("of course"))
+    status, _, said = derive(3, "--out", str(folder))
     assert status == 1
     assert said.startswith(FAULT)
     assert not folder.exists() or not list(folder.iterdir())

@@ -3,22 +3,21 @@
 The attacks, which are run first, are left out here: they know the rules that they are on.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
 
 import pytest
 import sympy
-from force_diffusion.derivations.framework import follows, proving, record, runner
+from force_diffusion.derivations.framework import proving, record, runner
 from force_diffusion.derivations.framework.loading import load
-from force_diffusion.derivations.framework.record import KernelError, Step
+from force_diffusion.derivations.framework.record import KernelError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import signs, weights
 from force_diffusion.symbolic.algebra.reading import read_with
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.attacks.every import succeeded
 from force_diffusion.symbolic.kernel import language, moments, rules, theorem
-from force_diffusion.symbolic.kernel.decisions import Verdict, proved
+from force_diffusion.symbolic.kernel.decisions import proved
 from force_diffusion.symbolic.kernel.theorem import NotProvedError
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.mechanics import lattice
@@ -161,14 +160,3 @@ def test_a_certificate_starts_at_zero(more: sympy.Expr) -> None:
     assert rules.rewrite()(equation(SUM, right), where).rule == "rewrite"
     with pytest.raises(NotProvedError, match="differ"):
         rules.rewrite()(equation(SUM, right + more), where)
-
-
-@pytest.mark.parametrize("decide", [follows.identity(), follows.linear(), follows.summed()])
-def test_the_divisors_of_a_step_vanish_nowhere(decide: Callable[..., Any]) -> None:
-    for a in (sy.phi, sy.phi - sympy.Rational(1, 4), sy.n_x - sy.n_y, 3 * sy.n_x - 2 * sy.n_y):
-        once = sympy.Mul(sy.r, a, sympy.Pow(a, -1), evaluate=False)
-        step = Step("because", equation(sy.r, once), decide)
-        assert step.rule_on(0, equation(sy.r, sy.r)).verdict is Verdict.PROVED
-        assert not step.verdict.is_proved, a
-    root = sympy.Mul(sympy.sqrt(sy.phi), 1 / sympy.sqrt(sy.phi), sy.r, evaluate=False)
-    assert not Step("because", equation(sy.r, root), decide).verdict.is_proved

@@ -20,7 +20,8 @@ from force_diffusion.derivations.export.terminal import statement_text
 from force_diffusion.derivations.framework import runner
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proving import Line, exhausting, moment
-from force_diffusion.derivations.framework.record import Check
+from force_diffusion.derivations.framework.record import Check, Piece
+from force_diffusion.derivations.framework.vocabulary import UNIT
 from force_diffusion.derivations.parts import cone
 from force_diffusion.derivations.witnesses.draws import DIRECTIONS, draw
 from force_diffusion.derivations.witnesses.squared_weights import responses
@@ -31,8 +32,6 @@ from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.kernel.theorem import NotProvedError
 from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.variances.cases import Piece
-from force_diffusion.symbolic.variances.orders import UNIT
 from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Rational

@@ -3,18 +3,22 @@
 from fractions import Fraction
 
 import pytest
+import sympy
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.witnesses.both_sides import (
+    AbsentError,
+    Points,
+    compare,
     each_bead,
     each_contact,
     inside_cone,
     left_edge,
     loaded_bead,
-    refute,
     straight_below,
 )
 from force_diffusion.derivations.witnesses.draws import DIRECTIONS, draw
 from force_diffusion.derivations.witnesses.squared_weights import weights_below_a_load
+from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.search.mutants import mutants
 from hypothesis import given
@@ -43,14 +47,23 @@ SCENES = {
 }
 
 
+def is_refuted(statement: sympy.Eq, scene: str, points: Points) -> bool:
+    """Whether one of four exact packings speaks against it, or gives it no value."""
+    try:
+        found = [compare(statement, draw(seed), scene, points).verdict for seed in range(4)]
+    except (AbsentError, explicit.DivisionError):
+        return True
+    return Verdict.DISAGREES in found
+
+
 @pytest.mark.parametrize("number", SCENES)
 def test_packings_refute_mutants_too(number: int) -> None:
     """Exact packings, which know nothing of the algebra, speak against every mutant."""
     derivation = load(number)
     for equation in derivation.printed:
-        assert refute(equation, *SCENES[number]).verdict is Verdict.UNDECIDED  # it holds
+        assert not is_refuted(equation, *SCENES[number])
         for _, change, mutant in mutants(equation):
-            assert refute(mutant, *SCENES[number]).verdict is Verdict.REFUTED, change
+            assert is_refuted(mutant, *SCENES[number]), change
 
 
 @pytest.mark.parametrize("n", DIRECTIONS[:2])

@@ -11,8 +11,7 @@ from force_diffusion.symbolic.algebra.exact import (
     sum_polynomial,
 )
 from force_diffusion.symbolic.kernel.decisions import Verdict, decide_identity
-from force_diffusion.symbolic.symbols import M, j, m, n_x, n_y, phi, r
-from force_diffusion.symbolic.variances.certified_sums import SumRefusedError, certified_sum
+from force_diffusion.symbolic.symbols import M, m, n_x, n_y, phi, r
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -57,17 +56,6 @@ def test_direction_cosines_are_reduced() -> None:
     assert decide_identity(n_x**4 + n_y**4, (1 + phi**2) / 2).verdict is Verdict.PROVED
     assert decide_identity(phi, n_x**2 - n_y**2).verdict is Verdict.REFUTED
     assert decide_identity(n_x**2 + n_y**2, 2 * sympy.Integer(1)).verdict is Verdict.REFUTED
-
-
-def test_certified_sum_is_a_sum() -> None:
-    total = certified_sum((M - m) ** 2, m, j + 1, M)
-    assert total.subs({M: 9, j: 3}) == sum((9 - v) ** 2 for v in range(4, 10))
-
-
-def test_certificate_refuses_what_does_not_telescope(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sympy.Sum, "doit", lambda self, **_: self.limits[0][2] ** 2)
-    with pytest.raises(SumRefusedError, match="certificate"):
-        certified_sum(m, m, sympy.Integer(-7), M)  # a bound that nothing else has asked for
 
 
 @pytest.mark.parametrize("expression", [sympy.sqrt(r), sympy.Float(0.5), sympy.exp(phi)])

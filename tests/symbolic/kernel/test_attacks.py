@@ -16,9 +16,9 @@ from force_diffusion.symbolic.kernel.where import Where
 RULES = {
     "statement", "rewrite", "follows", "along", "order", "solve", "below", "cases", "instance",
     "in_terms_of", "mirror", "suppose", "induct", "reach", "walk", "inverse", "differentiate",
-    "moment", "asymptotic", "bounded", "negligible", "heaviest", "slope", "total", "expansion",
-    "proportional", "unit_height", "restated", "integral", "mean_of_roots", "tensile", "density",
-    "disproof",
+    "moment", "mean_below", "asymptotic", "bounded", "negligible", "heaviest", "slope", "total",
+    "expansion", "proportional", "unit_height", "restated", "integral", "mean_of_roots", "tensile",
+    "density", "disproof",
 }  # fmt: skip
 
 

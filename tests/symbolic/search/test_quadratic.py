@@ -4,6 +4,8 @@ from fractions import Fraction
 
 import pytest
 from force_diffusion.derivations.beyond import t4_second_order as t4
+from force_diffusion.derivations.beyond import t7_response as t7
+from force_diffusion.derivations.framework.vocabulary import UNIT
 from force_diffusion.derivations.witnesses import second_order
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.where import SURFACE, Where
@@ -12,6 +14,7 @@ from force_diffusion.symbolic.search.counterexample import counterexample
 from force_diffusion.symbolic.search.dual import TooLargeError
 from force_diffusion.symbolic.search.packing import given
 from force_diffusion.symbolic.symbols import (
+    DeltaNPlus,
     DeltaX,
     Dot,
     ForcePlus,
@@ -36,13 +39,53 @@ def test_it_is_what_taylor_packings_give(load: str) -> None:
     forces, places = second_order.means(height, N, load)
     for layer in range(height):
         ordered = ONE / (2 * N[1]) * (height - layer if load == "bulk" else 1)
-        assert quadratic.forces(N, ONE, loads, 1, layer) / ordered == forces[layer]
+        assert quadratic.forces(N, ONE, loads, 1, (layer, layer)) / ordered == forces[layer]
         assert quadratic.displacement(N, ONE, loads, layer) == places[layer]
 
 
 def test_a_load_on_one_bead_is_refused() -> None:
     with pytest.raises(TooLargeError):
-        quadratic.forces(N, ONE, given("loaded", (0, 2), ONE, ONE), 1, 1)
+        quadratic.forces(N, ONE, given("loaded", (0, 2), ONE, ONE), 1, (1, 1))
+
+
+@pytest.mark.parametrize("level", [1, 2, 4])
+def test_below_one_load_it_is_what_taylor_packings_give(level: int) -> None:
+    across = 5 - level % 2
+    load = given("point", (across, level), 2 * N[1], ONE)
+    pushes = second_order.pushes(level, N)
+    total = dict.fromkeys(pushes, Fraction(0))
+    for ((apart, layer), branch), force in second_order.response(level, N).items():
+        side, site = (1 if branch == "+" else -1), (across + apart, layer)
+        assert quadratic.forces(N, ONE, load, side, site) == force
+        up = quadratic.forces(N, ONE, load, side, site, vertical=True)
+        total[apart, layer] += up / (2 * N[1])
+    assert total == pushes
+    for layer in range(level):  # what goes down through a layer is the load, which is given
+        assert sum(push for (_, at), push in pushes.items() if at == layer) == 0
+
+
+def test_too_high_a_load_is_refused() -> None:
+    top = quadratic.HIGHEST + 1
+    with pytest.raises(TooLargeError):
+        quadratic.forces(N, ONE, given("point", (top, top), ONE, ONE), 1, (0, 0))
+
+
+def test_a_mean_below_a_load_that_is_off_by_little_is_refuted() -> None:
+    for name in ("contact", "bead", "leg"):
+        one = t7.MEANS[name]
+        for piece, where in zip(one.pieces, one.domains, strict=True):
+            right = piece.expression * UNIT
+            assert counterexample(equation(one.is_, right), where, at_most=40) is None, piece.where
+            if right:
+                assert counterexample(equation(one.is_, right * (1 + phi / 1000)), where)
+
+
+def test_a_push_is_read_as_one() -> None:
+    """Under a surface load a whole one is half of the load, whatever the radii."""
+    whole = Shift((n_y + Dot(e_y, DeltaNPlus(i, j))) * ForcePlus(i, j))
+    where = Where.of(j >= 0, j + 1 <= M, loading=SURFACE)
+    assert counterexample(equation(whole, 0), where, at_most=40) is None
+    assert counterexample(equation(whole, f_load * phi**2), where, at_most=40)
 
 
 def test_a_mean_that_is_off_by_little_is_refuted() -> None:
