@@ -4,12 +4,13 @@ from collections.abc import Callable
 from functools import cache
 
 import sympy
+from force_diffusion.symbolic.as_printed import terms, times
 from force_diffusion.symbolic.attacks.attack import BEADS, HERE, attack, only_supposed, told
 from force_diffusion.symbolic.kernel import axioms, moments, rules
 from force_diffusion.symbolic.kernel.any_dimension import SURFACE as IN_ANY_DIMENSION
 from force_diffusion.symbolic.kernel.mean_balance import mean_below
 from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.theorem import Theorem
+from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
 from force_diffusion.symbolic.kernel.where import LOADED, PASSING, POINT, SURFACE, Loading, Where
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
@@ -43,7 +44,7 @@ from force_diffusion.symbolic.symbols import (
     site_r,
     site_s,
 )
-from sympy import Eq, Expr, S, Symbol
+from sympy import Eq, Expr, Pow, S, Symbol
 
 UNKNOWN = Symbol("nu", real=True)
 FORCE = ForcePlus(i, j) / f_load
@@ -246,3 +247,17 @@ def _() -> object:
 @attack("reach", "an unknown number", "it belongs to no bead", "belongs to no bead")
 def _() -> object:
     return told(rules.reach(axioms.ordered()[0], axioms.ordered()[1:]), UNKNOWN, 0)
+
+
+@attack("mean_below", "forces that are only supposed", "nothing is proved", "supposed")
+def _() -> object:
+    found = told(mean_below(_carried(BELOW_ONE), STILL), Shift(LEFT), S.Zero, BELOW_ONE)
+    if found.supposed:
+        raise NotProvedError("it rests on what is supposed")
+    return found
+
+
+@attack("mean_below", "0/0", "0/0 at φ = 0", "not shown to differ")
+def _() -> object:
+    nothing = terms(times(phi, Pow(phi, -1)), -1)
+    return told(mean_below(_carried(BELOW_ONE), STILL), Shift(LEFT), nothing, BELOW_ONE)
