@@ -53,6 +53,37 @@ def written_out(tree: sympy.Basic) -> int:
     return count[id(tree)]
 
 
+def bits(tree: sympy.Basic) -> int:
+    """A bound on the length of its numbers when all of it is carried out; symbols count eight."""
+    found: dict[int, int] = {}
+    for node in nodes(tree):
+        parts = [found[id(one)] for one in node.args]
+        if isinstance(node, sympy.Rational):
+            length = sum(int(part).bit_length() for part in (node.p, node.q))
+        elif isinstance(node, sympy.Pow) and isinstance(node.exp, sympy.Rational):
+            length = parts[0] * max(1, -(-abs(int(node.exp.p)) // int(node.exp.q)))
+        else:
+            length = 8 + sum(parts)
+        found[id(node)] = length
+    return found[id(tree)]
+
+
+_MOST_NODES = 100_000
+"""Of what is read, written out: a hundred times the longest printed statement."""
+
+_MOST_BITS = 50_000
+"""Of its numbers: ten times those of the longest one."""
+
+
+def too_large(tree: sympy.Basic) -> str:
+    """Why a tree would take too long to be read; "" when it would not."""
+    if written_out(tree) > _MOST_NODES:
+        return f"it is too large: at most {_MOST_NODES} parts are read"
+    if bits(tree) > _MOST_BITS:
+        return f"it is too large: carried out, it may hold numbers of more than {_MOST_BITS} bits"
+    return ""
+
+
 def in_place(tree: sympy.Basic, meaning: Mapping[Any, Any]) -> sympy.Basic:
     """What is written in short, put in one after the other; no divisor is cancelled by it."""
     for what, image in meaning.items():

@@ -6,7 +6,7 @@ from typing import Any
 
 import sympy
 from force_diffusion.derivations.export.prose import either
-from force_diffusion.symbolic.as_printed import equation, written_out
+from force_diffusion.symbolic.as_printed import equation, too_large
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
@@ -16,9 +16,6 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.printing.text import text
-
-_MOST_NODES = 100_000
-"""Of a candidate, written out: a hundred times the longest printed statement."""
 
 RuleOn = Callable[[int, sympy.Eq], Ruling]
 """Rules on a candidate for one of the lines, by its place."""
@@ -42,8 +39,8 @@ def decided(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
 
 
 def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:
-    if isinstance(candidate, sympy.Basic) and (size := written_out(candidate)) > _MOST_NODES:
-        return undecided(f"it is too large: {size:.1g} parts, and at most {_MOST_NODES} are read")
+    if isinstance(candidate, sympy.Basic) and (reason := too_large(candidate)):
+        return undecided(reason)
     if isinstance(candidate, sympy.Eq):
         parts = [n for n, line in enumerate(lines) if line.lhs == candidate.lhs]
         rulings = [rule_on(part, candidate) for part in parts or range(len(lines))]

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
-from force_diffusion.symbolic.as_printed import equation, in_place
+from force_diffusion.symbolic.as_printed import equation, in_place, too_large
 from force_diffusion.symbolic.kernel import limits, moments, rules
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
@@ -509,6 +509,8 @@ class Line:
 
         What the kernel sees no statement in is refuted only where both sides have values.
         """
+        if large := too_large(candidate):
+            return undecided(large)
         meant, where = self._meant(part, candidate), self.domain(part)
         try:
             theorem, *others = self._proofs(part, candidate)

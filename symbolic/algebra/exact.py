@@ -8,6 +8,7 @@ reduced by these before it is compared with zero.
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cache
+from math import comb, prod
 from typing import Any, Self
 
 import sympy
@@ -102,6 +103,32 @@ class Domain:
         return bool(divmod(polynomial, circle)[1] == 0)
 
 
+_MOST_TERMS = 20_000
+"""Of a polynomial that is multiplied out: fifty times what any equation takes."""
+
+
+def _refuse_more_terms(number: int) -> None:
+    if number > _MOST_TERMS:
+        raise NotExactError(f"multiplied out, it may have more than {_MOST_TERMS} terms")
+
+
+def _terms_of_product(one: Polynomial, other: Polynomial) -> int:
+    """How many terms a product has at the most."""
+    number = len(one) * len(other)
+    if number <= _MOST_TERMS:
+        return number
+    degrees = [a + b for a, b in zip(one.degrees(), other.degrees(), strict=True)]
+    return min(number, prod(int(degree) + 1 for degree in degrees))
+
+
+def _terms_of_power(one: Polynomial, exponent: int) -> int:
+    """How many terms a power has at the most."""
+    number = comb(max(len(one) + exponent - 1, 0), exponent)
+    if number <= _MOST_TERMS:
+        return number
+    return min(number, prod(exponent * max(int(degree), 0) + 1 for degree in one.degrees()))
+
+
 class RationalFunction:
     """An element of a :class:`Domain` in lowest terms."""
 
@@ -131,6 +158,9 @@ class RationalFunction:
             return self
         if self.denominator == other.denominator:
             return self._same(self.numerator + other.numerator, self.denominator)
+        for one, scale in ((self, other), (other, self)):
+            _refuse_more_terms(_terms_of_product(one.numerator, scale.denominator))
+        _refuse_more_terms(_terms_of_product(self.denominator, other.denominator))
         return self._same(
             self.numerator * other.denominator + other.numerator * self.denominator,
             self.denominator * other.denominator,
@@ -149,17 +179,23 @@ class RationalFunction:
         for one, scale in ((self, other), (other, self)):
             if scale.numerator == 1 and scale.denominator == 1:
                 return one
+        _refuse_more_terms(_terms_of_product(self.numerator, other.numerator))
+        _refuse_more_terms(_terms_of_product(self.denominator, other.denominator))
         return self._same(self.numerator * other.numerator, self.denominator * other.denominator)
 
     def __truediv__(self, other: Self) -> Self:
         if other.is_zero():
             raise NotExactError("division by zero")
+        for one, scale in ((self, other), (other, self)):
+            _refuse_more_terms(_terms_of_product(one.numerator, scale.denominator))
         return self._same(self.numerator * other.denominator, self.denominator * other.numerator)
 
     def __pow__(self, exponent: int) -> Self:
         if exponent < 0:
             one = self._same(self.denominator, self.denominator)
             return (one / self) ** -exponent
+        for side in (self.numerator, self.denominator):
+            _refuse_more_terms(_terms_of_power(side, exponent))
         return self._same(self.numerator**exponent, self.denominator**exponent)
 
     def is_zero(self) -> bool:

@@ -326,7 +326,7 @@ def _slope() -> Theorem:
 def _step() -> Theorem:
     """A step at z = ½ has no slope beside it."""
     leap = sympy.Piecewise((0, z < S.Half), (1, True))
-    return told(rules.differentiate(ROOT, 1 + z), Derivative(z + leap, z), 1, Where())
+    return made(equation(Derivative(z + leap, z), S.One), Where(), "differentiate")
 
 
 def _twice() -> Theorem:
@@ -536,6 +536,9 @@ for tried, how, false, refused in (
         2 * (3 * z**2 * RATIO**2 + 1))))}, "it is less", "no power of M"),
     ("the height of another packing", {"height": "other"}, "another M*", "of another load"),
     ("another probability", {"below": "other"}, "it is not Gaussian", "not about Gaussian"),
+    ("0/0 in the argument", {"right": _half(_error(times(
+        ARGUMENT, (1 + times(2 * z - 1, Pow(2 * z - 1, -1))) / 2)))}, "0/0 at z = ½",
+     "not shown to differ"),
 ):  # fmt: skip
 
     @attack("tensile", tried, false, refused)
@@ -570,6 +573,7 @@ def _() -> object:
 
 
 BELOW, DENSITY = GAUSSIAN_BELOW.args
+LEAP = sympy.Piecewise((0, FORCE < 0), (1, True))
 
 for tried, left, right, false, refused in (
     ("another factor", BELOW, 2 * DENSITY, "it is half of it", "the derivatives differ"),
@@ -579,6 +583,15 @@ for tried, left, right, false, refused in (
     ("0/0 in the exponent", BELOW, sympy.exp(times(-(terms(1, -FORCE) ** 2) / (2 * SQUARE),
         terms(1, -FORCE), Pow(terms(1, -FORCE), -1))) / sqrt(2 * sympy.pi * SQUARE),
      "0/0 at f = 1", "not shown to be positive"),
+    ("0/0 beside it", BELOW, times(DENSITY, SQUARE - 1, Pow(SQUARE - 1, -1)), "0/0 at v = 1",
+     "not shown to be positive"),
+    ("a root of what may be negative", BELOW, times(
+        DENSITY, Pow(SQUARE - 1, S.Half), Pow(SQUARE - 1, -S.Half)), "v may be ½",
+     "not shown to be positive"),
+    ("what SymPy takes off", BELOW, times(DENSITY, terms(1, LEAP, -LEAP)), "it is another case",
+     "is not read here"),
+    ("a step", Derivative(BELOW.expr + LEAP, FORCE), DENSITY,
+     "it has no slope at f = 0", "the left-hand side is another one"),
 ):  # fmt: skip
 
     @attack("density", tried, false, refused)

@@ -7,7 +7,12 @@ from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.symbols import (
+    DeltaX,
+    Dot,
+    L_minus,
+    L_plus,
     Position,
+    e_x,
     e_y,
     i,
     j,
@@ -20,8 +25,10 @@ from force_diffusion.symbolic.symbols import (
     phi,
     q,
     r,
+    spacing,
+    z,
 )
-from sympy import Eq, Integer, Pow, Sum
+from sympy import Eq, Integer, Pow, Rational, Sum
 
 # reach, walk, inverse, differentiate
 
@@ -96,7 +103,7 @@ attack("inverse", "where it has none", "φ vanishes somewhere", "not shown to di
 )
 
 LENGTH = sympy.Symbol("x", real=True)
-SQUARE = LENGTH**2 + 1
+SQUARE, ZERO = LENGTH**2 + 1, Integer(0)
 
 for name, left, right, root, square, where, false, refused in (
     ("another derivative", sympy.Derivative(sympy.sqrt(SQUARE), LENGTH), LENGTH / SQUARE, ROOT,
@@ -109,6 +116,28 @@ for name, left, right, root, square, where, false, refused in (
      "0/0 is not 1", "not shown to differ"),
     ("what SymPy sums", Sum(n, (n, 1, j)), j * (j + 1) / 2, ROOT, SQUARE, Where.of(j >= -5),
      "the sum may end below its start", "more than one below"),
+    ("what SymPy cancels below it", sympy.Derivative(times(phi, Pow(phi, -1), z), z), ONE, ROOT,
+     SQUARE, Where(), "0/0 is not 1", "not shown to differ"),
+    ("a step", sympy.Derivative(z + sympy.Piecewise((0, z < Rational(1, 2)), (1, True)), z), ONE,
+     ROOT, SQUARE, Where(), "it has no slope at z = ½", "Piecewise is not"),
+    ("by what cosines depend on", sympy.Derivative(n_x, phi), ZERO, ROOT, SQUARE, Where(),
+     "n_x² is (1 − φ)/2", "may depend on φ"),
+    ("by what directions depend on", sympy.Derivative(Dot(n_plus, e_x), phi), ZERO, ROOT, SQUARE,
+     Where(), "it is n_x", "may depend on φ"),
+    ("by what the spacing depends on", sympy.Derivative(spacing, r), ZERO, ROOT, SQUARE, Where(),
+     "it is 4 n_x", "may depend on r"),
+    ("by what a load depends on", sympy.Derivative(L_minus, L_plus), ZERO, ROOT, SQUARE, Where(),
+     "it is t", "may depend on L⁺"),
+    ("of a layer by its height", sympy.Derivative(j, z), ZERO, ROOT, SQUARE, Where.of(j >= 0),
+     "j is z M", "may depend on z"),
+    ("by a layer", sympy.Derivative(z, j), ZERO, ROOT, SQUARE, Where.of(j >= 0), "z is j/M",
+     "or that is a whole number"),
+    ("of an unknown number", sympy.Derivative(LENGTH, phi), ZERO, ROOT, SQUARE, Where(),
+     "it may depend on φ", "may depend on φ"),
+    ("by an unknown number", sympy.Derivative(phi, LENGTH), ZERO, ROOT, SQUARE, Where(),
+     "φ may depend on it", "may depend on x"),
+    ("of what belongs to a bead", sympy.Derivative(Dot(e_y, DeltaX(0, 2)), phi), ZERO, ROOT, SQUARE,
+     Where(), "its line sums are along n^±", "may depend on φ"),
 ):  # fmt: skip
     attack("differentiate", name, false, refused)(
         lambda a=left, b=right, o=root, s=square, w=where: told(  # type: ignore[misc]

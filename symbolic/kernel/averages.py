@@ -18,7 +18,7 @@ from force_diffusion.symbolic.algebra.exact import (
     RationalFunction,
 )
 from force_diffusion.symbolic.algebra.signs import sign
-from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel.axioms import GAUSSIAN_BELOW, GAUSSIAN_FORCES
 from force_diffusion.symbolic.kernel.limits import FIXED, even, leading, limit_of, order
 from force_diffusion.symbolic.kernel.rules import Rule
@@ -310,7 +310,7 @@ def integral(*slopes: Theorem) -> Rule:
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
         (average,) = _only(sympy.Integral, formula.lhs)
         inside = _integrand(average)
-        if formula.xreplace({average: _NOTHING}).has(sy.z):
+        if any(side.xreplace({average: _NOTHING}).has(sy.z) for side in formula.args):
             raise NotProvedError("z is averaged over, and stands for itself as well")
         check(equation(inside, _NOTHING), where)
         check(equation(formula.lhs.xreplace({average: _NOTHING}), formula.rhs), where)
@@ -473,6 +473,7 @@ def tensile(
         alone = _power(inner.xreplace({about: ratio * sy.M}), two, _read)
         if any(alone.holds(one) for one in FIELD.generators if one not in (ratio, sy.z)):
             raise NotProvedError("it depends on more than M/M* and z")
+        check(equation(in_place(inner, {about: sy.r}), _NOTHING), finite)  # any positive number
         known = inner.xreplace({about: value})
         if not _is_positive(known, _read):
             raise NotProvedError("the argument is not shown to be positive")
@@ -485,16 +486,21 @@ def tensile(
 
 
 def density(formula: sympy.Eq, where: Where) -> Theorem:
-    """SymPy differentiates the left-hand side; factors and exponents of e are compared apart."""
+    """SymPy differentiates the left-hand side; factors and exponents of e are compared apart.
+
+    That side is the printed one: no other has to be shown to have a slope.
+    """
     slope, value = formula.args
+    if slope != GAUSSIAN_BELOW.lhs:
+        raise NotProvedError("the left-hand side is another one")
     circle = sympy.Dummy("pi", positive=True)
+    _refuse_no_value(in_place(value, {sympy.pi: circle}))
     parts = []
     for side in (slope.doit(), value):
         factors = sympy.Mul.make_args(sympy.powsimp(side).xreplace({sympy.pi: circle}))
         exponents = [one.exp for one in factors if isinstance(one, sympy.exp)]
         scale = sympy.Mul(*(one for one in factors if not isinstance(one, sympy.exp)))
-        divisors = (one.base for e in exponents for one in e.atoms(sympy.Pow) if one.exp < 0)
-        if sign(scale) != 1 or not all(map(sign, divisors)):
+        if sign(scale) != 1:
             raise NotProvedError(f"{text(side)} is not shown to be positive")
         parts.append((scale**2, sympy.Add(*exponents)))
     domain = Domain(by_name(formula.free_symbols | {circle}))
@@ -502,6 +508,18 @@ def density(formula: sympy.Eq, where: Where) -> Theorem:
         if not (domain.from_sympy(one) - domain.from_sympy(other)).is_zero():
             raise NotProvedError("the derivatives differ")
     return made(formula, where, "differentiate")
+
+
+def _refuse_no_value(node: sympy.Expr) -> None:
+    """Refuse what may have no value, before SymPy cancels it."""
+    if not (isinstance(node, (*_ALGEBRAIC, sympy.exp)) or node.is_Symbol):
+        raise NotProvedError(f"{type(node).__name__} is not read here")
+    if isinstance(node, sympy.Pow) and not (node.exp.is_Integer and node.exp > 0):
+        may_be_negative = node.exp.is_Integer and sign(node.base)
+        if not (may_be_negative or sign(node.base) == 1):
+            raise NotProvedError(f"{text(node.base)} is not shown to be positive")
+    for one in node.args:
+        _refuse_no_value(one)
 
 
 def _uniform(value: RationalFunction, index: sympy.Symbol) -> int:

@@ -10,6 +10,7 @@ from collections.abc import Collection
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra.exact import Domain, NotExactError
 from force_diffusion.symbolic.algebra.signs import never_zero
 from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.decisions import Ruling, not_a_statement, undecided
@@ -153,8 +154,12 @@ def says_less(candidate: sympy.Eq, printed: sympy.Eq) -> str:
     if not observed or (candidate.lhs == printed.lhs and not candidate.rhs.has(observed[0])):
         return ""
     told, meant = (sympy.diff(one.lhs - one.rhs, observed[0]) for one in (candidate, printed))
-    if never_zero(sympy.cancel(told / meant)):
-        return ""
+    domain = Domain(by_name(told.free_symbols | meant.free_symbols))
+    try:
+        if never_zero((domain.from_sympy(told) / domain.from_sympy(meant)).to_sympy()):
+            return ""
+    except NotExactError:
+        pass
     return f"it is not shown to tell {text(observed[0])} everywhere"
 
 

@@ -514,23 +514,41 @@ def inverse(formula: sympy.Eq, where: Where) -> Theorem:
     return made(formula, where, "inverse matrix")
 
 
+_LINKED = (
+    {sy.phi, sy.n_x, sy.n_y, *sy.VECTORS},
+    {sy.r, sy.spacing, sy.n_x},
+    {sy.L_plus, sy.L_minus, sy.t},
+)
+"""Parameters of which one is a function of others."""
+
+
+def _refuse_functions_of(by: sympy.Symbol, formula: sympy.Eq) -> None:
+    """Refuse a derivative by what another symbol of the formula may be a function of.
+
+    Parameters are told apart from one another, and further symbols; not one kind from the other.
+    """
+    others, known = formula.free_symbols - {by}, {*sy.PARAMETERS, *sy.VECTORS}
+    linked = set().union(*(group for group in _LINKED if by in group))
+    strange = others - known | others & linked if by in known else others & {*known, *sy.INDICES}
+    if by in sy.INDICES or strange or formula.atoms(sy.SiteFunction):
+        raise NotProvedError(f"it holds what may depend on {text(by)}, or that is a whole number")
+
+
 def differentiate(root: sympy.Symbol, square: sympy.Expr) -> Rule:
-    """SymPy differentiates; ``root`` is positive, and stands for the root of what is positive."""
+    """SymPy differentiates; ``root`` is positive, and stands for the root of what is positive.
+
+    What is differentiated has a value everywhere; no other symbol is a function of that by which.
+    """
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
         held = square.free_symbols & _PARAMETERS
         if formula.has(root) or (held and where.sign(square) != 1):
             raise NotProvedError(f"{text(root)} is not the root of what is positive")
-
-        def read(node: sympy.Basic) -> sympy.Basic:
-            """The same, differentiated, and nothing else of it carried out."""
-            if isinstance(node, sympy.Derivative):
-                node = node.doit()
-            if isinstance(node, sympy.Pow) and node.base == square:
-                return root ** (2 * node.exp)
-            if not isinstance(node, sympy.Add | sympy.Mul | sympy.Pow):
-                return node
-            return node.func(*map(read, node.args), evaluate=False)
+        for one in formula.atoms(sympy.Derivative):
+            for by in one.variables:
+                _refuse_functions_of(by, formula)
+            inside = read(one.expr)
+            check(equation(inside, inside), where)  # what SymPy cancels has a value
 
         sides = [read(side) for side in formula.args]
         check(equation(*sides), where)
@@ -539,6 +557,16 @@ def differentiate(root: sympy.Symbol, square: sympy.Expr) -> Rule:
         if not holds(equation(sympy.expand(left), _NOTHING), where):
             raise NotProvedError("the derivatives differ")
         return made(formula, where, "differentiate")
+
+    def read(node: sympy.Basic) -> sympy.Basic:
+        """The same, differentiated, and nothing else of it carried out."""
+        if isinstance(node, sympy.Derivative):
+            node = node.doit()
+        if isinstance(node, sympy.Pow) and node.base == square:
+            return root ** (2 * node.exp)
+        if not isinstance(node, sympy.Add | sympy.Mul | sympy.Pow):
+            return node
+        return node.func(*map(read, node.args), evaluate=False)
 
     return rule
 

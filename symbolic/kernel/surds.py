@@ -9,6 +9,9 @@ from math import gcd
 import sympy
 from force_diffusion.symbolic.algebra.exact import NotExactError
 
+HIGHEST_POWER, MOST_BITS = 40, 100
+"""Of what is read: longer numbers take for ever to be factored."""
+
 Surd = dict[int, sympy.Rational]
 """By square-free numbers, the rational factors of their roots; none is zero."""
 
@@ -48,18 +51,23 @@ def _product(left: Surd, right: Surd) -> Surd:
 
 def _power(base: sympy.Expr, exponent: sympy.Rational) -> Surd:
     value = surd(base)
+    if abs(exponent) > HIGHEST_POWER:
+        raise NotExactError(f"the power {exponent} is not read: {HIGHEST_POWER} is the highest")
     if set(value) == {1} and value[1] > 0 and exponent.q == 2:
         number = value[1] ** exponent.p
+        product = int(number.p * number.q)
+        if product.bit_length() > MOST_BITS:
+            raise NotExactError(f"the root of a number of {product.bit_length()} bits is not read")
         square_free, whole = 1, 1
-        for prime, power in sympy.factorint(number.p * number.q).items():
+        for prime, power in sympy.factorint(product).items():
             square_free *= prime ** (power % 2)
             whole *= prime ** (power // 2)
         return {int(square_free): sympy.Rational(int(whole), number.q)}
-    if exponent.q == 1 and 0 <= exponent.p <= 40:
-        product: Surd = {1: sympy.S.One}
+    if exponent.q == 1 and exponent.p >= 0:
+        found: Surd = {1: sympy.S.One}
         for _ in range(exponent.p):
-            product = _product(product, value)
-        return product
+            found = _product(found, value)
+        return found
     if exponent.q == 1 and set(value) == {1}:
         return {1: value[1] ** exponent.p}
     raise NotExactError(f"{base} to the power {exponent} is no sum of square roots of numbers")

@@ -469,9 +469,10 @@ class Where:
         chain: list[sympy.Basic | type] = []
         for one, following in zip(self.relations, (*self.relations[1:], None), strict=False):
             left, right, kind = one.lhs, one.rhs, one.func
-            if following is not None and following.lhs == left and kind in _TURNED:
+            goes_on = following is not None and following.lhs == left
+            if goes_on and kind in _TURNED and following.func not in _TURNED:
                 left, right, kind = right, left, _TURNED[kind]
-            if chain and chain[-1] == left:
+            if chain and chain[-1] == left and kind not in _TURNED:
                 chain += [kind, right]
                 continue
             if chain:

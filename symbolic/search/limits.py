@@ -2,7 +2,7 @@
 its decision, but for the exact form that it is compared with.
 
 Of rational functions, what is of lower order has vanished, as a share of the whole, between one
-size and its square; both are far beyond the coefficients of any formula. Of sums over layers the
+size and its square; both are far beyond the coefficients of the formulas. Of sums over layers the
 variance is a polynomial in the height, whose differences tell how it grows.
 """
 
@@ -14,13 +14,15 @@ from itertools import pairwise, product
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.as_printed import bits
 from force_diffusion.symbolic.kernel.where import Limit, Where
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.values import WithoutValue
 
 HIGHEST_POWER = 20
-SIZES = (10**100, 10**200)
+DIGITS, MOST_DIGITS, MOST_OF_ROOTS = 100, 4000, 1500
+"""Of a size, beside those of all numbers of what is compared; and of these, at the most."""
 HEIGHTS = tuple(Fraction(*z) for z in ((1, 2), (1, 3), (1, 4), (1, 6), (3, 4), (1, 100), (99, 100)))
 COSINES = tuple(Fraction(*c) for c in ((0, 1), (-1, 4), (1, 4), (1, 3), (49, 100), (-49, 100)))
 DIRECTIONS = tuple(
@@ -62,6 +64,18 @@ def _number(exact: sympy.Expr, values: tuple[tuple[sympy.Symbol, Fraction], ...]
     return explicit.number(exact, dict(values))
 
 
+def _size(most: int, *compared: sympy.Basic) -> int | None:
+    """The digits of a size beyond all their coefficients; None where that would take for ever."""
+    own = sum(map(bits, compared)) // 3
+    return DIGITS + own if own <= most else None
+
+
+def _shown(number: Fraction) -> str:
+    """A number, or about which power of ten it is where that is no float."""
+    power = (number.numerator.bit_length() - number.denominator.bit_length()) * 0.30103
+    return f"10^{power:.0f}" if abs(power) > 300 else f"{float(number):.3g}"
+
+
 def parts_in_the_limit(
     exact: sympy.Expr, candidate: sympy.Expr, places: tuple[Place, ...], dimension: int = 2
 ) -> str | None:
@@ -70,7 +84,8 @@ def parts_in_the_limit(
     Each place gives the symbols that grow, as multiples of one size; in ``dimension`` d, φ is
     above −1/d. Nothing is found for what is no rational function.
     """
-    if not _is_rational(candidate):
+    digits = _size(MOST_DIGITS, exact, candidate)
+    if digits is None or not _is_rational(candidate):
         return None
     geometries = [one for one in _geometries(candidate) if one[sy.phi] * dimension > -1]
     for (a, geometry), (b, place) in product(enumerate(geometries), enumerate(places)):
@@ -81,7 +96,7 @@ def parts_in_the_limit(
             [f"{text(sy.phi)} = {geometry[sy.phi]}"]
             + [f"{text(s)} = {multiple} · size" for s, multiple in place.items()]
         )
-        for size in SIZES:
+        for size in (10**digits, 10 ** (2 * digits)):
             values = {**_OTHERS, **geometry, **{s: c * size for s, c in place.items()}}
             if sy.M in values and sy.j in values:
                 values[sy.z] = values[sy.j] / values[sy.M]
@@ -94,7 +109,8 @@ def parts_in_the_limit(
             true = _number(exact, tuple(values.items()))
             shares.append(abs((found - true) / true))
         if shares[1] > _SHARE and shares[1] * 10 > shares[0]:
-            return f"at {where}, size = 10²⁰⁰, it differs by the share {float(shares[1]):.3g}"
+            share = _shown(shares[1])
+            return f"at {where}, size = 10^{2 * digits}, it differs by the share {share}"
     return None
 
 
@@ -139,7 +155,7 @@ LAYERS: tuple[Place, ...] = tuple({sy.M: Fraction(1), sy.j: z} for z in HEIGHTS)
 
 _APART: tuple[dict[sympy.Symbol, Fraction | int], ...] = (
     {},
-    {sy.M: 10**120},
+    {sy.M: 0},  # its square
     {sy.sigma: Fraction(5, 11)},
     {sy.r: Fraction(1, 13)},
     {sy.z: _LOW},
@@ -152,18 +168,20 @@ def not_proportional(side: sympy.Expr, ratio: sympy.Expr) -> str | None:
     The ratio has to be the same at one φ whatever else is put in, M being large: to 30 digits, of
     which three are compared.
     """
-    if side.has(sympy.Sum):
+    digits = _size(MOST_OF_ROOTS, side, ratio)
+    if digits is None or side.has(sympy.Sum):
         return None  # SymPy has a value of its own for reversed bounds
     for cosine in COSINES:
         found = []
         for changed in _APART:
-            values = {sy.M: 10**60, sy.z: Fraction(1, 2), **_OTHERS, sy.phi: cosine, **changed}
+            large = 10 ** (2 * digits if sy.M in changed else digits)
+            values = {sy.z: Fraction(1, 2), **_OTHERS, sy.phi: cosine, **changed, sy.M: large}
             image = {symbol: sympy.Rational(value) for symbol, value in values.items()}
             for n, square in ((sy.n_x, 1 - image[sy.phi]), (sy.n_y, 1 + image[sy.phi])):
                 image[n] = sympy.sqrt(square / 2)
             value, share = (part.xreplace(image).evalf(30) for part in (side, ratio))
             where = ", ".join(
-                f"{text(one)} = {float(values[one]):.6g}" for one in (sy.phi, *changed)
+                f"{text(one)} = {_shown(Fraction(values[one]))}" for one in (sy.phi, *changed)
             )
             if value.free_symbols or share.free_symbols:
                 return None

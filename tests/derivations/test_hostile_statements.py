@@ -333,3 +333,101 @@ def test_what_is_lost_in_the_limit_of_a_variance_is_not_hidden(number: int) -> N
         assert found.verdict != "proved", (hidden, str(found))
     same = Eq(left, right * (1 + 10**6 / M), evaluate=False)
     assert fd.equation(number).decide(same).verdict == "proved"
+
+
+LARGE = 10**300
+IN_M = [13, 14, "B2", "B3", "B11", "B13", "B14", "B20"]
+
+
+@pytest.mark.parametrize("number", IN_M)
+def test_a_large_factor_of_a_lower_order_is_no_counterexample(number: int | str) -> None:
+    """It vanishes at one large M, and counts for much at its square."""
+    M, r, sigma = (VOCABULARY[name] for name in ("M", "r", "sigma"))
+    lower = LARGE * M * (M - 10**100) * (sigma / r) ** 2
+    equation = fd.equation(number)
+    for line in lines(number):
+        assert equation.decide(changed(line, plus(lower))).verdict == "proved"
+        other = changed(line, plus(lower * M / 10**310))
+        assert equation.decide(other).verdict == "refuted"
+
+
+def test_a_large_number_beside_m_is_still_in_proportion() -> None:
+    M, r, sigma = (VOCABULARY[name] for name in ("M", "r", "sigma"))
+    equation = fd.equation(15)
+    deviation, _ = lines(15)
+    same = Eq(deviation.lhs, (M + 10**80) * sympy.sqrt(M) * sigma / r)
+    assert equation.decide(same).verdict == "proved"
+    for other in (same.rhs * M, same.rhs / M, same.rhs * (M + LARGE), same.rhs / sigma):
+        assert equation.decide(Eq(deviation.lhs, other)).verdict == "refuted"
+
+
+def tower(base: sympy.Expr) -> sympy.Expr:
+    """A power of a power of a power, none of which is high."""
+    for _ in range(4):
+        base = Pow(base, 40, evaluate=False)
+    return base
+
+
+def doubled(one: sympy.Expr) -> sympy.Expr:
+    """2¹¹⁰⁰ times the same, in a tree of 1100 nodes."""
+    for _ in range(1100):
+        one = Add(one, one, evaluate=False)
+    return one
+
+
+@pytest.mark.parametrize("number", [12, 13, 15, 16, "B4", "B7", "B9", "B12", "B19"])
+def test_what_would_take_for_ever_is_left_open(number: int | str) -> None:
+    """Each of these would fill the memory, or Python would refuse to show how large it is."""
+    line, r = lines(number)[0], VOCABULARY["r"]
+    every = sum(by_hand := sorted(line.rhs.free_symbols, key=str), r + 1)
+    assert len(by_hand) > 2
+    for change in (
+        times(tower(Integer(2))),
+        plus(tower(1 + r)),
+        plus(doubled(r)),
+        plus(every**40, -(Integer(3) ** 40) * (every + VOCABULARY["spacing"]) ** 39),
+    ):
+        assert fd.equation(number).decide(changed(line, change)).verdict != "proved"
+
+
+def steps_of(number: int | str, words: str) -> list[tuple[Any, sympy.Eq]]:
+    """Its steps that hold these words, with what they show."""
+    found = [step for step in fd.equation(number).steps() if words in str(step.formula)]
+    return [(step, step.equations[0]) for step in found]
+
+
+@pytest.mark.parametrize("words", ["Derivative((", "f_rel", "tensile", "Integral(sqrt"])
+def test_what_sympy_cancels_in_a_step_of_eq_15_is_not_proved(words: str) -> None:
+    z, phi, n_x, n_y = (VOCABULARY[name] for name in ("z", "phi", "n_x", "n_y"))
+    half = (1 + Mul(*over_itself(2 * z - 1), evaluate=False)) / 2
+    v = sympy.Symbol("v", positive=True)
+    for step, shown in steps_of(15, words):
+        assert step.rule_on(0, shown).verdict.is_proved
+        for inside in (shown.lhs, shown.rhs):
+            for one in inside.atoms(sympy.Derivative, sympy.Integral, sympy.erfc):
+                for change in (
+                    times(*over_itself(2 * z - 1)),
+                    times(*over_itself(phi)),
+                    times(half),
+                    plus(1 / (phi - Rational(1, 4))),
+                    plus(sympy.Piecewise((0, z < Rational(1, 2)), (1, True))),
+                ):
+                    args = (change(one.args[0]), *one.args[1:])
+                    image = {one: one.func(*args)}
+                    candidate = Eq(*(side.xreplace(image) for side in shown.args), evaluate=False)
+                    if candidate != shown:
+                        assert not step.rule_on(0, candidate).verdict.is_proved, candidate
+        for change in (times(*over_itself(v - 1)), times(*over_itself(phi))):
+            assert not step.rule_on(0, changed(shown, change)).verdict.is_proved
+        for slope, by in ((n_x, phi), (n_y**2 - n_x**2, phi), (z, VOCABULARY["j"])):
+            false = Eq(sympy.Derivative(slope, by), Integer(0), evaluate=False)
+            assert not step.rule_on(0, false).verdict.is_proved
+
+
+def test_a_root_that_no_one_factors_is_left_open() -> None:
+    """The product of two primes of 39 digits."""
+    hard = Integer(sympy.nextprime(10**38) * sympy.nextprime(3 * 10**38))
+    for step, shown in steps_of(15, "Integral(sqrt"):
+        for term in (Pow(hard, Rational(1, 2), evaluate=False), Pow(2, Rational(10**9 + 1, 2))):
+            candidate = Eq(shown.lhs, Add(shown.rhs, term, evaluate=False), evaluate=False)
+            assert step.rule_on(0, candidate).verdict == "undecided"
