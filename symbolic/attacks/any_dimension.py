@@ -6,6 +6,7 @@ import sympy
 from force_diffusion.symbolic.attacks.attack import attack, told
 from force_diffusion.symbolic.kernel import limits, moments, rules
 from force_diffusion.symbolic.kernel.any_dimension import BULK, POINT, SURFACE, value
+from force_diffusion.symbolic.kernel.theorem import NotProvedError
 from force_diffusion.symbolic.kernel.where import SURFACE as IN_THE_PLANE
 from force_diffusion.symbolic.kernel.where import Where, at_fixed_height
 from force_diffusion.symbolic.symbols import (
@@ -60,7 +61,7 @@ for tried, left, right, where, false, refused in (
     ("a mean at second order", Shift(HERE), Variance(HERE), ANY, "that is a variance",
      "second order is not known"),
     ("another mean", Mean(2 * HERE), 1, ANY, "it is 2", "both sides differ"),
-    ("a square", Mean(HERE**2), 1, ANY, "it fluctuates", "not linear"),
+    ("a square", Mean(HERE**2), 1, ANY, "it fluctuates", "not a rational function"),
     ("an inverse", Mean(1 / HERE), 1, ANY, "it fluctuates", "not shown to differ from zero"),
     ("an unknown number", Variance(UNKNOWN * HERE), UNKNOWN**2 * Variance(HERE), ANY,
      "that may fluctuate, too", "depends on the radii is not known"),
@@ -94,6 +95,9 @@ for tried, left, right, where, false, refused in (
     ("the variance of discs", Variance(HERE),
      value(Variance(HERE), ANY).to_sympy().xreplace({d: Integer(2)}), SPHERES,
      "spheres fluctuate more", "both sides differ"),
+    ("a contact that leads out of the cone", Variance(ForceBelow(SECOND, p, NONE, NONE)),
+     Variance(ForceBelow(SECOND, p, Integer(1), NONE)), CONE.also(j >= 2, p >= 2, q >= 2),
+     "it is zero", "both sides differ"),
     ("one layer too low", Variance(HERE), value(Variance(HERE), SPHERES).to_sympy(),
      Where((j, M), (j >= 1, j + 2 <= M), SURFACE, dimension=3), "another one at j = 1",
      "another one where"),
@@ -117,6 +121,16 @@ for tried, left, right, where, false, refused in (
         "two places may be one")  # fmt: skip
 def _() -> object:
     return value(Variance(HERE), Where((j, M), (j >= 0, j + 1 <= M), SURFACE, dimension=3), 0)
+
+
+@attack("moment", "in any dimension: a slice that stands for two", "it is counted twice",
+        "may stand for another slice")  # fmt: skip
+def _() -> object:
+    tight = Where((j, M), (j >= 2, j + 1 <= M, j + 1 >= M), SURFACE, dimension=3)
+    found = value(Variance(HERE), tight)
+    if found == value(Variance(HERE), replace(tight, relations=(j >= 2, Eq(M, j + 1)))):
+        raise NotProvedError("that is what it is")
+    return found
 
 
 @attack("moment", "the surface's theorem below a bulk load", "it is another load",

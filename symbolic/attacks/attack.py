@@ -13,7 +13,13 @@ from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.as_printed import equation, times
 from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem, check
+from force_diffusion.symbolic.kernel.theorem import (
+    NotProvedError,
+    Supposition,
+    Theorem,
+    check,
+    made,
+)
 from force_diffusion.symbolic.kernel.where import LOADED, SURFACE, Where
 from force_diffusion.symbolic.symbols import (
     DeltaR,
@@ -28,6 +34,7 @@ from force_diffusion.symbolic.symbols import (
     k,
     l,
     n,
+    p,
     q,
 )
 from sympy import Eq, Integer, Pow, Sum
@@ -122,6 +129,11 @@ def over_itself(quantity: sympy.Expr, number: int) -> Theorem:
     """quantity = number · f⁺/f⁺, where f⁺ vanishes: both sides times f⁺ are zero."""
     ratio = times(Integer(number), ForcePlus(k, l), Pow(ForcePlus(k, l), -1))
     return told(rules.follows(no_force(quantity - number)), quantity, ratio, AT_LOAD)
+
+
+def only_supposed(left: sympy.Expr, right: sympy.Expr, where: Where) -> Theorem:
+    """What nobody has proved, and what rests on it is no theorem."""
+    return made(equation(left, right), where, "supposition", supposed=(Supposition(p),))
 
 
 def another(_formula: sympy.Eq, where: Where) -> Theorem:

@@ -14,6 +14,7 @@ from force_diffusion.symbolic.symbols import (
     Mean,
     N,
     Variance,
+    b_plus,
     epsilon,
     f_load,
     i,
@@ -21,6 +22,7 @@ from force_diffusion.symbolic.symbols import (
     k,
     l,
     m,
+    n,
     p,
     phi,
     q,
@@ -59,6 +61,11 @@ for tried, left, right, where, false, refused in (
     ("a bead on a diagonal, perhaps", Variance(Sum(DeltaR(m, m), (m, 0, j)) + DeltaR(k, l)),
      (j + 2) * SQUARE, TWO_BEADS, "it is more where (k, l) is one of these",
      "two places may be one"),
+    ("two beads of a layer, told apart by no sign",
+     Covariance(HERE, DeltaR(i + 4 * p + 6 * q, j)), 0, BEADS.also(indices=(p, q)),
+     "it is σ² for p = q = 0", "two places may be one"),
+    ("a vector's", Variance(HERE * b_plus), SQUARE, BEADS, "it has more than one",
+     "a moment of a vector"),
     ("a covariance without half", Covariance(HERE, HERE), 2 * SQUARE, BEADS, "it is σ²",
      "both sides differ"),
 ):  # fmt: skip
@@ -74,7 +81,7 @@ def _summed(one: sympy.Expr, count: sympy.Expr = N) -> sympy.Expr:
 
 
 TWO = HERE + DeltaR(i + 2, j)  # what it shares a radius with has the next one
-MANY, THREE = Where.of(j >= 0, N >= 2), Where.of(j >= 0, N >= 3)
+MANY, THREE, APART = Where.of(j >= 0, N >= 2), Where.of(j >= 0, N >= 3), Where.of(N >= 2, j >= 0)
 for tried, of, right, where, false, refused in (
     ("neighbours that share a radius", _summed(TWO), 2 * N, MANY, "it is (4N − 2)σ²",
      "two places may be one"),
@@ -89,19 +96,26 @@ for tried, of, right, where, false, refused in (
      "not the same along the layer"),
     ("neighbours times what may fluctuate", UNKNOWN * _summed(HERE), N * UNKNOWN**2, MANY,
      "nu may depend on the radii", "depends on the radii is not known"),
+    ("neighbours times a strength", epsilon * _summed(HERE), N * epsilon**2, MANY,
+     "orders in ε are not told apart", "depends on the radii is not known"),
+    ("neighbours, each twice", Sum(DeltaR(i + 2 * m, j), (m, 0, N - 1), (n, 1, 2)), N, MANY,
+     "it is 4Nσ²", "leaves the lattice diagonals"),
     ("neighbours times a radius", HERE * _summed(HERE), 0, MANY, "it is no first order",
-     "depends on the radii is not known"),
+     "not a rational function"),
     ("neighbours where every index has a meaning", _summed(HERE), N,
      MANY.also(indices=(p, q)), "none is left for their distance", "no index is left"),
     ("every second bead, taken for neighbours", Sum(TWO.xreplace({i: i + 4 * m}), (m, 0, N - 1)),
      4 * N - 2, MANY, "it is 2Nσ²", "leaves the lattice diagonals"),
     ("a covariance left out", _summed(TWO + DeltaR(i + 4, j)), 9 * N - 4, THREE,
      "it is (9N − 8)σ²", "both sides differ"),
+    ("covariances of more neighbours than there may be", _summed(HERE + DeltaR(i + 6, j)),
+     4 * N - 6, APART, "it is 4σ² for N = 2", "two places may be one"),
 ):  # fmt: skip
 
     @attack("moment", tried, false, refused)
     def _(left: sympy.Expr = of, right: sympy.Expr = right, where: Where = where) -> object:
-        alone = (sympy.Integer(1), sympy.Integer(2)) if where is THREE else ()
+        places = {THREE: (1, 2), APART: (3,)}.get(where, ())
+        alone = tuple(map(sympy.Integer, places))
         return told(moments.moment(alone=alone), Variance(left), right * SQUARE, where)
 
 
@@ -118,14 +132,17 @@ for tried, small, right, where, false, refused in (
     ("an index that is left", M * i + i, M * i, AT_Z, "0/0 at i = 0", "neither grows nor is fixed"),
     ("an unknown number", M + UNKNOWN, M, AT_Z, "it may grow with M", "neither grows nor is fixed"),
     ("a strength", M + epsilon * M**2, M, AT_Z, "it is no number", "neither grows nor is fixed"),
-    ("a domain beside the limit", M + j, M, Where.of(j >= 2, j + 2 >= M).in_the_limit(
-     at_fixed_height("∼")), "j/M → 1 there", "does not hold all of"),
+    ("a domain beside the limit", M + Variance(DeltaR(i + M, j + 2 - M)), M,
+     Where.of(j >= 2, j + 2 >= M).in_the_limit(at_fixed_height("∼")),
+     "no bead is there for z < 1", "does not hold all of"),
     ("a domain of one layer", M + j, M + 1, Where.of(Eq(j, 1), M >= 3).in_the_limit(
      at_fixed_height("∼")), "z → 0 there", "does not hold all of"),
     ("a limit that does not say how j grows", M + j, M, HEIGHTS.in_the_limit(
      Limit("∼", "M → ∞", (M,), (M,))), "j may grow, too", "does not hold all of"),
-    ("a limit with one way for two", M + j, M, HEIGHTS.in_the_limit(
-     Limit("∼", "M → ∞", (M, j), (M,))), "j may grow, too", "does not say how every index grows"),
+    ("a limit with two ways for one", M + 1, M, Where((M,), (M >= 3,)).in_the_limit(
+     Limit("∼", "M → ∞", (M,), (M, 2 * M))), "it says nothing", "does not say how every index"),
+    ("a limit with one way for two", M**2 + j, M**2, Where((j, M), (M >= 3,)).in_the_limit(
+     Limit("∼", "M → ∞", (M, j), (M,))), "j may grow faster", "does not say how every index grows"),
 ):  # fmt: skip
 
     @attack("asymptotic", tried, false, refused)

@@ -46,6 +46,11 @@ def along(weight: sympy.Expr) -> sympy.Expr:
     return Sum(weight * DeltaR(i - j + m, m), (m, 1, M))
 
 
+def _line(across: sympy.Expr) -> sympy.Expr:
+    """Radii of a diagonal, from a bead of the base up to the surface."""
+    return Sum(DeltaR(across + m, m), (m, 0, M - 1))
+
+
 STEEP = M**2 / (M * phi**2 + 1) ** 2
 """Of order 1, but for φ = 0, where it is M²."""
 
@@ -77,9 +82,16 @@ for tried, most, bound, where, false, refused in (
      "not shown to hold everywhere"),
     ("a weight with an index that is left", LargestWeight(i * HERE), 1, AT_ORDER,
      "i is any number", "neither grows nor is fixed"),
-    ("an end with an index that is left", LargestWeight(Sum(n * DeltaR(i - j + n, n), (n, 1, q))),
-     M, HEIGHTS.also(q >= 1, indices=(q,)).in_the_limit(at_fixed_height("O")), "q is any number",
+    ("an end with an index that is left",
+     LargestWeight(Sum(n * DeltaR(i - j + n, n), (n, 1, q - 1))), M,
+     HEIGHTS.also(q >= 1, indices=(q,)).in_the_limit(at_fixed_height("O")), "q is any number",
      "does not hold all of"),
+    ("weights that fall with the distance", LargestWeight(
+        Sum(DeltaR(i - j + n, n) / (j - n), (n, 0, j - 1))), 1 / M, AT_ORDER,
+     "that of the bead below is 1", "divided by what depends on the layer"),
+    ("a share where two lines may be one",
+     LargestShare(_line(i - j) - _line(i + 2 * q - j) + DeltaR(i - j + M, M)), 1 / M,
+     OTHER.in_the_limit(at_fixed_height("O")), "it is 1 for q = 0", "are one"),
     ("a weight over a layer", LargestWeight(along(1 / m)), 1 / M, AT_ORDER, "it is 1 at m = 1",
      "a divisor vanishes"),
     ("a strength", LargestWeight(epsilon * HERE), 1, AT_ORDER, "it is no number",
@@ -131,6 +143,8 @@ for tried, left, right, where, false, refused in (
      "it says nothing at z = ½", "of one order everywhere"),
     ("a factor with an index that is left", F * i, i * (1 + LINE), DROPPING, "i is any number",
      "neither grows nor is fixed"),
+    ("a factor that i makes vanish", F * (M + i), (M + i) * (1 + LINE) + HERE, DROPPING,
+     "the bead itself is left at i = −M", "neither grows nor is fixed"),
     ("an index that is left", F, 1 + LINE + i * HERE, DROPPING, "i is any number",
      "neither grows nor is fixed"),
     ("a part that is large at φ = 0", F, 1 + LINE + STEEP * HERE, DROPPING, "it is M² there",

@@ -11,11 +11,12 @@ from force_diffusion.symbolic.attacks.attack import (
     HERE,
     ROOT,
     attack,
+    only_supposed,
     told,
 )
 from force_diffusion.symbolic.kernel import averages, moments, rules
 from force_diffusion.symbolic.kernel.axioms import FORCE, GAUSSIAN_BELOW, GAUSSIAN_FORCES, SQUARE
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Supposition, Theorem, made
+from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem, made
 from force_diffusion.symbolic.kernel.where import (
     AT_FIXED_RATIO,
     SURFACE,
@@ -84,11 +85,6 @@ def _leading() -> Theorem:
     return told(averages.expansion(_exact()), OVER, M**2 * VARIANCE / 3, LARGE)
 
 
-def _supposed(left: Expr, right: Expr, where: Where) -> Theorem:
-    """What is only supposed."""
-    return made(equation(left, right), where, "supposition", supposed=(Supposition(k),))
-
-
 def _covariance(weight: Expr) -> Theorem:
     return told(moments.moment(), Covariance(HERE, weight * HERE), weight * VARIANCE, LAYERS)
 
@@ -137,7 +133,7 @@ for tried, layers, left, right, where, false, refused in (
 
 @attack("total", "layers that are only supposed", "nothing is proved", "supposed")
 def _() -> object:
-    one = _supposed(Variance(HERE), 2 * VARIANCE, LAYERS)
+    one = only_supposed(Variance(HERE), 2 * VARIANCE, LAYERS)
     mean = told(averages.total(one), over_layers(Variance(AT_M)), 2 * VARIANCE, HEIGHTS)
     if mean.supposed:
         raise NotProvedError("it rests on what is supposed")
@@ -174,7 +170,7 @@ for tried, exact, left, right, where, false, refused in (
 
 @attack("expansion", "a mean of layers that are only supposed", "nothing is proved", "supposed")
 def _() -> object:
-    one = _supposed(Variance(HERE), 2 * VARIANCE, LAYERS)
+    one = only_supposed(Variance(HERE), 2 * VARIANCE, LAYERS)
     mean = told(averages.total(one), over_layers(Variance(AT_M)), 2 * VARIANCE, HEIGHTS)
     large = told(averages.expansion(mean), over_layers(Variance(AT_M)), 2 * VARIANCE, LARGE)
     if large.supposed:
@@ -307,7 +303,7 @@ def _() -> object:
 
 @attack("restated", "what is only supposed", "nothing is proved", "supposed")
 def _() -> object:
-    again = told(averages.restated(_supposed(M, 2 * M, LARGE)), M, M + M, LARGE)
+    again = told(averages.restated(only_supposed(M, 2 * M, LARGE)), M, M + M, LARGE)
     if again.supposed:
         raise NotProvedError("it rests on what is supposed")
     return again
@@ -387,7 +383,7 @@ def _of_profile(profile: Expr) -> Integral:
 def _edge(value: Expr) -> tuple[Theorem, ...]:
     """Variances (M − j)² σ², supposing another one at the base."""
     base = Where.of(Eq(j, 0), M >= 2)
-    return _supposed(Variance((M - j) * HERE), value * VARIANCE, base), _layer_above()
+    return only_supposed(Variance((M - j) * HERE), value * VARIANCE, base), _layer_above()
 
 
 def _layer_above() -> Theorem:
@@ -400,7 +396,7 @@ def _inside(value: Expr) -> tuple[Theorem, ...]:
     where = Where.of(j >= 1, j <= M - 1)
     if value.has(l):
         where = where.also(indices=(k, l))
-    return base, _supposed(Variance((M - j) * HERE), value * VARIANCE, where)
+    return base, only_supposed(Variance((M - j) * HERE), value * VARIANCE, where)
 
 
 for tried, several, left, right, where, false, refused in (
@@ -554,7 +550,7 @@ for tried, how, false, refused in (
             if name != "below"
         }
         if "below" in how:
-            given["below"] = _supposed(S.One, S.One, Where())
+            given["below"] = only_supposed(S.One, S.One, Where())
         return _tensile(**given)
 
 
@@ -568,7 +564,7 @@ def _() -> object:
 
 @attack("tensile", "layers that are only supposed", "nothing is proved", "supposed")
 def _() -> object:
-    layers = _supposed(Variance(1 + j * HERE), j**2 * VARIANCE, LAYERS)
+    layers = only_supposed(Variance(1 + j * HERE), j**2 * VARIANCE, LAYERS)
     rule = averages.tensile(_below(), _force_height(), [layers], [_ones()])
     found = told(rule, TENSILE, _half(_error(ARGUMENT)), AT_RATIO)
     if found.supposed:
@@ -606,7 +602,7 @@ for tried, left, right, false, refused in (
 # what is supposed stays supposed; other packings; too many names
 
 
-def _only_supposed(theorem: Theorem) -> Theorem:
+def _proved(theorem: Theorem) -> Theorem:
     if theorem.supposed:
         raise NotProvedError("it rests on what is supposed")
     return theorem
@@ -614,21 +610,21 @@ def _only_supposed(theorem: Theorem) -> Theorem:
 
 @attack("proportional", "an order that is only supposed", "nothing is proved", "supposed")
 def _() -> object:
-    order = _supposed(OVER, M**4 * VARIANCE, LARGE)
+    order = only_supposed(OVER, M**4 * VARIANCE, LARGE)
     right = M**2 * sigma
-    return _only_supposed(told(averages.proportional(order), ROOT_OVER, right, IN_PROPORTION))
+    return _proved(told(averages.proportional(order), ROOT_OVER, right, IN_PROPORTION))
 
 
 @attack("unit_height", "an order that is only supposed", "nothing is proved", "supposed")
 def _() -> object:
-    order = _supposed(OVER, M**2 * VARIANCE, LARGE)
-    return _only_supposed(told(averages.unit_height(order), UNIT, 1 / sigma, AS_IT_IS))
+    order = only_supposed(OVER, M**2 * VARIANCE, LARGE)
+    return _proved(told(averages.unit_height(order), UNIT, 1 / sigma, AS_IT_IS))
 
 
 @attack("integral", "a slope that is only supposed", "nothing is proved", "supposed")
 def _() -> object:
-    slope = _supposed(Derivative(2 * z, z), S.One, Where())
-    return _only_supposed(told(averages.integral(slope), _mean(S.One), 2, Where()))
+    slope = only_supposed(Derivative(2 * z, z), S.One, Where())
+    return _proved(told(averages.integral(slope), _mean(S.One), 2, Where()))
 
 
 @attack("proportional", "the height of a packing in space", "nothing is known", "another packing")

@@ -89,8 +89,6 @@ def _linear(expression: sympy.Expr, where: Where) -> Linear:
         raise NotProvedError(f"whether {text(strange[0])} depends on the radii is not known")
     try:
         factors = {one: sympy.diff(inside, name) for one, name in names.items()}
-        if any(factor.has(*names.values()) for factor in factors.values()):
-            raise NotProvedError("it is not linear in the forces")
         rest = inside.xreplace(dict.fromkeys(names.values(), sympy.S.Zero))
         return FIELD.from_sympy(rest), {
             one: FIELD.from_sympy(factor) for one, factor in factors.items()

@@ -191,9 +191,6 @@ def _fixed_but(value: RationalFunction, limit: Limit) -> RationalFunction:
 
 def _orders(parts: Pieces, limit: Limit) -> list[int]:
     """The orders of all weights; of those along a diagonal, the highest in any layer."""
-    for run in parts.runs:
-        for end in (run.first, run.last):
-            _fixed_but(affine.to_field(end), limit)
     weights = [run.weight for run in parts.runs] + [full for full, _ in parts.special.values()]
     if not all(even(_fixed_but(one, limit), limit) for one in weights):
         raise NotProvedError("the order of a weight is not shown to hold everywhere")
@@ -219,7 +216,8 @@ def limit_of(formula: sympy.Eq, where: Where, relation: str) -> Limit:
     """
     check(formula, where, in_a_limit=True)
     limit = where.limit
-    if limit is None or limit.relation != relation:
+    assert limit is not None
+    if limit.relation != relation:
         raise NotProvedError(f"it is not in a limit, or not with the sign {relation}")
     coordinates = _coordinates(limit)
     if any(one in where.solved for one in limit.growing):

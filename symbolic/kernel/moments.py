@@ -360,7 +360,7 @@ def _neighbours(side: sympy.Expr, facts: Facts, where: Where, alone: Alone) -> _
             break
     else:
         return None
-    if factor.free_symbols - _KNOWN or factor.has(sy.SiteFunction):
+    if factor.free_symbols - _KNOWN:
         raise NotProvedError(f"whether {text(factor)} depends on the radii is not known")
     place = where.loading.place if where.loading else ()
     if any(across in one.free_symbols for one in (*where.relations, *place)):

@@ -18,7 +18,13 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction, sum_polynomial
 from force_diffusion.symbolic.kernel.theorem import Facts, NotProvedError, said_of
-from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.kernel.where import (
+    BULK,
+    BULK_TILTED,
+    SURFACE,
+    SURFACE_TILTED,
+    Where,
+)
 from force_diffusion.symbolic.printing.text import text
 
 Value = Callable[[sy.Moment, Where], RationalFunction]
@@ -29,6 +35,8 @@ _SQUARE = FIELD.one - _PHI**2
 _TURNS = {sy.ForcePlus: sy.DeltaNPlus, sy.ForceMinus: sy.DeltaNMinus}
 _UP = {sy.n_plus: FIELD.one, sy.n_minus: FIELD.one, sy.e_y: FIELD.one / FIELD.generator(sy.n_y)}
 """What a displacement with the line sum 1 along both n⁺ and n⁻ is along a vector."""
+_ALIKE = (SURFACE, BULK, SURFACE_TILTED, BULK_TILTED)
+"""Loads that are alike along a layer and do not fluctuate."""
 
 
 def shift(expression: sympy.Expr, where: Where, value: Value, facts: Facts) -> RationalFunction:
@@ -97,8 +105,7 @@ def _force(force: sympy.Expr, where: Where, value: Value, facts: Facts) -> Ratio
     told = said_of(sy.Shift(force), facts, where)
     if told is not None:
         return FIELD.from_sympy(told.xreplace(where.solved))
-    loading = where.loading
-    if loading is None or not uniform(loading):
+    if where.loading not in _ALIKE:
         raise NotProvedError("the loads are not shown to be alike along a layer")
     branch = 1 if isinstance(force, sy.ForcePlus) else -1
     other = (sy.ForceMinus if branch == 1 else sy.ForcePlus)(*force.args)
@@ -122,18 +129,3 @@ def turned(force: sympy.Expr, side: int, where: Where, value: Value) -> Rational
     beside = along - value(sy.Covariance(tilt, radii), where) / (_TWO * _R)  # of the other n
     own, other = (along, beside) if side == branch else (beside, along)
     return kept + ordered * (own - _PHI * other) / _SQUARE
-
-
-def uniform(loading: object) -> bool:
-    """Whether a loading says the same of all beads of a layer."""
-    place = getattr(loading, "place", ())
-    everywhere = getattr(loading, "everywhere", ())
-    here = {sy.site_r, sy.k, sy.i}
-    return (
-        set(place) == {sy.M}
-        and bool(everywhere)
-        and not any(
-            one.rhs.free_symbols & here or any(rel.free_symbols & here for rel in when)
-            for one, when in everywhere
-        )
-    )
