@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.catalogue import THEOREMS, modules
 
 import force_diffusion as fd
 from force_diffusion.__main__ import main
@@ -130,6 +130,12 @@ def test_every_equation_beyond_the_paper_stands_on_its_page() -> None:
     own = [number for number in modules() if isinstance(number, str)]
     assert titles == [(number, fd.equation(number).title) for number in own]
     assert re.findall(r'^show\("(B\d+)"\)$', page, re.MULTILINE) == own
+
+
+def test_every_theorem_is_in_the_table() -> None:
+    page = (REFERENCE.parent / "background" / "beyond.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (T\d): (.*) \| (.*) \|$", page, re.MULTILINE)
+    assert rows == [(one.name, one.title, ", ".join(one.cases)) for one in THEOREMS]
 
 
 def test_every_command_is_told(capsys) -> None:
