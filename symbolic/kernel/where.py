@@ -330,15 +330,17 @@ class Where:
 
     def covered_by(self, parts: Iterable["Where"]) -> bool:
         """Whether no integer point of it is left out by all of the parts."""
-        left = [self.rows]
+        left = {self.rows}
         for part in parts:
-            left = [
+            beyond = {
                 rows | {affine.shifted(affine.times(row, -1), -1)}
                 for rows in left
                 for row in part.rows
                 if row not in rows
-            ]
-            left = [rows for rows in left if not _infeasible(rows)]
+            }
+            if len(beyond) > _MANY:
+                return False
+            left = {rows for rows in beyond if not _infeasible(rows)}
         return not left
 
     def never_zero(self, expression: sympy.Expr) -> bool:

@@ -5,7 +5,7 @@ from itertools import product
 import pytest
 import sympy
 from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.symbols import M, N, j
+from force_diffusion.symbolic.symbols import M, N, j, p, q
 
 DOMAINS = (
     Where.of(N >= 2, sympy.Le(N, j - 1), sympy.Ge(M, j + 2)),
@@ -44,3 +44,14 @@ def test_what_inequalities_fix_is_put_in() -> None:
     where = Where.of(N >= 2, sympy.Le(N, j - 1)).also(sympy.Eq(j, 3))
     assert where.solved == {j: 3}
     assert where.tightened().solved == {j: 3, N: 2}
+
+
+def test_a_domain_is_covered_by_many_parts() -> None:
+    whole = Where.of(j >= 0, p >= 0, q >= 0)
+    choices = [
+        [sympy.Eq(one, value) if value < 2 else one >= 2 for value in range(3)] for one in (j, p, q)
+    ]
+    parts = [whole.also(*relations) for relations in product(*choices)]
+    assert whole.covered_by(parts)
+    for place in range(len(parts)):
+        assert not whole.covered_by(parts[:place] + parts[place + 1 :])
