@@ -154,7 +154,7 @@ def _place(number: Number) -> int:
     """That of an equation of the paper, or of the theorem that an equation beyond it is part of."""
     if isinstance(number, int):
         return number
-    return 17 + next(at for at, own in enumerate(THEOREMS.values()) if int(number[1:]) in own)
+    return 17 + next(at for at, own in enumerate(THEOREMS) if number in own.cases)
 
 
 def test_premises_are_the_imports() -> None:
