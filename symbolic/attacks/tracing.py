@@ -132,6 +132,8 @@ for name, left, right, root, square, where, false, refused in (
      "j is z M", "may depend on z"),
     ("by a layer", sympy.Derivative(z, j), ZERO, ROOT, SQUARE, Where.of(j >= 0), "z is j/M",
      "or that is a whole number"),
+    ("of a power of a layer", sympy.Derivative(j**2, j), 2 * j, ROOT, SQUARE, Where.of(j >= 0),
+     "a whole number has no neighbours", "or that is a whole number"),
     ("of an unknown number", sympy.Derivative(LENGTH, phi), ZERO, ROOT, SQUARE, Where(),
      "it may depend on φ", "may depend on φ"),
     ("by an unknown number", sympy.Derivative(phi, LENGTH), ZERO, ROOT, SQUARE, Where(),
