@@ -46,14 +46,14 @@ _HEAD = r"""\documentclass[10pt]{article}
 
 READING = (
     "The equations keep the numbers that they have in the paper; B1 and so on go beyond it. "
-    "Proved means that an exact decision procedure found the printed equation to follow from its "
-    "assumptions; proved, assuming, that it rests on a further one, which is named and which no "
-    "rule discharges; refuted, that it found a counterexample; undecided, that it could do "
-    "neither; not a statement, that what is written has no value, or no single meaning, "
+    "Proved means that the rules of the kernel, which decide exactly, give the printed equation "
+    "from its assumptions; proved, assuming, that it rests on a further one, which is named and "
+    "which no rule discharges; refuted, that a counterexample was found; undecided, that neither "
+    "was done; not a statement, that what is written has no value, or no single meaning, "
     "somewhere on its domain. A witness is a comparison of another kind, with exact or "
     "high-precision numbers for packings "
     "drawn at random: it agrees or disagrees, and proves nothing. A mutant is the printed "
-    "equation with one mechanical change, which the same procedure has to refute, or to find not "
+    "equation with one mechanical change, which has to be refuted, or not "
     "to be a statement; one that is an "
     "equivalent rewriting is listed with the proof that it is. Accepted is a word of "
     "Coq, an unrelated proof assistant, about the printed equation on exact packings; it is on "
@@ -212,14 +212,14 @@ def _table(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
             f"{mutants.equivalent} \\\\\n"
         )
     return (
-        "\\begin{center}\\small\\setlength{\\tabcolsep}{4pt}\n"
-        "\\begin{tabular}{r>{\\raggedright}p{32mm}>{\\raggedright}p{18mm}lrrrrrr}\n\\hline\n"
+        "\\begin{center}\\footnotesize\\setlength{\\tabcolsep}{3pt}\n"
+        "\\begin{tabular}{r>{\\raggedright}p{47mm}>{\\raggedright}p{17mm}lrrrrrr}\n\\hline\n"
         " & & & & & & \\multicolumn{4}{c}{mutants} \\\\\n"
-        "Eq. & title & verdict & Coq & proofs & witnesses & made & refuted & none & equivalent"
+        "Eq. & title & verdict & Coq & proofs & witnesses & made & refuted & none & equiv."
         " \\\\\n\\hline\n"
         + "".join(rows)
         + "\\hline\n\\end{tabular}\n\\end{center}\n"
-        + "None: mutants that are not a statement.\n\n"
+        + "None: mutants that are not a statement; equiv.: equivalent rewritings.\n\n"
         + f"{tried_text(tried)}\n"
     )
 
