@@ -1,7 +1,7 @@
 """T6 (Eqs. B7, B8, B12, B21): correlations of contact forces, and means over N neighbours."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache, cached_property
 from itertools import product
@@ -152,7 +152,7 @@ class Means:
 
     def on(self, *relations: sympy.Basic) -> Where:
         """A domain of statements about it."""
-        return Where.of(*relations, loading=self.loading)
+        return Where.of(*relations, loading=self.loading).tightened()
 
     @cached_property
     def where(self) -> Where:
@@ -605,11 +605,6 @@ def _windows_of_beads() -> dict[str, Window]:
             first + last,
             parts=parts if parted else ((),),
         )
-    # N = 2 > M − j leaves one packing, which is fixed by its height
-    lowest = found["base+1, N=2, N>M-j"]
-    found["base+1, N=2, N>M-j"] = replace(
-        lowest, validity="j = 1, N = 2 and M = 2", relations=(Eq(j, 1), Eq(N, 2), Eq(M, 2))
-    )
     del found[""]  # the printed form
     return found
 
