@@ -133,6 +133,10 @@ class ForceMinus(SiteFunction):
     branch = "-"
 
 
+TURNS = {ForcePlus: DeltaNPlus, ForceMinus: DeltaNMinus}
+"""The force of a contact, and how that contact turns."""
+
+
 class Load(SiteFunction):
     """F^load on bead (k, l) (vector)."""
 

@@ -30,8 +30,8 @@ from force_diffusion.derivations.export.terminal import (
     steps_text,
     summary_line,
 )
-from force_diffusion.derivations.framework.catalogue import THEOREMS, allowed, modules, theorem_of
 from force_diffusion.derivations.framework.catalogue import Number as EquationNumber
+from force_diffusion.derivations.framework.catalogue import allowed, cases_of, modules, theorem_of
 from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.derivations.framework.proving import Shown
 from force_diffusion.derivations.framework.record import (
@@ -491,7 +491,7 @@ def equation(number: EquationNumber) -> Equation:
         or not isinstance(number, Integral | str)
         or number not in modules()
     ):
-        cases = next((one.cases for one in THEOREMS if one.name == number), None)
+        cases = cases_of(number)
         known = f"that theorem has {both(cases)}" if cases else f"give a number {allowed()}"
         raise NoSuchFormError(f"there is no equation {number!r}: {known}", "number")
     return _equation(number)

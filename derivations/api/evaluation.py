@@ -12,6 +12,7 @@ from flint import fmpq
 from force_diffusion.derivations.export.prose import either
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.mechanics.lattice import kappa_in
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
 
@@ -83,7 +84,7 @@ def read_arguments(
     if spared:
         _put_angle(values, given)
     if holds_kappa:
-        values[sy.kappa] = _kappa(values[sy.phi], dimension)
+        values[sy.kappa] = kappa_in(dimension).xreplace({sy.phi: values[sy.phi]})
     for pair, (words, allowed) in _TOGETHER.items():
         if set(pair) <= set(values) and not allowed(*(values[symbol] for symbol in pair)):
             raise ArgumentError(f"{told(pair, values)}: {words} is allowed")
@@ -106,10 +107,6 @@ def _put_angle(values: dict[sympy.Symbol, sympy.Expr], given: Mapping[str, Numbe
             "Leave one of them out"
         )
     values.setdefault(sy.n_y, expected)
-
-
-def _kappa(phi: sympy.Rational, d: int) -> sympy.Rational:
-    return (1 + (d - 2) * phi) / ((1 - phi) * (1 + (d - 1) * phi))
 
 
 def _compare_names(about: str, known: Mapping[str, Symbol], given: Mapping[str, Number]) -> None:

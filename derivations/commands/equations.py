@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from force_diffusion.derivations.commands.cli import STATUSES
 from force_diffusion.derivations.commands.output import Overwrite, out_option
-from force_diffusion.derivations.framework.catalogue import THEOREMS, Number, allowed, modules
+from force_diffusion.derivations.framework.catalogue import Number, allowed, cases_of, modules
 
 import force_diffusion as fd
 
@@ -47,10 +47,7 @@ def equation_number(word: str) -> Number:
 
 def equations_of(word: str) -> list[Number]:
     """The number of an equation, or those of all cases of a theorem, such as "T4"."""
-    for theorem in THEOREMS:
-        if word.upper() == theorem.name:
-            return list(theorem.cases)
-    return [equation_number(word)]
+    return list(cases_of(word.upper())) or [equation_number(word)]
 
 
 def derive(

@@ -77,6 +77,11 @@ def theorem_of(number: Number) -> Theorem | None:
     return next((one for one in THEOREMS if number in one.cases), None)
 
 
+def cases_of(name: Number) -> tuple[str, ...]:
+    """The labels of a theorem's equations, by its name; none where there is no such theorem."""
+    return next((one.cases for one in THEOREMS if one.name == name), ())
+
+
 def paper() -> list[int]:
     """The numbers of the paper's equations."""
     return [number for number in modules() if isinstance(number, int)]

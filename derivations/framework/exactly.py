@@ -23,6 +23,7 @@ from force_diffusion.symbolic.kernel.decisions import (
 )
 from force_diffusion.symbolic.kernel.language import says_less, unreadable, usual_form
 from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.mechanics.lattice import kappa_in
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.search.counterexample import counterexample
 from force_diffusion.symbolic.search.values import WithoutValue
@@ -78,7 +79,7 @@ def _compared(
             return not_a_statement(reason)
     if less := says_less(given, own):
         return undecided(less)
-    known = {**_observed(own), sy.kappa: _kappa(derivation.dimension)}
+    known = {**_observed(own), sy.kappa: kappa_in(derivation.dimension)}
     rulings = []
     for where in parts:
         sides = [side.xreplace(known).xreplace(dict(where.solved)) for side in given.args]
@@ -101,11 +102,6 @@ def _observed(own: sympy.Eq) -> dict[sympy.Basic, sympy.Expr]:
         return {own.lhs: own.rhs}
     (symbol,) = about
     return {symbol: (own.rhs - own.lhs.xreplace({symbol: sympy.S.Zero})) / own.lhs.coeff(symbol)}
-
-
-def _kappa(d: int) -> sympy.Expr:
-    """κ in d dimensions, the squared length of a reciprocal vector."""
-    return (1 + (d - 2) * sy.phi) / ((1 - sy.phi) * (1 + (d - 1) * sy.phi))
 
 
 def _whens(case: ExactCase) -> list[sympy.Basic]:

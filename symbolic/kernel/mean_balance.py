@@ -10,7 +10,7 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.kernel import axioms, moments, second_order
-from force_diffusion.symbolic.kernel.rules import Rule, instance
+from force_diffusion.symbolic.kernel.rules import BRANCHES, Rule, instance
 from force_diffusion.symbolic.kernel.theorem import (
     Facts,
     NotProvedError,
@@ -23,8 +23,6 @@ from force_diffusion.symbolic.kernel.theorem import (
 )
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
-
-_BRANCHES = {sy.ForcePlus: 1, sy.ForceMinus: -1}
 
 
 def mean_below(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
@@ -51,8 +49,8 @@ def mean_below(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
 
 
 def _from_above(force: sympy.Expr, where: Where, facts: Facts) -> RationalFunction:
-    own, other = type(force), next(one for one in _BRANCHES if one is not type(force))
-    side = _BRANCHES[own]
+    own, other = type(force), next(one for one in BRANCHES if one is not type(force))
+    side = BRANCHES[own]
     across, layer = force.args
     bead = (sympy.expand(across + side), sympy.expand(layer + 1))
     instance(axioms.balance(), dict(zip((sy.site_r, sy.site_s), bead, strict=True)), where)

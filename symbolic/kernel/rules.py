@@ -196,13 +196,13 @@ def below(balance: Theorem, *facts: Theorem | tuple[Theorem, ...]) -> Rule:
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
         about, value = isolated(formula, where)
-        branch = _BRANCHES.get(type(about))
+        branch = BRANCHES.get(type(about))
         if branch is None:
             raise NotProvedError(f"{text(about)} is no contact force")
         across, layer = about.args[0] + branch, about.args[1] + 1
         bead = dict(zip((sy.site_r, sy.site_s), map(sympy.expand, (across, layer)), strict=True))
         row = instance(balance, bead, where)
-        unknowns = [force(*_from(bead, one)) for force, one in _BRANCHES.items()]
+        unknowns = [force(*_from(bead, one)) for force, one in BRANCHES.items()]
         own = next(one for one in unknowns if type(one) is type(about))
         solve([row], unknowns, *facts)(equation(own, value), where)
         return made(formula, where, "balance of the bead above", (balance, *flat(facts)))
@@ -210,7 +210,8 @@ def below(balance: Theorem, *facts: Theorem | tuple[Theorem, ...]) -> Rule:
     return rule
 
 
-_BRANCHES = {sy.ForcePlus: 1, sy.ForceMinus: -1}
+BRANCHES = {sy.ForcePlus: 1, sy.ForceMinus: -1}
+"""Forces of contacts, and the side of the upper bead."""
 
 
 def _from(bead: Mapping[sympy.Symbol, sympy.Expr], branch: int) -> tuple[sympy.Expr, sympy.Expr]:

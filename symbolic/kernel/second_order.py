@@ -32,7 +32,6 @@ Value = Callable[[sy.Moment, Where], RationalFunction]
 
 _R, _PHI, _TWO = FIELD.generator(sy.r), FIELD.generator(sy.phi), FIELD.constant(2)
 _SQUARE = FIELD.one - _PHI**2
-_TURNS = {sy.ForcePlus: sy.DeltaNPlus, sy.ForceMinus: sy.DeltaNMinus}
 _UP = {sy.n_plus: FIELD.one, sy.n_minus: FIELD.one, sy.e_y: FIELD.one / FIELD.generator(sy.n_y)}
 """What a displacement with the line sum 1 along both n⁺ and n⁻ is along a vector."""
 _ALIKE = (SURFACE, BULK, SURFACE_TILTED, BULK_TILTED)
@@ -68,7 +67,7 @@ def shift(expression: sympy.Expr, where: Where, value: Value, facts: Facts) -> R
 def pushes(product: sympy.Expr) -> sympy.Expr | None:
     """The contact force whose vertical component f⁺(n_y + e_y·δn⁺), or that of f⁻, this is."""
     for force, other in (product.args, product.args[::-1]) if len(product.args) == 2 else ():
-        turn = _TURNS.get(type(force))
+        turn = sy.TURNS.get(type(force))
         unit = turn and {sy.n_y, sy.Dot(sy.e_y, turn(*force.args))}
         if unit and isinstance(other, sympy.Add) and {*other.args} == unit:
             return force

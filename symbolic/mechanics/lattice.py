@@ -23,6 +23,11 @@ MIRRORED_FUNCTIONS = {
 _HORIZONTAL = (sy.i, sy.k, sy.site_r)
 
 
+def kappa_in(d: sympy.Expr | int) -> sympy.Expr:
+    """κ in d dimensions, the squared length of a reciprocal vector; 1/(1 − φ²) for discs."""
+    return (1 + (d - 2) * sy.phi) / ((1 - sy.phi) * (1 + (d - 1) * sy.phi))
+
+
 def mirror(expression: sympy.Basic) -> sympy.Basic:
     """The mirror image at a vertical line: i → −i at every site, n⁺ ↔ n⁻ and b⁺ ↔ b⁻.
 

@@ -27,8 +27,6 @@ HIGHEST_POWER = 64
 MOST_TERMS = 1000
 """Of one sum."""
 
-_TURNS = {sy.ForcePlus: sy.DeltaNPlus, sy.ForceMinus: sy.DeltaNMinus}
-
 A_BEAD = 20
 """Laying or balancing a bead takes as long as so many reads."""
 
@@ -162,9 +160,9 @@ class Evaluator:
     def _shift(self, inside: sympy.Expr) -> Number:
         """The mean at second order of what is linear in forces or displacements, σ = 1."""
         moved = {one for one in inside.atoms(sy.Dot) if isinstance(one.args[1], sy.DeltaX)}
-        names = {one: sympy.Dummy() for one in (*inside.atoms(*_TURNS), *moved)}
+        names = {one: sympy.Dummy() for one in (*inside.atoms(*sy.TURNS), *moved)}
         turned = {
-            sy.n_y + sy.Dot(sy.e_y, _TURNS[type(one)](*one.args)): sympy.Dummy()
+            sy.n_y + sy.Dot(sy.e_y, sy.TURNS[type(one)](*one.args)): sympy.Dummy()
             for one in names
             if one not in moved
         }

@@ -11,6 +11,7 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.mechanics.lattice import kappa_in
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.counterexample import counterexample
@@ -182,7 +183,7 @@ def _radii_for_delta(radii: Radii) -> Change:
 
 def _kappa(source: Source) -> sympy.Expr:
     d = sy.d if sy.d in source.free else sympy.Integer(source.dimension)
-    return (1 + (d - 2) * sy.phi) / ((1 - sy.phi) * (1 + (d - 1) * sy.phi))
+    return kappa_in(d)
 
 
 def definition(source: Source) -> Made:
