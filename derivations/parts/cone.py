@@ -206,7 +206,7 @@ def exact_case(
 
     def put_in(piece: Piece) -> sympy.Expr:
         at = {symbol: sympy.Integer(value) for symbol, value in piece.at.items()}
-        return sympy.together(piece.expression.xreplace(at)) * unit  # one fraction, of integers
+        return sympy.together(piece.expression.xreplace(at).doit()) * unit  # one fraction
 
     *edges, main = (
         Missed(
