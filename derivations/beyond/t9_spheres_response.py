@@ -5,7 +5,6 @@ another below it, p, q ≥ 1, in layer j = l − p − q; a leg has q = 0.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import product
@@ -31,7 +30,6 @@ from force_diffusion.derivations.parts import cone
 from force_diffusion.derivations.witnesses import dimensions as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import compare
-from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.any_dimension import POINT
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.notation import Symbol
@@ -50,7 +48,7 @@ from force_diffusion.symbolic.symbols import (
     r,
     sigma,
 )
-from sympy import Eq, Integer, Rational
+from sympy import Integer, Rational
 
 _OVER_LOAD = r"{(f^{\mathrm{load}})^{2}}"
 ON_FACE = Symbol(
@@ -140,61 +138,41 @@ DOWN = (j >= 0, l >= j + 1)
 """Those of a leg."""
 
 
-@dataclass(frozen=True)
-class Quantity:
-    """A variance below the load: what it is, its closed forms, and where each of them holds.
-
-    Attributes:
-        of: what varies.
-        pieces: the first that fits has the value, in ``unit``.
-        steps: p down the first vector and, on a face, q.
-        sites: the relations of all sites.
-    """
-
-    symbol: sympy.Symbol
-    of: sympy.Expr
-    pieces: tuple[Piece, ...]
-    unit: sympy.Expr
-    steps: dict[sympy.Symbol, sympy.Expr]
-    sites: tuple[sympy.Basic, ...]
-
-    def forms(self) -> Iterator[tuple[sympy.Symbol, sympy.Expr, Where]]:
-        """Each closed form with its domain."""
-        for piece in self.pieces:
-            at = (*(Eq(symbol, value) for symbol, value in piece.at.items()), *piece.further)
-            where = _below(*self.sites, *(one.xreplace(self.steps) for one in at))
-            yield self.symbol, piece.expression * self.unit, where
-
-    @property
-    def on_leg(self) -> bool:
-        """Whether q does not count."""
-        return q not in self.steps
-
-
 _CONTACT = PushBelow(TWO, ALONG_FACE, q, NONE)
 _BESIDE = PushBelow(ONE, ALONG_FACE, q, NONE)
 _UP_LEG = (ONE, ALONG_LEG, NONE, NONE)
-_ON_FACE, _ON_LEG = ({p: ALONG_FACE, q: q}, INSIDE), ({p: ALONG_LEG}, DOWN)
+_ON_FACE = (_below(*INSIDE), {p: ALONG_FACE, q: q})
+_ON_LEG = (_below(*DOWN), {p: ALONG_LEG})
+
+
+def _variance(
+    symbol: sympy.Symbol,
+    force: sympy.Expr,
+    pieces: tuple[Piece, ...],
+    unit: sympy.Expr,
+    sites: tuple[Where, dict[sympy.Symbol, sympy.Expr]],
+) -> cone.Below:
+    where, steps = sites
+    return cone.Below(symbol, Variance(force), where, pieces, unit, steps)
+
+
 QUANTITIES = {
-    "contact": Quantity(ON_FACE, _CONTACT / 3, CONTACT_PIECES, UNIT / 9, *_ON_FACE),
-    "bead": Quantity(BEAD, (_CONTACT + _BESIDE) / 3, BEAD_PIECES, UNIT / 9, *_ON_FACE),
-    "leg": Quantity(ON_LEG, PushBelow(*_UP_LEG) / 3, LEG_PIECES, UNIT / 9, *_ON_LEG),
-    "leg-force": Quantity(LEG_MAGNITUDE, ForceBelow(*_UP_LEG), LEG_FORCE_PIECES, UNIT, *_ON_LEG),
+    "contact": _variance(ON_FACE, _CONTACT / 3, CONTACT_PIECES, UNIT / 9, _ON_FACE),
+    "bead": _variance(BEAD, (_CONTACT + _BESIDE) / 3, BEAD_PIECES, UNIT / 9, _ON_FACE),
+    "leg": _variance(ON_LEG, PushBelow(*_UP_LEG) / 3, LEG_PIECES, UNIT / 9, _ON_LEG),
+    "leg-force": _variance(LEG_MAGNITUDE, ForceBelow(*_UP_LEG), LEG_FORCE_PIECES, UNIT, _ON_LEG),
 }
 """By the names of their exact forms; the vertical force of a contact is a third of the load on a
 leg."""
 
-MEANING = {one.symbol: Variance(one.of) for one in QUANTITIES.values()}
+MEANING = {one.symbol: one.of for one in QUANTITIES.values()}
 WHERE = _below(j >= 3, q >= 1, l >= j + q + 1, l >= j + 3)
 """Where all that is printed holds."""
 
 
 def at_finite_size() -> dict[str, ExactCase]:
     """The exact forms of a face's beads and contacts, and of a leg's."""
-    return {
-        name: cone.exact_case(one.symbol, one.pieces, one.unit, one.steps)
-        for name, one in QUANTITIES.items()
-    }
+    return {name: one.exact() for name, one in QUANTITIES.items()}
 
 
 TILTS = tuple(
@@ -312,17 +290,14 @@ def _exact(quantity: sympy.Basic, level: int, first: int, other: int, cosine: Fr
 
 def _squares(packing: SmallPacking) -> Ruling:
     cosine = witnesses.cosine_of(packing)
-    values: explicit.Values = {phi: cosine, sigma: 1, r: 1}
 
     def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
-        for layer, first, second in product(range(4), (1, 2, 3), (1, 2)):
-            for one in QUANTITIES.values():
-                if one.on_leg and second > 1:
-                    continue
-                other = 0 if one.on_leg else second
+        sites = product(QUANTITIES.values(), range(4), (1, 2, 3), (1, 2))
+        for one, layer, first, second in sites:
+            other = second if q in one.steps else 0
+            if other or second == 1:
                 at = {j: layer, p: first, q: other, l: layer + first + other}
-                piece = next(each for each in one.pieces if each.at.items() <= at.items())
-                stated = explicit.number(piece.expression * one.unit, {**values, **at})
+                stated = one.value({phi: cosine, sigma: 1, r: 1, **at})
                 where = f"{one.symbol.name}, j = {layer}, p = {first}, q = {other}"
                 yield where, stated, _exact(one.symbol, at[l], first, other, cosine)
 
