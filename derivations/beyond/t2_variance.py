@@ -17,13 +17,13 @@ from force_diffusion.derivations.beyond import t1_forces as t1
 from force_diffusion.derivations.framework.averaging import expansion, total
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layered import EveryLayer
-from force_diffusion.derivations.framework.record import usual
+from force_diffusion.derivations.framework.proving import Line
+from force_diffusion.derivations.framework.record import FIRST_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
     Chain,
     Derivation,
     Layered,
-    Line,
     Lines,
     Where,
     Witness,
@@ -264,8 +264,7 @@ def _derivation(number: Number, load: Load, **options: Any) -> Derivation:
             *usual(sigma, r, M, z, phi),
         ),
         assumptions=(
-            "the radii are independent, of zero mean and variance σ²",
-            "first order in δr",
+            *FIRST_ORDER,
             *loaded,
             "printed form: M → ∞ at fixed z and t; exact form, for f⁺: every 0 ≤ j < M. For f⁻ put "
             "1/t in place of t",

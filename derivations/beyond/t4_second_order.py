@@ -12,21 +12,17 @@ from functools import cache, cached_property, partial
 import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
 from force_diffusion.derivations import eq04_contact_plus as eq04
-from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.beyond import t1_forces as t1
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import facts_of
-from force_diffusion.derivations.framework.record import usual
+from force_diffusion.derivations.framework.proving import Beside, OfBoth, Source, facts_of
+from force_diffusion.derivations.framework.record import SECOND_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (
-    Beside,
     Chain,
     Derivation,
     Layered,
     Lines,
-    OfBoth,
-    Source,
     Where,
     Witness,
     asymptotic,
@@ -92,7 +88,6 @@ from force_diffusion.symbolic.symbols import (
 )
 from force_diffusion.symbolic.variances.variance import ClosedForm
 
-DIRECTIONS = (eq04.DERIVATION, eq05.DERIVATION)
 VARIANCE = formula("(σ_δr/r)²")
 TILT = Dot(n_minus, DeltaNPlus(i, j))
 """ν = n⁻·δn⁺_ij, all that a change of direction holds."""
@@ -109,10 +104,10 @@ UPWARDS = Limit("∼", "j → ∞", (j,), (j,))
 @cache
 def settling() -> Lines:
     """The constraint at order ε², the steps it makes in the mean, their sum."""
-    lines = Lines(ABOVE_BASE, moment(DIRECTIONS), HEIGHT)
+    lines = Lines(ABOVE_BASE, moment(eq11.DIRECTIONS), HEIGHT)
     layers = (ABOVE_BASE, Where.of(sympy.Eq(j, 0)))
     tilted = Variance(TILT)
-    squares = (moments.value(tilted, facts_of((DIRECTIONS,)), where) for where in layers)
+    squares = (moments.value(tilted, facts_of((eq11.DIRECTIONS,)), where) for where in layers)
     step = lines.show(
         "Let the centres of a contact along n⁺ be 2r n⁺ + ε d₁ + ε² d₂ apart, ρ the sum of both "
         "δr. Here d₁ = ρ n⁺ + 2r δn⁺ by the first order, δn⁺ = ν b⁻, and |b⁻|² = 1/(1−φ²). The "
@@ -156,7 +151,7 @@ def settling() -> Lines:
         "the pile settles, by a share of its height that grows as its height: ⟨δy⟩ goes as "
         "−j² (σ/r)² r/(n_y (1−φ²))",
         equation(MEAN_HEIGHT, -(j**2) * sigma**2 / (r * n_y * (1 - phi**2))),
-        asymptotic(DIRECTIONS),
+        asymptotic(eq11.DIRECTIONS),
         where=ABOVE_BASE.in_the_limit(UPWARDS),
     )
     return lines
@@ -171,11 +166,10 @@ B4 = Derivation(
         *usual(sigma, r, phi),
     ),
     assumptions=(
-        "the radii are independent, of zero mean and variance σ², of whatever law",
-        "second order in δr",
+        *SECOND_ORDER,
         "j ≥ 1; the beads of the base do not move",
     ),
-    premises=(eq02.DERIVATION, eq04.DERIVATION, eq05.DERIVATION),
+    premises=(eq02.DERIVATION, *eq11.DIRECTIONS),
     printed=(SETTLING,),
     domain=(sympy.Ge(j, 1),),
     where=ABOVE_BASE,
@@ -250,7 +244,7 @@ class Case:
         meaning = {s: 1 + one for s, one in zip(self.symbols, shifts, strict=False)}
         subject = self.symbols[0] - 1
         return Layered(
-            subject, shifts[0], (Chain((self.forces, DIRECTIONS)),), self.loading,
+            subject, shifts[0], (Chain((self.forces, eq11.DIRECTIONS)),), self.loading,
             {**meaning, L_minus: t * L_plus},
         )  # fmt: skip
 
@@ -450,7 +444,6 @@ def _witness(case: Case, branch: str, packing: SmallPacking) -> Ruling:
     return witnesses.forces(case.forms, load, packing, ratio, branch)
 
 
-_LAW = "the radii are independent, of zero mean and variance σ², of whatever law"
 _EVERY = "printed form: 2 ≤ j ≤ M − 2; exact forms: every 0 ≤ j < M"
 _PLUS_ONLY = (
     "printed form: 2 ≤ j ≤ M − 2; exact forms, for f⁺: every 0 ≤ j < M. For f⁻ put 1/t in "
@@ -483,8 +476,8 @@ def _derivation(
         name=name,
         title=title,
         symbols=(*told, *further, *usual(sigma, r, M, phi)),
-        assumptions=(_LAW, "second order in δr", *load, _PLUS_ONLY if tilted else _EVERY),
-        premises=(*_SOURCES[case.number], *DIRECTIONS, B4, *premises),
+        assumptions=(*SECOND_ORDER, *load, _PLUS_ONLY if tilted else _EVERY),
+        premises=(*_SOURCES[case.number], *eq11.DIRECTIONS, B4, *premises),
         printed=case.printed,
         domain=(sympy.Ge(j, 2), sympy.Ge(M, j + 2)),
         where=case.mean.where(),

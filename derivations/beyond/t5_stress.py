@@ -17,7 +17,7 @@ from force_diffusion.derivations.beyond import t1_forces as t1
 from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.proving import Line, Meaning, facts_of
-from force_diffusion.derivations.framework.record import ExactCase, usual
+from force_diffusion.derivations.framework.record import SECOND_ORDER, ExactCase, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
     By,
@@ -578,10 +578,6 @@ OF_STRESS = {
         "4M(z − φ)(σ/r)²/(1−φ²)²: no constant, and not that of a surface load",
     ),
 }
-ASSUMED = (
-    "the radii are independent, of zero mean and variance σ², of whatever law",
-    "second order in δr",
-)
 
 
 def _stress(number: str, load_in_words: str, **options: Any) -> Derivation:
@@ -598,7 +594,7 @@ def _stress(number: str, load_in_words: str, **options: Any) -> Derivation:
             *usual(sigma, r, M, phi),
         ),
         assumptions=(
-            *ASSUMED,
+            *SECOND_ORDER,
             load_in_words,
             "printed form: 2 ≤ j ≤ M − 2; exact forms: every 0 ≤ j < M",
         ),
@@ -653,7 +649,7 @@ B18 = Derivation(
         *usual(sigma, r, M, phi),
     ),
     assumptions=(
-        *ASSUMED,
+        *SECOND_ORDER,
         "L⁺, L⁻ > 0, not equal; a load on the surface, or the same on every bead above the base",
         "printed form: 2 ≤ j ≤ M − 2; exact forms: every 0 ≤ j < M",
     ),

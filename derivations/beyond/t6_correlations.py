@@ -6,24 +6,19 @@ from functools import cache
 from itertools import product
 
 import sympy
-from force_diffusion.derivations import eq04_contact_plus as eq04
-from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import facts_of
-from force_diffusion.derivations.framework.record import ExactCase, usual
+from force_diffusion.derivations.framework.proving import Line, OfBoth, Source, facts_of
+from force_diffusion.derivations.framework.record import FIRST_ORDER, ExactCase, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
     Chain,
     Claim,
     Derivation,
-    Line,
     Lines,
-    OfBoth,
-    Source,
     Where,
     Within,
     Witness,
@@ -84,14 +79,12 @@ from force_diffusion.symbolic.symbols import (
 )
 from sympy import Eq, Ge, Rational
 
-DIRECTIONS = (eq04.DERIVATION, eq05.DERIVATION)
-IN_BULK = Chain((Within(eq14.steps, 1, "Eq. 14"), DIRECTIONS))
+IN_BULK = Chain((Within(eq14.steps, 1, "Eq. 14"), eq11.DIRECTIONS))
 
 ON_SURFACE = ForcePlus(i, j) / (f_load / (2 * n_y))
 OF_BULK = ForcePlus(i, j) / ((M - j) * m_g / (2 * n_y))
 """f⁺ over its mean."""
 
-ASSUMED = ("the radii are independent, of zero mean and variance σ²", "first order in δr")
 K = M - j
 """Layers of loads above a contact."""
 
@@ -294,7 +287,7 @@ BEAD_MEAN = equation(
         (1/(12N²(1 − φ²)²)) [8(M − j)²(M + 2j) − 6(M − j)² + (M − j)(6φ² + 24φ − 2)
             + 3(1 − φ)²] (σ_δr/r)²"""),
 )
-BOTH = Chain((OfBoth(eq11.DERIVATION), DIRECTIONS))
+BOTH = Chain((OfBoth(eq11.DERIVATION), eq11.DIRECTIONS))
 """Eq. 11 for both branches."""
 
 
@@ -684,8 +677,8 @@ B7 = Derivation(
     name="neighbouring_contacts",
     title="Mean over N neighbouring contacts of one branch",
     symbols=_NEIGHBOURS,
-    assumptions=(*ASSUMED, _LOADED, "2 ≤ N ≤ j − 1 and M ≥ j + 2"),
-    premises=(eq04.DERIVATION, eq05.DERIVATION, eq11.DERIVATION, eq13.DERIVATION),
+    assumptions=(*FIRST_ORDER, _LOADED, "2 ≤ N ≤ j − 1 and M ≥ j + 2"),
+    premises=(*eq11.DIRECTIONS, eq11.DERIVATION, eq13.DERIVATION),
     printed=(CONTACT_MEAN,),
     domain=UNDER_SURFACE.relations,
     where=UNDER_SURFACE.where,
@@ -712,7 +705,7 @@ B8 = Derivation(
         *usual(sigma, r, M, phi),
     ),
     assumptions=(
-        *ASSUMED,
+        *FIRST_ORDER,
         "a surface load; p is the vertical force that a bead gets from both upper contacts",
         "2 ≤ N ≤ j − 2 and N ≤ M − j − 1",
     ),
@@ -739,7 +732,7 @@ B12 = Derivation(
         (l, "layer of the upper contact, j that of the lower one"),
         *usual(sigma, r, M, phi),
     ),
-    assumptions=(*ASSUMED, _LOADED, IN_WORDS),
+    assumptions=(*FIRST_ORDER, _LOADED, IN_WORDS),
     premises=(eq11.DERIVATION, eq12.DERIVATION, eq13.DERIVATION, eq14.DERIVATION),
     printed=(LAYERS,),
     domain=INSIDE,
@@ -766,7 +759,7 @@ B21 = Derivation(
     title="Mean over N neighbouring contacts of one branch under a bulk load",
     symbols=_NEIGHBOURS,
     assumptions=(
-        *ASSUMED,
+        *FIRST_ORDER,
         "every bead above the base carries the same load, whatever its radius",
         "2 ≤ N ≤ j − 1",
     ),

@@ -12,11 +12,10 @@ import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.beyond import t4_second_order as t4
-from force_diffusion.derivations.framework.proving import facts_of
-from force_diffusion.derivations.framework.record import ExactCase, Piece, usual
+from force_diffusion.derivations.framework.proving import Beside, facts_of
+from force_diffusion.derivations.framework.record import SECOND_ORDER, ExactCase, Piece, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
-    Beside,
     Chain,
     Derivation,
     Lines,
@@ -165,7 +164,7 @@ MEANS = {
 }
 """By the names of their exact forms; nothing inside of the cone is of order 0."""
 
-OF_RADII = Chain((cone.FORCES, t4.DIRECTIONS))
+OF_RADII = Chain((cone.FORCES, eq11.DIRECTIONS))
 """Forces and directions to first order, in the radii."""
 
 
@@ -396,8 +395,7 @@ B9 = Derivation(
         *usual(sigma, r, phi),
     ),
     assumptions=(
-        "the radii are independent, of zero mean and variance σ², of whatever law",
-        "second order in δr",
+        *SECOND_ORDER,
         "inside: 2 ≤ j ≤ l − 3, and not on the two lines of contacts that start at the bead "
         "straight below the load; leg: 2 ≤ j ≤ l − 2; exact forms: every site",
     ),

@@ -16,7 +16,7 @@ from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.framework.averaging import integral
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.record import usual
+from force_diffusion.derivations.framework.record import FIRST_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Layered,
@@ -372,7 +372,6 @@ def _solved_spheres(packing: SmallPacking) -> Ruling:
 
 # what is derived
 
-_FIRST_ORDER = ("the radii are independent, of zero mean and variance σ²", "first order in δr")
 _FLAT = "the base is flat and does not move"
 _IN_ANY = (
     (d, "dimensions; every bead rests on d others, along base vectors with one dot product φ"),
@@ -403,9 +402,9 @@ def _derivation(
     own = "every bead rests on three others, along base vectors with one mutual dot product φ"
     limit = "M → ∞ at fixed z"
     assumptions = (
-        (*_FIRST_ORDER, load, limit, _FLAT)
+        (*FIRST_ORDER, load, limit, _FLAT)
         if any_d
-        else (own, *_FIRST_ORDER, _FLAT, load,
+        else (own, *FIRST_ORDER, _FLAT, load,
               f"printed form: {limit}; exact form: every 0 ≤ j < M")
     )  # fmt: skip
     return Derivation(

@@ -12,7 +12,7 @@ from itertools import product
 import sympy
 from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.beyond import t8_any_dimension as t8
-from force_diffusion.derivations.framework.record import ExactCase, Piece, usual
+from force_diffusion.derivations.framework.record import FIRST_ORDER, ExactCase, Piece, usual
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
@@ -343,8 +343,7 @@ DERIVATION = Derivation(
     ),
     assumptions=(
         "every bead rests on three others, along base vectors with one mutual dot product φ",
-        "the radii are independent, of zero mean and variance σ²",
-        "first order in δr",
+        *FIRST_ORDER,
         "printed forms: p, q ≥ 1 and j + q ≥ 2; p, q ≥ 1, j ≥ 3 and l ≥ j + 3; 2 ≤ j ≤ l − 2. "
         "Exact forms: every site",
     ),

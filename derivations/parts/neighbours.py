@@ -6,14 +6,12 @@ from fractions import Fraction
 from functools import cached_property
 
 import sympy
-from force_diffusion.derivations.framework.proving import facts_of
+from force_diffusion.derivations.framework.proving import Line, Source, facts_of
 from force_diffusion.derivations.framework.record import ExactCase, Missed
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
     By,
-    Line,
     Lines,
-    Source,
     Where,
     Witness,
     asymptotic,
