@@ -19,6 +19,7 @@ from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.proving import Beside, OfBoth, Source, facts_of
 from force_diffusion.derivations.framework.record import SECOND_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (
+    UNIT,
     Chain,
     Derivation,
     Layered,
@@ -38,14 +39,7 @@ from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.kernel import moments
 from force_diffusion.symbolic.kernel.decisions import Ruling
-from force_diffusion.symbolic.kernel.where import (
-    BULK,
-    BULK_TILTED,
-    SURFACE,
-    SURFACE_TILTED,
-    Limit,
-    Loading,
-)
+from force_diffusion.symbolic.kernel.where import BULK, SURFACE, Limit, Loading
 from force_diffusion.symbolic.mechanics import second_order
 from force_diffusion.symbolic.mechanics.contacts import radii
 from force_diffusion.symbolic.mechanics.lattice import N_MINUS, N_PLUS
@@ -66,8 +60,6 @@ from force_diffusion.symbolic.symbols import (
     Dot,
     ForceMinus,
     ForcePlus,
-    L_minus,
-    L_plus,
     M,
     Shift,
     Variance,
@@ -245,7 +237,7 @@ class Case:
         subject = self.symbols[0] - 1
         return Layered(
             subject, shifts[0], (Chain((self.forces, eq11.DIRECTIONS)),), self.loading,
-            {**meaning, L_minus: t * L_plus},
+            {**meaning, **t1.RATIO},
         )  # fmt: skip
 
     @property
@@ -294,13 +286,13 @@ IN_BULK = Case(
     ),
     M * (2 * z - phi * (1 + z)) * U,
 )
-_TILTED_UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
+_ON_SURFACE, _IN_BULK = t1.Tilted.both()
 SURFACE_AT_ANGLE = Case(
     "B15",
     TILTED,
-    (L_plus, L_minus),
-    SURFACE_TILTED,
-    t1.UNDER_SURFACE,
+    _ON_SURFACE.ordered,
+    _ON_SURFACE.loading,
+    _ON_SURFACE.forces,
     _both_parts(
         TILTED,
         "4j(1 + φ + 2φ²) − 8φM + φ(4 − φ)(1 + φ)",
@@ -308,20 +300,20 @@ SURFACE_AT_ANGLE = Case(
     ),
     M
     * (z * (1 + phi + 2 * phi**2) - 2 * phi + t * (z * (1 - 3 * phi - 2 * phi**2) + 2 * phi**2))
-    * _TILTED_UNIT,
+    * UNIT,
 )
 BULK_AT_ANGLE = Case(
     "B16",
     TILTED_BULK,
-    ((M - j) * L_plus, (M - j) * L_minus),
-    BULK_TILTED,
-    t1.UNDER_BULK,
+    _IN_BULK.ordered,
+    _IN_BULK.loading,
+    _IN_BULK.forces,
     _both_parts(
         TILTED_BULK,
         "4j(1 + 2φ²) − 4φM + φ²(3 − φ) + (1 − φ)²/(M − j)",
         "4j(1 − 3φ) + 4φ²(M − j) − φ(2 − φ + φ²) − φ(1 − φ)²/(M − j)",
     ),
-    M * (z * (1 + 2 * phi**2) - phi + t * (z * (1 - 3 * phi) + phi**2 * (1 - z))) * _TILTED_UNIT,
+    M * (z * (1 + 2 * phi**2) - phi + t * (z * (1 - 3 * phi) + phi**2 * (1 - z))) * UNIT,
 )
 
 _VERTICAL = (

@@ -11,8 +11,7 @@ from itertools import product
 from typing import Any
 
 import sympy
-from force_diffusion.derivations import eq04_contact_plus as eq04
-from force_diffusion.derivations import eq05_contact_minus as eq05
+from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.beyond import t1_forces as t1
 from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.framework.catalogue import Number
@@ -21,7 +20,6 @@ from force_diffusion.derivations.framework.record import SECOND_ORDER, ExactCase
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
     By,
-    Chain,
     Derivation,
     Layered,
     Lines,
@@ -43,7 +41,6 @@ from force_diffusion.symbolic.kernel import moments
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import Theorem, check
-from force_diffusion.symbolic.kernel.where import BULK_TILTED, SURFACE_TILTED
 from force_diffusion.symbolic.mechanics import second_order
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.mechanics.second_order import (
@@ -137,42 +134,26 @@ def _shown(means: Means) -> sympy.Expr:
 
 
 @dataclass(frozen=True, eq=False)
-class Load:
-    """One of the two loads.
-
-    Attributes:
-        name: "surface" or "bulk".
-        layers: how many layers of load a contact carries.
-        derivation: of its mean forces.
-    """
-
-    name: str
-    layers: sympy.Expr
-    derivation: Derivation
-
-    @property
-    def facts(self) -> tuple[Chain, ...]:
-        """Forces and directions in the radii."""
-        forces = t1.UNDER_SURFACE if self.name == "surface" else t1.UNDER_BULK
-        return (Chain((forces, (eq04.DERIVATION, eq05.DERIVATION))),)
+class Load(t1.Tilted):
+    """One of the two loads, with the stress under it."""
 
     def where(self, *relations: sympy.Basic) -> Where:
         """Layers, under this load in any direction."""
-        loading = SURFACE_TILTED if self.name == "surface" else BULK_TILTED
-        return Where.of(*(relations or INTERIOR), loading=loading)
+        return Where.of(*(relations or INTERIOR), loading=self.loading)
 
     def _products(self, branch: str) -> Meaning:
         """Means of products of two first-order quantities of a contact, and of its partner."""
-        own = {"+": ForcePlus(i, j) / L_plus, "-": ForceMinus(i, j) / (t * L_plus)}
+        plus, less = (one.xreplace(t1.RATIO) for one in self.ordered)
+        forces = {"+": ForcePlus(i, j) / plus, "-": ForceMinus(i, j) / less}
         tilts = {"+": t4.TILT, "-": mirror(t4.TILT)}
         other = "-" if branch == "+" else "+"
         radii = DeltaR(i, j) + DeltaR(i + (1 if branch == "+" else -1), j + 1)
-        force, tilt = own[branch] / self.layers, tilts[branch]
+        force, tilt = forces[branch], tilts[branch]
         return {
             mean_square: Variance(tilt),
             with_radii: Covariance(tilt, radii),
             with_force: Covariance(tilt, force),
-            with_other: Covariance(tilts[other], own[other] / self.layers),
+            with_other: Covariance(tilts[other], forces[other]),
             with_both: Covariance(force, radii),
         }
 
@@ -215,7 +196,7 @@ class Load:
         """What is printed, in moments, but for SHEAR."""
         found = {symbol: _shown(change) for symbol, change in self.changes.items()}
         for symbol in self.printed:
-            found[symbol] += self.ordered(symbol) + self.sheared_by(symbol) * SHEAR
+            found[symbol] += self.undisturbed(symbol) + self.sheared_by(symbol) * SHEAR
         del found[SHEAR]
         return found
 
@@ -224,7 +205,7 @@ class Load:
         """What closed forms are given of."""
         return RATIO, VERTICAL, BY_FLUX, self.shear, self.axes
 
-    def ordered(self, symbol: sympy.Symbol) -> sympy.Expr:
+    def undisturbed(self, symbol: sympy.Symbol) -> sympy.Expr:
         """Its value in the ordered packing."""
         return phi if symbol == self.axes else sympy.S.One
 
@@ -245,18 +226,16 @@ class Load:
     @cached_property
     def layered(self) -> dict[sympy.Symbol, Layered]:
         """Each of them less its ordered value, at every layer."""
-        loading = self.where().loading
-        assert loading is not None
         shear = _times(self.changes[SHEAR], FIELD.from_sympy(1 / (1 - t)))
         found = {}
         for symbol in self.printed:
             factor = self.sheared_by(symbol)
             change = _added(self.changes[symbol], _times(shear, FIELD.from_sympy(factor)))
             found[symbol] = Layered(
-                symbol - self.ordered(symbol),
+                symbol - self.undisturbed(symbol),
                 _shown(change),
                 self.facts,
-                loading,
+                self.loading,
                 by=self.sheared if factor else None,
                 said_as=_shown(self.changes[symbol]) + factor * SHEAR,
             )
@@ -295,10 +274,7 @@ class Load:
         return By(rule, self.facts, lambda formula, _: without_shear(formula))
 
 
-LOADS = (
-    Load("surface", sympy.S.One, t4.B15),
-    Load("bulk", M - j, t4.B16),
-)
+OF_SURFACE, OF_BULK = LOADS = Load.both()
 
 
 @cache
@@ -307,9 +283,6 @@ def mean_moments() -> tuple[sympy.Expr, ...]:
     return tuple(
         second_order.mean_of(part, FORCE_AT_ANGLE) for part in second_order.contact_moment()
     )
-
-
-OF_SURFACE, OF_BULK = LOADS
 
 
 def _ratio(change: str) -> sympy.Eq:
@@ -613,7 +586,7 @@ def _stress(number: str, load_in_words: str, **options: Any) -> Derivation:
     )
 
 
-_MEANS = (eq04.DERIVATION, eq05.DERIVATION, t1.B1, t4.B4, t4.B15, t4.B16)
+_MEANS = (*eq11.DIRECTIONS, t1.B1, t4.B4, t4.B15, t4.B16)
 
 B10 = _stress(
     "B10",
