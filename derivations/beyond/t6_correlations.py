@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache, cached_property
-from itertools import product
+from itertools import combinations, product
 
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
@@ -35,7 +35,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses import neighbours as witnesses
+from force_diffusion.derivations.witnesses import modular, neighbours
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import compare
 from force_diffusion.symbolic.algebra import explicit
@@ -251,19 +251,15 @@ class Means:
             meaning=self.meaning,
         )
 
-    def witness(self, quantity: str, places: Iterable[tuple[int, int, int]]) -> Witness:
-        """Exact packings, in which weights of neighbours are summed before they are squared."""
-        places = tuple(places)
+    def witnesses(self, quantity: str) -> tuple[Witness, ...]:
+        """Packings in which weights of neighbours are summed before they are squared."""
 
         def stated(height: int, layer: int, count: int, cosine: Fraction) -> Fraction:
             at = {M: height, j: layer, N: count}
             form = next(form for where, form in self._forms() if where.holds(at))
             return explicit.number(form, {**at, phi: cosine, sigma: 1, r: 1})
 
-        return Witness(
-            "exact packings: squares of summed weights, as fractions",
-            lambda packing: witnesses.agree(quantity, stated, places, packing),
-        )
+        return neighbours.witnesses(quantity, stated)
 
     def _forms(self) -> Iterator[tuple[Where, sympy.Expr]]:
         yield self.where, self.printed.rhs
@@ -821,6 +817,8 @@ EDGES: dict[str, tuple[str, tuple[sympy.Basic, ...]]] = {
     "surface": ("2 ≤ j ≤ l − 2 and l = M − 1", (*APART, Eq(M, l + 1))),
     "surface, next": ("2 ≤ j = l − 1 = M − 2", (j >= 2, Eq(l, j + 1), Eq(M, l + 1))),
     "base, surface": ("j = 0 and 2 ≤ l = M − 1", (Eq(j, 0), l >= 2, Eq(M, l + 1))),
+    "base, next, surface": ("j = 0, l = 1 and M = 2", (Eq(j, 0), Eq(l, 1), Eq(M, 2))),
+    "base+1, next, surface": ("j = 1, l = 2 and M = 3", (Eq(j, 1), Eq(l, 2), Eq(M, 3))),
     "base+1, surface": ("j = 1 and 3 ≤ l = M − 1", (Eq(j, 1), l >= 3, Eq(M, l + 1))),
 }
 """Pairs of layers with a closed form of their own."""
@@ -994,22 +992,36 @@ def _mean_of_diagonal() -> Ruling:
     )
 
 
-def _pairs_of_layers(packing: SmallPacking) -> Ruling:
-    cosine = packing.n[1] ** 2 - packing.n[0] ** 2
+def _covariances(
+    heights: Iterable[int], cosine: Fraction
+) -> Iterator[tuple[str, tuple[int, int, int], Fraction]]:
+    """What is stated of pairs of layers: where, (M, j, l), the covariance for r = σ = 1."""
     stated = [(between(*INSIDE), LAYERS.rhs)]
     stated += [(between(*one.domain), one.expression) for one in edges().values()]
+    for height in heights:
+        for lower, upper in combinations(range(height), 2):
+            at = {M: height, j: lower, l: upper}
+            form = next(form for where, form in stated if where.holds(at))
+            value = explicit.number(form, {**at, phi: cosine, sigma: 1, r: 1})
+            yield f"M = {height}, j = {lower}, l = {upper}", (height, lower, upper), value
 
-    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
-        for height in (5, 8):
-            for upper in range(height):
-                for lower in range(upper):
-                    at = {M: height, j: lower, l: upper}
-                    for form in (form for where, form in stated if where.holds(at)):
-                        true = witnesses.between_layers(height, lower, upper, 0, packing.n)
-                        value = explicit.number(form, {**at, phi: cosine, sigma: 1, r: 1})
-                        yield f"M = {height}, j = {lower}, l = {upper}", value, true
 
-    return compare(pairs())
+def _layers_of_small_ones(packing: SmallPacking) -> Ruling:
+    stated = _covariances((2, 3, 4, 5), packing.n[1] ** 2 - packing.n[0] ** 2)
+    return compare(
+        (where, value, neighbours.between_layers(*at, packing.n)) for where, at, value in stated
+    )
+
+
+def _layers_of_high_ones(packing: SmallPacking) -> Ruling:
+    cosine = packing.n[1] ** 2 - packing.n[0] ** 2
+    return compare(
+        (
+            (where, modular.residue(value), modular.between_layers(*at, 0, cosine))
+            for where, at, value in _covariances((13, 20), cosine)
+        ),
+        modular.EQUAL,
+    )
 
 
 # --- the equations ------------------------------------------------------------------------------
@@ -1032,12 +1044,7 @@ B7 = Derivation(
     where=UNDER_SURFACE.where,
     steps=contact_steps,
     exact=lambda: UNDER_SURFACE.exact,
-    witnesses=(
-        UNDER_SURFACE.witness(
-            "force", ((7, 4, 3), (8, 5, 4), (6, 4, 2), (6, 4, 4), (6, 2, 3), (6, 2, 7), (5, 4, 3),
-                      (5, 4, 4), (5, 3, 6), (4, 0, 3), (1, 0, 2), (4, 1, 2), (2, 1, 4))
-        ),
-    ),
+    witnesses=UNDER_SURFACE.witnesses("force"),
     remarks=(
         "N independent contacts would have σ_f²/N. Force fluctuations are hyperuniform along a "
         "layer up to N of order M³, where the radii of the two layers that touch take over.",
@@ -1063,13 +1070,7 @@ B8 = Derivation(
     where=OF_BEADS.where,
     steps=bead_steps,
     exact=lambda: OF_BEADS.exact,
-    witnesses=(
-        OF_BEADS.witness(
-            "bead", ((10, 5, 3), (12, 6, 4), (8, 4, 3), (8, 3, 3), (9, 3, 4), (9, 3, 5), (7, 5, 2),
-                     (8, 6, 3), (5, 4, 3), (6, 4, 4), (6, 4, 5), (5, 3, 6), (5, 2, 2), (6, 1, 2),
-                     (2, 1, 2), (3, 1, 4), (4, 0, 2), (3, 0, 3), (2, 0, 4), (1, 0, 2))
-        ),
-    ),
+    witnesses=OF_BEADS.witnesses("bead"),
 )  # fmt: skip
 B12 = Derivation(
     number="B12",
@@ -1094,7 +1095,15 @@ B12 = Derivation(
             _mean_of_diagonal,
         ),
     ),
-    witnesses=(Witness("exact packings: products of weights, as fractions", _pairs_of_layers),),
+    witnesses=(
+        Witness(
+            "exact packings of M ≤ 5: products of weights, as fractions", _layers_of_small_ones
+        ),
+        Witness(
+            "packings to first order, M = 13 and 20, every pair of layers, modulo a prime",
+            _layers_of_high_ones,
+        ),
+    ),
     remarks=(
         "Within a layer fluctuations cancel over neighbours (Eq. B7); along a diagonal they do "
         "not: a force that is large stays so through the whole packing. What a mean over a region "
@@ -1117,12 +1126,7 @@ B21 = Derivation(
     where=UNDER_BULK.where,
     steps=bulk_steps,
     exact=lambda: UNDER_BULK.exact,
-    witnesses=(
-        UNDER_BULK.witness(
-            "bulk", ((7, 4, 3), (8, 5, 4), (5, 4, 3), (5, 4, 4), (5, 3, 6), (6, 2, 3), (4, 0, 3),
-                     (1, 0, 2), (4, 1, 2), (2, 1, 4))
-        ),
-    ),
+    witnesses=UNDER_BULK.witnesses("bulk"),
 )  # fmt: skip
 
 DERIVATIONS: dict[Number, Derivation] = {one.number: one for one in (B7, B8, B12, B21)}

@@ -245,7 +245,7 @@ def test_covariances_between_layers_are_those_of_exact_packings(
 ) -> None:
     n = DIRECTIONS[3]
     phi = n[1] ** 2 - n[0] ** 2
-    true = neighbours.between_layers(height, lower, upper, 0, n)
+    true = neighbours.between_layers(height, lower, upper, n)
     form = closed_forms.layers_covariance
     assert form(height, lower, upper, phi, ONE, ONE) == true
     for wrong in ((height, 1, upper), (height, lower, lower + 1), (upper + 1, lower, upper)):
