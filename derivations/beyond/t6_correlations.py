@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from itertools import combinations, product
 
 import sympy
@@ -259,7 +259,16 @@ class Means:
             form = next(form for where, form in self._forms() if where.holds(at))
             return explicit.number(form, {**at, phi: cosine, sigma: 1, r: 1})
 
-        return neighbours.witnesses(quantity, stated)
+        return (
+            Witness(
+                "exact packings of M ≤ 4: squares of summed weights, as fractions",
+                partial(neighbours.agree_in_small_ones, quantity, stated),
+            ),
+            Witness(
+                "packings to first order, M from 12 to 15, every N ≤ 2M, modulo a prime",
+                partial(neighbours.agree_in_high_ones, quantity, stated),
+            ),
+        )
 
     def _forms(self) -> Iterator[tuple[Where, sympy.Expr]]:
         yield self.where, self.printed.rhs

@@ -2,11 +2,10 @@
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
-from functools import cache, partial
+from functools import cache
 from itertools import product
 from typing import TYPE_CHECKING
 
-from force_diffusion.derivations.framework.record import Witness
 from force_diffusion.derivations.witnesses import modular
 from force_diffusion.derivations.witnesses.draws import Site, SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import (
@@ -71,7 +70,8 @@ Stated = Callable[[int, int, int, Fraction], Fraction]
 """A closed form, of M, j, N and φ, for r = σ = 1."""
 
 
-def _agree_in_small_ones(quantity: str, stated: Stated, packing: SmallPacking) -> Ruling:
+def agree_in_small_ones(quantity: str, stated: Stated, packing: SmallPacking) -> Ruling:
+    """A closed form against exact packings of M ≤ 4, every layer, N from 2 to 7."""
     phi = packing.n[1] ** 2 - packing.n[0] ** 2
 
     def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
@@ -84,7 +84,8 @@ def _agree_in_small_ones(quantity: str, stated: Stated, packing: SmallPacking) -
     return compare(pairs())
 
 
-def _agree_in_long_ones(quantity: str, stated: Stated, packing: SmallPacking) -> Ruling:
+def agree_in_high_ones(quantity: str, stated: Stated, packing: SmallPacking) -> Ruling:
+    """A closed form against packings of 12 ≤ M ≤ 15, every layer and N ≤ 2M, modulo a prime."""
     phi = packing.n[1] ** 2 - packing.n[0] ** 2
 
     def pairs() -> Iterator[tuple[str, int, int]]:
@@ -97,17 +98,3 @@ def _agree_in_long_ones(quantity: str, stated: Stated, packing: SmallPacking) ->
                 yield where, modular.residue(form), true[count - 1]
 
     return compare(pairs(), modular.EQUAL)
-
-
-def witnesses(quantity: str, stated: Stated) -> tuple[Witness, ...]:
-    """Exact packings against a closed form: every layer, many windows, N = 2 included."""
-    return (
-        Witness(
-            "exact packings of M ≤ 4: squares of summed weights, as fractions",
-            partial(_agree_in_small_ones, quantity, stated),
-        ),
-        Witness(
-            "packings to first order, M from 12 to 15, every N ≤ 2M, modulo a prime",
-            partial(_agree_in_long_ones, quantity, stated),
-        ),
-    )

@@ -52,6 +52,7 @@ MEANS = {
 }
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("number", MEANS)
 def test_means_over_neighbours_answer_only_where_they_hold(number: str) -> None:
     load, kinds, highest, name = MEANS[number]
@@ -210,6 +211,7 @@ def crossings(height: int) -> Iterator[tuple[int, int, int]]:
     )
 
 
+@pytest.mark.long
 def test_the_other_branch_is_uncorrelated_where_B12_says() -> None:
     size, phi = 17, PHIS[0]
     found = weights(size, phi, "surface")
@@ -252,6 +254,7 @@ DIRECTIONS = {
 }
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("phi", DIRECTIONS)
 def test_the_mean_response_is_answered_only_where_it_holds(phi: Fraction) -> None:
     answers = 0

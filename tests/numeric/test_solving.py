@@ -47,6 +47,7 @@ def unit(step: Array, period: float) -> Array:
     return np.asarray(step / np.linalg.norm(step))
 
 
+@pytest.mark.long
 @given(
     st.integers(1, 5).flatmap(
         lambda M: st.integers(2, 8).flatmap(

@@ -11,6 +11,7 @@ import force_diffusion as fd
 from force_diffusion.__main__ import main
 
 
+@pytest.mark.long
 def test_premises_come_first_and_callbacks_are_told() -> None:
     told: list[str] = []
     finished: list[int] = []
@@ -33,6 +34,7 @@ def test_a_number_that_is_no_equation(number: object) -> None:
         fd.derive([number])  # type: ignore[list-item]
 
 
+@pytest.mark.long
 def test_the_command_prints_and_writes_what_derive_gives(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -410,6 +410,7 @@ def test_a_symbol_of_the_same_name_is_no_symbol_of_the_equation() -> None:
     assert ruling.note.startswith("M: not this equation's symbol")
 
 
+@pytest.mark.long
 def test_a_proof_tells_whether_its_premises_were_run() -> None:
     eq = fd.equation(4)
     alone, whole = eq.prove(premises=False), eq.prove()
@@ -422,6 +423,7 @@ def test_a_proof_tells_whether_its_premises_were_run() -> None:
     assert len(whole.mutants) > 5
 
 
+@pytest.mark.long
 def test_a_table_of_checks_for_notebooks() -> None:
     proof = fd.equation(1).prove()
     lines = proof._repr_markdown_().splitlines()

@@ -35,6 +35,7 @@ def test_the_file_is_what_the_derivations_generate() -> None:
     )
 
 
+@pytest.mark.long(sample=4)
 @pytest.mark.parametrize("load", EXACT)
 @pytest.mark.parametrize("height", range(1, 13))
 def test_exact_variance_is_the_sum_of_squared_weights(load: str, height: int) -> None:
@@ -48,6 +49,7 @@ def test_exact_variance_is_the_sum_of_squared_weights(load: str, height: int) ->
             assert EXACT[load](height, layer, values[sy.phi], Fraction(1), Fraction(1)) == total
 
 
+@pytest.mark.long(sample=11)
 @pytest.mark.parametrize("load", EXACT)
 @pytest.mark.parametrize("height", range(1, 13))
 def test_exact_variance_is_that_of_exact_packings(load: str, height: int) -> None:
