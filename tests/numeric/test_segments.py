@@ -52,6 +52,7 @@ CASES: dict[str, dict[str, dict[str, Any]]] = {
         "ask": {"quantity": "response", "layers": [3]},
     },
     "histogram": {"packing": STRIP, "ask": {"quantity": "histogram", "bins": 7}},
+    "histogram of a layer": {"packing": STRIP, "ask": {"quantity": "histogram", "layers": [9]}},
     "histogram of a point load": {
         "packing": STRIP, "load": POINT | {"magnitude": "=3.7"}, "ask": {"quantity": "histogram"},
     },
