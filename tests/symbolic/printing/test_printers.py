@@ -76,6 +76,8 @@ HALF = sympy.Rational(1, 2)
         ),
         (sympy.sqrt(M), r"\sqrt{M}", "√M"),
         (sympy.Rational(-3, 2), r"-\frac{3}{2}", "−3/2"),
+        (times(1 / r, minus(times(2, z))), r"\frac{1}{r} (-2 z)", "(1/r) (−2 z)"),
+        (times(2, power(-1, -1)), r"\frac{2}{-1}", None),
     ],
 )
 def test_notation(expression: sympy.Expr, source: str | None, plain: str | None) -> None:
