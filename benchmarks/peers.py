@@ -94,7 +94,7 @@ class Problem:
             block = deposition(rho)
             assert block is not None
             g = descent(block)
-            found = tell(phi, region, rho, block, descent, g)
+            found = tell(phi, deposition, rho, descent, g)
             assert found.packing is not None
             assert found.forces is not None
             return found.packing, found.forces

@@ -1,9 +1,9 @@
 """T6 (Eqs. B7, B8, B12, B21): correlations of contact forces, and means over N neighbours."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from functools import cache
-from itertools import product
+from itertools import combinations, product
 
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
@@ -42,7 +42,7 @@ from force_diffusion.derivations.parts.neighbours import (
     Means,
     Window,
 )
-from force_diffusion.derivations.witnesses import neighbours as witnesses
+from force_diffusion.derivations.witnesses import modular, neighbours
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import compare
 from force_diffusion.symbolic.algebra import explicit
@@ -487,6 +487,56 @@ CROSSINGS = tuple(
 )
 """Where these two are uncorrelated: below both, between both, above both."""
 
+_BETWEEN = relations("4 ≤ j ≤ l − 6 and M ≥ l + 4")
+_APART_AT_BASE = tuple((*_BETWEEN, one) for one in relations("M ≥ l + j + 6, M ≤ l + j − 6"))
+"""Where the tilts' lines do not meet at the base while the diagonals cross at the surface."""
+
+
+def _beside(
+    place: sympy.Expr | int, first: int, *written: str, where: tuple[sympy.Basic, ...] = _BETWEEN
+) -> tuple[tuple[tuple[sympy.Basic, ...], sympy.Expr], ...]:
+    """Covariances where the crossing is so many layers and more above ``place``, in ``UNIT``."""
+    return tuple(
+        ((*where, Eq(p, place + at)), formula(one)) for at, one in enumerate(written, start=first)
+    )
+
+
+CROSSED = {
+    "the lower contact": _beside(
+        0, -1,
+        "−φ(M − l − 1)(4j − 1 + 2φ)/4",
+        "φ[(M − l)(12j + 1 + 2φ) − 8j − 2]/4",
+        "−φ[(M − l)(12j + 5 − 2φ) − 4j − 3 + 2φ]/4",
+        "φ(M − l)(4j + 3 − 2φ)/4",
+    ),
+    "the upper contact": _beside(
+        l - j, -1,
+        "−φ[4l(M − l) + 2(l² − j²) − M − 5j + 2l + 2φ(M + j − 2l) − φ² + 4φ − 4]/4",
+        "φ[12l(M − l) + 6(l² − j²) + M − 7j − 2l + 2φ(M + j − 2l) + 5φ² + 2φ − 1]/4",
+        "−φ[12l(M − l) + 6(l² − j²) + 5M + j − 10l − 2φ(M + j − 2l) + 5φ² + 4φ − 2]/4",
+        "φ[4l(M − l) + 2(l² − j²) + 3M + 3j − 6l − 2φ(M + j − 2l) − φ² + 6φ − 5]/4",
+    ),
+    "the base": _beside(
+        -j, -2,
+        "(M − j − 1)(M − l − 1)/4",
+        "−(2M − j − l − 2)/4",
+        "−[6(M − j)(M − l) − 5(2M − j − l) + 3]/4",
+        "[8(M − j)(M − l) − 3(2M − j − l)]/4",
+        "−3(M − j)(M − l)/4",
+    ),
+    "the base, where the lines of the tilts meet": _beside(
+        l, 0, "−3φ²/4", "φ²/2", "φ²/4", where=_APART_AT_BASE[0]
+    ),
+    "the surface": tuple(
+        one
+        for where in _APART_AT_BASE
+        for one in _beside(
+            M - j, -1, "−(3 − 2φ + 3φ²)/4", "(1 − φ)²/2", "(1 + φ)²/4", where=where
+        )
+    ),
+}  # fmt: skip
+"""Where they are correlated after all, by what their diagonals cross next to."""
+
 EDGES = {
     "next": "l = j + 1, j ≥ 2 and M ≥ l + 2",
     "base": "j = 0 and 2 ≤ l ≤ M − 2",
@@ -496,6 +546,8 @@ EDGES = {
     "surface": "2 ≤ j ≤ l − 2 and M = l + 1",
     "surface, next": "l = j + 1, j ≥ 2 and M = l + 1",
     "base, surface": "j = 0, l ≥ 2 and M = l + 1",
+    "base, next, surface": "j = 0, l = 1 and M = 2",
+    "base+1, next, surface": "j = 1, l = 2 and M = 3",
     "base+1, surface": "j = 1, l ≥ 3 and M = l + 1",
 }
 """Pairs of layers with a closed form of their own."""
@@ -598,6 +650,22 @@ def layer_steps() -> Lines:
         ((OTHER_BRANCH, sympy.S.Zero, between(*places, *UPPER)) for places in CROSSINGS),
         moment(BOTH),
     )
+    crossed = (one for group in CROSSED.values() for one in group)
+    lines.claim_each(
+        "where their diagonals cross next to one of both, or to the base, a covariance of order M² "
+        "is left, next to the surface one of order 1; for j from 4 on, l − j from 6 on and M − l "
+        "from 4 on",
+        ((OTHER_BRANCH, times(value, UNIT), between(*places)) for places, value in crossed),
+        moment(BOTH),
+    )
+    summed = {name: terms(*(value for _, value in group)) for name, group in CROSSED.items()}
+    del summed["the surface"]
+    lines.claim(
+        "next to each of both, and to the base, these covariances add up to zero",
+        sympy.Tuple(*(equation(one, 0) for one in summed.values())),
+        rewrite(),
+        where=geometry,
+    )
     in_bulk = between(*relations("2 ≤ j ≤ l − 2 and l < M"), loading=BULK)
     lines.claim(
         "under a bulk load, over both means, it goes as M³(1−z′)Q (σ/r)²/(1−φ²)², where "
@@ -646,22 +714,36 @@ def _mean_of_diagonal() -> Ruling:
     )
 
 
-def _pairs_of_layers(packing: SmallPacking) -> Ruling:
-    cosine = packing.n[1] ** 2 - packing.n[0] ** 2
+def _covariances(
+    heights: Iterable[int], cosine: Fraction
+) -> Iterator[tuple[str, tuple[int, int, int], Fraction]]:
+    """What is stated of pairs of layers: where, (M, j, l), the covariance for r = σ = 1."""
     stated = [(between(*INSIDE), LAYERS.rhs)]
     stated += [(between(*one.domain), one.expression) for one in edges().values()]
+    for height in heights:
+        for lower, upper in combinations(range(height), 2):
+            at = {M: height, j: lower, l: upper}
+            form = next(form for where, form in stated if where.holds(at))
+            value = explicit.number(form, {**at, phi: cosine, sigma: 1, r: 1})
+            yield f"M = {height}, j = {lower}, l = {upper}", (height, lower, upper), value
 
-    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
-        for height in (5, 8):
-            for upper in range(height):
-                for lower in range(upper):
-                    at = {M: height, j: lower, l: upper}
-                    for form in (form for where, form in stated if where.holds(at)):
-                        true = witnesses.between_layers(height, lower, upper, 0, packing.n)
-                        value = explicit.number(form, {**at, phi: cosine, sigma: 1, r: 1})
-                        yield f"M = {height}, j = {lower}, l = {upper}", value, true
 
-    return compare(pairs())
+def _layers_of_small_ones(packing: SmallPacking) -> Ruling:
+    stated = _covariances((2, 3, 4, 5), packing.n[1] ** 2 - packing.n[0] ** 2)
+    return compare(
+        (where, value, neighbours.between_layers(*at, packing.n)) for where, at, value in stated
+    )
+
+
+def _layers_of_high_ones(packing: SmallPacking) -> Ruling:
+    cosine = packing.n[1] ** 2 - packing.n[0] ** 2
+    return compare(
+        (
+            (where, modular.residue(value), modular.between_layers(*at, 0, cosine))
+            for where, at, value in _covariances((13, 20), cosine)
+        ),
+        modular.EQUAL,
+    )
 
 
 # --- the equations ------------------------------------------------------------------------------
@@ -684,12 +766,7 @@ B7 = Derivation(
     where=UNDER_SURFACE.where,
     steps=contact_steps,
     exact=lambda: UNDER_SURFACE.exact,
-    witnesses=(
-        UNDER_SURFACE.witness(
-            "force", ((7, 4, 3), (8, 5, 4), (6, 4, 2), (6, 4, 4), (6, 2, 3), (6, 2, 7), (5, 4, 3),
-                      (5, 4, 4), (5, 3, 6), (4, 0, 3), (1, 0, 2), (4, 1, 2), (2, 1, 4))
-        ),
-    ),
+    witnesses=UNDER_SURFACE.witnesses("force"),
     remarks=(
         "N independent contacts would have σ_f²/N. Force fluctuations are hyperuniform along a "
         "layer up to N of order M³, where the radii of the two layers that touch take over.",
@@ -715,13 +792,7 @@ B8 = Derivation(
     where=OF_BEADS.where,
     steps=bead_steps,
     exact=lambda: OF_BEADS.exact,
-    witnesses=(
-        OF_BEADS.witness(
-            "bead", ((10, 5, 3), (12, 6, 4), (8, 4, 3), (8, 3, 3), (9, 3, 4), (9, 3, 5), (7, 5, 2),
-                     (8, 6, 3), (5, 4, 3), (6, 4, 4), (6, 4, 5), (5, 3, 6), (5, 2, 2), (6, 1, 2),
-                     (2, 1, 2), (3, 1, 4), (4, 0, 2), (3, 0, 3), (2, 0, 4), (1, 0, 2))
-        ),
-    ),
+    witnesses=OF_BEADS.witnesses("bead"),
 )  # fmt: skip
 B12 = Derivation(
     number="B12",
@@ -746,7 +817,15 @@ B12 = Derivation(
             _mean_of_diagonal,
         ),
     ),
-    witnesses=(Witness("exact packings: products of weights, as fractions", _pairs_of_layers),),
+    witnesses=(
+        Witness(
+            "exact packings of M ≤ 5: products of weights, as fractions", _layers_of_small_ones
+        ),
+        Witness(
+            "packings to first order, M = 13 and 20, every pair of layers, modulo a prime",
+            _layers_of_high_ones,
+        ),
+    ),
     remarks=(
         "Within a layer fluctuations cancel over neighbours (Eq. B7); along a diagonal they do "
         "not: a force that is large stays so through the whole packing. What a mean over a region "
@@ -769,12 +848,7 @@ B21 = Derivation(
     where=UNDER_BULK.where,
     steps=bulk_steps,
     exact=lambda: UNDER_BULK.exact,
-    witnesses=(
-        UNDER_BULK.witness(
-            "bulk", ((7, 4, 3), (8, 5, 4), (5, 4, 3), (5, 4, 4), (5, 3, 6), (6, 2, 3), (4, 0, 3),
-                     (1, 0, 2), (4, 1, 2), (2, 1, 4))
-        ),
-    ),
+    witnesses=UNDER_BULK.witnesses("bulk"),
 )  # fmt: skip
 
 DERIVATIONS: dict[Number, Derivation] = {one.number: one for one in (B7, B8, B12, B21)}

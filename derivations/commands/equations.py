@@ -7,7 +7,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from force_diffusion.derivations.commands.cli import STATUSES
 from force_diffusion.derivations.commands.output import Overwrite, out_option
-from force_diffusion.derivations.framework.catalogue import Number, allowed, cases_of, modules
+from force_diffusion.derivations.framework.catalogue import (
+    Number,
+    allowed,
+    cases_of,
+    modules,
+    number_of,
+)
 
 import force_diffusion as fd
 
@@ -33,11 +39,9 @@ Columns = Annotated[
 
 def equation_number(word: str) -> Number:
     """An equation's number or label from outside text, which is read and never evaluated."""
-    known = modules()
-    if word.isascii() and word.isdigit() and len(word) < 5 and int(word) in known:
-        return int(word)
-    if word.upper() in known:
-        return word.upper()
+    number = number_of(word)
+    if number is not None:
+        return number
     raise typer.BadParameter(
         f"'{word}' is not an equation of this package. Give a number {allowed()}; "
         "'force-diffusion list' names them.",

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 
 import sympy
 from force_diffusion.derivations.framework.proving import Line, Source, facts_of
@@ -22,7 +22,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses import neighbours as witnesses
+from force_diffusion.derivations.witnesses import neighbours
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel import moments
 from force_diffusion.symbolic.kernel.where import Loading, at_fixed_height
@@ -196,9 +196,8 @@ class Means:
             where=self.on(*relations("j ≥ 4, M ≥ j + 2")).in_the_limit(at_fixed_height("∼")),
         )
 
-    def witness(self, quantity: str, places: Iterable[tuple[int, int, int]]) -> Witness:
-        """Exact packings, in which weights of neighbours are summed before they are squared."""
-        places = tuple(places)
+    def witnesses(self, quantity: str) -> tuple[Witness, ...]:
+        """Packings in which weights of neighbours are summed before they are squared."""
 
         def stated(height: int, layer: int, count: int, cosine: Fraction) -> Fraction:
             at = {M: height, j: layer, N: count}
@@ -206,7 +205,13 @@ class Means:
             form = next(form for form, where, _ in forms if where.holds(at))
             return explicit.number(form, {**at, phi: cosine, sigma: 1, r: 1})
 
-        return Witness(
-            "exact packings: squares of summed weights, as fractions",
-            lambda packing: witnesses.agree(quantity, stated, places, packing),
+        return (
+            Witness(
+                "exact packings of M ≤ 4: squares of summed weights, as fractions",
+                partial(neighbours.agree_in_small_ones, quantity, stated),
+            ),
+            Witness(
+                "packings to first order, M from 12 to 15, every N ≤ 2M, modulo a prime",
+                partial(neighbours.agree_in_high_ones, quantity, stated),
+            ),
         )

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 LARGEST_EXPONENT = 5000
 MOST_DIGITS = 5000
+_MOST = 10**MOST_DIGITS
 _DECIMAL = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]{1,6})?", re.ASCII)
 
 
@@ -26,7 +27,7 @@ def exact(value: object) -> Fraction:
     if isinstance(value, bool) or not isinstance(value, int | Decimal):
         raise ValueError("must be a number")
     if isinstance(value, int):
-        if abs(value) >= 10**MOST_DIGITS:
+        if abs(value) >= _MOST:
             raise ValueError(f"must have at most {MOST_DIGITS} digits")
         return Fraction(value)
     if not value.is_finite():

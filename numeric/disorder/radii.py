@@ -256,10 +256,13 @@ class ArrayRadii:
         return self._deltas(self.values[realisation, j, columns], system)
 
     def _deltas(self, values: Array, system: NumberSystem) -> Array:
-        deltas = from_floats(system, values)
-        if self.origin:
-            deltas = deltas - system.scalar(self.origin)
-        return like_array(deltas / system.scalar(self.radius))
+        origin, radius = system.scalar(self.origin), system.scalar(self.radius)
+        return like_array(relative(from_floats(system, values), origin, radius))
+
+
+def relative(values: Any, origin: Any, radius: Any) -> Any:
+    """Give δr/r of radii, or of δr, whose ``origin`` is 0; compiled, too."""
+    return (values - origin) / radius
 
 
 def philox(low: Array, high: Array, key: tuple[int, int]) -> tuple[Array, Array]:

@@ -190,7 +190,8 @@ def measured(m: Measurement, realisations: Sequence[int], work: Work | None = No
         if problem.route == Route.EXACT and m.pieces is not None:
             summed, packings, left = _compiled(m, problem, realisations, work)
             over_contacts.append(summed)
-        for solved, chunk in solved_packings(problem, left, FLOAT64, work, any_number=True):
+        each = solved_packings(problem, left, FLOAT64, work, any_number=True, copied=True)
+        for solved, chunk in each:
             with work.timed("statistics"):
                 summed, means = _over_contacts(m, *m.changes(solved, len(chunk)))
             over_contacts.append(summed)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
-from weakref import ref
+from weakref import finalize
 
 import numpy as np
 
@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 # sweeps are loaded, a small part of that is enough, and anything that carries errors.
 COMPILED_FROM, ONCE_LOADED = 2_000_000, 1 / 50
 OF_BEAD, OF_ROW = (1, 10), (40, 2000)
+# Bytes that stay for the next packings of a thread, whoever asks for them.
+STAYS = 64_000_000
 # Beads of diagonals that are drawn together.
 BLOCK = 10_000
 # Beads that are swept together: their arrays still fit into a cache.
@@ -46,10 +48,10 @@ ROW, MOST = 4096, 1_100_000
 
 
 class _Kept(threading.local):
-    """The sweeps of a thread's last block of an ensemble, for its next one, until it takes them."""
+    """The sweeps of a thread's last packings, for its next ones, until they take them."""
 
     def __init__(self) -> None:
-        self.last: list[tuple[ref[Problem], Any, Any]] = []
+        self.last: list[tuple[Any, Any]] = []
 
 
 _kept = _Kept()
@@ -83,11 +85,13 @@ def packings(
     plainly: bool = False,
     any_number: bool = False,
     carried: bool = False,
+    copied: bool = False,
 ) -> Iterator[tuple[Solved, Sequence[int]]]:
     """Solve realisations in their order, ``chunk_size`` at a time.
 
     Gives what was solved together and its realisations: the first axis of arrays, which a single
-    one lacks. The next ones take the memory of the last: what is to stay has to be copied. The
+    one lacks. The next ones take the memory of the last: what is to stay has to be copied. So do
+    those of the next call, if of the last ones all is ``copied``. The
     caller activates ``system``. ``physical`` looks at every packing. ``plainly`` takes the plain
     form. With ``carried`` numbers carry their errors: ``system`` is float64, and ``Solved.rest``
     holds what one rounding left of them. With ``any_number`` more may come together, so that all
@@ -132,7 +136,7 @@ def packings(
                     work.did_rows("checked", region.rows, region.beads * len(chunk))
                 yield solved, chunk
     finally:
-        if any_number:
+        if copied:
             keep(problem, sweeps, loads)
 
 
@@ -234,10 +238,15 @@ def _rows(problem: Problem, rho: Array, *, carried: bool) -> list[Any]:
 
 
 def keep(problem: Problem, sweeps: Any, loads: Any) -> None:
-    """Keep what ``ready`` gave for this thread's next block of the same problem."""
+    """Keep what ``ready`` gave for this thread's next packings of the same shape and load.
+
+    What takes much memory goes with the problem.
+    """
     if sweeps is not None:
         last = _kept.last
-        last[:] = [(ref(problem, lambda _: last.clear()), sweeps, loads)]
+        last[:] = [(sweeps, loads)]
+        if sweeps.bytes > STAYS:
+            finalize(problem, last.clear)
 
 
 def ready(
@@ -245,8 +254,8 @@ def ready(
 ) -> tuple["Sweeps | None", Loads | None]:
     """Give what all realisations have alike: the compiled sweeps, if they are taken, and loads."""
     with suppress(IndexError):
-        last, sweeps, loads = _kept.last.pop()
-        if last() is problem and sweeps.carried == carried:
+        sweeps, loads = _kept.last.pop()
+        if system is FLOAT64 and sweeps.serves(problem, carried=carried):
             return sweeps, loads
     return _compiled(problem, system, carried=carried), _loads(
         problem, CARRYING if carried else system

@@ -120,17 +120,10 @@ def _bounds(packing: "SolvedPacking", phi: Fraction) -> tuple[float, float, floa
     d = packing.region.dimension
     dn, c = [0.0] * d, [0.0] * d
     if packing.memory is not None:
-        block, beads = packing.memory.block, packing.region.beads
-        first = packing.region.rows[0].count
         widest = float(np.maximum(packing.memory.rho.max(), 0))
         deepest = float(-np.minimum(packing.memory.rho.min(), 0))
-
-        def most(row: int, start: int) -> float:
-            part = block[:, row, start:beads]
-            return float(max(part.max(initial=0), -part.min(initial=0)))
-
-        c = [most(a, 0) for a in range(d)]
-        dn = [sum(most(d + a * d + b, first) for b in range(d)) for a in range(d)]
+        most = packing.memory.most.max(axis=0).tolist()
+        c, dn = most[:d], [sum(most[a : a + d]) for a in range(d, d + d * d, d)]
     else:
         rho = [as_floats(row) for row in packing.rho]
         widest = max(float(row.max(initial=0)) for row in rho)

@@ -14,7 +14,7 @@ import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from fractions import Fraction
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -26,17 +26,18 @@ from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.compiling import CODES, on_all_cores
 from ..arithmetic.recording import Code, module, positive_root
 from ..arithmetic.systems import FLOAT64, Array
+from ..disorder.radii import relative
 from ..lattice.branch import per_direction
 from ..lattice.layers import Layer, LazyRows, Region
 from . import local
 from .local import RESOLUTION
-from .sweep import Forces, Loads, Memory, SolvedPacking
+from .sweep import SIGNS, Forces, Loads, Memory, SolvedPacking
 
 FINITE = "abs({0}) < inf"
 POSITIVE = "{0} > 0) & ({0} < inf"
 # Zeros in memory, for beads that are not there: a run of such is no longer.
 NONE = 32
-# Gaps that are looked at together, in the nearest cache.
+# Numbers that are looked at together, in the nearest cache.
 MOST = 512
 
 
@@ -44,21 +45,27 @@ class Kernels(NamedTuple):
     """The compiled loops of one dimension, with or without errors."""
 
     runs: Callable[..., int]
+    deviations: Callable[..., None]
     deposit: Callable[..., bool]
     straight_down: Callable[..., None]
     sweep_down: Callable[..., bool]
+    settle: Callable[..., None]
     gaps: Callable[..., float]
 
 
 def source(dimension: int, *, carried: bool) -> str:
     """Put together the source of all kernels of one dimension."""
-    names = f"D, PARTS, NONE, RESOLUTION = {dimension}, {1 + carried}, {NONE}, {RESOLUTION!r}"
+    names = (
+        f"D, PARTS, NONE, RESOLUTION, TOGETHER = {dimension}, {1 + carried}, {NONE}, "
+        f"{RESOLUTION!r}, {MOST}"
+    )
     loops = Path(__file__).with_name("loops.py").read_text(encoding="utf-8")
     recorded = [
         _rest(dimension, carried=carried),
         _balance(dimension, carried=carried),
         _order(dimension, carried=carried),
         _gap(dimension),
+        _relative(carried=carried),
     ]
     imports = (
         "from math import inf, sqrt\nfrom force_diffusion.numeric.arithmetic.compiling import "
@@ -192,12 +199,25 @@ def _gap(d: int) -> Code:
     return of.code
 
 
+def _relative(*, carried: bool) -> Code:
+    of = _Recording("relative", {"radii": 1, "rho": 1}, 2, carried=carried)
+    radii = of.code.takes("radii", 0, 0)
+    found = relative(Carried(radii) if carried else radii, *of.constants)
+    of.give("rho", 0, 0, [found])
+    return of.code
+
+
 @lru_cache(maxsize=4)
 def constants(dimension: int, phi: Fraction, *, carried: bool) -> Array:
     """Give what the ordered packing decides, as kernels take it."""
     m = local.metric(dimension, phi, (CARRYING if carried else FLOAT64).scalar)
-    numbers = [one.value for one in m] + [one.error for one in m] if carried else list(m)
-    return np.array(numbers, dtype=np.float64)
+    return numbers(m, carried=carried)
+
+
+def numbers(of: Sequence[Any], *, carried: bool) -> Array:
+    """Give numbers as kernels take them, their errors behind all values."""
+    flat = [one.value for one in of] + [one.error for one in of] if carried else list(of)
+    return np.array(flat, dtype=np.float64)
 
 
 def memory(batch: int, quantities: int, size: int) -> Array:
@@ -315,7 +335,7 @@ class Deposition:
         self.runs = _supports(region, carried=carried)
         self.counts = region.table[:, 1]
         self.quantities = d + d * d
-        self.block = np.empty((0, 0, 0))
+        self.block, self.most = np.empty((0, 0, 0)), np.empty((0, 0))
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -326,7 +346,8 @@ class Deposition:
         """Deposit packings of δr/r, (packings, parts, beads); None where not all rest.
 
         Gives the ``block`` of ``loops.deposit``. ``base`` holds c of the lowest row, if it is not
-        the ordered base. What was given before is overwritten.
+        the ordered base. What was given before is overwritten. ``most`` says how large each
+        quantity is, (packings, quantities).
         """
         batch, (parts, beads) = len(rho), rho.shape[1:]
         lowest = 1 + rho[:, 0, : self.counts[0]]
@@ -336,22 +357,26 @@ class Deposition:
             self.block = memory(batch, parts * self.quantities, beads)
         d, block = self.region.dimension, self.block[:batch]
         loop = kernels(d, carried=self.carried)
+        self.most = np.zeros((batch, parts * self.quantities))
         for k in range(parts):
             own = slice(k * self.quantities, k * self.quantities + d)
             block[:, own, : self.counts[0]] = 0 if base is None else base[k * d : (k + 1) * d]
+            if base is not None:
+                self.most[:, own] = np.abs(base[k * d : (k + 1) * d]).max(axis=1, initial=0)
+        words, most = block.view(np.int64), self.most.view(np.int64)
 
         def part(of: slice) -> bool:
-            return loop.deposit(rho[of], block[of], self.runs, self.constants)
+            return loop.deposit(rho[of], block[of], self.runs, self.constants, words[of], most[of])
 
         return block if on_all_cores(part, batch) else None
 
 
 def told(
-    phi: Fraction, region: Region, rho: Array, block: Array, *, carried: bool = False
+    phi: Fraction, region: Region, rho: Array, block: Array, most: Array, *, carried: bool = False
 ) -> SolvedPacking:
     """Tell a ``block`` of values row by row; ``rho`` is (packings, beads).
 
-    ``carried``: the loops that gave it carried errors.
+    ``carried``: the loops that gave it carried errors, and ``most``.
     """
     d, starts, counts = region.dimension, region.starts, region.table[:, 1]
 
@@ -369,7 +394,7 @@ def told(
         rows(rho),
         per_direction([rows(block[:, a]) for a in range(d)]),
         per_direction([turned(a) for a in range(d)]),
-        Memory(rho, block, carried),
+        Memory(rho, block, most, carried),
     )
 
 
@@ -411,6 +436,19 @@ class Descent:
         self.g, self.lost = np.empty((0, 0, 0)), np.empty((0, 0))
         self.set(loads)
 
+    @cached_property
+    def nearest(self) -> tuple[Array, Array]:
+        """The ordered forces below beads, (d, …), rounded once, and what that leaves."""
+        d, F = self.region.dimension, self.F[:, self.beads_below]
+        return Carried(F[:d], F[d:]).nearest
+
+    @cached_property
+    def bounds(self) -> tuple[float, float]:
+        """The smallest of all ordered forces below beads, and the largest absolute value."""
+        F = self.F[: self.region.dimension, self.beads_below]
+        least, most = float(F.min(initial=np.inf)), float(F.max(initial=-np.inf))
+        return least, max(most, -least, 0.0)
+
     @property
     def shape(self) -> tuple[int, int]:
         """Quantities, and the numbers of each, in memory."""
@@ -429,6 +467,17 @@ class Descent:
                     shares[a, of] = share
         loop = kernels(d, carried=self.carried)
         loop.straight_down(self.F, shares, self.runs, np.empty(0))
+
+    def settled(self, g: Array) -> tuple[float, float, float]:
+        """Round changes that carry errors once, in place; rests take the place of errors.
+
+        Give the largest change, the largest error of one, and the largest rest.
+        """
+        d, of = self.region.dimension, self.beads_below
+        most = np.zeros(2 * d + 1)
+        loop, words = kernels(d, carried=True).settle, g.view(np.int64)
+        loop(g, words, of.start, of.stop - of.start, most.view(np.int64))
+        return float(most[:d].max()), float(most[d : 2 * d].max()), float(most[-1])
 
     def __call__(self, block: Array, above: Array | None = None) -> Array | None:
         """Balance the forces of packings whose ``block`` that is; None where not all is in order.
@@ -467,8 +516,11 @@ class Descent:
         """Which of all numbers belong to beads that bear something."""
         return slice(self.starts[self.lowest], self.starts[-1])
 
-    def told(self, F: Array, g: Array) -> Forces:
-        """Tell ``beads_below`` row by row: ordered forces (d, …), changes (packings, d, …)."""
+    def told(self, F: Array, g: Array, most: float | None = None) -> Forces:
+        """Tell ``beads_below`` row by row: ordered forces (d, …), changes (packings, d, …).
+
+        ``most``: the largest change, if that is known.
+        """
         d = self.region.dimension
 
         def rows(values: Array) -> LazyRows[Any]:
@@ -483,4 +535,5 @@ class Descent:
             per_direction([rows(one) for one in changes]),
             F=F,
             g=g,
+            hold=most is not None and self.bounds[0] - most > 2 * SIGNS * most,
         )

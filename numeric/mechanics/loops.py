@@ -13,7 +13,7 @@ from force_diffusion.numeric.arithmetic.compiling import borrowed, compiled
 from force_diffusion.numeric.arithmetic.systems import Array
 
 if TYPE_CHECKING:
-    D, PARTS, NONE, RESOLUTION = 2, 1, 32, 0.0
+    D, PARTS, NONE, RESOLUTION, TOGETHER = 2, 1, 32, 0.0, 512
 
     def rest(rho: Array, block: Array, run: Array, m: Array) -> bool:
         """Recorded from ``local.rest``."""
@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
     def gap(rho: Array, block: Array, gaps: Array, run: Array, m: Array) -> bool:
         """Recorded from ``local.gap``."""
+
+    def relative(radii: Array, rho: Array, run: Array, m: Array) -> bool:
+        """Recorded from ``disorder.radii``."""
 
 
 _ALL = 0x7FFF_FFFF_FFFF_FFFF  # all bits of a double but its sign
@@ -86,18 +89,40 @@ def runs(
 
 
 @compiled
-def deposit(rho: Array, block: Array, runs: Array, m: Array) -> bool:
+def deviations(radii: Array, rho: Array, m: Array) -> None:
+    """Give δr/r, (packings, PARTS, beads), of radii, (packings, 1, beads)."""
+    run = np.array([0, rho.shape[2]])
+    for k in range(len(rho)):
+        relative(radii[k], rho[k], run, m)
+
+
+@compiled
+def _largest(words: Array, top: int) -> int:
+    """Give the largest of absolute values and ``top``, all as the bits of doubles."""
+    for i in range(len(words)):
+        top = max(top, words[i] & _ALL)
+    return top
+
+
+@compiled
+def deposit(
+    rho: Array, block: Array, runs: Array, m: Array, words: Array, most: Array
+) -> bool:  # fmt: skip
     """Deposit packings; say whether every bead rests.
 
     ``rho`` is (packings, PARTS, beads); ``block``, (packings, PARTS (D + D²), …), has the c of the
     lowest layer; filled in are those of all others, and behind them the δn of contacts below. The
-    places of ``runs``, the lowest layer first: the beads, and their supports.
+    places of ``runs``, the lowest layer first: the beads, and their supports. ``words`` are the
+    bits of the block, and ``most``, (packings, quantities), keeps the largest absolute values.
     """
-    rho, block = borrowed(rho), borrowed(block)
+    rho, block, words, most = borrowed(rho), borrowed(block), borrowed(words), borrowed(most)
     good = True
     for k in range(len(rho)):
         for r in range(len(runs)):
             good &= rest(rho[k], block[k], runs[r], m)
+            for q in range(most.shape[1]):
+                own = words[k, q, runs[r, 0] : runs[r, 0] + runs[r, -1]]
+                most[k, q] = _largest(own, most[k, q])
     return good
 
 
@@ -126,6 +151,28 @@ def sweep_down(F: Array, block: Array, g: Array, lost: Array, runs: Array, m: Ar
         for r in range(len(runs)):
             good &= balance(F, block[k], g[k], lost, runs[r], m)
     return good
+
+
+@compiled
+def settle(g: Array, words: Array, at: int, n: int, most: Array) -> None:
+    """Round numbers that carry their errors once, and put what that leaves in place of the errors.
+
+    ``g`` is (packings, PARTS D, …). ``most``, (PARTS D,), keeps what was largest before, and at its
+    end, (1,), what of all that is left.
+    """
+    g, words = borrowed(g), borrowed(words)
+    for k in range(len(g)):
+        for a in range(D):
+            for low in range(at, at + n, TOGETHER):
+                high = min(at + n, low + TOGETHER)
+                values, errors = g[k, a, low:high], g[k, a + D, low:high]
+                most[a] = _largest(words[k, a, low:high], most[a])
+                most[a + D] = _largest(words[k, a + D, low:high], most[a + D])
+                for i in range(high - low):
+                    value, error = values[i], errors[i]
+                    near = value + error
+                    values[i], errors[i] = near, (value - near) + error
+                most[2 * D] = _largest(words[k, a + D, low:high], most[2 * D])
 
 
 @compiled

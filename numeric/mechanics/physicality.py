@@ -89,7 +89,8 @@ class Physicality:
         """
         self.forces_known = True
         if layers is None and forces.F is not None and forces.g is not None:
-            pulling_rows = self._count(forces.rows, forces.F, forces.g)
+            self.contacts += forces.g.size
+            pulling_rows = [] if forces.hold else self._count(forces.rows, forces.F, forces.g)
         else:
             every = range(len(forces.rows))
             pulling_rows = []
@@ -106,7 +107,6 @@ class Physicality:
 
     def _count(self, rows: Sequence[Layer], F: Array, g: Array) -> Sequence[int]:
         """Count all contacts of compiled loops together; give the first row of which one pulls."""
-        self.contacts += g.size
         f, changes = F + g, np.abs(g).max(axis=0, initial=0)
         if not g.size or f.min() > SIGNS * changes.max():  # all surely hold
             return []

@@ -166,7 +166,8 @@ class Solved:
         if packing is not None:
             memory = packing.memory
             if memory is not None:
-                memory = Memory(memory.rho[part], memory.block[part], memory.carried)
+                rho, block, most = memory.rho[part], memory.block[part], memory.most[part]
+                memory = Memory(rho, block, most, memory.carried)
             packing = replace(
                 packing,
                 rho=of(packing.rho),

@@ -136,7 +136,7 @@ class Segments:
             g = self._balanced(number, descent, region, rho, block)
         for name in (f"c{number}", f"g{number + 1}", f"F{number + 1}")[self.again :]:
             self.kept.drop(name)
-        solved = tell(self.problem.phi, region, rho, block, descent, g)
+        solved = tell(self.problem.phi, self._parts[Deposition], rho, descent, g)
         assert solved.packing is not None
         first = low + 1 if number else 0
         return Segment(number, self.count, first, last, self._whole(solved, low), solved.packing)
@@ -172,7 +172,7 @@ class Segments:
         with self.work.timed("balance forces"):
             g = descent(block, self.kept.get(f"g{number + 1}"))
             if g is None:
-                packing = tell(self.problem.phi, region, rho, block).packing
+                packing = tell(self.problem.phi, self._parts[Deposition], rho).packing
                 assert packing is not None
                 raise _not_balanced(packing, rows)
             if number and rows[1].count:

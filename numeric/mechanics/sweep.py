@@ -67,11 +67,13 @@ class SolvedPacking:
 class Memory:
     """What compiled loops fill: ``rho`` (batch, beads); ``block`` (batch, d + d², …), c and δn.
 
-    ``carried``: they are those that carry errors, too.
+    ``carried``: they are those that carry errors, too. ``most``: how large each quantity of the
+    block is at the most, (batch, d + d²).
     """
 
     rho: Array
     block: Array
+    most: Array
     carried: bool
 
 
@@ -89,7 +91,8 @@ class Forces:
     ``ordered``: F^a, ``change``: g^a = f^a − F^a; per layer arrays of shape (count,), changes of a
     batch of packings (…, count). ``stopped`` names the first tensile contact where a sweep was
     asked to stop at one: the layers below it are then empty. ``F`` (d, …) and ``g`` (batch, d, …)
-    hold all of compiled loops, from the lowest row that forces reach on.
+    hold all of compiled loops, from the lowest row that forces reach on. ``hold``: it is known that
+    none of them pulls. ``left``: the most that rounding left of a change, if that is known.
     """
 
     system: NumberSystem
@@ -100,6 +103,8 @@ class Forces:
     stopped: Contact | AxisContact | None = None
     F: Array | None = None
     g: Array | None = None
+    hold: bool = False
+    left: float | None = None
 
     def below(self, j: int) -> Iterator[tuple[Direction, Array, Array]]:
         """Give (branch, F, g) of the contacts below row j."""

@@ -17,7 +17,7 @@ from ..disorder import compiled as drawing
 from ..disorder.radii import ArrayRadii, DrawnRadii, Radii
 from ..lattice.branch import PerBranch, per_direction
 from ..lattice.layers import Layer, LazyRows, Region
-from .kernels import Deposition, Descent, told
+from .kernels import Deposition, Descent, kernels, numbers, told
 from .problem import Problem, Solved, rounded
 from .sweep import Loads, SolvedPacking
 
@@ -25,11 +25,13 @@ from .sweep import Loads, SolvedPacking
 class Drawing:
     """Gives radii of one region, in memory that is used again."""
 
-    def __init__(self, radii: Radii, region: Region, *, carried: bool = False) -> None:
-        """``radii`` are drawn here, if they are drawn at all."""
+    def __init__(
+        self, radii: Radii, region: Region, *, carried: bool = False, rho: Array | None = None
+    ) -> None:
+        """``radii`` are drawn here, if they are drawn at all; ``rho``: memory of the last ones."""
         self.radii, self.region, self.carried = radii, region, carried
         self.runs = drawing.runs_of(radii, region.rows) if isinstance(radii, DrawnRadii) else None
-        self.rho = np.empty((0, 0, 0))
+        self.rho = np.empty((0, 0, 0)) if rho is None else rho
 
     def __call__(self, realisations: Sequence[int]) -> Array:
         """Give δr/r, (packings, parts, beads). Raises what ``radii`` raises."""
@@ -37,10 +39,14 @@ class Drawing:
         if found is not None:
             return found
         system, region = (CARRYING if self.carried else FLOAT64), self.region
-        rho = self._memory(len(realisations))
-        if isinstance(self.radii, ArrayRadii) and region.is_whole and not region.rows[0].j:
-            parts = self.radii.layers(len(region.rows), realisations, system)
-            self._put(rho, slice(None), parts)
+        rho, radii = self._memory(len(realisations)), self.radii
+        if isinstance(radii, ArrayRadii) and region.is_whole:
+            first = region.rows[0].j
+            values = radii.values[np.asarray(realisations), first : first + len(region.rows)]
+            own = [system.scalar(one) for one in (radii.origin, radii.radius)]
+            loop = kernels(region.dimension, carried=self.carried).deviations
+            m = numbers(own, carried=self.carried)
+            loop(values.reshape(len(rho), 1, -1), rho, m)
             return rho
         for j, row in enumerate(region.rows):
             of = slice(region.starts[j], region.starts[j + 1])
@@ -90,10 +96,27 @@ class Sweeps:
 
     def __init__(self, problem: Problem, *, carried: bool = False) -> None:
         """``carried``: numbers carry their errors."""
-        self.problem, self.carried = problem, carried
+        self._shape, self.carried = _shape(problem), carried
+        self.phi, self.region = problem.phi, problem.region
         self._draw = Drawing(problem.radii, problem.region, carried=carried)
         self._deposit = Deposition(problem.phi, problem.region, carried=carried)
         self._descent: tuple[Loads, Descent] | None = None
+
+    @property
+    def bytes(self) -> int:
+        """What its memory takes."""
+        parts = [self._draw.rho, self._deposit.block]
+        if self._descent is not None:
+            parts += [self._descent[1].F, self._descent[1].g]
+        return sum(part.nbytes for part in parts)
+
+    def serves(self, problem: Problem, *, carried: bool) -> bool:
+        """Say whether it sweeps such packings; if so, the next ones are of this problem."""
+        if carried != self.carried or self._shape != _shape(problem):
+            return False
+        if self._draw.radii is not problem.radii:
+            self._draw = Drawing(problem.radii, self.region, carried=carried, rho=self._draw.rho)
+        return True
 
     def radii(self, realisations: Sequence[int]) -> Array:
         """Give δr/r, (packings, parts, beads)."""
@@ -106,7 +129,7 @@ class Sweeps:
     def descent(self, rows: tuple[Layer, ...], loads: Loads) -> Descent:
         """Give what balances, the same for the same ``loads``."""
         if self._descent is None or self._descent[0] is not loads:
-            made = Descent(self.problem.region, rows, loads, carried=self.carried)
+            made = Descent(self.region, rows, loads, carried=self.carried)
             self._descent = loads, made
         return self._descent[1]
 
@@ -121,55 +144,67 @@ class Sweeps:
 
     def swept(self, rho: Array, block: Array) -> SolvedPacking:
         """Tell a packing as ``sweep`` would, for the NumPy sweep of forces."""
-        at, phi, region = self._deposit.quantities, self.problem.phi, self.problem.region
-        values = told(phi, region, rho[:, 0], block[:, :at], carried=self.carried)
-        if not self.carried:
+        values, errors = _told(self.phi, self._deposit, rho)
+        if errors is None:
             return values
-        errors = told(phi, region, rho[:, 1], block[:, at:])
         return replace(_paired(values, errors), system=CARRYING, memory=None)
 
     def told(self, rho: Array, block: Array, descent: Descent | None, g: Array | None) -> Solved:
         """Tell what was solved row by row, with what rounding left if that is known."""
-        return tell(self.problem.phi, self.problem.region, rho, block, descent, g)
+        return tell(self.phi, self._deposit, rho, descent, g)
+
+
+def _shape(problem: Problem) -> tuple[Any, ...]:
+    """Give all of a problem that sweeps hang on but its radii."""
+    of = problem
+    return of.n_x, of.route, of.needs_forces, of.load, of.region, of.force_rows
 
 
 def tell(
     phi: Fraction,
-    region: Region,
+    deposition: Deposition,
     rho: Array,
-    block: Array,
     descent: Descent | None = None,
     g: Array | None = None,
 ) -> Solved:
-    """Tell what loops have filled row by row; where numbers carry errors, rounded once."""
-    d, carried = region.dimension, rho.shape[1] == 2
-    at, beads, first = d + d * d, region.beads, region.rows[0].count
-    values = told(phi, region, rho[:, 0], block[:, :at], carried=carried)
-    F = None
-    if g is not None and descent is not None:
-        F, g = descent.F[:, descent.beads_below], g[..., descent.beads_below]
-    if not carried:
+    """Tell what loops have filled row by row; where numbers carry errors, rounded once.
+
+    Changes are rounded in place: no sweep goes on from them.
+    """
+    values, errors = _told(phi, deposition, rho)
+    if errors is None:
         forces = None
-        if F is not None and g is not None and descent is not None:
-            forces = descent.told(F, g)
+        if g is not None and descent is not None:
+            of = descent.beads_below
+            forces = descent.told(descent.F[:, of], g[..., of])
         return Solved(FLOAT64, values, forces, None)
-    errors = told(phi, region, rho[:, 1], block[:, at:])
     found = rounded(Solved(FLOAT64, _paired(values, errors), None, None))
-    sizes = Sizes(largest(block[:, at : at + d, :beads]), largest(block[:, at + d :, first:beads]))
-    if F is None or g is None or descent is None:
+    d, most = deposition.region.dimension, deposition.most
+    moved, turned = most[:, d + d * d : 2 * d + d * d], most[:, 2 * d + d * d :]
+    sizes = Sizes(float(moved.max()), float(turned.max()))
+    if g is None or descent is None:
         return replace(found, sizes=sizes)
-    ordered, changes = Carried(F[:d], F[d:]), Carried(g[:, :d], g[:, d:])
-    near, rest = (
-        descent.told(*pair) for pair in zip(ordered.nearest, changes.nearest, strict=True)
-    )
-    sizes |= Sizes(changed=largest(g[:, d:]), force=largest(F[:d]) + largest(g[:, :d]))
+    largest, off, left = descent.settled(g)
+    near, rest = descent.nearest
+    sizes |= Sizes(changed=off, force=descent.bounds[1] + largest)
+    g = g[..., descent.beads_below]
+    forces = replace(descent.told(near, g[:, :d], largest), left=left)
     assert found.rest is not None
-    return replace(found, forces=near, rest=replace(found.rest, forces=rest), sizes=sizes)
+    own = replace(found.rest, forces=descent.told(rest, g[:, d:]))
+    return replace(found, forces=forces, rest=own, sizes=sizes)
 
 
-def largest(values: Array) -> float:
-    """Give the largest absolute value."""
-    return float(max(values.max(initial=0), -values.min(initial=0)))
+def _told(
+    phi: Fraction, deposition: Deposition, rho: Array
+) -> tuple[SolvedPacking, SolvedPacking | None]:
+    """Tell packings row by row: values, and errors if they are carried."""
+    region, parts = deposition.region, rho.shape[1]
+    block, most, each = deposition.block[: len(rho)], deposition.most, deposition.quantities
+    found = [
+        told(phi, region, rho[:, k], block[:, of], most[:, of], carried=deposition.carried)
+        for k, of in enumerate(slice(k * each, (k + 1) * each) for k in range(parts))
+    ]
+    return found[0], found[1] if parts == 2 else None
 
 
 def _paired(values: SolvedPacking, errors: SolvedPacking) -> SolvedPacking:

@@ -77,8 +77,9 @@ def answer(
             solved_all = relaxed(problem, realisations, system, work)
         else:
             solved_all = packings(
-                problem, realisations, own, work, physical, plainly=plainly, carried=carried
-            )
+                problem, realisations, own, work, physical, plainly=plainly, carried=carried,
+                copied=True,
+            )  # fmt: skip
         done = 0
         try:
             for solved, chunk in solved_all:

@@ -8,7 +8,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cache
+from functools import cache, cached_property
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -259,9 +259,19 @@ class ContactQuantity(Quantity):
     squares: ClassVar[bool] = False
     """Whether covariances between groups are those of mean squares, and not of changes."""
 
+    @cached_property
+    def layers(self) -> frozenset[int] | None:
+        """The layers of lower beads that are asked for; None: all."""
+        asked = self.scene.ask.layers
+        return None if asked is None else frozenset(asked)
+
+    def is_asked(self, j: int) -> bool:
+        """Whether contacts below the beads of layer j are asked for."""
+        return self.layers is None or j - 1 in self.layers
+
     def blocks(self, problem: Problem) -> list[Block]:
         """Give the contacts, block by block, in the order of the groups."""
-        rows = (row for row in problem.force_rows[1:] if row.count)
+        rows = (row for row in problem.force_rows[1:] if row.count and self.is_asked(row.j))
         return [Block(branch, row) for row in rows for branch in self.branches]
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:

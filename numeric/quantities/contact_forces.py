@@ -93,12 +93,12 @@ class _Forces(Listing):
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Take in solved realisations."""
         super().add(solved, realisations)
-        rest = None if solved.rest is None else solved.rest.forces
+        left = None if solved.forces is None else solved.forces.left
         exact = self.quantity.scene.load.magnitude == 1 and self._left is not None
-        if not exact or rest is None or rest.g is None:
+        if not exact or left is None:
             self._left = None
         elif self._left is not None:
-            self._left = float(max(self._left, rest.g.max(initial=0), -rest.g.min(initial=0)))
+            self._left = max(self._left, left)
 
     def left(self) -> float | None:
         """Give the largest rest of a change."""

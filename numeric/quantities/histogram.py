@@ -23,7 +23,7 @@ DEFAULT_BINS = 20
 
 
 class Histogram(ContactQuantity, Listed):
-    """All changes of contact forces, to be counted into bins."""
+    """All changes of contact forces, or those of some layers, to be counted into bins."""
 
     name = "histogram"
 
@@ -44,7 +44,8 @@ class Histogram(ContactQuantity, Listed):
         """Give all changes of one realisation."""
         forces = solved.forces
         assert forces is not None
-        parts = [g for j in range(1, len(forces.rows)) for _, _, g in forces.below(j)]
+        asked = filter(self.is_asked, range(1, len(forces.rows)))
+        parts = [g for j in asked for _, _, g in forces.below(j)]
         return Table({}, {"change": joined(solved.system, parts)}, ("change",))
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:

@@ -17,6 +17,7 @@ from ..mechanics.physicality import PHYSICAL, Physicality
 from ..mechanics.work import ESTIMATE, Work
 from ..planning.plan import Plan, plan_lines
 from ..quantities.answer import Answer
+from ..scene.source import source_of
 from ..statistics import histogram
 from ..tables import SHOWN, Row, html_table, rows_of
 from ..text import rows_of_text, text_of
@@ -43,7 +44,7 @@ class Outcome:
     ``plan`` is that of the method that answered; ``missed`` are those tried before. ``answer``
     holds the numbers in the arithmetic of the run. ``accuracy`` says how large the error is,
     relative to the largest change, and how it is known. ``source`` says where it came from:
-    program, version, scene, seed and the SHA-256 of what was read.
+    program, version, scene, seed and the SHA-256 of what was read; ``files``: those of files.
     """
 
     plan: Plan
@@ -51,7 +52,7 @@ class Outcome:
     accuracy: Accuracy
     work: Work
     seconds: float
-    source: dict[str, Any]
+    files: dict[str, str]
     missed: tuple[Missed, ...] = ()
 
     @property
@@ -63,6 +64,11 @@ class Outcome:
     def physical(self) -> Physicality | None:
         """Whether beads could make such a packing; None where nothing exact was solved."""
         return self.answer.physical
+
+    @cached_property
+    def source(self) -> dict[str, Any]:
+        """Where the answer came from."""
+        return source_of(self.plan.scene, self.files)
 
     @property
     def stopped(self) -> Contact | AxisContact | None:

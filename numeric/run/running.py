@@ -22,7 +22,7 @@ from ..planning.planner import plan
 from ..quantities.answer import Answer
 from ..scene import reading, scene
 from ..scene.sections import SceneError
-from ..scene.source import source_of
+from ..scene.source import files_read
 from .by_segments import by_segments
 from .outcome import Missed, Outcome
 
@@ -45,7 +45,7 @@ def run(
             "Scene(…).run() a scene"
         )
     start = perf_counter()
-    source = source_of(plan.scene)
+    files = files_read(plan.scene)
     work = Work(progress=progress)
     missed: list[Missed] = []
     if plan.problem.segment:
@@ -61,7 +61,7 @@ def run(
         note = "every change is zero, or below what float64 holds: a tolerance tells which"
         accuracy = replace(accuracy, error_bound=math.inf, note=note)
     seconds = perf_counter() - start
-    return Outcome(plan, answer, accuracy, work, seconds, source, tuple(missed))
+    return Outcome(plan, answer, accuracy, work, seconds, files, tuple(missed))
 
 
 def _chosen(choice: Choice, work: Work, missed: list[Missed]) -> tuple[Plan, Answer, Accuracy]:

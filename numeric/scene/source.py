@@ -23,26 +23,28 @@ def program_version() -> str:
         return "unknown"
 
 
-def source_of(scene: Scene) -> dict[str, Any]:
+def files_read(scene: Scene) -> dict[str, str]:
+    """Give the SHA-256 of the bytes of the files of radii and loads, as they are now."""
+    disorder, load = scene.disorder, scene.load
+    radii = None if disorder is None else disorder.file
+    files = {"disorder.file": radii, "load.file": load.file}
+    return {key: sha256(scene.folder / file) for key, file in files.items() if file is not None}
+
+
+def source_of(scene: Scene, files: dict[str, str] | None = None) -> dict[str, Any]:
     """Give program, version, scene, seed (null where nothing is drawn) and SHA-256 of what is read.
 
-    Numbers of the scene are strings, exact. ``sha256`` is that of the bytes of the files of radii
-    and loads, and of the doubles of an array, in the order of its rows.
+    Numbers of the scene are strings, exact. ``sha256`` is that of the ``files_read``, and of the
+    doubles of an array, in the order of its rows.
     """
     named = (("packing", scene.packing), ("disorder", scene.disorder), ("load", scene.load),
              ("effects", scene.effects), ("ask", scene.ask))  # fmt: skip
     sections = {name: _said(section) for name, section in named if section is not None}
     sections["packing"]["spacing"] = _exact(scene.spacing)
-    disorder, hashes = scene.disorder, {}
+    disorder, hashes = scene.disorder, dict(files_read(scene) if files is None else files)
     if isinstance(disorder, GivenRadii):
         sections["disorder"] = {"kind": "given", disorder.name: list(disorder.values.shape)}
         hashes[f"disorder.{disorder.name}"] = hashlib.sha256(disorder.values.tobytes()).hexdigest()
-    for section, file in (
-        ("disorder", None if disorder is None else disorder.file),
-        ("load", scene.load.file),
-    ):
-        if file is not None:
-            hashes[f"{section}.file"] = sha256(scene.folder / file)
     drawn = disorder is not None and disorder.kind not in {"file", "given"}
     return {
         "program": PROGRAM,

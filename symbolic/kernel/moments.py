@@ -331,14 +331,26 @@ def _between(
     Raises:
         NotProvedError: it depends on the place along the layer.
     """
-    first, across, facts, beads = one
-    at = {symbol: affine.from_sympy(place) for symbol, place in domain.solved.items()}
-    further = {across: affine.from_sympy(sympy.expand(across + 2 * places))}
-    form = in_the_radii(first, facts, beads)
-    found = _products(form.put_in(at), form.put_in(further).put_in(at), domain)
-    if found.holds(across):
+    solved = tuple(domain.solved.items())
+    found = _products(
+        _placed(one, sympy.S.Zero, solved), _placed(one, sympy.expand(places), solved), domain
+    )
+    if found.holds(one[1]):
         raise NotProvedError("covariances are not the same along the layer")
     return found
+
+
+@lru_cache(maxsize=1024)
+def _placed(
+    one: tuple[sympy.Expr, sympy.Symbol, Facts, Where],
+    places: sympy.Expr,
+    solved: tuple[tuple[sympy.Symbol, sympy.Expr], ...],
+) -> LinearForm:
+    """The neighbour so many places away in the radii, with indices that are fixed put in."""
+    first, across, facts, beads = one
+    at = {symbol: affine.from_sympy(place) for symbol, place in solved}
+    further = {across: affine.from_sympy(across + 2 * places)}
+    return in_the_radii(first, facts, beads).put_in(further).put_in(at)
 
 
 def _neighbours(side: sympy.Expr, facts: Facts, where: Where, alone: Alone) -> _Neighbours | None:

@@ -106,6 +106,7 @@ def test_the_output_folder_twice(made_up, tmp_path: Path, capsys) -> None:
     assert {path.name: path.read_bytes() for path in out.iterdir()} == first
 
 
+@pytest.mark.long
 def test_a_part_of_them_again_loses_nothing(made_up, tmp_path: Path, capsys) -> None:
     out = tmp_path / "out"
     assert main(["derive", "--out", str(out), "2"]) == 0
@@ -169,6 +170,7 @@ def test_a_disk_that_fails(made_up, tmp_path: Path, monkeypatch, capsys, number,
     assert not out.exists()
 
 
+@pytest.mark.long
 def test_a_write_that_really_fails_half_way(tmp_path: Path) -> None:
     out = tmp_path / "out"
     done = run(
@@ -193,6 +195,7 @@ def test_an_interrupt_in_this_process(made_up, tmp_path: Path, monkeypatch, caps
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.long
 def test_a_real_signal_leaves_nothing_half_written(tmp_path: Path) -> None:
     program = textwrap.dedent(
         """
@@ -232,6 +235,7 @@ def test_a_real_signal_leaves_nothing_half_written(tmp_path: Path) -> None:
     assert not out.exists()
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
 @pytest.mark.parametrize("arguments", [["derive", "1", "--json"], ["derive", "1"], ["list"]])
 def test_a_full_disk_under_standard_output(arguments: list[str]) -> None:
@@ -245,6 +249,7 @@ def test_a_full_disk_under_standard_output(arguments: list[str]) -> None:
     assert "Exception" not in done.stderr
 
 
+@pytest.mark.long
 def test_a_closed_pipe_is_no_traceback() -> None:
     shell = f"{sys.executable} -m force_diffusion derive 1 2 3 | head -c 1"
     done = run("bash", "-c", shell + '; exit "${PIPESTATUS[0]}"')
@@ -276,6 +281,7 @@ def test_a_terminal_that_knows_only_ascii() -> None:
     assert done.stdout.isascii()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "words",
     [

@@ -43,6 +43,7 @@ def _python(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     )  # fmt: skip
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("page", [p for p in PAGES if _blocks(p, "sh")], ids=_name)
 def test_its_commands_run_as_written(page: Path, folder: Path) -> None:
     for command in "\n".join(_blocks(page, "sh")).splitlines():

@@ -226,6 +226,7 @@ def rounds() -> None:
             print("refused" if any(word in str(error) for word in known) else error)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["two names", "one name", "one fails"])
 def test_commands_at_the_same_moment_lose_no_answer(kind: str, tmp_path: Path) -> None:
     """What is written is listed; one that could not write its file was told before it solved."""
@@ -286,6 +287,7 @@ def test_a_lock_dies_with_its_process(tmp_path: Path) -> None:
     assert set(contents(tmp_path)) == {"a", "manifest.json"}
 
 
+@pytest.mark.long
 def test_two_runs_at_once_into_one_folder(tmp_path: Path) -> None:
     """One answers; the other is refused, in words, and may be given another folder."""
     for name in "ab":

@@ -50,6 +50,7 @@ def test_its_python_runs_as_written(tmp_path) -> None:
     )  # fmt: skip
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("use", USES)
 def test_the_uses_that_it_lists_are_understood(use, tmp_path, monkeypatch, capsys) -> None:
     shutil.copytree(ROOT / "scenes", tmp_path / "scenes")

@@ -110,6 +110,7 @@ def test_an_ensemble_has_the_columns_that_are_told(tmp_path, capsys) -> None:
         assert set(columns) <= told
 
 
+@pytest.mark.long
 def test_a_study_of_costs_has_the_columns_that_are_told(tmp_path, capsys) -> None:
     scene = _scene(tmp_path, f"{PACKING}[ask]\n{ASKED['contact']}")
     assert main(["cost", scene, "--out", str(tmp_path / "cost")]) == 0

@@ -74,6 +74,7 @@ def test_a_record_under_another_name_is_refused(
     refused(plan, path, b"".join([*parts[:at], wrong]))  # the last one of a killed run
 
 
+@pytest.mark.long
 def test_no_byte_of_a_checkpoint_can_be_changed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

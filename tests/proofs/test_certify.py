@@ -23,13 +23,10 @@ from force_diffusion.derivations.framework.runner import SEEDS
 
 from tests.derivations.test_soundness import FALSE, TRUE, Change
 
-pytestmark = [
-    pytest.mark.skipif(
-        os.environ.get("FORCE_DIFFUSION_TEST_COQ") != "required",
-        reason="takes minutes; asked for by FORCE_DIFFUSION_TEST_COQ=required",
-    ),
-    pytest.mark.xdist_group("coq"),
-]
+pytestmark = pytest.mark.skipif(
+    os.environ.get("FORCE_DIFFUSION_TEST_COQ") != "required",
+    reason="takes minutes; asked for by FORCE_DIFFUSION_TEST_COQ=required",
+)
 
 
 @pytest.fixture(scope="module")

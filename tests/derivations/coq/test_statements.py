@@ -79,6 +79,7 @@ def test_ranges_are_the_relations_of_a_domain() -> None:
     assert list(coq.ranges(load(16))) == [*steps, "(k = i + p - q)%Z", "(l = j + p + q)%Z"]
 
 
+@pytest.mark.long(sample=2)
 @pytest.mark.parametrize("number", coq.STATED)
 def test_a_change_changes_the_statement_and_not_its_hypotheses(number: int) -> None:
     derivation = load(number)

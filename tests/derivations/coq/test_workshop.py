@@ -142,6 +142,7 @@ def test_a_program_without_a_version_is_no_coq(programs: Path, tmp_path: Path, s
     assert str(fd.certify([1]).equations[0]) == "Coq absent"
 
 
+@pytest.mark.long
 def test_a_program_that_does_not_answer_is_ended(
     programs: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -153,6 +154,7 @@ def test_a_program_that_does_not_answer_is_ended(
     assert "no answer within" in found.note
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupt_ends_what_is_under_way_and_leaves_nothing(
     programs: Path, tmp_path: Path, number: int

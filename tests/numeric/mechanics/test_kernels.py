@@ -21,6 +21,8 @@ from force_diffusion.numeric.mechanics import engine, gaps, sweep
 from force_diffusion.numeric.mechanics.problem import Solved
 from force_diffusion.numeric.mechanics.sweep import NotStandingError, UnbuildableError
 from force_diffusion.numeric.mechanics.work import Work
+from force_diffusion.numeric.run import Scene
+from force_diffusion.numeric.scene.sections import Ask, Disorder, Load, Packing
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -106,7 +108,8 @@ def test_every_bit_is_that_of_the_same_source_on_numpy(
     own = rows_in(region, rho, carried=carried)
     solved = outcome(sweep.deposit, phi, region, own, CARRYING if carried else FLOAT64)
     with FLOAT64.active():
-        block = kernels.Deposition(phi, region, carried=carried)(rho)
+        deposition = kernels.Deposition(phi, region, carried=carried)
+        block = deposition(rho)
     assert (block is None) == (solved is None)
     assume(block is not None)
     assert block is not None
@@ -114,7 +117,13 @@ def test_every_bit_is_that_of_the_same_source_on_numpy(
     for number, name in enumerate(("value", "error") if carried else ("value",)):
         if number and size < 1e-100:
             continue  # Dekker's product has parts that are too small for a float
-        told = kernels.told(phi, region, rho[:, number], block[:, number * part :][:, :part])
+        own = slice(number * part, (number + 1) * part)
+        most = deposition.most[:, own]
+        told = kernels.told(phi, region, rho[:, number], block[:, own], most)
+        above = np.arange(part)[None, :, None] >= d  # of the base δn are no numbers
+        there = np.arange(region.beads) >= above * region.rows[0].count
+        sizes = np.where(there, np.abs(block[:, own, : region.beads]), 0)
+        assert np.array_equal(most, sizes.max(axis=2))
         for field, lowest in (("c", 0), ("dn", 1)):
             for (_, ours), (_, theirs) in zip(
                 getattr(told, field), getattr(solved, field), strict=True
@@ -150,10 +159,11 @@ def test_gaps_are_those_of_numpy(
     region, _ = case
     rng = np.random.default_rng(seed)
     rho = rng.uniform(-1, 1, (2, 1, region.beads)) * 10.0 ** rng.uniform(-9, -1)
-    block = kernels.Deposition(phi, region)(rho)
+    deposition = kernels.Deposition(phi, region)
+    block = deposition(rho)
     assume(block is not None)
     assert block is not None
-    compiled = kernels.told(phi, region, rho[:, 0], block)
+    compiled = kernels.told(phi, region, rho[:, 0], block, deposition.most)
     usual = outcome(sweep.deposit, phi, region, rows_in(region, rho, carried=False), FLOAT64)
     layers = range(region.top + 1)
     a, b = gaps.gaps(compiled, layers), gaps.gaps(usual, layers)
@@ -315,6 +325,7 @@ def test_without_numba_the_engine_takes_the_numpy_sweeps(monkeypatch: pytest.Mon
     assert packing.memory is None
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.skipif(platform.machine() not in {"x86_64", "AMD64"}, reason="other instructions")
 @pytest.mark.parametrize("carried", [False, True])
 @pytest.mark.parametrize("dimension", [2, 3])
@@ -356,3 +367,46 @@ def test_products_of_words_are_exact_whatever_the_processor() -> None:
         for made in (by_one, drawing._product_of_halves):
             high, low = made(np.uint64(a), np.uint64(b))
             assert (int(high) << 64) + int(low) == a * b
+
+
+@pytest.mark.parametrize(
+    ("dimension", "quantity"),
+    [
+        (d, q)
+        for d in (2, 3)
+        for q in (
+            "contact_forces", "positions", "profile", "histogram", "base_reactions", "response",
+        )
+    ],
+)  # fmt: skip
+def test_an_answer_stays_when_the_next_one_takes_its_memory(
+    dimension: int, quantity: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Memory stays for the next packing of its shape; what the last one was answered does, too."""
+    monkeypatch.setattr(engine, "COMPILED_FROM", 1)
+    at = [1, 5] if dimension == 2 else [1, 2, 5]
+    load = Load(kind="point", at=at) if quantity == "response" else Load()
+    blocks = []
+    real = kernels.Deposition.__call__
+
+    def seen(self: kernels.Deposition, *arguments: Any) -> Any:
+        blocks.append(self.block)
+        return real(self, *arguments)
+
+    monkeypatch.setattr(kernels.Deposition, "__call__", seen)
+
+    def made(seed: int) -> dict[str, Any]:
+        return Scene(
+            packing=Packing(height=5, width=8, dimension=dimension),
+            disorder=Disorder(kind="uniform", relative_std=1e-3, seed=seed),
+            load=load,
+            ask=Ask(quantity=quantity),
+        ).run().arrays  # fmt: skip
+
+    first = made(1)
+    copies = {name: values.copy() for name, values in first.items()}
+    second = made(2)
+    assert blocks[-1].size  # it was used again
+    assert all(first[name].tobytes() == copies[name].tobytes() for name in first)
+    small = "count" if quantity == "histogram" else list(first)[-1]
+    assert not np.array_equal(first[small], second[small], equal_nan=True)

@@ -206,6 +206,7 @@ def test_a_broken_fraction_shows_no_stand_in() -> None:
         assert "GAP" not in " ".join(lines)
 
 
+@pytest.mark.long(sample=26)
 @pytest.mark.parametrize("room", [120, 222, 330])
 @pytest.mark.parametrize("number", list(modules()))
 def test_lines_put_together_are_the_formula(number: int | str, room: float) -> None:
