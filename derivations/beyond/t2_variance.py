@@ -14,14 +14,16 @@ from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.beyond import t1_forces as t1
+from force_diffusion.derivations.framework.averaging import expansion, total
 from force_diffusion.derivations.framework.catalogue import Number
+from force_diffusion.derivations.framework.layered import EveryLayer
 from force_diffusion.derivations.framework.record import usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
     Chain,
-    Claim,
     Derivation,
     Layered,
+    Line,
     Lines,
     Where,
     Witness,
@@ -35,9 +37,8 @@ from force_diffusion.derivations.framework.vocabulary import (
 )
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.kernel.decisions import Ruling, from_test
-from force_diffusion.symbolic.kernel.where import BULK_TILTED, SURFACE_TILTED
+from force_diffusion.symbolic.kernel.decisions import Ruling
+from force_diffusion.symbolic.kernel.where import BULK_TILTED, SURFACE_TILTED, at_large_height
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     ForceMinus,
@@ -47,6 +48,9 @@ from force_diffusion.symbolic.symbols import (
     Variance,
     i,
     j,
+    k,
+    m,
+    n,
     phi,
     r,
     sigma,
@@ -64,6 +68,9 @@ VARIANCE_PLUS, VARIANCE_MINUS = (
     for name, sign, raised in (("plus", "+", "⁺"), ("minus", "-", "⁻"))
 )
 
+MEAN_SQUARE = Symbol(
+    "mean_square", r"\overline{\sigma_{f^{+}}^2/\langle f^{+}\rangle^2}", "mean of σ²(f⁺)/⟨f⁺⟩²"
+)
 UNLOADED = phi**2 * (4 * j + phi**2) / 2 * UNIT
 """Variance of f⁺ over its mean squared where n⁺ alone is loaded, for 1 ≤ j ≤ M − 1."""
 
@@ -151,6 +158,7 @@ def steps(load: Load) -> Lines:
         after=(inside,),
     )
     _claim_vertical(lines, load)
+    _claim_mean(lines, load)
     variance.claim_shares(lines)
     edges = ("base+1", "surface")
     lines.claim(
@@ -185,6 +193,28 @@ def _claim_vertical(lines: Lines, load: Load) -> None:
     )
 
 
+def _claim_mean(lines: Lines, load: Load) -> None:
+    """Claim the mean of the variance over all layers; where that is one, M goes as t^(−2/3)."""
+    (ratio,) = load.variance.moment.args
+    each = Variance(ratio.xreplace({i: m, j: m}))  # one contact starts at (m, m) in each layer
+    domain = Where((M,), (M >= 3,), load.variance.loading)
+    exact = Line(
+        "",
+        equation(MEAN_SQUARE, layer_average(load.variance.forms).expression),
+        total(EveryLayer(load.variance, DERIVATIONS["B2" if load is SURFACE else "B3"])),
+        domain,
+        {MEAN_SQUARE: sympy.Sum(each, (m, 0, M - 1)) / M, k: n},
+    )
+    lines.claim(
+        "M* is that of a vertical load divided by t^(2/3) for f⁺ and by (1/t)^(2/3) for f⁻: the "
+        f"mean over all layers goes as {load.over_layers} · t² M³ (σ/r)²/(1−φ²)² for f⁺",
+        equation(MEAN_SQUARE, load.over_layers * t**2 * M**3 * UNIT),
+        expansion(exact),
+        where=domain.in_the_limit(at_large_height("∼")),
+        meaning=exact.meaning,
+    )
+
+
 @cache
 def surface_steps() -> Lines:
     """Those of both loads; edges; the branch that is not loaded."""
@@ -211,15 +241,6 @@ def surface_steps() -> Lines:
         where=variance.in_the_limit.loaded(None),
     )
     return lines
-
-
-def _height_is(load: Load) -> Ruling:
-    """The mean of the variance over all layers; where that is one, M goes as t^(−2/3)."""
-    first, _ = layer_average(load.variance.forms).leading_orders()
-    return from_test(
-        (first - FIELD.from_sympy(load.over_layers * t**2 * M**3 * UNIT)).is_zero(),
-        f"the mean over the layers is {load.over_layers} · t² M³ (σ/r)²/(1−φ²)² to leading order",
-    )
 
 
 def _witness(load: Load, branch: str, packing: SmallPacking) -> Ruling:
@@ -254,12 +275,6 @@ def _derivation(number: Number, load: Load, **options: Any) -> Derivation:
         relation="∼",
         exact=load.variance.exact,
         where=load.variance.in_the_limit,
-        claims=(
-            Claim(
-                "M* is that of a vertical load divided by t^(2/3) for f⁺ and by (1/t)^(2/3) for f⁻",
-                partial(_height_is, load),
-            ),
-        ),
         witnesses=tuple(
             Witness(
                 f"exact variances of f{sign} equal sums of squared weights of exact packings, all "

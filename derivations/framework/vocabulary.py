@@ -11,7 +11,9 @@ from force_diffusion.derivations.framework.proving import (
     Chain,
     Line,
     Lines,
+    OfBoth,
     Part,
+    Source,
     Within,
     along,
     asymptotic,
@@ -44,6 +46,7 @@ from force_diffusion.derivations.framework.record import (
     on_packings,
 )
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
+from force_diffusion.symbolic.as_written import formula, relations
 from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.where import Where
 
@@ -58,7 +61,9 @@ __all__ = [
     "Layered",
     "Line",
     "Lines",
+    "OfBoth",
     "Part",
+    "Source",
     "Where",
     "Within",
     "Witness",
@@ -72,6 +77,7 @@ __all__ = [
     "equation",
     "exhausting",
     "follows",
+    "formula",
     "heaviest",
     "in_cases",
     "in_terms_of",
@@ -85,6 +91,7 @@ __all__ = [
     "order",
     "power",
     "reach",
+    "relations",
     "rewrite",
     "slope",
     "solve",
