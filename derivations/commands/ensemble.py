@@ -116,10 +116,12 @@ def ensemble(
     if found.reached is False:
         assert until is not None
         N, width = found.realisations, found.half_width
-        guess = f"about {N * (width / until) ** 2:.2g} realisations may do"
+        more = width / until
+        guess = "more realisations are needed"
+        if more < MOST_TOLD:
+            guess = f"about {N * more**2:.2g} realisations may do"
         raise NotReachedError(
-            f"the asked confidence is not reached: σ_f is known to {width:.2g}, not {until:g}; "
-            f"{guess if width < MOST_TOLD else 'more realisations are needed'}"
+            f"the asked confidence is not reached: σ_f is known to {width:.2g}, not {until:g}; {guess}"
         )
 
 
