@@ -24,7 +24,6 @@ import hashlib
 import os
 import re
 import secrets
-import signal
 import stat
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
@@ -35,6 +34,7 @@ from typing import Annotated, Any
 
 import typer
 from force_diffusion.derivations.commands.cli import command_line
+from force_diffusion.derivations.commands.interrupts import waiting
 from force_diffusion.derivations.export.manifest import (
     LARGEST,
     MANIFEST,
@@ -45,7 +45,6 @@ from force_diffusion.derivations.export.manifest import (
     read_manifest,
 )
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
-from force_diffusion.numeric.arithmetic.processes import without_interrupts
 
 # Files are written aside under a dot, their name, eight random digits, and this.
 PART = ".fd-part"
@@ -228,7 +227,7 @@ def write_whole(folder: Path, contents: Mapping[str, bytes]) -> None:
             except OSError as failure:  # a write that fails half-way names no file
                 failure.filename = str(folder / name)
                 raise
-        with without_interrupts(signal.SIGTERM):
+        with waiting():
             for name in list(aside):
                 os.replace(aside[name], folder / name)
                 del aside[name]
