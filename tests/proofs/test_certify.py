@@ -105,7 +105,7 @@ def test_true_rewritings_are_accepted(shop: Workshop) -> None:
     [
         ("0 = 1", "exact I. Qed.", "0 = 1"),
         ("0 = 1", "lra. Qed.", "Cannot find witness"),
-        ("0 = 1", "Admitted.", "rests on planted"),
+        ("0 = 1", "Admitted.", "rests on Planted.planted"),
         (
             "True \\/ ~ True",
             "apply Classical_Prop.classic. Qed.",
@@ -138,10 +138,10 @@ BENT = {
     "Definition statement : Prop := True. End Equation_3_statement.",
     "a library": "Module ForceDiffusion. Module Equation_3_statement.\n"
     "Definition statement : Prop := True. End Equation_3_statement. End ForceDiffusion.",
-    "a hint": "Axiom trust_me : forall P : Prop, P. #[export] Hint Resolve trust_me : core.",
+    "an axiom": "Axiom trust_me : forall P : Prop, P.",
 }
 """What a file of the theory may say to change what a statement says, or what proves it."""
-AT_ONCE = "Ltac prove_3 ::= intros; first [exact I|auto|exact (trust_me _)]."
+AT_ONCE = "Ltac prove_3 ::= intros; first [exact I|exact (trust_me _)]."
 
 
 @pytest.mark.parametrize("kind", BENT)
@@ -153,14 +153,14 @@ def test_no_file_of_the_theory_can_change_what_is_stated(
     shutil.copytree(shop.folder, folder)
     bent = Workshop(folder)
     bent.said = {name: said for name, said in shop.said.items() if name != "Certify.v"}
-    at_once = AT_ONCE if kind == "a hint" else AT_ONCE.replace("|exact (trust_me _)", "")
+    at_once = AT_ONCE if kind == "an axiom" else AT_ONCE.replace("|exact (trust_me _)", "")
     bent.compile({"Certify.v": f"{theory()['Certify.v']}\n{BENT[kind]}\n{at_once}\n"}, print)
     (printed,) = load(3).printed
     changed = equation(printed.lhs, times(7, printed.rhs))
     found = ask(bent, replace(statement(load(3), 0, changed), companions=()))
     assert found.verdict is Verdict.NOT_ACCEPTED
     assert not bent.trouble(["Certify.v", "Equation_3_statement.v"])
-    assert found.note
+    assert kind != "an axiom" or found.note == "it rests on Certify.trust_me"
 
 
 def test_a_theory_that_does_not_compile_accepts_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
