@@ -1,6 +1,7 @@
 """The command ``certify``: a thin layer over ``fd.certify``."""
 
 import json
+import re
 from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -73,7 +74,7 @@ def _line(name: str, one: "Certificate", title: str) -> str:
     """One line about an equation or a packing, and what is wrong with it."""
     said = f"{name:<6}  {one!s:<24}  {title}"
     if one.about:
-        shown = ", ".join(words.removesuffix("%Z").strip("()") for words in one.about)
+        shown = ", ".join(re.sub(r"^\((.*)\)%Z$", r"\1", words) for words in one.about)
         said += f"\n    for {shown.replace('>=', '≥').replace('<=', '≤')}"
     if one.note:
         said += f"\n    {one.note}"
