@@ -39,6 +39,7 @@ from force_diffusion.derivations.witnesses import modular, neighbours
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import compare
 from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.as_written import formula
 from force_diffusion.symbolic.kernel import moments, rules
 from force_diffusion.symbolic.kernel.decisions import Ruling, from_test
 from force_diffusion.symbolic.kernel.theorem import Theorem
@@ -817,6 +818,59 @@ CROSSINGS: tuple[tuple[sympy.Basic, ...], ...] = (
 )
 """Where these two are uncorrelated: below both, between both, above both."""
 
+_BETWEEN = (j >= 4, Ge(l, j + 6), Ge(M, l + 4))
+_APART_AT_BASE = (
+    (*_BETWEEN, Ge(M, l + j + 6)),
+    (*_BETWEEN, Le(M, l + j - 6)),
+)
+"""Where the tilts' lines do not meet at the base while the diagonals cross at the surface."""
+
+
+def _beside(
+    place: sympy.Expr | int, first: int, *written: str, where: tuple[sympy.Basic, ...] = _BETWEEN
+) -> tuple[tuple[tuple[sympy.Basic, ...], sympy.Expr], ...]:
+    """Covariances where the crossing is so many layers and more above ``place``, in ``UNIT``."""
+    return tuple(
+        ((*where, Eq(p, place + at)), formula(one)) for at, one in enumerate(written, start=first)
+    )
+
+
+CROSSED = {
+    "the lower contact": _beside(
+        0, -1,
+        "−φ(M − l − 1)(4j − 1 + 2φ)/4",
+        "φ[(M − l)(12j + 1 + 2φ) − 8j − 2]/4",
+        "−φ[(M − l)(12j + 5 − 2φ) − 4j − 3 + 2φ]/4",
+        "φ(M − l)(4j + 3 − 2φ)/4",
+    ),
+    "the upper contact": _beside(
+        l - j, -1,
+        "−φ[4l(M − l) + 2(l² − j²) − M − 5j + 2l + 2φ(M + j − 2l) − φ² + 4φ − 4]/4",
+        "φ[12l(M − l) + 6(l² − j²) + M − 7j − 2l + 2φ(M + j − 2l) + 5φ² + 2φ − 1]/4",
+        "−φ[12l(M − l) + 6(l² − j²) + 5M + j − 10l − 2φ(M + j − 2l) + 5φ² + 4φ − 2]/4",
+        "φ[4l(M − l) + 2(l² − j²) + 3M + 3j − 6l − 2φ(M + j − 2l) − φ² + 6φ − 5]/4",
+    ),
+    "the base": _beside(
+        -j, -2,
+        "(M − j − 1)(M − l − 1)/4",
+        "−(2M − j − l − 2)/4",
+        "−[6(M − j)(M − l) − 5(2M − j − l) + 3]/4",
+        "[8(M − j)(M − l) − 3(2M − j − l)]/4",
+        "−3(M − j)(M − l)/4",
+    ),
+    "the base, where the lines of the tilts meet": _beside(
+        l, 0, "−3φ²/4", "φ²/2", "φ²/4", where=_APART_AT_BASE[0]
+    ),
+    "the surface": tuple(
+        one
+        for where in _APART_AT_BASE
+        for one in _beside(
+            M - j, -1, "−(3 − 2φ + 3φ²)/4", "(1 − φ)²/2", "(1 + φ)²/4", where=where
+        )
+    ),
+}  # fmt: skip
+"""Where they are correlated after all, by what their diagonals cross next to."""
+
 EDGES: dict[str, tuple[str, tuple[sympy.Basic, ...]]] = {
     "next": ("2 ≤ j = l − 1 ≤ M − 3", (j >= 2, Eq(l, j + 1), Ge(M, l + 2))),
     "base": ("j = 0 and 2 ≤ l ≤ M − 2", (Eq(j, 0), l >= 2, Ge(M, l + 2))),
@@ -943,6 +997,27 @@ def layer_steps() -> Lines:
         sympy.Tuple(*(equation(OTHER_BRANCH, 0) for _ in CROSSINGS)),
         moment(BOTH),
         where=tuple(between(*relations, *UPPER) for relations in CROSSINGS),
+    )
+    crossed = [one for group in CROSSED.values() for one in group]
+    lines.claim(
+        "where their diagonals cross next to one of both, or to the base, a covariance of order M² "
+        "is left, next to the surface one of order 1; for j from 4 on, l − j from 6 on and M − l "
+        "from 4 on",
+        sympy.Tuple(*(equation(OTHER_BRANCH, times(value, UNIT)) for _, value in crossed)),
+        moment(BOTH),
+        where=tuple(between(*relations) for relations, _ in crossed),
+    )
+    lines.claim(
+        "next to each of both, and to the base, these covariances add up to zero",
+        sympy.Tuple(
+            *(
+                equation(terms(*(value for _, value in group)), 0)
+                for name, group in CROSSED.items()
+                if name != "the surface"
+            )
+        ),
+        rewrite(),
+        where=between(*UPPER, loading=None),
     )
     of_bulk = Covariance(OF_BULK, higher(OF_BULK))
     lines.claim(

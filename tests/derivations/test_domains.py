@@ -230,6 +230,23 @@ def test_the_other_branch_is_uncorrelated_where_B12_says() -> None:
     assert met_at_base  # what the claim used to call uncorrelated
 
 
+@pytest.mark.parametrize(("height", "lower", "upper"), [(22, 4, 11), (22, 10, 18), (24, 5, 13)])
+def test_where_the_other_branch_is_correlated(height: int, lower: int, upper: int) -> None:
+    phi = Fraction(1, 5)
+    found = weights(height, phi, "surface")
+    stated = [one for group in t6.CROSSED.values() for one in group]
+    told = []
+    for above in range(-lower - 2, height - lower + 2):
+        true = covariance(found["+"][lower], found["-"][upper], 2 * above - (upper - lower))
+        at = {M: height, j: lower, l: upper, p: above}
+        values = [value for where, value in stated if t6.between(*where).holds(at)]
+        assert len(values) == (true != 0), above
+        for value in values:
+            assert true == at_values(value * t6.UNIT, height, lower, upper, phi)
+        told += values
+    assert len(told) == (16 if height < lower + upper + 6 else 19)
+
+
 @pytest.mark.parametrize("phi", PHIS)
 def test_under_a_bulk_load_forces_are_correlated_where_diagonals_cross_above_both(
     phi: Fraction,
