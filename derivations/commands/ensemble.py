@@ -118,7 +118,7 @@ def ensemble(
         N, width = found.realisations, found.half_width
         guess = f"about {N * (width / until) ** 2:.2g} realisations may do"
         raise NotReachedError(
-            f"the asked confidence is not reached: σ_f is known to {width:.2g}, not {until:g}; "
+            f"the confidence is not reached: σ_f is known to {width:.2g}, not {until:g}; "
             f"{guess if width < MOST_TOLD else 'more realisations are needed'}"
         )
 
