@@ -88,6 +88,14 @@ def usual(*symbols: sympy.Symbol) -> tuple[tuple[sympy.Symbol, str], ...]:
     return tuple((symbol, _MEANINGS[symbol]) for symbol in symbols)
 
 
+FIRST_ORDER = ("the radii are independent, of zero mean and variance σ²", "first order in δr")
+SECOND_ORDER = (
+    "the radii are independent, of zero mean and variance σ², of whatever law",
+    "second order in δr",
+)
+"""What is assumed of all variances and covariances, and of all mean values."""
+
+
 @dataclass(frozen=True)
 class Derivation:
     """One numbered equation: what is printed, why it holds, and how it is checked.

@@ -184,7 +184,11 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
             last = place == len(factors) - 1
             text = self._print(factor)
             open_ended = isinstance(factor, Sum | Mul) and factor.has(Sum) and not last
-            if isinstance(factor, Add) or open_ended or (is_negative(factor) and not alone):
+            if (
+                isinstance(factor, Add)
+                or open_ended
+                or (text.startswith(("-", self.minus)) and not alone)
+            ):
                 text = self.set_brackets(text)
             elif isinstance(factor, Mul) and not last:
                 text = self.set_group(text)

@@ -75,6 +75,8 @@ HALF = sympy.Rational(1, 2)
             "{M − j if m ≤ j; M − m if m > j}",
         ),
         (sympy.sqrt(M), r"\sqrt{M}", "√M"),
+        (sympy.Le(j, M - 1), None, "j ≤ M − 1"),
+        (sympy.Eq(j, 0), None, "j = 0"),
         (sympy.Rational(-3, 2), r"-\frac{3}{2}", "−3/2"),
         (times(1 / r, minus(times(2, z))), r"\frac{1}{r} (-2 z)", "(1/r) (−2 z)"),
         (times(2, power(-1, -1)), r"\frac{2}{-1}", None),
