@@ -41,7 +41,7 @@ def certify(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
     overwrite: Overwrite = False,
 ) -> None:
-    """Ask Coq, an unrelated checker, whether it accepts the printed equations."""
+    """Ask Coq, an independent proof assistant, whether it accepts the printed equations."""
     from force_diffusion.derivations.api.certificates import stated
     from force_diffusion.derivations.coq.record import RECORD
     from force_diffusion.derivations.coq.statements import files_of, sha256
