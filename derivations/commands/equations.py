@@ -46,8 +46,8 @@ def equation_number(word: str) -> Number:
     if number is not None:
         return number
     raise typer.BadParameter(
-        f"'{word}' is not an equation of this package. Give a number {allowed()}; "
-        "'force-diffusion list' names them.",
+        f"'{word}' is not an equation of this package. Give a number {allowed()} "
+        "('force-diffusion list' names them), or, of your own, a Python file such as my_file.py.",
         param_hint="N",
     )
 
