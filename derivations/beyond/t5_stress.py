@@ -15,7 +15,8 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.beyond import t1_forces as t1
 from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import Line, Meaning, facts_of
+from force_diffusion.derivations.framework.grounds import facts_of
+from force_diffusion.derivations.framework.proving import Line, Meaning
 from force_diffusion.derivations.framework.record import SECOND_ORDER, ExactCase, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,

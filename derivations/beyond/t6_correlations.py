@@ -11,7 +11,8 @@ from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import Line, OfBoth, Source, facts_of
+from force_diffusion.derivations.framework.grounds import OfBoth, Source, facts_of
+from force_diffusion.derivations.framework.proving import Line
 from force_diffusion.derivations.framework.record import FIRST_ORDER, ExactCase, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,

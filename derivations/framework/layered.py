@@ -9,11 +9,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import sympy
-from force_diffusion.derivations.framework.proving import (
+from force_diffusion.derivations.framework.grounds import (
     By,
-    Line,
-    Lines,
-    Meaning,
     Proved,
     Source,
     asymptotic,
@@ -22,6 +19,7 @@ from force_diffusion.derivations.framework.proving import (
     moment,
     rewrite,
 )
+from force_diffusion.derivations.framework.proving import Line, Lines, Meaning
 from force_diffusion.derivations.framework.record import Derivation, ExactCase, Missed
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms, times
