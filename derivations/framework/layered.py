@@ -25,12 +25,7 @@ from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms, times
 from force_diffusion.symbolic.kernel import moments
 from force_diffusion.symbolic.kernel.theorem import Theorem
-from force_diffusion.symbolic.kernel.where import (
-    Loading,
-    Where,
-    at_fixed_height,
-    in_a_layer,
-)
+from force_diffusion.symbolic.kernel.where import Loading, Where, at_fixed_height, in_a_layer
 from force_diffusion.symbolic.symbols import LargestShare, M, Moment, j, phi, r, sigma
 from force_diffusion.symbolic.variances.listed import listed, squares, weights
 from force_diffusion.symbolic.variances.variance import CASES, ClosedForm

@@ -36,12 +36,7 @@ from force_diffusion.derivations.framework.grounds import (
 )
 from force_diffusion.derivations.framework.layered import UNIT, Layered
 from force_diffusion.derivations.framework.proving import Line, Lines
-from force_diffusion.derivations.framework.record import (
-    Claim,
-    Derivation,
-    Witness,
-    on_packings,
-)
+from force_diffusion.derivations.framework.record import Claim, Derivation, Witness, on_packings
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
 from force_diffusion.symbolic.as_written import formula, relations
 from force_diffusion.symbolic.kernel import axioms
