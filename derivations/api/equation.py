@@ -25,6 +25,7 @@ from force_diffusion.derivations.framework.catalogue import (
     theorem_of,
 )
 from force_diffusion.derivations.framework.loading import load, with_premises
+from force_diffusion.derivations.framework.own import assert_allowed, is_own
 from force_diffusion.derivations.framework.record import Derivation, ExactCase
 from force_diffusion.derivations.framework.runner import run, run_all
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
@@ -144,7 +145,7 @@ class Equation(Formula):
         >>> [premise.number for premise in fd.equation(13).premises]
         [11, 12]
         """
-        return tuple(equation(premise.number) for premise in self._derivation.premises)
+        return tuple(equation(premise) for premise in self._derivation.premises)
 
     @property
     def coq(self) -> Recorded:
@@ -354,7 +355,7 @@ base+1 or surface.
         >>> print(eq.decide(2 * M**3 * (1 - 3 * z**2 + 2 * z**3) * unit))
         proved: by the rule: leading order
         >>> print(eq.decide(2 * M**3 * (1 - z) ** 2 * unit))  # doctest: +ELLIPSIS
-        refuted: at φ = 0, M = 1 · size, j = 1/2 · size, ..., it differs by the share 0.5
+        refuted: at φ = 0, j = M/2, as M → ∞, it stays off by 0.5 of the true value (seen at ...)
         >>> print(eq.decide(2 * M**3 * unit / (2 * z - 1)))
         not a statement: the divisor 2 z − 1 is not shown to differ from zero
         >>> print(fd.equation(7).decide(fd.equation(7).expr).verdict)
@@ -382,8 +383,10 @@ def _equation(number: EquationNumber) -> Equation:
     return Equation(load(number))
 
 
-def equation(number: EquationNumber) -> Equation:
+def equation(number: EquationNumber | Derivation) -> Equation:
     """The equation with this number of the paper, or with this label: "B1" and so on.
+
+    Of a derivation of your own it gives the equation with all that the paper's have.
 
     >>> import force_diffusion as fd
     >>> fd.equation(13).title
@@ -394,11 +397,15 @@ def equation(number: EquationNumber) -> Equation:
     force_diffusion...NoSuchFormError: there is no equation 99: give a number from 1 to 16...
 
     Args:
-        number: such as 13, "13" or "B1".
+        number: such as 13, "13" or "B1"; or a derivation.
 
     Raises:
         NoSuchFormError: there is none.
+        OwnDerivationError: the derivation's label is not allowed.
     """
+    if isinstance(number, Derivation):
+        assert_allowed(number)
+        return Equation(number) if is_own(number) else _equation(number.number)
     known = number_of(number) if isinstance(number, str) else number
     is_number = isinstance(known, Integral | str) and not isinstance(known, bool)
     if not is_number or known not in modules():

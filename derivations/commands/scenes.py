@@ -169,9 +169,8 @@ def _answer(
         about = found.data(rows=False)
         about["source"] = sourced(about["source"], scene, command_line())
         if folder:
-            write(folder, found, about, written)
-            if unilateral:
-                folder.write({"packings.json": json.dumps(found.packings())})
+            more = {"packings.json": json.dumps(found.packings())} if unilateral else {}
+            write(folder, found, about, written, more)
     lines = outcome_lines(about, found.count)
     show(found, about, lines, as_json=as_json, quiet=quiet, folder=folder)
     if checkpoint is not None and planned.problem.segment:

@@ -6,14 +6,14 @@ import shutil
 import signal
 import subprocess
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from graphlib import TopologicalSorter
 from pathlib import Path
 from tempfile import TemporaryFile
 
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.numeric.arithmetic.processes import ending_with, without_interrupts
 
 PROOFS = Path(__file__).parents[2] / "proofs"
 LIBRARY = "ForceDiffusion"
@@ -59,17 +59,6 @@ class Said:
     failed: str = ""
 
 
-@contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """Let an interrupt wait, so that no program is started and then lost."""
-    waiting = {signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, waiting)
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
 class _Running:
     """A program under way."""
 
@@ -85,6 +74,7 @@ class _Running:
             stdin=subprocess.DEVNULL,
             stdout=self.out,
             stderr=self.errors,
+            preexec_fn=ending_with(os.getpid()),  # noqa: PLW1509 (two calls of the system)
         )
 
     def over(self) -> bool:
@@ -136,7 +126,7 @@ class Workshop:
     def _wait(self, program: str, *arguments: str) -> Said:
         running = None
         try:
-            with _uninterrupted():
+            with without_interrupts(signal.SIGTERM):  # or it might be lost
                 running = _Running(self.folder, program, *arguments)
             while not running.over():
                 time.sleep(0.02)
@@ -165,7 +155,9 @@ class Workshop:
                 while ready and len(running) < (os.cpu_count() or 1):
                     name = ready.pop(0)
                     notice(name)
-                    with _uninterrupted():
+                    with without_interrupts(
+                        signal.SIGTERM
+                    ):  # so that no program is started and then lost
                         running[name] = _Running(
                             self.folder, "coqc", "-q", "-R", ".", LIBRARY, name
                         )

@@ -198,7 +198,13 @@ class Derivation:
         place = line.equations.index(printed)
         line = line if where is None else replace(line, where=where)
         ruling = proved_by_line(self, line, place, printed, candidate)
-        if ruling.verdict.is_proved and any(one.supposed for one in self.theorems):
+        if not ruling.verdict.is_proved:
+            return ruling
+        try:
+            theorems = self.theorems
+        except NotProvedError:  # what is printed is none, and the candidate is
+            theorems = (line.prove(place, candidate),)
+        if any(one.supposed for one in theorems):
             return undecided("it rests on what is only supposed")
         return ruling
 

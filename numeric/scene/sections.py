@@ -16,6 +16,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 
 from ..arithmetic.decimals import decimal_string, exact, short
 from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.foreign import finite
 from ..arithmetic.systems import Array
 
 
@@ -182,9 +183,7 @@ def radii_array(value: object) -> Array:
             "must be an array of shape (layers, W) or, of spheres, (layers, W, W); "
             "with an axis before it for several packings"
         )
-    if not np.isfinite(values).all():
-        at = tuple(int(k) for k in np.argwhere(~np.isfinite(values))[0])
-        raise ValueError(f"must hold finite numbers, and [{', '.join(map(str, at))}] is not")
+    finite(values)
     values.setflags(write=False)
     return values
 

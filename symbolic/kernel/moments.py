@@ -181,19 +181,18 @@ def _products(one: LinearForm, other: LinearForm, where: Where) -> RationalFunct
 
 def _parts(where: Where, reason: UndeterminedError) -> tuple[Where, ...]:
     """The parts of a domain where a number whose sign was undecided is > 0, < 0 and 0."""
-    refused = NotProvedError(f"two places may be one: {reason}")
     if reason.apart is None or len(where.relations) > _MOST_RELATIONS:
-        raise refused from reason
+        raise NotProvedError(f"two places may be one: {reason}") from reason
     divisor = gcd(*reason.apart)
     number = affine.to_sympy(tuple(c // divisor for c in reason.apart))
     if not number.free_symbols <= {*where.indices}:
-        raise refused from reason
+        raise NotProvedError(f"two places may be one: {reason}") from reason
     parts = [
         where.also(kind(number, sympy.Integer(side), evaluate=False))
         for kind, side in ((sympy.Ge, 1), (sympy.Le, -1), (sympy.Eq, 0))
     ]
     if where in parts:
-        raise refused from reason
+        raise NotProvedError(f"two places may be one: {reason}") from reason
     return tuple(one.tightened() for one in parts if not one.is_empty)
 
 
@@ -208,7 +207,7 @@ def _agreed(
     for part, other in zip(parts[1:], found[1:], strict=True):
         known = {index: FIELD.from_sympy(at) for index, at in part.solved.items()}
         if not (found[0] - other).substitute(known).is_zero():
-            raise UndeterminedError(str(reason), reason.apart)
+            raise UndeterminedError(reason.reason, reason.apart)
     return found[0]
 
 

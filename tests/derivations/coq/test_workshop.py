@@ -180,3 +180,32 @@ def test_an_interrupt_ends_what_is_under_way_and_leaves_nothing(
             os.kill(process, 0)
     assert not out.exists()
     assert not list(scratch.iterdir())
+
+
+@pytest.mark.long
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the system does not tell of it")
+def test_a_kill_ends_what_is_under_way(programs: Path, tmp_path: Path) -> None:
+    put(programs, "coqc", VERSION + f'echo $$ >> "{tmp_path}/started"\nexec sleep 60')
+    running = subprocess.Popen([sys.executable, "-m", "force_diffusion", "certify", "1"])
+    started = tmp_path / "started"
+    while not (started.exists() and started.read_text().endswith("\n")):
+        assert running.poll() is None
+        time.sleep(0.05)
+    running.kill()
+    running.wait()
+    left = set(map(int, started.read_text().split()))
+    until = time.monotonic() + 10
+    while left and time.monotonic() < until:
+        left = {process for process in left if _runs(process)}
+        time.sleep(0.05)
+    for process in left:
+        os.kill(process, signal.SIGKILL)
+    assert not left
+
+
+def _runs(process: int) -> bool:
+    """Whether a process is there and not only waits to be reaped."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
