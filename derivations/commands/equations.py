@@ -99,7 +99,7 @@ def derive(
     columns: Columns = 1,
     overwrite: Overwrite = False,
 ) -> None:
-    """Prove equations, and the ones that they rest on, and check them."""
+    """Prove equations and all that they rest on, and check them."""
     from force_diffusion.derivations.commands import deriving
 
     with blamed(numbers or ()):

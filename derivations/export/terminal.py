@@ -166,13 +166,15 @@ def tried_text(counts: Mapping[str, int]) -> str:
     """The same in words; "" where none was tried."""
     if not counts["false"] + counts["true"]:
         return ""
-    none = counts["no_statements"]
-    left = counts["false"] - counts["refuted"] - none, counts["true"] - counts["proved"]
-    return (
-        f"Tried on {counts['false']} false statements: none proved, {counts['refuted']} refuted, "
-        f"{none} not a statement, {left[0]} undecided; on {counts['true']} true ones: "
-        f"none refuted, {counts['proved']} proved, {left[1]} undecided."
+    none, false, true = counts["no_statements"], counts["false"], counts["true"]
+    left, missed = false - counts["refuted"] - none, true - counts["proved"]
+    words = (
+        f"The checker itself was tried. Of {false} false statements it proved none: "
+        f"{counts['refuted']} are refuted, {none} are no statements, {left} stay undecided, which "
+        f"is no failure where a statement is false. Of {true} true ones it proved "
+        f"{counts['proved']}"
     )
+    return words + (f" and left {missed} undecided, which is a failure." if missed else ".")
 
 
 def outcome_text(outcome: Outcome) -> str:
