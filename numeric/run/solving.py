@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -150,7 +151,7 @@ def _named_as_here() -> Iterator[None]:
 def _dimension_of(given: GivenRadii, asked: Any) -> int:
     """Give the dimension of a packing, which shapes tell, but for that of a stack of squares."""
     shape = given.values.shape
-    if asked is not None and (type(asked) is not int or asked not in {2, 3}):
+    if asked is not None and (not isinstance(asked, Integral) or asked not in {2, 3}):
         raise SceneError("dimension", asked, "must be 2, of discs, or 3, of spheres")
     if asked is None and len(shape) == 3 and shape[1] == shape[2]:
         count, side = shape[:2]
