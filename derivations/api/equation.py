@@ -66,6 +66,10 @@ class Equation(Formula):
         super().__init__(derivation.name, heading, derivation.printed, derivation.relation)
         self._derivation = derivation
 
+    def __reduce__(self) -> tuple[type["Equation"], tuple[Derivation]]:
+        """Leave out of pickles what is found anew; SymPy would evaluate printed lines."""
+        return Equation, (self._derivation,)
+
     @property
     def number(self) -> EquationNumber:
         """Its number in the paper, or its label beyond it, such as "B1".

@@ -1,6 +1,7 @@
 """An exact form at finite size as a Python user holds it."""
 
 import re
+from collections.abc import Callable
 from typing import Any
 
 from force_diffusion.derivations.api.arrays import evaluate
@@ -14,6 +15,11 @@ from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import j
 from sympy import Basic, Eq, Expr
+
+
+def _again(derivation: Derivation, case: str) -> "ExactForm":
+    assert derivation.exact is not None
+    return ExactForm(derivation, case, derivation.exact()[case])
 
 
 class ExactForm(Formula):
@@ -38,6 +44,10 @@ class ExactForm(Formula):
         super().__init__(name, f"Eq. {derivation.number}", (line,))
         self._case, self._form, self._number = case, form, derivation.number
         self._dimension, self._derivation = derivation.dimension, derivation
+
+    def __reduce__(self) -> tuple[Callable[..., "ExactForm"], tuple[Derivation, str]]:
+        """Leave the form out of pickles: it is found anew, by its case."""
+        return _again, (self._derivation, self._case)
 
     @property
     def case(self) -> str:

@@ -1,5 +1,6 @@
 """What proving an equation found, and the steps of its derivation, as a Python user reads them."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Self
 
@@ -121,6 +122,10 @@ class Steps(tuple[Shown, ...]):
         made = cls(derivation.steps())
         made._derivation = derivation
         return made
+
+    def __reduce__(self) -> tuple[Callable[[Derivation], Self], tuple[Derivation]]:
+        """Derive them anew: no theorem comes out of a pickle."""
+        return self.of, (self._derivation,)
 
     def __str__(self) -> str:
         verdicts = [str(step.ruling) for step in self]

@@ -16,7 +16,7 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.beyond import t1_forces as t1
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import Beside, OfBoth, Source, facts_of
+from force_diffusion.derivations.framework.grounds import Beside, OfBoth, Source, facts_of
 from force_diffusion.derivations.framework.record import SECOND_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,

@@ -1,7 +1,9 @@
 """Loads derivations by their numbers, alone or with all that they rest on."""
 
-from collections.abc import Iterable
+import copyreg
+from collections.abc import Callable, Iterable
 from importlib import import_module
+from pickle import PicklingError
 
 from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.record import Derivation
@@ -16,6 +18,16 @@ def load(number: Number) -> Derivation:
     module = import_module(f"force_diffusion.derivations.{modules()[number]}")
     several: dict[Number, Derivation] = getattr(module, "DERIVATIONS", {})
     return several[number] if several else module.DERIVATION
+
+
+def _pickled(derivation: Derivation) -> tuple[Callable[[Number], Derivation], tuple[Number]]:
+    """Say how a derivation is had again: by its number, since it is made of functions."""
+    if load(derivation.number) is not derivation:
+        raise PicklingError(f"{derivation.name} is none of this program's derivations")
+    return load, (derivation.number,)
+
+
+copyreg.pickle(Derivation, _pickled)
 
 
 def with_premises(wanted: Iterable[Derivation]) -> list[Derivation]:

@@ -5,11 +5,14 @@ systems is how a rational enters, how a square root is taken where the elements 
 what is certain about a sign, and which global precision must be set and put back.
 """
 
+import copyreg
 import math
+import threading
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cache
 from typing import Any, Protocol
 
 import flint
@@ -150,6 +153,10 @@ class Hardware:
         good = np.asarray((values > 0) & np.isfinite(values), dtype=bool)
         return good, ~good
 
+    def __reduce__(self) -> str:
+        """Stay the one that there is: a plan asks whether a system *is* that of float64."""
+        return self.name.upper()
+
     @contextmanager
     def active(self) -> Iterator[None]:
         """Silence floating-point warnings: the sweeps check for what is not finite themselves."""
@@ -194,6 +201,23 @@ def as_ball(value: Any) -> Any:
     return flint.arb((int(numerator), 1 - int(denominator).bit_length()))
 
 
+_flint = threading.RLock()
+
+
+@contextmanager
+def in_flint(**settings: int) -> Iterator[None]:
+    """Set what python-flint has once for all threads, and put it back; other threads wait."""
+    with _flint:
+        before = {name: getattr(flint.ctx, name) for name in settings}
+        try:
+            for name, value in settings.items():
+                setattr(flint.ctx, name, value)
+            yield
+        finally:
+            for name, value in before.items():
+                setattr(flint.ctx, name, value)
+
+
 FLOAT64 = Hardware("float64", np.float64)
 LONGDOUBLE = Hardware("longdouble", np.longdouble)
 
@@ -217,7 +241,13 @@ class BigFloat:
             return converted(value)
 
         context.npconvert = npconvert
+        # mpmath's own would look for the class where it was not made
+        context.mpf.__reduce__ = lambda number: (_number_of, (self.dps, number._mpf_))
         object.__setattr__(self, "context", context)
+
+    def __reduce__(self) -> tuple[type["BigFloat"], tuple[int]]:
+        """Leave the context out of pickles."""
+        return type(self), (self.dps,)
 
     dtype: Any = field(default=object, init=False, repr=False)
 
@@ -262,9 +292,51 @@ class BigFloat:
 
     @contextmanager
     def active(self) -> Iterator[None]:
-        """Nothing to set: the precision lives in the context."""
-        yield
+        """Balls that these are compared with have a float's bits; the precision of these is theirs.
 
+        It lives in the context.
+        """
+        with in_flint(prec=53):
+            yield
+
+
+@cache
+def _context_of(dps: int) -> Any:
+    return BigFloat(dps).context
+
+
+def _number_of(dps: int, parts: tuple[int, int, int, int]) -> Any:
+    """Make a number of mpmath's again that was pickled."""
+    return _context_of(dps).make_mpf(parts)
+
+
+def _pickled(ball: Any) -> tuple[Any, tuple[Any, ...]]:
+    """Say how a ball is made again: the same midpoint and radius, bit by bit."""
+    if not ball.is_finite():
+        return flint.arb, ("nan",)
+    middle, (mantissa, exponent) = (_dyadic(one) for one in (ball.mid(), ball.rad()))
+    if not mantissa:
+        return flint.arb, (middle,)
+    # A radius is rounded up when a ball is made, by a unit in its last of 30 digits at least.
+    less = 30 - mantissa.bit_length() + 1
+    just_below = ((mantissa << less) - 1, exponent - less)
+    for radius in (just_below, (mantissa, exponent)):
+        made = _ball(middle, radius)
+        if made.rad() == ball.rad():
+            break
+    return _ball, (middle, radius)
+
+
+def _dyadic(value: Any) -> tuple[int, int]:
+    mantissa, exponent = value.man_exp()
+    return int(mantissa), int(exponent)
+
+
+def _ball(middle: tuple[int, int], radius: tuple[int, int]) -> Any:
+    return flint.arb(flint.arb(middle), flint.arb(radius))
+
+
+copyreg.pickle(flint.arb, _pickled)
 
 # No balls of more bits are tried: what they leave open stays open.
 MOST_BITS = 8192
@@ -313,12 +385,8 @@ class Balls:
     @contextmanager
     def active(self) -> Iterator[None]:
         """Set flint's global precision and put it back."""
-        before = flint.ctx.prec
-        flint.ctx.prec = self.bits
-        try:
+        with in_flint(prec=self.bits):
             yield
-        finally:
-            flint.ctx.prec = before
 
 
 @dataclass(frozen=True)
@@ -377,12 +445,8 @@ class Series:
     @contextmanager
     def active(self) -> Iterator[None]:
         """Set flint's global truncation order and put it back."""
-        before = flint.ctx.cap
-        flint.ctx.cap = self.order + 1
-        try:
+        with in_flint(cap=self.order + 1):
             yield
-        finally:
-            flint.ctx.cap = before
 
 
 def _rational_root(value: Any) -> Any:

@@ -1,7 +1,7 @@
 """An answer: packings solved, looked at, and gathered as a quantity asks."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -20,6 +20,7 @@ from .base import RATIO, Quantity, Table
 
 # What the sweeps raise for a packing that can't be built.
 UNBUILDABLE = (UnbuildableError, NotStandingError, RadiusError)
+Bins = list[tuple[Fraction, Fraction, int]]
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ class Answer:
     """
 
     table: Table
-    bins: list[tuple[Fraction, Fraction, int]] | None
+    bins: Bins | None
     physical: Physicality | None
     stopped: Contact | AxisContact | None
     networks: tuple[Network, ...] = ()
@@ -106,10 +107,19 @@ def answer(
             with work.timed(ESTIMATE):
                 again = in_units(quantity, beside.table().sorted(), longer)
         bins = None if work.repeating else quantity.bins_of(table, system)
+    if problem.route == Route.ORDERED:
+        table, bins = _of_all(quantity.scene.ask.realisations, table, bins)
     if physical is not None and physical.first_tensile is not None:
         physical.first_tensile = at_home(quantity, physical.first_tensile)
     stopped = None if stopped is None else at_home(quantity, stopped)
     return Answer(table, bins, physical, stopped, tuple(networks), again, sizes, left)
+
+
+def _of_all(alike: int, table: Table, bins: Bins | None) -> tuple[Table, Bins | None]:
+    """Count all realisations where they are alike, and one was solved."""
+    index = {k: v * alike if k == "samples" else v for k, v in table.index.items()}
+    counted = None if bins is None else [(low, high, count * alike) for low, high, count in bins]
+    return replace(table, index=index), counted
 
 
 def in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:

@@ -21,6 +21,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from ..arithmetic.errors import ForceDiffusionError, NotReachedError
 from ..arithmetic.foreign import ForeignFileError, opened
 from ..arithmetic.machine import memory_limit
+from ..arithmetic.systems import in_flint
 
 BITS = 256
 LARGEST = 1e100  # of all numbers: beyond, products of floats end
@@ -113,12 +114,8 @@ def check_packings(path: str | Path) -> list[Verdict]:
         raise PackingFileError(
             f"{path.name}: no file of packings, as run --out writes: {what}"
         ) from None
-    before = flint.ctx.prec
-    flint.ctx.prec = BITS
-    try:
+    with in_flint(prec=BITS):
         return [_checked(packing, path.name) for packing in found.packings]
-    finally:
-        flint.ctx.prec = before
 
 
 def _checked(packing: _Packing, name: str) -> Verdict:

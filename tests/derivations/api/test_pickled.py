@@ -1,0 +1,43 @@
+"""Equations and what is found of them after a journey: the same, and no theorem comes of it."""
+
+import pickle
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.loading import load
+
+import force_diffusion as fd
+
+NUMBERS = list(modules())
+
+
+def again(thing: Any) -> Any:
+    return pickle.loads(pickle.dumps(thing))
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_every_equation(number: Any) -> None:
+    found = fd.equation(number)
+    assert str(again(found)) == str(found)
+    assert again(found).latex() == found.latex()
+    assert again(load(number)) is load(number)
+    for case in found.cases:
+        form = found.exact(case)
+        assert (again(form).latex(), again(form).case) == (form.latex(), case)
+
+
+def test_proofs_and_steps() -> None:
+    equation = fd.equation(2)
+    proof = equation.prove()
+    assert str(again(proof)) == str(proof)
+    assert again(proof).outcomes[0].derivation is load(1)
+    assert str(again(equation.steps())) == str(equation.steps())
+    ruling = equation.decide(equation.expr)
+    assert again(ruling) == ruling
+
+
+def test_a_derivation_of_ones_own_is_refused_in_words() -> None:
+    with pytest.raises(pickle.PicklingError, match="none of this program's derivations"):
+        pickle.dumps(replace(load(13), title="Mine"))

@@ -1,0 +1,148 @@
+"""Several threads, and pickles: the same answers, whoever asks, and after a journey."""
+
+import copy
+import pickle
+import sys
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from fractions import Fraction
+from typing import Any
+
+import flint
+import mpmath
+import numpy as np
+import pytest
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, BigFloat, in_flint
+from hypothesis import given
+from hypothesis import strategies as st
+
+import force_diffusion as fd
+
+QUANTITIES = ("contact_forces", "profile", "positions", "histogram")
+
+
+def scene(quantity: str, seed: int = 1, **effects: Any) -> Any:
+    return fd.Scene(
+        packing=fd.Packing(height=4, width=8),
+        disorder=fd.Disorder(kind="uniform", relative_std=0.01, seed=seed),
+        effects=fd.Effects(**effects),
+        ask=fd.Ask(quantity=quantity),  # type: ignore[arg-type]
+    )
+
+
+@pytest.fixture
+def _often() -> Iterator[None]:
+    """Let threads take turns as often as they can."""
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    yield
+    sys.setswitchinterval(before)
+
+
+def said(number: int) -> tuple[Any, ...]:
+    """Answer one of many questions, each with other bits; say all that it says."""
+    digits, certified = (None, 30, 40, 110, 150)[number % 5], bool(number % 2)
+    tolerance = None if digits is None else Fraction(1, 10**digits)
+    asked = scene(QUANTITIES[number % 4], number)
+    found = asked.run(tolerance, certified=certified and digits is not None)
+    return found.decimals(), found.accuracy, found.decimals()
+
+
+@pytest.mark.usefixtures("_often")
+def test_threads_give_what_one_gives() -> None:
+    alone = [said(number) for number in range(20)]
+    for threads in (1, 4):
+        with ThreadPoolExecutor(threads) as pool:
+            assert list(pool.map(said, range(20))) == alone
+
+
+@pytest.mark.long
+@pytest.mark.usefixtures("_often")
+def test_threads_prove_what_one_proves() -> None:
+    """Of packings whose contacts open, and of bits that only the checker takes."""
+    effects: dict[str, Any] = {"contacts": "unilateral"}
+
+    def asked(seed: int) -> Any:
+        if seed % 2:
+            return said(seed)
+        return scene("contact_forces", seed, **effects).run().decimals()
+
+    alone = [asked(seed) for seed in range(8)]
+    with ThreadPoolExecutor(4) as pool:
+        assert list(pool.map(asked, range(8))) == alone
+
+
+def test_another_thread_waits_for_its_bits() -> None:
+    def inside() -> int:
+        with in_flint(prec=77):
+            return int(flint.ctx.prec)
+
+    with ThreadPoolExecutor(1) as pool:
+        with in_flint(prec=300), in_flint(prec=301):
+            later = pool.submit(inside)
+            with pytest.raises(TimeoutError):
+                later.result(timeout=0.05)
+            assert flint.ctx.prec == 301
+        assert later.result(timeout=10) == 77
+    assert flint.ctx.prec == 53
+
+
+@given(
+    middle=st.tuples(st.integers(-(2**400), 2**400), st.integers(-9000, 9000)),
+    radius=st.tuples(st.integers(0, 2**30 - 1), st.integers(-9000, 9000)),
+)
+def test_a_ball_comes_back_bit_by_bit(middle: tuple[int, int], radius: tuple[int, int]) -> None:
+    ball = flint.arb(flint.arb(middle), flint.arb(radius))
+    for again in (pickle.loads(pickle.dumps(ball)), copy.deepcopy(ball)):
+        assert again.mid() == ball.mid()
+        assert again.rad() == ball.rad()
+
+
+def test_a_ball_of_everything_comes_back_as_one() -> None:
+    for word in ("inf", "nan", "1 +/- inf"):
+        assert not pickle.loads(pickle.dumps(flint.arb(word))).is_finite()
+
+
+@pytest.mark.parametrize("system", [FLOAT64, LONGDOUBLE])
+def test_there_is_one_of_each_hardware_float(system: Any) -> None:
+    assert pickle.loads(pickle.dumps(system)) is system
+    assert copy.deepcopy(system) is system
+
+
+def test_a_long_number_comes_back_with_its_digits() -> None:
+    system = BigFloat(60)
+    number = system.number(Fraction(1, 3))
+    again = pickle.loads(pickle.dumps(number))
+    assert again == number
+    assert again * 3 - 1 < mpmath.mpf(10) ** -59
+    assert pickle.loads(pickle.dumps(system)).number(Fraction(1, 3)) == number
+
+
+RADII = 1 + 0.001 * np.random.default_rng(1).standard_normal((5, 10))
+
+
+@pytest.mark.parametrize("tolerance", [None, "1e-30", "1e-40"])
+@pytest.mark.parametrize("certified", [False, True])
+def test_solutions_can_be_pickled(tolerance: str | None, certified: bool) -> None:
+    certified = certified and tolerance is not None
+    found = fd.solve(RADII, tolerance=tolerance, certified=certified)
+    again = pickle.loads(pickle.dumps(found))
+    assert again.error == found.error
+    assert again.forces.decimals() == found.forces.decimals()
+    assert again.positions.decimals() == found.positions.decimals()
+    assert np.array_equal(again.force.astype(float), found.force.astype(float))
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+@pytest.mark.parametrize(
+    "effects",
+    [{}, {"geometry": "first-order"}, {"geometry": "ordered"}, {"contacts": "unilateral"}],
+)
+def test_outcomes_can_be_pickled(quantity: str, effects: dict[str, Any]) -> None:
+    found = scene(quantity, **effects).run()
+    assert pickle.loads(pickle.dumps(found)).data() == found.data()
+
+
+def test_ensembles_can_be_pickled() -> None:
+    found = fd.ensemble(scene("profile"), 40)
+    assert pickle.loads(pickle.dumps(found)).data() == found.data()
