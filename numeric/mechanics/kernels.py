@@ -66,6 +66,7 @@ def source(dimension: int, *, carried: bool) -> str:
         _order(dimension, carried=carried),
         _gap(dimension),
         _relative(carried=carried),
+        _scaled(carried=carried),
     ]
     imports = (
         "from math import inf, sqrt\nfrom force_diffusion.numeric.arithmetic.compiling import "
@@ -204,6 +205,13 @@ def _relative(*, carried: bool) -> Code:
     radii = of.code.takes("radii", 0, 0)
     found = relative(Carried(radii) if carried else radii, *of.constants)
     of.give("rho", 0, 0, [found])
+    return of.code
+
+
+def _scaled(*, carried: bool) -> Code:
+    of = _Recording("scaled", {"radii": 1, "rho": 1}, 1, carried=carried)
+    deviates = of.code.takes("radii", 0, 0)
+    of.give("rho", 0, 0, [(Carried(deviates) if carried else deviates) * of.constants[0]])
     return of.code
 
 

@@ -6,7 +6,7 @@ together: no bit differs. With k near the root of the height that takes half as 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
@@ -27,8 +27,6 @@ from .work import Work
 T = TypeVar("T", Drawing, Deposition, Descent)
 # Layers above a segment that are deposited, too: beads look for gaps so far up.
 OVER = 3
-# Names under which a segment's number follows: positions below it, and forces on its lowest layer.
-KEPT = ("c", "g", "F")
 
 
 def count(problem: Problem, layers: int) -> int:
@@ -46,7 +44,10 @@ class Kept(Protocol):
         """Keep an array."""
 
     def drop(self, name: str) -> None:
-        """Forget what this run needs no more, if it takes memory."""
+        """Forget it."""
+
+    def save(self, *, now: bool = True) -> None:
+        """Make sure of it; if not ``now``, where that takes little of the time."""
 
 
 class InMemory:
@@ -67,6 +68,9 @@ class InMemory:
     def drop(self, name: str) -> None:
         """Forget it."""
         self._kept.pop(name, None)
+
+    def save(self, *, now: bool = True) -> None:
+        """There is nowhere else to keep it."""
 
 
 @dataclass(frozen=True)
@@ -118,6 +122,7 @@ class Segments:
                 region, _, block = self._deposited(number - 1)
                 of = slice(region.starts[self.layers], region.starts[self.layers + 1])
                 self.kept.put(f"c{number}", block[0, rows, of])
+                self.kept.save(now=False)
 
     def down(self, number: int) -> Segment:
         """Solve a segment: the highest first, and then one after the other.
@@ -134,12 +139,17 @@ class Segments:
                 Descent(region, rows, self._loads_on(rows, number), carried=True), "g"
             )
             g = self._balanced(number, descent, region, rho, block)
-        for name in (f"c{number}", f"g{number + 1}", f"F{number + 1}")[self.again :]:
-            self.kept.drop(name)
         solved = tell(self.problem.phi, self._parts[Deposition], rho, descent, g)
         assert solved.packing is not None
         first = low + 1 if number else 0
-        return Segment(number, self.count, first, last, self._whole(solved, low), solved.packing)
+        own = self._whole(solved, low, range(low + 1, last + 1))
+        return Segment(number, self.count, first, last, own, solved.packing)
+
+    def leave(self, number: int) -> None:
+        """Forget what only that segment needed, once it is done."""
+        for name in (f"c{number}", f"g{number + 1}", f"F{number + 1}")[self.again :]:
+            self.kept.drop(name)
+        self.kept.save(now=False)
 
     def _deposited(self, number: int) -> tuple[Region, Array, Array]:
         problem, work, low = self.problem, self.work, number * self.layers
@@ -212,9 +222,13 @@ class Segments:
         self._parts[type(part)] = part
         return part
 
-    def _whole(self, solved: Solved, low: int) -> Solved:
-        """Number rows as in the whole packing; those that are not there are empty."""
-        nothing, problem = np.empty(0), self.problem
+    def _whole(self, solved: Solved, low: int, own: range) -> Solved:
+        """Number rows as in the whole packing; those that are not there are empty.
+
+        Blocks of forces are those below the layers ``own``.
+        """
+        nothing: Array = np.empty(0)
+        problem = self.problem
 
         def placed(rows: Sequence[Any], count: int) -> LazyRows[Any]:
             def row(j: int) -> Any:
@@ -236,12 +250,19 @@ class Segments:
             each(packing.c, layers),
             each(packing.dn, layers),
         )
-        none = per_direction([()] * problem.dimension)
-        ordered, change = (none, none) if forces is None else (forces.ordered, forces.change)
-        forces = Forces(
-            FLOAT64, problem.region, rows, each(ordered, len(rows)), each(change, len(rows))
+        none: PerBranch[Sequence[Array]] = per_direction([()] * problem.dimension)
+        forces = forces or Forces(FLOAT64, problem.region, (), none, none)
+        beads = sum(row.count for row in rows[own.start : own.stop])
+        forces = replace(
+            forces,
+            region=problem.region,
+            rows=rows,
+            ordered=each(forces.ordered, len(rows)),
+            change=each(forces.change, len(rows)),
+            F=None if forces.F is None else forces.F[:, :beads],
+            g=None if forces.g is None else forces.g[..., :beads],
         )
-        rest = None if solved.rest is None else self._whole(solved.rest, low)
+        rest = None if solved.rest is None else self._whole(solved.rest, low, own)
         return Solved(FLOAT64, packing, forces, None, rest, solved.sizes)
 
 

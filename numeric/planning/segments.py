@@ -13,8 +13,6 @@ from ..scene.scene import Scene
 from . import budget
 from .plan import Method, Step
 
-# Quantities whose answer comes from one segment after the other; of a response some layers do.
-KNOWN = ("profile", "contact", "base_reactions", "histogram")
 # Bytes of a bead of a segment (δr, positions, δn, forces, with their errors, and forces rounded),
 # and of one that is kept on the way up.
 _BEAD, _KEPT = 240, 32
@@ -32,15 +30,10 @@ def suits(scene: Scene, tolerance: Fraction | None) -> bool:
 
     With a tolerance it is not: the error is that of a few columns, not of the answer.
     """
-    ask, disorder = scene.ask, scene.disorder
     return (
-        (ask.quantity in KNOWN or ask.layers is not None)
-        and scene.packing.dimension == 2
-        and ask.realisations == 1
+        scene.ask.realisations == 1
         and tolerance is None
-        and disorder is not None
-        and disorder.kind not in {"file", "given"}
-        and scene.load.kind != "file"
+        and scene.disorder is not None
         and scene.effects.geometry == "exact"
         and not scene.effects.stop_at_tension
         and find_spec("numba") is not None

@@ -55,6 +55,17 @@ class Profile(ContactQuantity):
         rows = (full_layer(j, self.width) for j in range(1, self.height + 1))
         return [Block(branch, row) for row in rows for branch in self.branches]
 
+    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
+        """Give the rows of some whole layers."""
+        assert self.width is not None
+        gatherer = self.gatherer(problem, solved.system)
+        whole = [full_layer(j, self.width) for j in layers if j]
+        blocks = [Block(branch, row) for row in whole for branch in self.branches]
+        gatherer.take(contact_changes(solved, blocks, 1))
+        none = np.zeros((1, len(gatherer.found)))
+        gatherer.scatter.add(none, none)  # of one packing there is no scatter
+        return gatherer.table()
+
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Name the layers, by the lower beads of their contacts."""
         blocks = self.blocks(problem)
