@@ -2,7 +2,9 @@
 
 On the way up only the positions of every k-th layer are kept. On the way down the layers between
 are drawn and deposited again, so that a segment at a time is there, as if all had been solved
-together: no bit differs. With k near the root of the height that takes half as long again.
+together: no bit differs. With k near the root of the height that takes half as long again. Of a
+packing for which that is still too much, the layer below every n-th segment is kept alone: those
+between are found once more on the way down, n segments at a time.
 """
 
 from collections.abc import Sequence
@@ -24,7 +26,7 @@ from .sweep import Forces, Loads, NotStandingError, SolvedPacking, check_standin
 from .sweeps import Drawing, tell
 from .work import Work
 
-T = TypeVar("T", Drawing, Deposition, Descent)
+T = TypeVar("T", Drawing, Deposition)
 # Layers above a segment that are deposited, too: beads look for gaps so far up.
 OVER = 3
 
@@ -105,39 +107,47 @@ class Segments:
         """``kept`` may hold what an earlier run has kept; ``again``: all will go down once more."""
         self.problem, self.realisation, self.work, self.kept = problem, realisation, work, kept
         self.again = again
-        self.layers, self.top = layers, problem.region.top
+        self.layers, self.top, self.every = layers, problem.region.top, problem.every
         self.count = count(problem, layers)
         self._parts: dict[type, Any] = {}
         self._strength = problem.load.strength(problem.n_x, CARRYING)
 
     def up(self, highest: int) -> None:
-        """Deposit all segments below the ``highest``; keep the layer below each.
+        """Deposit all segments below the ``highest``; keep the layer below it and every n-th.
 
         Raises ``RadiusError``, and ``UnbuildableError`` for a bead that can't rest.
         """
+        self._climb(highest, self.every)
+
+    def _climb(self, highest: int, every: int) -> None:
+        """Deposit what lies between a layer that is kept and the ``highest`` segment."""
         d = self.problem.dimension
         rows = [*range(d), *range(d + d * d, 2 * d + d * d)]
-        for number in range(1, highest + 1):
-            if self.kept.get(f"c{number}") is None:
-                region, _, block = self._deposited(number - 1)
-                of = slice(region.starts[self.layers], region.starts[self.layers + 1])
-                self.kept.put(f"c{number}", block[0, rows, of])
-                self.kept.save(now=False)
+        known = (n for n in range(highest, 0, -1) if self.kept.get(f"c{n}") is not None)
+        for number in range(next(known, 0) + 1, highest + 1):
+            region, _, block = self._deposited(number - 1)
+            of = slice(region.starts[self.layers], region.starts[self.layers + 1])
+            self.kept.put(f"c{number}", block[0, rows, of])
+            if (number - 1) % every:
+                self.kept.drop(f"c{number - 1}")
+            self.kept.save(now=False)
 
     def down(self, number: int) -> Segment:
         """Solve a segment: the highest first, and then one after the other.
 
         Raises what ``up`` does, and ``NotStandingError``.
         """
+        self._climb(number, 1)
         region, rho, block = self._deposited(number)
         low = number * self.layers
         last = min(low + self.layers, self.top)
         descent, g = None, None
         rows = self.problem.force_rows[low : low + self.layers + 2]
         if self.problem.needs_forces and len(rows) > 1:  # else it lies above all loads
-            descent = self._ready(
-                Descent(region, rows, self._loads_on(rows, number), carried=True), "g"
-            )
+            old = self._parts.get(Descent)
+            loads, g = self._loads_on(rows, number), None if old is None else old.g
+            descent = Descent(region, rows, loads, carried=True, g=g)
+            self._parts[Descent] = descent
             g = self._balanced(number, descent, region, rho, block)
         solved = tell(self.problem.phi, self._parts[Deposition], rho, descent, g)
         assert solved.packing is not None
@@ -147,7 +157,9 @@ class Segments:
 
     def leave(self, number: int) -> None:
         """Forget what only that segment needed, once it is done."""
-        for name in (f"c{number}", f"g{number + 1}", f"F{number + 1}")[self.again :]:
+        if not self.again or number % self.every:
+            self.kept.drop(f"c{number}")
+        for name in (f"g{number + 1}", f"F{number + 1}"):
             self.kept.drop(name)
         self.kept.save(now=False)
 
@@ -213,12 +225,11 @@ class Segments:
         shares: list[tuple[Any, ...]] = [of for _, of in on]
         return per_direction([(*shares[a][:-1], Carried(above[a], above[d + a])) for a in range(d)])
 
-    def _ready(self, part: T, *memory: str) -> T:
+    def _ready(self, part: T, memory: str) -> T:
         """Give a part the memory of the last of its kind, if that fits."""
         old = self._parts.get(type(part))
-        for name in memory:
-            if old is not None and getattr(old, name).shape[1:] == part.shape:
-                setattr(part, name, getattr(old, name))
+        if old is not None and getattr(old, memory).shape[1:] == part.shape:
+            setattr(part, memory, getattr(old, memory))
         self._parts[type(part)] = part
         return part
 

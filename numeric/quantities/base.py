@@ -122,6 +122,8 @@ class Quantity(ABC):
     """Whether realisations are merged into one set of rows."""
     statistics: ClassVar[bool] = False
     """Whether an ensemble has statistics of it."""
+    numbers: ClassVar[int] = 4
+    """How many numbers a row has, at the most."""
     branches: ClassVar[tuple[Direction, ...]] = tuple(Branch)
     """Along which contacts lead up."""
 

@@ -26,6 +26,7 @@ class ContactForces(ContactQuantity, Listed):
     """All contact forces; of a periodic packing also those that no load reaches, exactly zero."""
 
     name = "contact_forces"
+    numbers = 2
     plain = True
 
     def answer_rows(self, region: Region, realisations: int) -> int:

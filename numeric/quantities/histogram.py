@@ -26,6 +26,7 @@ class Histogram(ContactQuantity, Listed):
     """All changes of contact forces, to be counted into bins."""
 
     name = "histogram"
+    numbers = 2
 
     @property
     def bins(self) -> int:

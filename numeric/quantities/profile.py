@@ -41,9 +41,9 @@ class Profile(ContactQuantity):
         return len(self.branches) * self.height
 
     def gathered(self, region: Region, realisations: int) -> int:
-        """Whole layers, also where a load reaches few of their contacts: 50 numbers a bead."""
+        """Whole layers, also where a load reaches few of their contacts: 38 numbers a bead."""
         idle = max((self.width or 0) * (self.height + 1) - region.beads, 0)
-        return 2 * idle * (realisations + 3) // 50
+        return 2 * idle * (realisations + 3) // 38
 
     def gatherer(self, problem: Problem, system: NumberSystem) -> "ProfileMoments":
         """Start to merge moments."""

@@ -156,7 +156,7 @@ def _key(plan: Plan) -> dict[str, Any]:
     """Describe what decides the numbers that are kept."""
     return {
         "scene": source_of(plan.scene),
-        "layers": plan.problem.segment,
+        "layers": [plan.problem.segment, plan.problem.every],
         "version": program_version(),
     }
 

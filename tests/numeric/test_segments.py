@@ -22,8 +22,8 @@ from force_diffusion.numeric.run import checkpoint
 from force_diffusion.numeric.run.checkpoint import Checkpoint as CheckpointOf
 from force_diffusion.numeric.run.checkpoint import CheckpointError
 from force_diffusion.numeric.run.outcome import Outcome
-from force_diffusion.numeric.run.running import run
-from force_diffusion.numeric.scene.sections import SceneError
+from force_diffusion.numeric.run.running import Scene, run
+from force_diffusion.numeric.scene.sections import Ask, GivenRadii, Packing, SceneError
 
 from tests.numeric.scenes import planned, scene
 
@@ -99,10 +99,10 @@ def sections(name: str, **disorder: Any) -> dict[str, dict[str, Any]]:
     return {"disorder": DISORDER | disorder, **CASES[name]}
 
 
-def cut(made: Plan, layers: int) -> Plan:
+def cut(made: Plan, layers: int, every: int = 1) -> Plan:
     found = segments.cut(made.problem, made.method, made.scene, None)
     assert found is not None
-    return replace(made, problem=replace(found, segment=layers))
+    return replace(made, problem=replace(found, segment=layers, every=every))
 
 
 def same(a: Outcome, b: Outcome) -> None:
@@ -119,6 +119,31 @@ def same(a: Outcome, b: Outcome) -> None:
 def test_segments_give_every_bit_of_the_sweep_in_memory(name: str, layers: int, kind: str) -> None:
     made = planned(sections(name, kind=kind))
     same(run(made), run(cut(made, layers)))
+
+
+@pytest.mark.parametrize("every", [2, 3, 5])
+@pytest.mark.parametrize("name", CASES)
+def test_so_they_do_where_few_layers_are_kept(name: str, every: int) -> None:
+    """Layers that are found once more on the way down; none is kept longer than it is needed."""
+    made = planned(sections(name))
+    found = run(cut(made, 2, every))
+    same(run(made), found)
+    assert found.work.deposited > run(cut(made, 2)).work.deposited
+
+
+@pytest.mark.parametrize("quantity", ["profile", "contact_forces", "positions"])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_given_radii_are_swept_by_segments(quantity: str, dimension: int) -> None:
+    shape = (10, 24) if dimension == 2 else (10, 20, 20)
+    radii = 1 + np.random.default_rng(3).uniform(-1e-3, 1e-3, shape)
+    asked = Scene(
+        packing=Packing(height=9, width=shape[1], dimension=dimension),
+        disorder=GivenRadii(radii=radii),
+        ask=Ask(quantity=quantity),
+    )
+    made = plan(asked)
+    same(run(made), run(cut(made, 4)))
+    assert run(made).accuracy.error_bound < 1e-12
 
 
 def true_error(plan: Plan) -> float:
@@ -190,6 +215,19 @@ def test_a_plan_that_the_memory_does_not_hold_is_made_of_segments() -> None:
     assert f"{budget.size(whole.memory)} of memory would be needed and 400 MB may be used" in text
     with pytest.raises(SceneError, match="height = 1999"):
         plan(asked, memory_limit=2 * 10**8)
+
+
+def test_a_plan_of_more_beads_still_keeps_fewer_layers() -> None:
+    """Of 10⁹ beads: less than 1 GB, and what is kept is found once more on the way down."""
+    asked = scene(sections("profile") | {"packing": {"height": 31_621, "width": 31_623}})
+    made = plan(asked, memory_limit=10**11)
+    assert made.problem.every > 1
+    assert made.memory < 10**9
+    assert "three times" in str(made)
+    assert made.memory < plan(
+        scene(sections("profile") | {"packing": {"height": 9999, "width": 10_002}}),
+        memory_limit=10**11,
+    ).memory + 6 * 10**8  # fmt: skip
 
 
 def test_a_plan_of_very_many_beads_is_made_of_segments_since_that_is_quicker() -> None:
