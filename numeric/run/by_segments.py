@@ -152,22 +152,6 @@ def _counted(
     return Table({}, {"change": change}, ("change",)), list(bins)
 
 
-<<<<<<< ours
-def _changes(plan: Plan, segment: "Segment", solved: Solved) -> Iterator[Array]:
-    """Give the changes of a segment's contacts, row by row, in the unit of the answer."""
-    forces = solved.forces
-    assert forces is not None
-    assert isinstance(plan.quantity, Histogram)
-    rows = range(max(segment.first, 1), min(segment.last + 1, len(forces.rows)))
-    for j in filter(plan.quantity.is_asked, rows):
-        for _, _, g in forces.below(j):
-            if g.size:
-                row = Table({}, {"change": np.asarray(g)}, ("change",))
-                yield in_units(plan.quantity, row, solved.system).numbers["change"]
-
-
-=======
->>>>>>> theirs
 def _key(plan: Plan) -> dict[str, Any]:
     """Describe what decides the numbers that are kept."""
     return {
