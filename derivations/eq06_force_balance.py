@@ -5,7 +5,8 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
-from force_diffusion.derivations.framework.proving import Line, Meaning, Source
+from force_diffusion.derivations.framework.grounds import Source
+from force_diffusion.derivations.framework.proving import Line, Meaning
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,

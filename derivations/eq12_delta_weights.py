@@ -6,7 +6,7 @@ import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.framework.proving import facts_of
+from force_diffusion.derivations.framework.grounds import facts_of
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,

@@ -15,9 +15,9 @@ from force_diffusion.derivations.framework.vocabulary import (
     Witness,
     asymptotic,
     equation,
+    formula,
     minus,
     moment,
-    power,
     rewrite,
     slope,
     terms,
@@ -36,12 +36,7 @@ RELATIVE_VARIANCE = Symbol(
 
 PRINTED = equation(
     RELATIVE_VARIANCE,
-    times(
-        2 * M**3 / (1 - phi**2) ** 2,
-        terms(1, -z) ** 2,
-        terms(times(2, z), 1),
-        power(times(sigma, 1 / r), 2),
-    ),
+    formula("(2M³/(1 − φ²)²) (1 − z)²(2z + 1)(σ_δr/r)²"),
 )
 
 VARIANCE = Layered(RELATIVE_VARIANCE, Variance(eq11.PRINTED.lhs), (eq11.IN_RADII,), SURFACE)
@@ -62,7 +57,7 @@ WEIGHTS = times(
     6,
     terms(sympy.Sum((M - j) ** 2, (m, 1, j)), sympy.Sum((M - m) ** 2, (m, j + 1, M))),
 )
-TOTAL = terms(times(2, (M - j) ** 2, terms(M, 2 * j)), minus(times(3, (M - j) ** 2)), M - j)
+TOTAL = formula("2(M − j)²(M + 2j) − 3(M − j)² + (M − j)")
 """The same in closed form."""
 
 EVERY = Where.of(j >= 0, j < M)
@@ -116,7 +111,7 @@ def steps() -> Lines:
     squared = VARIANCE.show_weights(lines)
     inside = VARIANCE.show_forms(lines, "each sum telescopes", squared)
     VARIANCE.show_next(lines, PRINTED.rhs, next_order(), DERIVATION, inside)
-    profile = times(terms(1, -z) ** 2, terms(times(2, z), 1))
+    profile = formula("(1 − z)²(2z + 1)")
     lines.show(
         "The profile ceases to broaden at the base, where its slope vanishes.",
         equation(sympy.Derivative(profile, z), -6 * z * (1 - z)),

@@ -24,6 +24,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     axioms,
     below,
     equation,
+    formula,
     induct,
     moment,
     power,
@@ -62,12 +63,7 @@ MEAN_FORCE = Symbol("mean_force", r"\langle f\rangle_z", "⟨f⟩_z", positive=T
 
 PRINTED = equation(
     RELATIVE_VARIANCE,
-    times(
-        3 * M**3 / (10 * (1 - phi**2) ** 2),
-        terms(1, -z) ** 2,
-        terms(times(4, z), 1),
-        power(times(sigma, 1 / r), 2),
-    ),
+    formula("(3M³/(10(1 − φ²)²)) (1 − z)²(4z + 1)(σ_δr/r)²"),
 )
 
 
@@ -113,8 +109,8 @@ def exact_forms() -> dict[str, ClosedForm]:
 
 
 AVERAGED = (
-    times(sympy.Rational(1, 2), terms(M, -j, 1)),
-    times(1 / (2 * (M - j)), terms(M, -m), terms(M, -m, 1)),
+    formula("(M − j + 1)/2"),
+    formula("(M − m)(M − m + 1)/(2(M − j))"),
 )
 """The weights of Δ for m ≤ j and for m > j: those of Eq. 12 averaged over the heights l."""
 
@@ -130,16 +126,14 @@ WEIGHTS = times(
         sympy.Sum(power(AVERAGED[1], 2), (m, j + 1, M)),
     ),
 )
-HIGHEST = times(sympy.Rational(3, 10), (M - j) ** 2, terms(M, 4 * j))
+HIGHEST = formula("(3/10)(M − j)²(M + 4j)")
 
 
-REST = (30 * M**2 * j - 5 * M**2 - 60 * M * j**2 + 25 * M * j + 30 * j**3 - 20 * j**2 + 2) / (
-    10 * (M - j)
-)
+REST = formula("(30M²j − 5M² − 60M j² + 25M j + 30j³ − 20j² + 2)/(10(M − j))")
 """Six times the sum of their squares is HIGHEST and this."""
 
 
-PROFILE = times(terms(1, -z) ** 2, terms(times(4, z), 1))
+PROFILE = formula("(1 − z)²(4z + 1)")
 
 
 def next_to_the_maximum(above: int) -> Where:

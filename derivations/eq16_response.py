@@ -16,8 +16,8 @@ from force_diffusion.derivations.framework.vocabulary import (
     asymptotic,
     equation,
     exhausting,
+    formula,
     moment,
-    power,
     rewrite,
     terms,
     times,
@@ -71,7 +71,7 @@ LEG_MAGNITUDE = Symbol(
 
 PRINTED = equation(
     RESPONSE,
-    times(3 / (2 * (1 - phi**2) ** 2), terms(l, j), power(times(sigma, 1 / r), 2)),
+    formula("(3/(2(1 − φ²)²)) (l + j)(σ_δr/r)²"),
 )
 
 

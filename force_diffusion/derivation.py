@@ -4,8 +4,9 @@ These names are stable: what they take and mean changes with a line in the chang
 """
 
 from .derivations.api.own import forces, layers, mean_force, on_small_packings, premise
+from .derivations.framework.grounds import asymptotic, moment, rewrite
 from .derivations.framework.layered import Case, Layered
-from .derivations.framework.proving import Lines, asymptotic, moment, rewrite
+from .derivations.framework.proving import Lines
 from .derivations.framework.record import Derivation, Witness, usual
 from .symbolic.as_printed import equation, minus, power, terms, times
 from .symbolic.kernel.where import BULK, SURFACE, Where

@@ -344,9 +344,9 @@ base+1 or surface.
     def decide(self, candidate: Any) -> Ruling:
         """Rule on a formula of your own, with the procedure that proves the printed equation.
 
-        It is ruled on with the printed sign: for "∼" as the leading order. With "=", at finite
-        size, ``exact("interior").decide`` rules on it. Of an equation between vectors a component
-        is read as well: both sides are numbers, such as ``Dot(e_y, …)``.
+        The formula is decided with the printed sign: for "∼", whether it is right to leading order.
+        ``exact("interior").decide`` decides it with "=", at finite size. Of an equation between
+        vectors you may also give one component, with numbers such as ``Dot(e_y, …)`` on both sides.
 
         The verdict is *proved*; *proved, assuming* what ``.assuming`` names; *refuted*, with
         explicit values; *undecided*; or *not a statement*: it has no value, or no single meaning,
@@ -390,7 +390,7 @@ def _equation(number: EquationNumber) -> Equation:
 def equation(number: EquationNumber | Derivation) -> Equation:
     """The equation with this number of the paper, or with this label: "B1" and so on.
 
-    Of a derivation of your own it gives the equation with all that the paper's have.
+    For a derivation of your own it gives an equation that can do all that the paper's can.
 
     >>> import force_diffusion as fd
     >>> fd.equation(13).title

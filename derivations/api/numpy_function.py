@@ -1,7 +1,9 @@
 """A formula as a function for NumPy, in float64, with a signature and a docstring of its own."""
 
 import inspect
+import numbers
 from collections.abc import Callable, Iterable, Mapping
+from decimal import Decimal
 from functools import partial
 from typing import Any
 
@@ -148,17 +150,19 @@ def _harmonic(n: Any) -> Any:
 
 def _floats(name: str, value: Any) -> Any:
     try:
+        if isinstance(value, np.ma.MaskedArray):
+            raise TypeError
         array = np.asarray(value)
-        numbers = array if array.dtype.kind in "iuf" else _from_objects(array)
-        return numbers.astype(float)
+        return (array if array.dtype.kind in "iuf" else _from_objects(array)).astype(float)
     except (TypeError, ValueError, OverflowError):
         raise ArgumentError(
-            f"{name} = {value!r}: numbers are allowed, and arrays of them"
+            f"{name} = {value!r}: numbers are allowed, and arrays of them without a mask"
         ) from None
 
 
 def _from_objects(array: Any) -> Any:
-    if array.dtype != object:
+    known = (numbers.Real, Decimal)
+    if array.dtype != object or not all(isinstance(one, known) for one in array.flat):
         raise TypeError
     return np.vectorize(float, otypes=[float])(array)
 

@@ -13,9 +13,9 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.api.evaluation import holds
 from force_diffusion.derivations.framework.catalogue import Number
+from force_diffusion.derivations.framework.grounds import Chain, OfBoth
 from force_diffusion.derivations.framework.layered import Case, Layered
 from force_diffusion.derivations.framework.loading import load
-from force_diffusion.derivations.framework.proving import Chain, OfBoth
 from force_diffusion.derivations.framework.record import Derivation, Witness
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import compare, weights_of_forces

@@ -11,7 +11,7 @@ from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import Source
+from force_diffusion.derivations.framework.grounds import Source
 from force_diffusion.derivations.framework.vocabulary import (
     SUPPOSED,
     By,

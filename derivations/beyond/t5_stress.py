@@ -11,11 +11,13 @@ from itertools import product
 from typing import Any
 
 import sympy
-from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations import eq04_contact_plus as eq04
+from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations.beyond import t1_forces as t1
 from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import Line, Meaning, facts_of
+from force_diffusion.derivations.framework.grounds import facts_of
+from force_diffusion.derivations.framework.proving import Line, Meaning
 from force_diffusion.derivations.framework.record import SECOND_ORDER, ExactCase, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
@@ -73,7 +75,7 @@ from force_diffusion.symbolic.symbols import (
     sigma,
     t,
 )
-from force_diffusion.symbolic.variances.variance import CASES, ClosedForm, packings, value_at
+from force_diffusion.symbolic.variances.variance import CASES, ClosedForm
 
 RATIO = Symbol(
     "stress_ratio",
@@ -518,12 +520,11 @@ def _witness(loads: Sequence[Load], symbols: slice, packing: SmallPacking) -> Ru
     values = {**explicit.geometry(*packing.n, Fraction(1)), sigma: 1, t: share}
 
     def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
-        for load, (height, layer, case) in product(loads, packings(4)):
-            true = _exact(load, height, layer, packing.n, share)
-            for symbol in tuple(load.forms)[symbols]:
-                form = value_at(load.forms[symbol], height, layer, case)
-                stated = explicit.number(form, values)
-                yield f"{symbol.name}, M = {height}, j = {layer}", stated, true[symbol]
+        for load in loads:
+            for symbol in load.printed[symbols]:
+                for height, layer, stated in load.layered[symbol].stated(4, values):
+                    true = _exact(load, height, layer, packing.n, share)[symbol]
+                    yield f"{symbol.name}, M = {height}, j = {layer}", stated, true
 
     return compare(pairs())
 
@@ -586,7 +587,7 @@ def _stress(number: str, load_in_words: str, **options: Any) -> Derivation:
     )
 
 
-_MEANS = (*eq11.DIRECTIONS, t1.B1, t4.B4, t4.B15, t4.B16)
+_MEANS = (eq04.DERIVATION, eq05.DERIVATION, t1.B1, t4.B4, t4.B15, t4.B16)
 
 B10 = _stress(
     "B10",

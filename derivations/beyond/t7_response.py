@@ -12,7 +12,7 @@ import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.beyond import t4_second_order as t4
-from force_diffusion.derivations.framework.proving import Beside, facts_of
+from force_diffusion.derivations.framework.grounds import Beside, facts_of
 from force_diffusion.derivations.framework.record import SECOND_ORDER, ExactCase, Piece, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,

@@ -54,7 +54,7 @@ from force_diffusion.symbolic.symbols import (
     sigma,
     z,
 )
-from force_diffusion.symbolic.variances.variance import ClosedForm, packings, value_at
+from force_diffusion.symbolic.variances.variance import ClosedForm
 from sympy import Rational
 
 CROSS = Symbol("kappa_cross", r"\kappa'", "κ′", real=True)
@@ -326,7 +326,6 @@ def _three_dimensions(case: Case) -> Lines:
 def _weights(case: Case, packing: SmallPacking) -> Ruling:
     """Exact variances against the recursion from bead to bead, in up to four dimensions."""
     cosine = witnesses.cosine_of(packing)
-    forms = exact_forms(case)
 
     def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
         fixed = case.dimension if isinstance(case.dimension, int) else None
@@ -334,9 +333,8 @@ def _weights(case: Case, packing: SmallPacking) -> Ruling:
             if 1 + dimension * cosine <= 0:
                 continue
             values: explicit.Values = {phi: cosine, sigma: 1, r: 1, d: dimension}
-            for height, layer, name in packings(7 if fixed else 5):
+            for height, layer, stated in case.variance.stated(7 if fixed else 5, values):
                 both = force_weights(dimension, height, layer, cosine, bulk=case.bulk)
-                stated = explicit.number(value_at(forms, height, layer, name), values)
                 where = f"d = {dimension}, M = {height}, j = {layer}"
                 yield where, stated, squared(together(both))
 
@@ -346,16 +344,15 @@ def _weights(case: Case, packing: SmallPacking) -> Ruling:
 def _taylor(case: Case, packing: SmallPacking) -> Ruling:
     """The same against exact packings of spheres, solved as rational series."""
     cosine = witnesses.cosine_of(packing)
-    forms = exact_forms(case)
     values: explicit.Values = {phi: cosine, sigma: 1, r: 1}
     load = "bulk" if case.bulk else "surface"
     return compare(
         (
             f"M = {height}, j = {layer}",
-            explicit.number(value_at(forms, height, layer, name), values),
+            stated,
             witnesses.squares_of_spheres(cosine, height, load)[layer],
         )
-        for height, layer, name in packings(3)
+        for height, layer, stated in case.variance.stated(3, values)
     )
 
 

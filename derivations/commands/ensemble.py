@@ -42,7 +42,7 @@ class Where(StrEnum):
 
 STATUSES = (
     "Exit status: 0 answered, 2 something wrong in the scene, the options or the store, 3 the "
-    "asked confidence is not reached, or workers or the disk failed, 130 interrupted."
+    "confidence is not reached, or workers or the disk failed, 130 interrupted."
 )
 
 
@@ -128,8 +128,7 @@ def ensemble(
         if times < MOST_TOLD:
             guess = f"about {N * times**2:.2g} realisations may do"
         raise NotReachedError(
-            f"the asked confidence is not reached: σ_f is known to {width:.2g}, not {until:g}; "
-            f"{guess}"
+            f"the confidence is not reached: σ_f is known to {width:.2g}, not {until:g}; {guess}"
         )
 
 

@@ -46,8 +46,8 @@ def equation_number(word: str) -> Number:
     if number is not None:
         return number
     raise typer.BadParameter(
-        f"'{word}' is not an equation of this package. Give a number {allowed()}; "
-        "'force-diffusion list' names them.",
+        f"'{word}' is not an equation of this package. Give a number {allowed()} "
+        "('force-diffusion list' names them), or, of your own, a Python file such as my_file.py.",
         param_hint="N",
     )
 
@@ -99,7 +99,7 @@ def derive(
     columns: Columns = 1,
     overwrite: Overwrite = False,
 ) -> None:
-    """Prove equations, and the ones that they rest on, and check them."""
+    """Prove equations and all that they rest on, and check them."""
     from force_diffusion.derivations.commands import deriving
 
     with blamed(numbers or ()):

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 # Seconds from which on progress is shown.
 MOMENT = 1.0
 STATUSES = (
-    "Exit status: 0 answered, 2 something wrong in the scene or its files, 3 the asked tolerance "
+    "Exit status: 0 answered, 2 something wrong in the scene or its files, 3 the tolerance "
     "can't be reached or the disk failed, 130 interrupted."
 )
 
@@ -123,7 +123,7 @@ def run(
     seed: Seed = None,
     overwrite: Overwrite = False,
 ) -> None:
-    """Answer a scene's question."""
+    """Solve the packing of a scene and answer its question."""
     checked(written, out)
     asked = variants(settings, seed)
     if len(asked) > 1 and checkpoint is not None:

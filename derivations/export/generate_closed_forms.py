@@ -485,8 +485,8 @@ def source() -> str:
     sinking = t4.SETTLING.rhs.doit().xreplace({n_y: sympy.Integer(1)})
     parts.append(SETTLING.format(sinking=_code(sinking, j)))
     for name, what, label, average, below, above in (
-        ("contacts_mean_variance", "f^±/⟨f⟩", "B7", t6.CONTACT_MEAN, "1", "2"),
-        ("beads_mean_variance", "p/f_load", "B8", t6.BEAD_MEAN, "2", "N + 1"),
+        ("contacts_mean_variance", "f^±/⟨f⟩", "B7", t6.DERIVATIONS["B7"].printed[0], "1", "2"),
+        ("beads_mean_variance", "p/f_load", "B8", t6.DERIVATIONS["B8"].printed[0], "2", "N + 1"),
     ):
         in_k = sympy.expand(average.rhs.doit()).xreplace({M: j + k})
         code = _code(in_k, j, k, N)

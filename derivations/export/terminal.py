@@ -11,7 +11,7 @@ from force_diffusion.derivations.export.prose import both
 from force_diffusion.derivations.framework.catalogue import theorem_of
 from force_diffusion.derivations.framework.proving import Shown
 from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome
-from force_diffusion.derivations.framework.runner import UNLIKE
+from force_diffusion.derivations.framework.runner import UNLIKE, UNLISTED
 from force_diffusion.symbolic.kernel.decisions import Verdict, in_words
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
@@ -120,8 +120,8 @@ def check_text(check: Check) -> str:
 def mutant_text(mutant: Mutant) -> str:
     """One changed equation that the checker did not refute."""
     kind = "equivalent rewriting" if mutant.equivalent else str(mutant.ruling.verdict)
-    if mutant.reason == UNLIKE:
-        return _paragraph(f"{UNLIKE}: {mutant.change}", "  - ", "    ")
+    if mutant.reason in {UNLIKE, UNLISTED}:
+        return _paragraph(f"{mutant.change}: {mutant.reason}", "  - ", "    ")
     note = f". {mutant.note}" if mutant.note else ""
     return _paragraph(f"{kind}: {mutant.change}{note}", "  - ", "    ")
 
@@ -166,13 +166,14 @@ def tried_text(counts: Mapping[str, int]) -> str:
     """The same in words; "" where none was tried."""
     if not counts["false"] + counts["true"]:
         return ""
-    none = counts["no_statements"]
-    left = counts["false"] - counts["refuted"] - none, counts["true"] - counts["proved"]
-    return (
-        f"Tried on {counts['false']} false statements: none proved, {counts['refuted']} refuted, "
-        f"{none} not a statement, {left[0]} undecided; on {counts['true']} true ones: "
-        f"none refuted, {counts['proved']} proved, {left[1]} undecided."
+    none, false, true = counts["no_statements"], counts["false"], counts["true"]
+    left, missed = false - counts["refuted"] - none, true - counts["proved"]
+    words = (
+        f"The checker itself was tried. Of {false} false statements it proved none: "
+        f"{counts['refuted']} are refuted, {none} no statements, and {left} undecided, which is no "
+        f"failure where a statement is false. Of {true} true ones it proved {counts['proved']}"
     )
+    return words + (f" and left {missed} undecided, which is a failure." if missed else ".")
 
 
 def outcome_text(outcome: Outcome) -> str:
@@ -220,7 +221,7 @@ def trouble_lines(outcome: Outcome) -> list[str]:
     lines += [
         mutant_text(mutant)
         for mutant in outcome.mutants
-        if mutant.ruling.verdict is Verdict.UNDECIDED or mutant.reason == UNLIKE
+        if mutant.ruling.verdict is Verdict.UNDECIDED or mutant.reason in {UNLIKE, UNLISTED}
     ]
     lines += [
         _paragraph(

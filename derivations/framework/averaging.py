@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 import sympy
-from force_diffusion.derivations.framework.proving import By, Proved, Source, known
+from force_diffusion.derivations.framework.grounds import By, Proved, Source, known
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel import averages
 from force_diffusion.symbolic.kernel.rules import Rule

@@ -6,14 +6,12 @@ own; each with its ``where``, from which users get the range of the closed form.
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cached_property
 
 import sympy
-from force_diffusion.derivations.framework.proving import (
+from force_diffusion.derivations.framework.grounds import (
     By,
-    Line,
-    Lines,
-    Meaning,
     Proved,
     Source,
     asymptotic,
@@ -22,20 +20,17 @@ from force_diffusion.derivations.framework.proving import (
     moment,
     rewrite,
 )
+from force_diffusion.derivations.framework.proving import Line, Lines, Meaning
 from force_diffusion.derivations.framework.record import Derivation, ExactCase, Missed
+from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms, times
 from force_diffusion.symbolic.kernel import moments
 from force_diffusion.symbolic.kernel.theorem import Theorem
-from force_diffusion.symbolic.kernel.where import (
-    Loading,
-    Where,
-    at_fixed_height,
-    in_a_layer,
-)
+from force_diffusion.symbolic.kernel.where import Loading, Where, at_fixed_height, in_a_layer
 from force_diffusion.symbolic.symbols import LargestShare, M, Moment, j, phi, r, sigma
 from force_diffusion.symbolic.variances.listed import listed, squares, weights
-from force_diffusion.symbolic.variances.variance import CASES, ClosedForm
+from force_diffusion.symbolic.variances.variance import CASES, ClosedForm, packings, value_at
 
 SCALE = r * (1 - phi**2)
 """What the change of a force over its mean is multiplied by when its weights are shown."""
@@ -145,6 +140,12 @@ class Layered:
             found[name] = ClosedForm(case.validity, tuple(small), self._value(self.where(name)))
         return found
 
+    def stated(self, up_to: int, values: explicit.Values) -> Iterator[tuple[int, int, Fraction]]:
+        """M, j and what is stated there, for every layer of all packings of M ≤ ``up_to``."""
+        for height, layer, case in packings(up_to):
+            form = value_at(self.forms, height, layer, case)
+            yield height, layer, explicit.number(form, values)
+
     def exact(self, to_order: str = "first order") -> dict[str, ExactCase]:
         """The closed forms as users get them."""
         return {
@@ -231,15 +232,10 @@ class Layered:
 
     def claim_forms(self, lines: Lines, name: str) -> None:
         """Claim the closed form of every layer, and the values of small packings."""
-        said = [(form.expression, self.where(case)) for case, form in self.forms.items()]
-        said += [(value, self._small(size, at)) for size, at, value in self._exceptions()]
-        lines.claim(
-            name,
-            sympy.Tuple(*(equation(self.symbol, value) for value, _ in said)),
-            self.rule,
-            where=tuple(where for _, where in said),
-            meaning=self.meant,
-        )
+        said = [(self.symbol, form.expression, self.where(at)) for at, form in self.forms.items()]
+        small = ((value, self._small(size, at)) for size, at, value in self._exceptions())
+        said += [(self.symbol, value, where) for value, where in small]
+        lines.claim_each(name, said, self.rule, meaning=self.meant)
 
     def _exceptions(self) -> Iterator[tuple[int, int, sympy.Expr]]:
         yield from dict.fromkeys(one for form in self.forms.values() for one in form.exceptions)
@@ -268,23 +264,17 @@ class Layered:
 
     def claim_edges(self, lines: Lines, name: str, **goes_as: sympy.Expr) -> None:
         """Claim what the closed forms of edges go as, by the case."""
-        lines.claim(
-            name,
-            sympy.Tuple(*(equation(self.symbol, one) for one in goes_as.values())),
-            asymptotic(*self.facts),
-            where=tuple(self._large(case, "∼") for case in goes_as),
-            meaning=self.meant,
-        )
+        said = ((self.symbol, one, self._large(case, "∼")) for case, one in goes_as.items())
+        lines.claim_each(name, said, asymptotic(*self.facts), meaning=self.meant)
 
     def claim_shares(self, lines: Lines) -> None:
         """Claim that no radius dominates, inside and at the edges."""
         (ratio,) = self.moment.args
-        lines.claim(
+        lines.claim_each(
             "at fixed z, and in the layers next to base and surface, no radius has more than "
             "O(1/M) of the variance: what Lindeberg's theorem needs",
-            sympy.Tuple(*(equation(LargestShare(ratio), 1 / M) for _ in self.cases)),
+            ((LargestShare(ratio), 1 / M, self._large(case, "O")) for case in self.cases),
             bounded(*self.facts),
-            where=tuple(self._large(case, "O") for case in self.cases),
             meaning=self.meaning,
         )
 

@@ -34,6 +34,9 @@ PRINTED = "printed equation"
 UNLIKE = "proved, unlike the printed equation"
 """What is said of a change that makes a theorem of what is none."""
 
+UNLISTED = "proved as well, and not listed as equivalent: does it say the same?"
+"""What is said of such a change of a user's own equation."""
+
 Watch = Callable[[Derivation, str], None]
 """Told which check of which derivation comes next."""
 
@@ -126,8 +129,8 @@ def judged_mutants(
     """Change each printed equation mechanically and let the same procedure rule on it.
 
     Raises:
-        KernelError: one is proved that is not listed as an equivalent rewriting; where the printed
-            equation is not proved, such a change tells what may have been meant.
+        KernelError: one is proved that is not listed as an equivalent rewriting. Where the printed
+            equation is not proved, or is a user's own, such a change is told instead.
     """
     from force_diffusion.symbolic.search.mutants import mutants
 
@@ -137,11 +140,14 @@ def judged_mutants(
             ruling = rule(derivation, place, change, mutated, None)
             reason = derivation.equivalent.get(change, "")
             if ruling.verdict.is_proved and not reason:
-                if derivation.rule_on(place, equation).verdict.is_proved:
+                if not derivation.rule_on(place, equation).verdict.is_proved:
+                    reason = UNLIKE
+                elif derivation.number not in modules():
+                    reason = UNLISTED
+                else:
                     raise derivation.fault(
                         mutated, f"proved, a change that is not listed as equivalent: {change}"
                     )
-                reason = UNLIKE
             yield Mutant(kind, change, mutated, ruling, reason)
 
 

@@ -3,14 +3,11 @@
 Symbols, what makes an expression as it is printed, the rules, the axioms, and what a derivation is.
 """
 
-from force_diffusion.derivations.framework.layered import UNIT, Layered
-from force_diffusion.derivations.framework.proving import (
+from force_diffusion.derivations.framework.grounds import (
     SUPPOSED,
     Beside,
     By,
     Chain,
-    Line,
-    Lines,
     Part,
     Within,
     along,
@@ -37,12 +34,9 @@ from force_diffusion.derivations.framework.proving import (
     supposing,
     walk,
 )
-from force_diffusion.derivations.framework.record import (
-    Claim,
-    Derivation,
-    Witness,
-    on_packings,
-)
+from force_diffusion.derivations.framework.layered import UNIT, Layered
+from force_diffusion.derivations.framework.proving import Line, Lines
+from force_diffusion.derivations.framework.record import Claim, Derivation, Witness, on_packings
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
 from force_diffusion.symbolic.as_written import formula, relations
 from force_diffusion.symbolic.kernel import axioms

@@ -8,7 +8,7 @@ import sympy
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
-from force_diffusion.derivations.framework.proving import Beside
+from force_diffusion.derivations.framework.grounds import Beside
 from force_diffusion.derivations.framework.record import ExactCase, Missed, Piece
 from force_diffusion.derivations.framework.vocabulary import (
     Where,

@@ -6,7 +6,8 @@ from fractions import Fraction
 from functools import cached_property, partial
 
 import sympy
-from force_diffusion.derivations.framework.proving import Line, Source, facts_of
+from force_diffusion.derivations.framework.grounds import Source, facts_of
+from force_diffusion.derivations.framework.proving import Line
 from force_diffusion.derivations.framework.record import ExactCase, Missed
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,

@@ -29,10 +29,10 @@ class Ensemble:
     the unit in which the load's magnitude is written; arrays are float64 of shape (G,) unless they
     say otherwise. The spread over packings, which are independent, gives the standard errors.
 
-    ``half_width`` holds for all σ_f together, relative, with confidence ``confidence``. ``reached``
-    says whether the ``until`` that was asked for was met, None where nothing was asked; ``looks``
-    counts how often the sums were looked at for that, 0 where nothing was asked. ``solved``
-    packings were solved now, and not read from a store. ``estimates`` has exact rationals.
+    ``half_width``, relative, holds for all σ_f together with confidence ``confidence``. ``reached``
+    says whether the σ_f are known as well as ``until`` asked, and is None if nothing was asked;
+    ``looks`` counts how often that was tested. ``solved`` packings were solved now, the others
+    were read from a store. ``estimates`` has exact rationals.
     """
 
     estimates: Estimates

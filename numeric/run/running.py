@@ -24,6 +24,7 @@ from ..scene import reading, scene
 from ..scene.sections import SceneError
 from ..scene.source import files_read
 from .by_segments import by_segments
+from .checkpoint import opened
 from .outcome import Missed, Outcome
 
 
@@ -32,8 +33,8 @@ def run(
 ) -> Outcome:
     """Run a plan, to the tolerance that it was made for.
 
-    ``checkpoint`` is a file that a packing which the memory does not hold goes on from, once it was
-    interrupted or killed; other plans need none. It stays, for whoever asks the same again.
+    ``checkpoint`` is a file for a packing that the memory does not hold: after an interruption the
+    same call continues from it. Other plans need none. The file stays, for the next such call.
 
     Where the estimated error of a method misses the tolerance, the next one of the plan's choice is
     taken. Raises ``ToleranceError``, ``TypeError`` for what is no plan, and what the sweeps raise
@@ -48,8 +49,10 @@ def run(
     files = files_read(plan.scene)
     work = Work(progress=progress)
     missed: list[Missed] = []
+    path = None if checkpoint is None else Path(checkpoint)
+    if path is not None and not plan.problem.segment and (unused := opened(path)) is not None:
+        unused.close()  # it is none of somebody else's
     if plan.problem.segment:
-        path = None if checkpoint is None else Path(checkpoint)
         answer, accuracy = by_segments(plan, work, path)
     elif plan.choice is not None:
         plan, answer, accuracy = _chosen(plan.choice, work, missed)
@@ -151,7 +154,7 @@ class Scene(scene.Scene):
 def read_scene(path: str | Path, changes: Mapping[str, str] | None = None) -> Scene:
     """Read and check a scene file. Raises ``SceneError``.
 
-    ``changes`` are keys whose values are others than in the file, as it would have them:
+    ``changes`` are new values for some keys, written as in the file:
     ``{"packing.height": "16", "disorder.kind": "normal"}``.
     """
     return reading.read_scene(Path(path), Scene, changes or {})

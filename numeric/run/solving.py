@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -30,12 +31,13 @@ class Solution:
     beads in each. Bead (j, q) is the paper's (i, j) with i = 2q + j mod 2. Forces are in the unit
     in which the load's magnitude is written, lengths in that of the radii.
 
-    Of spheres, W × W in each layer, p and q stand in place of a column, and the three axes in place
-    of the two branches.
+    Layers of spheres hold W × W beads: shapes then have p and q in place of the column, and three
+    axes in place of two branches.
 
-    Numbers are float64, or objects of a longer arithmetic where one was chosen or a tolerance needs
-    it. A ball of python-flint prints few digits, and holds all: ``.astype(float)`` rounds an array,
-    ``forces.decimals()`` and ``positions.decimals()`` write every digit that is known.
+    Numbers are float64, or objects of a longer arithmetic where you chose one or a tolerance needs
+    it, such as balls: numbers with a rigorous error each. A ball prints only a few of its digits;
+    ``.astype(float)`` rounds an array, ``forces.decimals()`` and ``positions.decimals()`` write
+    every digit that is known.
     """
 
     forces: Outcome
@@ -97,7 +99,7 @@ class Solution:
         made = self.forces.plan
         scene = self.scene.model_copy(update={"ask": ask})
         certified = made.tolerance is not None and made.method.certified
-        return run(plan(scene, made.tolerance, certified=certified, system=made.system))
+        return run(plan(scene, made.tolerance, certified=certified, system=made.system, text=False))
 
     @property
     def _dimension(self) -> int:
@@ -150,7 +152,7 @@ def _named_as_here() -> Iterator[None]:
 def _dimension_of(given: GivenRadii, asked: Any) -> int:
     """Give the dimension of a packing, which shapes tell, but for that of a stack of squares."""
     shape = given.values.shape
-    if asked is not None and (type(asked) is not int or asked not in {2, 3}):
+    if asked is not None and (not isinstance(asked, Integral) or asked not in {2, 3}):
         raise SceneError("dimension", asked, "must be 2, of discs, or 3, of spheres")
     if asked is None and len(shape) == 3 and shape[1] == shape[2]:
         count, side = shape[:2]
@@ -161,12 +163,12 @@ def _dimension_of(given: GivenRadii, asked: Any) -> int:
             f"{side} × {side}, or dimension=2 if it is {count} packings of discs in {side} layers "
             f"of {side}",
         )
-    dimension = asked or (3 if len(shape) == 4 else 2)
+    dimension = int(asked or (3 if len(shape) == 4 else 2))
     beads, form = ("discs", "(layers, W)") if dimension == 2 else ("spheres", "(layers, W, W)")
     if len(shape) not in {dimension, dimension + 1} or len(set(shape[1 - dimension :])) > 1:
         allowed = f"shape {shape}: {beads} take {form}, with an axis before it for several packings"
         raise SceneError(given.name, None, allowed)
-    return int(dimension)
+    return dimension
 
 
 def solve(
@@ -262,4 +264,5 @@ def solve(
         system = FLOAT64 if arithmetic is None else system_of(arithmetic)
     except ValueError as error:
         raise SceneError("arithmetic", arithmetic, str(error)) from None
-    return Solution(run(plan(scene, asked, certified=certified, system=system)), scene)
+    made = plan(scene, asked, certified=certified, system=system, text=False)
+    return Solution(run(made), scene)

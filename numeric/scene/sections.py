@@ -189,7 +189,7 @@ def radii_array(value: object) -> Array:
 
 
 class GivenRadii(Disorder):
-    """Radii of one's own, as an array: of ``radii`` themselves or of their deviations ``delta_r``.
+    """Your own radii, as an array: of ``radii`` themselves or of their deviations ``delta_r``.
 
     Shape (layers, W), layer 0 (the base) first, or (packings, layers, W) for several packings;
     lengths in the unit of ``packing.radius``. Column q of layer j is the bead i = 2q + j mod 2. In
@@ -258,10 +258,10 @@ class Effects(Section):
     """What is simulated of the packing, and whether tension stops the sweep.
 
     ``contacts``: "bilateral" ones stay closed and may pull; "unilateral" ones open instead, and
-    beads move until none pulls. Where they come to rest is not unique, so that ``protocol``, the
-    way there, is part of the answer: "linear-programs" in a row, or "event-driven", one contact
-    after the other along the exact motion. It is given up after ``most_events`` of them, or after
-    ``most_seconds`` of the processor, for each packing.
+    beads move until none pulls. They may come to rest in more than one way, so the way there, the
+    ``protocol``, is part of the answer: "linear-programs", one after another, or "event-driven",
+    one contact after another along the exact motion. A packing is given up after ``most_events``
+    of these, or after ``most_seconds`` of processor time.
     """
 
     section = "effects"

@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -43,6 +44,14 @@ def test_premises_are_proved_first(made_up, capsys: pytest.CaptureFixture[str]) 
     lines = capsys.readouterr().out.splitlines()
     assert [line.split()[:2] for line in lines[:2]] == [["1", "proved"], ["2", "proved"]]
     assert lines[2] == "2 proved."
+
+
+def test_what_stays_undecided_is_no_failure_where_it_is_false(capsys) -> None:
+    assert main(["derive", "1"]) == 0
+    words = " ".join(capsys.readouterr().out.split())
+    found = re.search(r"(\d+) undecided, which is no failure where a statement is false", words)
+    assert found
+    assert re.search(r"Of (\d+) true ones it proved \1\. 1 proved\.$", words)
 
 
 @pytest.mark.parametrize("verdict", [Verdict.REFUTED, Verdict.UNDECIDED])

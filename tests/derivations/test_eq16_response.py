@@ -18,8 +18,9 @@ from force_diffusion.derivations.export.document import finding, statement_latex
 from force_diffusion.derivations.export.manifest import Manifest
 from force_diffusion.derivations.export.terminal import statement_text
 from force_diffusion.derivations.framework import runner
+from force_diffusion.derivations.framework.grounds import exhausting, moment
 from force_diffusion.derivations.framework.loading import load
-from force_diffusion.derivations.framework.proving import Line, exhausting, moment
+from force_diffusion.derivations.framework.proving import Line
 from force_diffusion.derivations.framework.record import Check, Piece
 from force_diffusion.derivations.framework.vocabulary import UNIT
 from force_diffusion.derivations.parts import cone

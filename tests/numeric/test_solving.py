@@ -232,6 +232,10 @@ def test_what_does_not_fit_its_dimension(shape: Any, dimension: Any, says: str) 
         fd.solve(np.ones(shape), dimension=dimension)
 
 
+def test_a_dimension_may_be_a_number_of_numpy_s() -> None:
+    assert fd.solve(np.ones((3, 4, 4)), dimension=np.int64(3)).force.shape == (3, 2, 4, 4)  # type: ignore[arg-type]
+
+
 def test_a_load_on_a_sphere_names_a_sphere() -> None:
     assert fd.solve(np.ones((3, 4, 4)), dimension=3, load=fd.PointLoad(at=(0, 0, 2))).force.shape
     with pytest.raises(fd.SceneError, match=r"load.at.*\[p, q, l\]"):

@@ -8,7 +8,8 @@ import pytest
 import sympy
 from force_diffusion.derivations.api.equation import Equation
 from force_diffusion.derivations.api.exact import ExactForm
-from force_diffusion.derivations.framework.proving import By, Lines
+from force_diffusion.derivations.framework.grounds import By
+from force_diffusion.derivations.framework.proving import Lines
 from force_diffusion.derivations.framework.record import Derivation, ExactCase
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation

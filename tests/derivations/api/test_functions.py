@@ -267,6 +267,13 @@ def test_whole_numbers_do_not_overflow() -> None:
     assert found[0] == pytest.approx(2e21)
 
 
+@pytest.mark.parametrize("kind", [float, Fraction, Decimal, sympy.Rational, np.float32])
+def test_a_function_takes_numbers_of_any_kind(kind: Any) -> None:
+    half = kind("0.5") if kind in (Decimal, sympy.Rational) else kind(0.5)
+    found = fd.equation(13).function()(M=10, z=[half, 0], phi=0, sigma=half, r=1)
+    assert found == pytest.approx([250, 500], rel=1e-14)
+
+
 def test_positions_and_names_are_one() -> None:
     function = fd.equation(13).function()
     by_name = function(M=10, z=0.3, **FLOATS)
@@ -284,6 +291,9 @@ def test_positions_and_names_are_one() -> None:
         ({"phi": 0.5}, "phi = 0.5: −1/2 < φ < 1/2"),
         ({"r": "1"}, "r = '1': numbers are allowed"),
         ({"r": 1j}, "r = 1j: numbers are allowed"),
+        ({"r": np.array(["1"], dtype=object)}, "numbers are allowed"),
+        ({"r": np.ma.masked_array([1.0, 2.0], [0, 1])}, "without a mask"),
+        ({"sigma": 1e200}, "beyond the range of floats"),
         ({"M": [4, 5], "z": np.zeros(3)}, r"M of shape \(2,\) and z of shape \(3,\) do not"),
     ],
 )

@@ -59,6 +59,27 @@ def test_the_second_check_is_read_whole() -> None:
         assert unexpected(SUMMARY.replace(good, bad)) != ""
 
 
+NEWER = SUMMARY.replace("* Axioms:\n", "* Theory: Rewrite rules are not allowed\n  \n* Axioms:\n")
+"""Of Coq 8.20."""
+
+
+def test_the_second_check_of_newer_versions_is_read_whole() -> None:
+    assert unexpected(NEWER) == ""
+    rocq = NEWER.replace(" Coq.", " Stdlib.") + (
+        "\n* Inductives relying on indices not mattering: <none>\n"
+    )
+    assert unexpected(rocq) == ""
+    for good, bad in (
+        ("Rewrite rules are not", "Rewrite rules are"),
+        ("mattering: <none>", "mattering: ForceDiffusion.Model.t"),
+        ("Set is predicative", "Set is impredicative"),
+        ("* Theory: Set is predicative", "* Theory: Rewrite rules are not allowed"),
+        (" Stdlib.", " Mine.Coq."),
+    ):
+        assert good in rocq
+        assert unexpected(rocq.replace(good, bad)) != ""
+
+
 def test_without_coq_nothing_is_accepted(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -76,7 +97,7 @@ def test_statements_and_hashes_are_written(tmp_path: Path, monkeypatch: pytest.M
     assert main(["certify", "7", "--out", str(tmp_path)]) == 1
     said = json.loads((tmp_path / "certificate.json").read_text())
     assert [one["verdict"] for one in said["equations"]] == ["Coq absent"]
-    for name in ("Model.v", "Equation_7_part_1.v", "Equation_7_part_2.v"):
+    for name in ("Model.v", "Equation_7_part_1_statement.v", "Equation_7_part_2.v"):
         content = (tmp_path / name).read_bytes()
         assert said["files"][name] == hashlib.sha256(content).hexdigest()
     listed = json.loads((tmp_path / "manifest.json").read_text())["files"]

@@ -5,7 +5,7 @@ import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
-from force_diffusion.derivations.framework.proving import facts_of
+from force_diffusion.derivations.framework.grounds import facts_of
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel import limits, rules
 from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
