@@ -1,4 +1,4 @@
-"""Scenes and stores that nobody would write: each has to end in words and a documented status.
+"""Scenes, files and stores that nobody would write: each ends in words and a documented status.
 
 ``fuzz.py --seconds 60 --seed N`` tries cases until the time is over, each in a process of its own,
 with limits on memory and time. Case K of a seed is tried again with ``--case K``; its files stay in
@@ -7,6 +7,7 @@ the current folder. Exit status: 0 all ended well, 1 some did not.
 
 import argparse
 import io
+import json
 import os
 import resource
 import shutil
@@ -15,10 +16,12 @@ import sqlite3
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from random import Random
+from typing import Any
+
+import numpy as np
 
 from force_diffusion import numeric
 from force_diffusion.__main__ import main as program
@@ -28,7 +31,7 @@ PATIENCE = 20.0  # seconds in which what solves nothing has to end
 ENOUGH = 3.0  # seconds after which what solves packings is interrupted, and has to end then
 MEMORY = 4 * 2**30
 ENDED = {0, 2, 3, 130}
-QUICK = {"explain", "ensemble-status"}
+QUICK = {"explain", "ensemble-status", "check-packings"}
 
 # Values that are good at least somewhere, so that changes reach beyond what reads a scene.
 GOOD = {
@@ -103,8 +106,8 @@ def scene(random: Random, folder: Path) -> list[str]:
     source = random.choice(SCENES)
     shutil.copy(source.with_name("radii.csv"), folder)
     lines = source.read_text(encoding="utf-8").splitlines()
-    mild = random.random() < 0.5
-    for _ in range(random.choice([1, 2, 3, 4]) if mild else 0):
+    mild = random.random() < 0.75
+    for _ in range(random.choice([0, 1, 1, 2, 4]) if mild else 0):
         section = random.choice(list(SECTIONS))
         key = random.choice(SECTIONS[section])
         lines = set_key(lines, section, key, random.choice(GOOD[key]))
@@ -131,11 +134,29 @@ def scene(random: Random, folder: Path) -> list[str]:
     if random.random() < 0.1:
         rows = [random.choice(WORDS) for _ in range(random.randrange(6))]
         (folder / "radii.csv").write_text("\n".join(rows), encoding="utf-8")
-    command = random.choice(["explain", "explain", "run", "run", "ensemble", "cost"])
+    command = random.choice(["explain"] * 2 + ["run"] * 2 + ["ensemble"] * 2 + ["figures", "cost"])
     options = {
         "explain": [[], ["--json"]],
-        "run": [[], ["--json"], ["--out", "out"], ["--tolerance", "1e-20"]],
-        "ensemble": [["--realisations", "3", "--workers", "1"]],
+        "run": [
+            [],
+            ["--json"],
+            ["--out", "out"],
+            ["--out", "out", "--format", random.choice(["npz", "parquet"])],
+            ["--tolerance", "1e-20"],
+            ["--set", f"packing.height={random.choice(VALUES)}"],
+            ["--set", f"{random.choice(KEYS)}={random.choice(VALUES)}"],
+        ],
+        "ensemble": [
+            ["--realisations", "3", "--workers", "1", *more]
+            for more in (
+                [],
+                ["--covariance", "--out", "out"],
+                ["--covariance", "--json"],
+                ["--until", random.choice(["1e-300", "0.5", "nan", "-1", "1e-9999"])],
+                ["--reach", random.choice(["1", "1e-300", "1e300", "inf"])],
+            )
+        ],
+        "figures": [["--out", "out"]],
         "cost": [["--out", "out"]],
     }
     return [command, name, *random.choice(options[command])]
@@ -160,6 +181,86 @@ def store(random: Random, folder: Path, whole: Path) -> list[str]:
     if random.random() < 0.5:
         return ["ensemble-status", "store", *random.choice([[], ["--json"]])]
     return ["ensemble", "scene.toml", "--store", "store", "--workers", "1"]
+
+
+def _damaged(random: Random, content: bytes) -> bytes:
+    """Change some bytes, most near the front, where headers are; or cut the end off."""
+    changed = bytearray(content)
+    for _ in range(random.choice([0, 1, 1, 2, 8])):
+        at = random.randrange(min(len(changed), random.choice([12, 128, len(changed)])))
+        changed[at] = random.choice([random.randrange(256), *b"(){}',0123456789<>|fiuOc"])
+    return bytes(changed[: random.randrange(len(changed))] if random.random() < 0.1 else changed)
+
+
+def _number(random: Random) -> str:
+    return random.choice(["0", "-1", "1e400", "1e308", "-1e-400", "1e999", "2", "x", str(2**70)])
+
+
+def array(random: Random, folder: Path) -> list[str]:
+    """Give radii in a NumPy file that is damaged, or whose numbers are odd."""
+    values = np.full((4, 5), 1.0)
+    odd = [1.0, 1.0, 1.0, 1.0, 1.0, np.nan, np.inf, 1.7e308, 1e-320, -1.0, 1e200]
+    values[random.randrange(4), random.randrange(5)] = random.choice(odd)
+    with np.errstate(all="ignore"):
+        kept: Any = values.astype(random.choice(["<f8", ">f8", "<f4", "<i8", "|b1", "<c16", "<U3"]))
+    buffer = io.BytesIO()
+    random.choice([np.save, np.save, np.save, np.savez])(buffer, kept)
+    (folder / "radii.npy").write_bytes(_damaged(random, buffer.getvalue()))
+    return _of_file(folder, "radii.npy", random)
+
+
+def table(random: Random, folder: Path) -> list[str]:
+    """Give radii in a table of which one place or number is odd."""
+    step, beads = 7**0.5 / 2, [(i, j) for j in range(4) for i in range(j % 2, 10, 2)]
+    header = random.choice(["x,y,r", "i,j,r", "i,j,delta_r"])
+    rows = [[str(i), str(j), "1" if header[-2] == "," else "0"] for i, j in beads]
+    if header[0] == "x":
+        rows = [[str(1.5 * i), str(step * j), "1"] for i, j in beads]
+    rows[random.randrange(len(rows))][random.randrange(3)] = _number(random)
+    text = "\n".join([header, *(",".join(row) for row in rows)])
+    (folder / "radii.csv").write_text(text, encoding="utf-8")
+    return _of_file(folder, "radii.csv", random)
+
+
+def _of_file(folder: Path, name: str, random: Random) -> list[str]:
+    quantity = random.choice(["profile", "contact_forces", "histogram"])
+    unit = random.choice(["", "", ", radius = 1e-100", ", radius = 1e300"])
+    lines = [f"packing = {{height = 3, width = 5{unit}}}", f"ask = {{quantity = '{quantity}'}}"]
+    lines.append(f"disorder = {{kind = 'file', file = '{name}'}}")
+    (folder / "scene.toml").write_text("\n".join(lines), encoding="utf-8")
+    return [*random.choice([["run"], ["explain"], ["figures", "--out", "out"]]), "scene.toml"]
+
+
+PACKING: dict[str, Any] = {
+    "period": "12",
+    "fixed": 2,
+    "radii": ["1"] * 3,
+    "loads": [["0", "0"], ["0", "0"], ["0", "-1"]],
+    "centres": [["0", "0"], ["3", "0"], ["1.5", "1.32287565553229529525080787681963021285513"]],
+    "contacts": [[2, 0], [2, 1]],
+}
+
+
+def packings(random: Random, folder: Path) -> list[str]:
+    """Give a file of packings in which something is odd."""
+    packing = json.loads(json.dumps(PACKING))
+    for _ in range(random.choice([1, 1, 2])):
+        key = random.choice(list(PACKING))
+        odd: Any = random.choice(
+            [_number(random), 2**70, -1, [], None, 1.5, [[_number(random)] * 2]]
+        )
+        if isinstance(packing[key], list) and packing[key] and random.random() < 0.8:
+            at = random.randrange(len(packing[key]))
+            if isinstance(packing[key][at], list) and packing[key][at]:
+                packing[key][at][random.randrange(len(packing[key][at]))] = odd
+            else:
+                packing[key][at] = odd
+        else:
+            packing[key] = odd
+    text = json.dumps({"format": "force-diffusion packings 1", "packings": [packing]}).encode()
+    damaged = _damaged(random, text) if random.random() < 0.2 else text
+    (folder / "packings.json").write_bytes(damaged)
+    return ["check-packings", "packings.json", *random.choice([[], ["--json"]])]
 
 
 def _forge(random: Random, path: Path) -> None:
@@ -224,6 +325,8 @@ def ended(folder: Path, command: list[str], statuses: Counter[int]) -> str:
     status = os.waitstatus_to_exitcode(done[1])
     statuses[status] += 1
     said = err.read_text(encoding="utf-8", errors="replace")
+    if command[0] == "check-packings" and status == 3:  # a verdict, which is no message
+        said += out.read_text(encoding="utf-8", errors="replace")
     if interrupted and command[0] in QUICK:
         return f"had no end after {PATIENCE} s"
     if status not in ENDED or "Traceback" in said or (status in {2, 3} and not said.strip()):
@@ -265,11 +368,14 @@ def main() -> int:
         random = Random(f"{options.seed} {number}")
         folder = root / str(number)
         folder.mkdir()
-        make: Callable[[], list[str]] = (
-            (lambda: store(random, folder, whole)) if number % 3 == 0  # noqa: B023
-            else (lambda: scene(random, folder))  # noqa: B023
-        )  # fmt: skip
-        command = make()
+        kind = random.choice(["store", "store", *["scene"] * 4, "array", "table", "packings"])
+        command = (
+            store(random, folder, whole)
+            if kind == "store"
+            else {"scene": scene, "array": array, "table": table, "packings": packings}[kind](
+                random, folder
+            )
+        )
         if what := ended(folder, command, statuses):
             wrong += 1
             print(f"case {number}: {' '.join(map(repr, command))} {what}\n", flush=True)
