@@ -9,7 +9,8 @@ from types import ModuleType
 from typing import Any
 
 import sympy
-from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations import eq04_contact_plus as eq04
+from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.beyond import t1_forces as t1
@@ -261,7 +262,7 @@ def _derivation(number: Number, case: Case, **options: Any) -> Derivation:
             "printed form: M → ∞ at fixed z and t; exact form, for f⁺: every 0 ≤ j < M. For f⁻ put "
             "1/t in place of t",
         ),
-        premises=(*eq11.DIRECTIONS, t1.B1, case.vertical.DERIVATION),
+        premises=(eq04.DERIVATION, eq05.DERIVATION, t1.B1, case.vertical.DERIVATION),
         printed=case.printed,
         relation="∼",
         exact=case.variance.exact,

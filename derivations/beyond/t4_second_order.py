@@ -12,6 +12,7 @@ from functools import cache, cached_property, partial
 import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
 from force_diffusion.derivations import eq04_contact_plus as eq04
+from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.beyond import t1_forces as t1
@@ -161,7 +162,7 @@ B4 = Derivation(
         *SECOND_ORDER,
         "j ≥ 1; the beads of the base do not move",
     ),
-    premises=(eq02.DERIVATION, *eq11.DIRECTIONS),
+    premises=(eq02.DERIVATION, eq04.DERIVATION, eq05.DERIVATION),
     printed=(SETTLING,),
     domain=(sympy.Ge(j, 1),),
     where=ABOVE_BASE,
@@ -469,7 +470,7 @@ def _derivation(
         title=title,
         symbols=(*told, *further, *usual(sigma, r, M, phi)),
         assumptions=(*SECOND_ORDER, *load, _PLUS_ONLY if tilted else _EVERY),
-        premises=(*_SOURCES[case.number], *eq11.DIRECTIONS, B4, *premises),
+        premises=(*_SOURCES[case.number], eq04.DERIVATION, eq05.DERIVATION, B4, *premises),
         printed=case.printed,
         domain=(sympy.Ge(j, 2), sympy.Ge(M, j + 2)),
         where=case.mean.where(),

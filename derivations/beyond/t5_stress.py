@@ -11,7 +11,8 @@ from itertools import product
 from typing import Any
 
 import sympy
-from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations import eq04_contact_plus as eq04
+from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations.beyond import t1_forces as t1
 from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.framework.catalogue import Number
@@ -586,7 +587,7 @@ def _stress(number: str, load_in_words: str, **options: Any) -> Derivation:
     )
 
 
-_MEANS = (*eq11.DIRECTIONS, t1.B1, t4.B4, t4.B15, t4.B16)
+_MEANS = (eq04.DERIVATION, eq05.DERIVATION, t1.B1, t4.B4, t4.B15, t4.B16)
 
 B10 = _stress(
     "B10",

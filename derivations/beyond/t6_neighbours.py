@@ -4,6 +4,8 @@ from functools import cache
 from itertools import product
 
 import sympy
+from force_diffusion.derivations import eq04_contact_plus as eq04
+from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
@@ -382,7 +384,7 @@ B7 = Derivation(
     title="Mean over N neighbouring contacts of one branch",
     symbols=_NEIGHBOURS,
     assumptions=(*FIRST_ORDER, "a surface load", "2 ≤ N ≤ j − 1 and M ≥ j + 2"),
-    premises=(*eq11.DIRECTIONS, eq11.DERIVATION, eq13.DERIVATION),
+    premises=(eq04.DERIVATION, eq05.DERIVATION, eq11.DERIVATION, eq13.DERIVATION),
     printed=(CONTACT_MEAN,),
     domain=UNDER_SURFACE.relations,
     where=UNDER_SURFACE.where,

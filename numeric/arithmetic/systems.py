@@ -27,6 +27,8 @@ MOST_DIGITS = 2400  # of big numbers; balls never get more than 8192 bits
 class NumberSystem(Protocol):
     """What the sweeps ask of numbers; see the four implementations below."""
 
+    def __hash__(self) -> int: ...
+
     @property
     def name(self) -> str:
         """How plans and results call this arithmetic."""

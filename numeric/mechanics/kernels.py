@@ -66,6 +66,7 @@ def source(dimension: int, *, carried: bool) -> str:
         _order(dimension, carried=carried),
         _gap(dimension),
         _relative(carried=carried),
+        _scaled(carried=carried),
     ]
     imports = (
         "from math import inf, sqrt\nfrom force_diffusion.numeric.arithmetic.compiling import "
@@ -204,6 +205,13 @@ def _relative(*, carried: bool) -> Code:
     radii = of.code.takes("radii", 0, 0)
     found = relative(Carried(radii) if carried else radii, *of.constants)
     of.give("rho", 0, 0, [found])
+    return of.code
+
+
+def _scaled(*, carried: bool) -> Code:
+    of = _Recording("scaled", {"radii": 1, "rho": 1}, 1, carried=carried)
+    deviates = of.code.takes("radii", 0, 0)
+    of.give("rho", 0, 0, [(Carried(deviates) if carried else deviates) * of.constants[0]])
     return of.code
 
 
@@ -421,9 +429,10 @@ class Descent:
     """Carries loads down through packings of one region, in memory that is used again."""
 
     def __init__(
-        self, region: Region, rows: tuple[Layer, ...], loads: Loads, *, carried: bool = False
-    ) -> None:
-        """``rows`` are those whose forces are balanced, ``loads`` belong to them."""
+        self, region: Region, rows: tuple[Layer, ...], loads: Loads, *, carried: bool = False,
+        g: Array | None = None,
+    ) -> None:  # fmt: skip
+        """``rows``: those that are balanced, of these ``loads``; ``g``: memory of the last ones."""
         d, self.carried = region.dimension, carried
         self.region, self.rows = region, rows
         own = Region(region.width, rows, d)
@@ -433,7 +442,9 @@ class Descent:
         self.lowest = int(empty[-1]) + 2 if len(empty) else 1
         self.beads = int(self.starts[-1] - self.starts[1])  # that pass forces on
         self.runs = _loads(region, own, self.lowest, carried=carried)
-        self.g, self.lost = np.empty((0, 0, 0)), np.empty((0, 0))
+        self.lost = np.empty((0, 0))
+        fits = g is not None and g.shape[1:] == self.shape
+        self.g = g if g is not None and fits else memory(1, self.shape[0], int(self.starts[-1]))
         self.set(loads)
 
     @cached_property
@@ -457,7 +468,8 @@ class Descent:
     def set(self, loads: Loads) -> None:
         """Take other loads."""
         d, self.loads = self.region.dimension, loads
-        self.F, shares = np.zeros(self.shape), np.zeros(self.shape)
+        self.F, shares = np.zeros(self.shape), self.g[0]  # whose changes are not there yet
+        shares[:] = 0
         for a, (_, rows) in enumerate(loads):
             for j in range(self.lowest, len(self.rows)):
                 of, share = slice(self.starts[j], self.starts[j + 1]), rows[j]

@@ -30,6 +30,9 @@ if TYPE_CHECKING:
     def relative(radii: Array, rho: Array, run: Array, m: Array) -> bool:
         """Recorded from ``disorder.radii``."""
 
+    def scaled(radii: Array, rho: Array, run: Array, m: Array) -> bool:
+        """Recorded from a product."""
+
 
 _ALL = 0x7FFF_FFFF_FFFF_FFFF  # all bits of a double but its sign
 
@@ -90,10 +93,16 @@ def runs(
 
 @compiled
 def deviations(radii: Array, rho: Array, m: Array) -> None:
-    """Give δr/r, (packings, PARTS, beads), of radii, (packings, 1, beads)."""
+    """Give δr/r, (packings, PARTS, beads), of radii, or of deviates, (packings, 1, beads).
+
+    ``m`` holds their origin and r, or of deviates σ/r alone.
+    """
     run = np.array([0, rho.shape[2]])
     for k in range(len(rho)):
-        relative(radii[k], rho[k], run, m)
+        if len(m) == PARTS:
+            scaled(radii[k], rho[k], run, m)
+        else:
+            relative(radii[k], rho[k], run, m)
 
 
 @compiled

@@ -88,6 +88,10 @@ class Physicality:
         Of the upper bead's ``layers`` only, if some are given.
         """
         self.forces_known = True
+        if layers is not None and forces.hold:
+            rows = forces.rows[max(layers.start, 1) : layers.stop]
+            self.contacts += forces.region.dimension * sum(row.count for row in rows)
+            return
         if layers is None and forces.F is not None and forces.g is not None:
             self.contacts += forces.g.size
             pulling_rows = [] if forces.hold else self._count(forces.rows, forces.F, forces.g)

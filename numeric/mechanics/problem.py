@@ -39,7 +39,8 @@ class Problem:
     one. ``realisations``: how many there are in all; it decides who sweeps, never a number.
     ``protocol``: how beads come to rest where contacts are unilateral, and when that is given up:
     after ``most_events``, or ``most_seconds`` of the processor. ``segment``: how many layers are in
-    memory at a time, 0 for all of them. In three dimensions layers of W² beads count as one row.
+    memory at a time, 0 for all of them; a layer is kept below each ``every``-th of these parts. In
+    three dimensions layers of W² beads count as one row.
     """
 
     n_x: Fraction
@@ -57,6 +58,7 @@ class Problem:
     most_events: int | None = None
     most_seconds: Fraction | None = None
     segment: int = 0
+    every: int = 1
 
     @property
     def dimension(self) -> int:

@@ -2,11 +2,13 @@
 
 On the way up only the positions of every k-th layer are kept. On the way down the layers between
 are drawn and deposited again, so that a segment at a time is there, as if all had been solved
-together: no bit differs. With k near the root of the height that takes half as long again.
+together: no bit differs. With k near the root of the height that takes half as long again. Of a
+packing for which that is still too much, the layer below every n-th segment is kept alone: those
+between are found once more on the way down, n segments at a time.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
@@ -24,11 +26,9 @@ from .sweep import Forces, Loads, NotStandingError, SolvedPacking, check_standin
 from .sweeps import Drawing, tell
 from .work import Work
 
-T = TypeVar("T", Drawing, Deposition, Descent)
+T = TypeVar("T", Drawing, Deposition)
 # Layers above a segment that are deposited, too: beads look for gaps so far up.
 OVER = 3
-# Names under which a segment's number follows: positions below it, and forces on its lowest layer.
-KEPT = ("c", "g", "F")
 
 
 def count(problem: Problem, layers: int) -> int:
@@ -46,7 +46,10 @@ class Kept(Protocol):
         """Keep an array."""
 
     def drop(self, name: str) -> None:
-        """Forget what this run needs no more, if it takes memory."""
+        """Forget it."""
+
+    def save(self, *, now: bool = True) -> None:
+        """Make sure of it; if not ``now``, where that takes little of the time."""
 
 
 class InMemory:
@@ -67,6 +70,9 @@ class InMemory:
     def drop(self, name: str) -> None:
         """Forget it."""
         self._kept.pop(name, None)
+
+    def save(self, *, now: bool = True) -> None:
+        """There is nowhere else to keep it."""
 
 
 @dataclass(frozen=True)
@@ -101,45 +107,61 @@ class Segments:
         """``kept`` may hold what an earlier run has kept; ``again``: all will go down once more."""
         self.problem, self.realisation, self.work, self.kept = problem, realisation, work, kept
         self.again = again
-        self.layers, self.top = layers, problem.region.top
+        self.layers, self.top, self.every = layers, problem.region.top, problem.every
         self.count = count(problem, layers)
         self._parts: dict[type, Any] = {}
         self._strength = problem.load.strength(problem.n_x, CARRYING)
 
     def up(self, highest: int) -> None:
-        """Deposit all segments below the ``highest``; keep the layer below each.
+        """Deposit all segments below the ``highest``; keep the layer below it and every n-th.
 
         Raises ``RadiusError``, and ``UnbuildableError`` for a bead that can't rest.
         """
+        self._climb(highest, self.every)
+
+    def _climb(self, highest: int, every: int) -> None:
+        """Deposit what lies between a layer that is kept and the ``highest`` segment."""
         d = self.problem.dimension
         rows = [*range(d), *range(d + d * d, 2 * d + d * d)]
-        for number in range(1, highest + 1):
-            if self.kept.get(f"c{number}") is None:
-                region, _, block = self._deposited(number - 1)
-                of = slice(region.starts[self.layers], region.starts[self.layers + 1])
-                self.kept.put(f"c{number}", block[0, rows, of])
+        known = (n for n in range(highest, 0, -1) if self.kept.get(f"c{n}") is not None)
+        for number in range(next(known, 0) + 1, highest + 1):
+            region, _, block = self._deposited(number - 1)
+            of = slice(region.starts[self.layers], region.starts[self.layers + 1])
+            self.kept.put(f"c{number}", block[0, rows, of])
+            if (number - 1) % every:
+                self.kept.drop(f"c{number - 1}")
+            self.kept.save(now=False)
 
     def down(self, number: int) -> Segment:
         """Solve a segment: the highest first, and then one after the other.
 
         Raises what ``up`` does, and ``NotStandingError``.
         """
+        self._climb(number, 1)
         region, rho, block = self._deposited(number)
         low = number * self.layers
         last = min(low + self.layers, self.top)
         descent, g = None, None
         rows = self.problem.force_rows[low : low + self.layers + 2]
         if self.problem.needs_forces and len(rows) > 1:  # else it lies above all loads
-            descent = self._ready(
-                Descent(region, rows, self._loads_on(rows, number), carried=True), "g"
-            )
+            old = self._parts.get(Descent)
+            loads, g = self._loads_on(rows, number), None if old is None else old.g
+            descent = Descent(region, rows, loads, carried=True, g=g)
+            self._parts[Descent] = descent
             g = self._balanced(number, descent, region, rho, block)
-        for name in (f"c{number}", f"g{number + 1}", f"F{number + 1}")[self.again :]:
-            self.kept.drop(name)
         solved = tell(self.problem.phi, self._parts[Deposition], rho, descent, g)
         assert solved.packing is not None
         first = low + 1 if number else 0
-        return Segment(number, self.count, first, last, self._whole(solved, low), solved.packing)
+        own = self._whole(solved, low, range(low + 1, last + 1))
+        return Segment(number, self.count, first, last, own, solved.packing)
+
+    def leave(self, number: int) -> None:
+        """Forget what only that segment needed, once it is done."""
+        if not self.again or number % self.every:
+            self.kept.drop(f"c{number}")
+        for name in (f"g{number + 1}", f"F{number + 1}"):
+            self.kept.drop(name)
+        self.kept.save(now=False)
 
     def _deposited(self, number: int) -> tuple[Region, Array, Array]:
         problem, work, low = self.problem, self.work, number * self.layers
@@ -203,18 +225,21 @@ class Segments:
         shares: list[tuple[Any, ...]] = [of for _, of in on]
         return per_direction([(*shares[a][:-1], Carried(above[a], above[d + a])) for a in range(d)])
 
-    def _ready(self, part: T, *memory: str) -> T:
+    def _ready(self, part: T, memory: str) -> T:
         """Give a part the memory of the last of its kind, if that fits."""
         old = self._parts.get(type(part))
-        for name in memory:
-            if old is not None and getattr(old, name).shape[1:] == part.shape:
-                setattr(part, name, getattr(old, name))
+        if old is not None and getattr(old, memory).shape[1:] == part.shape:
+            setattr(part, memory, getattr(old, memory))
         self._parts[type(part)] = part
         return part
 
-    def _whole(self, solved: Solved, low: int) -> Solved:
-        """Number rows as in the whole packing; those that are not there are empty."""
-        nothing, problem = np.empty(0), self.problem
+    def _whole(self, solved: Solved, low: int, own: range) -> Solved:
+        """Number rows as in the whole packing; those that are not there are empty.
+
+        Blocks of forces are those below the layers ``own``.
+        """
+        nothing: Array = np.empty(0)
+        problem = self.problem
 
         def placed(rows: Sequence[Any], count: int) -> LazyRows[Any]:
             def row(j: int) -> Any:
@@ -236,12 +261,19 @@ class Segments:
             each(packing.c, layers),
             each(packing.dn, layers),
         )
-        none = per_direction([()] * problem.dimension)
-        ordered, change = (none, none) if forces is None else (forces.ordered, forces.change)
-        forces = Forces(
-            FLOAT64, problem.region, rows, each(ordered, len(rows)), each(change, len(rows))
+        none: PerBranch[Sequence[Array]] = per_direction([()] * problem.dimension)
+        forces = forces or Forces(FLOAT64, problem.region, (), none, none)
+        beads = sum(row.count for row in rows[own.start : own.stop])
+        forces = replace(
+            forces,
+            region=problem.region,
+            rows=rows,
+            ordered=each(forces.ordered, len(rows)),
+            change=each(forces.change, len(rows)),
+            F=None if forces.F is None else forces.F[:, :beads],
+            g=None if forces.g is None else forces.g[..., :beads],
         )
-        rest = None if solved.rest is None else self._whole(solved.rest, low)
+        rest = None if solved.rest is None else self._whole(solved.rest, low, own)
         return Solved(FLOAT64, packing, forces, None, rest, solved.sizes)
 
 

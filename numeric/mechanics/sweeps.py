@@ -32,6 +32,7 @@ class Drawing:
         self.radii, self.region, self.carried = radii, region, carried
         self.runs = drawing.runs_of(radii, region.rows) if isinstance(radii, DrawnRadii) else None
         self.rho = np.empty((0, 0, 0)) if rho is None else rho
+        self._deviates = np.empty((0, 0, 0))
 
     def __call__(self, realisations: Sequence[int]) -> Array:
         """Give δr/r, (packings, parts, beads). Raises what ``radii`` raises."""
@@ -43,11 +44,7 @@ class Drawing:
         if isinstance(radii, ArrayRadii) and region.is_whole:
             first = region.rows[0].j
             values = radii.values[np.asarray(realisations), first : first + len(region.rows)]
-            own = [system.scalar(one) for one in (radii.origin, radii.radius)]
-            loop = kernels(region.dimension, carried=self.carried).deviations
-            m = numbers(own, carried=self.carried)
-            loop(values.reshape(len(rho), 1, -1), rho, m)
-            return rho
+            return self._scaled(values.reshape(len(rho), 1, -1), radii.origin, radii.radius)
         for j, row in enumerate(region.rows):
             of = slice(region.starts[j], region.starts[j + 1])
             self._put(rho, of, self.radii.row(row, realisations, system))
@@ -76,15 +73,23 @@ class Drawing:
         batch, radii, runs = len(realisations), self.radii, self.runs
         assert isinstance(radii, DrawnRadii)
         rho = self._memory(batch)
-        values = np.empty((batch, self.region.beads)) if self.carried else rho[:, 0]
+        if self.carried and len(self._deviates) < batch:
+            self._deviates = np.empty((batch, 1, self.region.beads))
+        values = self._deviates[:batch, 0] if self.carried else rho[:, 0]
 
         def part(of: slice) -> bool:
             return drawing.draw(radii, runs, realisations[of], values[of], scaled=not self.carried)
 
         if not on_all_cores(part, batch):
             return None
-        if self.carried:
-            self._put(rho, slice(None), Carried(values, 0.0) * CARRYING.scalar(radii.std))
+        return self._scaled(values[:, None], radii.std) if self.carried else rho
+
+    def _scaled(self, values: Array, *of: Fraction) -> Array:
+        """Give δr/r of radii, of their origin and r; or of deviates, of σ/r."""
+        m = numbers([(CARRYING if self.carried else FLOAT64).scalar(one) for one in of],
+                    carried=self.carried)  # fmt: skip
+        rho = self._memory(len(values))
+        kernels(self.region.dimension, carried=self.carried).deviations(values, rho, m)
         return rho
 
 

@@ -5,12 +5,15 @@ from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
 
-# Bytes that a bead takes while it is solved, a row of the answer, a line of a file and a layer of
-# the plan; measured, rounded up. The rest is the interpreter with its libraries.
-FLOAT_BEAD, BALL_BEAD, FLOAT_ROW, BALL_ROW, FILE_LINE, PLAN_LAYER = 900, 2200, 1200, 2800, 600, 900
-INTERPRETER = 100_000_000
+# Bytes that a bead takes while it is solved, by dimension, a packing whose rows are listed, a line
+# of a file and a layer of the plan; measured, rounded up. The rest is the interpreter with its
+# libraries.
+FLOAT_BEADS, BALL_BEAD, LISTED, FILE_LINE, PLAN_LAYER = {2: 310, 3: 490}, 2200, 3500, 600, 900
+# What a row of the answer takes: its names, a number, and that as text.
+NAMES, FLOAT_NUMBER, TEXT, BALL_ROW = 100, 60, 150, 1300
+INTERPRETER = 85_000_000
 # The compiler that the extra ``fast`` brings, and what it leaves behind.
-COMPILER, COMPILED = 100_000_000, 150_000_000
+COMPILED = 120_000_000
 LONGEST = 24 * 3600.0
 
 
@@ -18,18 +21,24 @@ class TooLargeError(SceneError):
     """A scene needs more memory or time than there is."""
 
 
-def memory(*, beads: int, rows: int, layers: int, system: NumberSystem, file: bool) -> int:
+def memory(
+    *, beads: int, rows: int, numbers: int, listed: int, layers: int, system: NumberSystem,
+    dimension: int, file: bool, text: bool,
+) -> int:  # fmt: skip
     """Estimate the bytes at the peak.
 
     ``beads`` are those solved at once, ``layers`` the rows of the plan, ``rows`` those of the
-    answer; ``file`` says whether the radii are held in memory.
+    answer with so many ``numbers`` each, which become ``text`` or not, of ``listed`` packings;
+    ``file`` says whether the radii are held in memory.
     """
-    each = FLOAT_BEAD if system is FLOAT64 else 2 * FLOAT_BEAD
+    each = FLOAT_BEADS[dimension] if system is FLOAT64 else 3 * FLOAT_BEADS[dimension]
     if system.dtype is object and not isinstance(system, Pairs):
         each = BALL_BEAD * max(64 + system.bits, 128) // 128
+    row = NAMES + numbers * (FLOAT_NUMBER + TEXT * text)
     return (
         beads * (each + (FILE_LINE if file else 0))
-        + rows * (BALL_ROW if system.dtype is object else FLOAT_ROW)
+        + rows * (BALL_ROW if system.dtype is object else row)
+        + listed * LISTED
         + layers * PLAN_LAYER
         + INTERPRETER
     )

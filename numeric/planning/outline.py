@@ -32,6 +32,7 @@ class Outline:
     """A scene's question as a problem, of which any method makes a plan.
 
     ``limit``: bytes that may be used. ``closed``: whether closed forms or line sums answer it.
+    ``text``: whether its rows become text.
     """
 
     scene: Scene
@@ -41,6 +42,7 @@ class Outline:
     limit: int
     closed: bool
     tolerance: Fraction | None
+    text: bool
 
     @property
     def algorithm(self) -> str:
@@ -62,11 +64,10 @@ class Outline:
         seconds = predicted(self.quantity, problem, method, together)
         cut = None
         if memory > self.limit or problem.region.beads > segments.QUICKER:
-            cut = segments.cut(problem, method, scene, self.tolerance)
+            cut = segments.cut(problem, method, scene, self.tolerance, self.limit)
         if cut is not None:
             steps = segments.steps(steps, cut, self.quantity, memory, self.limit)
-            memory = segments.memory(cut, self.quantity)
-            memory += self.quantity.gathered(problem.region, 1) * budget.FLOAT_BEAD
+            memory = segments.memory(cut, self.quantity, text=self.text)
             problem, seconds = cut, segments.seconds(cut, self.quantity)
         budget.refuse_memory(scene, memory, self.limit)
         budget.refuse_seconds(scene, problem.realisations, seconds)
@@ -98,20 +99,27 @@ class Outline:
         at_once += self.quantity.gathered(region, min(n, together))
         longer = None if method.carries else method.longer  # only gathered in
         systems = [s for s in (method.system, longer) if s is not None]
-        most = max(_memory(self.scene, self.quantity, region, at_once, n, s) for s in systems)
+        most = max(
+            _memory(self.scene, self.quantity, region, at_once, n, s, self.text) for s in systems
+        )
         return most + budget.COMPILED * worth_compiling(
             problem, method.system, carried=method.carries
         )
 
 
 def _memory(
-    scene: Scene, quantity: Quantity, region: Region, beads: int, n: int, system: NumberSystem
-) -> int:
+    scene: Scene, quantity: Quantity, region: Region, beads: int, n: int, system: NumberSystem,
+    text: bool,
+) -> int:  # fmt: skip
     return budget.memory(
         beads=beads,
         rows=quantity.answer_rows(region, n),
+        numbers=quantity.numbers,
+        listed=0 if quantity.merged or n == 1 else n,
         layers=len(region.rows),
         system=system,
+        dimension=scene.packing.dimension,
+        text=text,
         file=scene.disorder is not None and scene.disorder.file is not None,
     )
 
@@ -123,18 +131,19 @@ def outline(
     tolerance: Fraction | None,
     *,
     line_sums: bool = True,
+    text: bool = True,
 ) -> Outline:
     """Say which beads are solved, by which theory, and what is left out.
 
-    ``line_sums`` may be forbidden. Raises ``SceneError`` for a scene that is too large, before a
-    single row of beads is made, and ``TableError``.
+    ``line_sums`` may be forbidden; ``text``: rows become text. Raises ``SceneError`` for a scene
+    that is too large, before a single row of beads is made, and ``TableError``.
     """
     unilateral = scene.effects.contacts == "unilateral"
     ordered = _ordered(scene) and not unilateral
     first_order = scene.effects.geometry == "first-order"
     has_line_sums = quantity.single and (scene.contact is not None or scene.site is not None)
     closed = ordered or (line_sums and first_order and has_line_sums)
-    _refuse_beads(scene, quantity, limit, tolerance, ordered=ordered, closed=closed)
+    _refuse_beads(scene, quantity, limit, tolerance, ordered=ordered, closed=closed, text=text)
     skipped: list[Skipped] = []
     load = load_of(scene)
     if not quantity.needs_forces:
@@ -169,7 +178,7 @@ def outline(
         scene.effects.most_events,
         scene.effects.most_seconds,
     )
-    return Outline(scene, quantity, problem, tuple(skipped), limit, closed, tolerance)
+    return Outline(scene, quantity, problem, tuple(skipped), limit, closed, tolerance, text)
 
 
 def _ordered(scene: Scene) -> bool:
@@ -189,6 +198,7 @@ def _refuse_beads(
     *,
     ordered: bool,
     closed: bool,
+    text: bool,
 ) -> None:
     """Refuse what surely takes too much memory."""
     beads = quantity.most_beads()
@@ -198,11 +208,12 @@ def _refuse_beads(
         beads = 0
     layers = 0 if quantity.single and not beads else scene.packing.height + 1
     nothing = Region(scene.packing.width, ())
-    needed = _memory(scene, quantity, nothing, beads, 1, FLOAT64)
+    needed = _memory(scene, quantity, nothing, beads, 1, FLOAT64, text)
     if segments.suits(scene, tolerance):
         height = scene.packing.height
         widest = min(scene.packing.width or 2 * height + 2, -(-2 * beads // (height + 1)))
-        needed = min(needed, segments.beads_bytes(widest, height))
+        least = segments.division(widest, height, scene.packing.dimension, 0)
+        needed = min(needed, least.bytes)
     budget.refuse_memory(scene, needed + layers * budget.PLAN_LAYER, limit)
 
 

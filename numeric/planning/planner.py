@@ -36,11 +36,13 @@ def plan(
     *,
     certified: bool = False,
     system: NumberSystem = FLOAT64,
+    text: bool = True,
 ) -> Plan:
     """Plan a scene; ``tolerance`` and ``certified`` override the scene's own.
 
     With a tolerance the first of float64, pairs and balls is chosen that should meet it;
-    ``certified`` keeps the choice to balls. Without one ``system`` is the arithmetic. Reads the
+    ``certified`` keeps the choice to balls. Without one ``system`` is the arithmetic. Room is left
+    for rows as ``text``, as files and screens have them. Reads the
     scene's files. Raises ``SceneError`` for a scene that is too large for the memory
     (``memory_limit`` bytes, by default most of what is free) or for a lifetime, and ``TableError``.
     """
@@ -50,12 +52,12 @@ def plan(
         raise SceneError("ask.certified", True, "needs a tolerance, as tolerance = 1e-30")
     limit = _free(int(monotonic()), free_memory) if memory_limit is None else memory_limit
     try:
-        return _plan(scene, tolerance, limit, system, certified=certified)
+        return _plan(scene, tolerance, limit, system, certified=certified, text=text)
     except budget.TooLargeError as refused:
         if tolerance is None or certified:
             raise
         try:
-            free = _plan(scene, None, limit, system, certified=False)
+            free = _plan(scene, None, limit, system, certified=False, text=text)
         except ForceDiffusionError:
             raise refused from None
         takes = f"about {free.estimated_seconds:.2g} s and {budget.size(free.memory)}"
@@ -76,9 +78,10 @@ def _plan(
     system: NumberSystem,
     *,
     certified: bool,
+    text: bool,
 ) -> Plan:
     """Plan a scene with this very tolerance."""
-    outlines = _outlines(scene, limit, tolerance)
+    outlines = _outlines(scene, limit, tolerance, text=text)
     first = outlines[0].problem
     if first.route == Route.ORDERED:  # exactly known, whatever is asked
         bits = initial_bits(tolerance or Fraction(1, 2**60), first.height)
@@ -102,10 +105,12 @@ def _method(system: NumberSystem, repeated: int) -> Method:
     return Method(system, LONGER if system is FLOAT64 else Balls(system.bits + 128), repeated)
 
 
-def _outlines(scene: Scene, limit: int, tolerance: Fraction | None) -> Sequence[Outline]:
+def _outlines(
+    scene: Scene, limit: int, tolerance: Fraction | None, *, text: bool
+) -> Sequence[Outline]:
     """Give the ways to the answer: line sums, or sweeps, which take many realisations at once."""
     quantity = quantity_of(scene)
-    first = outline(scene, quantity, limit, tolerance)
+    first = outline(scene, quantity, limit, tolerance, text=text)
     if (
         tolerance is None
         or first.problem.route != Route.LINE_SUMS
@@ -113,7 +118,7 @@ def _outlines(scene: Scene, limit: int, tolerance: Fraction | None) -> Sequence[
     ):
         return [first]
     try:
-        sweep = outline(scene, quantity, limit, tolerance, line_sums=False)
+        sweep = outline(scene, quantity, limit, tolerance, line_sums=False, text=text)
     except SceneError:  # the memory would not hold its region
         return [first]
     # not where no load comes near the contact

@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 from importlib.util import find_spec
+from typing import NamedTuple
 
 from ..arithmetic.systems import FLOAT64
 from ..lattice.layers import Region
@@ -13,11 +14,12 @@ from ..scene.scene import Scene
 from . import budget
 from .plan import Method, Step
 
-# Quantities whose answer comes from one segment after the other; of a response some layers do.
-KNOWN = ("profile", "contact", "base_reactions", "histogram")
-# Bytes of a bead of a segment (δr, positions, δn, forces, with their errors, and forces rounded),
-# and of one that is kept on the way up.
-_BEAD, _KEPT = 240, 32
+# Bytes of a bead of a segment (δr, positions, δn, forces, with their errors, and what is gathered),
+# and of one that is kept on the way up, by dimension; of a number of the answer.
+_BEAD, _KEPT, _NUMBER = {2: 260, 3: 410}, {2: 32, 3: 48}, 20
+# Bytes from which on fewer layers are kept, and found once more on the way down; the fewest layers
+# of a segment then.
+_MANY, _FEWEST = 600_000_000, 16
 # Beads from which on segments take less time than fresh memory for all of them, which the system
 # has to hand out: 0.25 µs a bead instead of 0.4, and of 10⁷ instead of 1 (on a busy machine).
 QUICKER = 5_000_000
@@ -32,62 +34,78 @@ def suits(scene: Scene, tolerance: Fraction | None) -> bool:
 
     With a tolerance it is not: the error is that of a few columns, not of the answer.
     """
-    ask, disorder = scene.ask, scene.disorder
     return (
-        (ask.quantity in KNOWN or ask.layers is not None)
-        and scene.packing.dimension == 2
-        and ask.realisations == 1
+        scene.ask.realisations == 1
         and tolerance is None
-        and disorder is not None
-        and disorder.kind not in {"file", "given"}
-        and scene.load.kind != "file"
+        and scene.disorder is not None
         and scene.effects.geometry == "exact"
         and not scene.effects.stop_at_tension
         and find_spec("numba") is not None
     )
 
 
-def layers(widest: int, height: int) -> int:
-    """Give the layers of a segment, an even number, that take the least memory together."""
-    best = math.sqrt(_KEPT / _BEAD * (height + 1))
-    return max(2, 2 * round(best / 2))
+class Division(NamedTuple):
+    """The layers of a segment, an even number; below every how manyth a layer is kept; bytes."""
+
+    layers: int
+    every: int
+    bytes: int
 
 
-def beads_bytes(widest: int, height: int) -> int:
-    """Bound the bytes of a segment and of what is kept, for layers of so many beads at most."""
-    k = layers(widest, height)
-    return widest * (_BEAD * (k + _BESIDE) + _KEPT * (height // k + 1))
+def division(widest: int, height: int, dimension: int, limit: int) -> Division:
+    """Give what takes the least memory, of layers of so many beads at most.
+
+    That is with a layer kept below every segment, if it takes no more than ``limit``.
+    """
+    bead, kept = _BEAD[dimension], _KEPT[dimension]
+    k = max(2, 2 * round(math.sqrt(kept / bead * (height + 1)) / 2))
+    usual = widest * (bead * (k + _BESIDE) + kept * (height // k + 1))
+    if usual <= min(limit, _MANY):
+        return Division(k, 1, usual)
+    k = max(_FEWEST, 2 * round((kept / bead * math.sqrt(height + 1)) ** (2 / 3) / 2))
+    every = max(1, math.isqrt(height // k))
+    less = widest * (bead * (k + _BESIDE) + kept * (height // (k * every) + every + 1))
+    return min(Division(k, every, less), Division(k, 1, usual), key=lambda one: one.bytes)
+
+
+def _divided(problem: Problem, limit: int) -> Division:
+    return division(problem.region.widest, problem.region.top, problem.dimension, limit)
 
 
 def cut(
-    problem: Problem, method: Method, scene: Scene, tolerance: Fraction | None
+    problem: Problem,
+    method: Method,
+    scene: Scene,
+    tolerance: Fraction | None,
+    limit: int = _MANY,
 ) -> Problem | None:
-    """Give the problem swept by segments, if it can be."""
+    """Give the problem swept by segments, in so many bytes if that can be; None if it can't."""
     if not suits(scene, tolerance) or method.system is not FLOAT64 or problem.route != Route.EXACT:
         return None
-    widest = max(row.count for row in problem.region.rows)
-    return replace(problem, segment=layers(widest, problem.region.top))
+    found = _divided(problem, limit)
+    return replace(problem, segment=found.layers, every=found.every)
 
 
-def memory(problem: Problem, quantity: Quantity) -> int:
+def memory(problem: Problem, quantity: Quantity, *, text: bool) -> int:
     """Estimate the bytes at the peak."""
-    widest = max(row.count for row in problem.region.rows)
     counted = quantity.name == "histogram"  # one segment after the other
     region = Region(problem.width, ()) if counted else problem.region
     rows = quantity.answer_rows(region, 1)
+    found = _divided(problem, _MANY if problem.every == 1 else 0)
     return (
-        beads_bytes(widest, problem.region.top)
-        + rows * budget.FLOAT_ROW
+        found.bytes
+        + rows * (quantity.numbers * (_NUMBER + text * budget.TEXT) + text * budget.NAMES)
         + len(problem.region.rows) * budget.PLAN_LAYER
         + budget.INTERPRETER
-        + budget.COMPILER
+        + budget.COMPILED
     )
 
 
 def seconds(problem: Problem, quantity: Quantity) -> float:
     """Predict how long it takes."""
     each = _SECONDS if problem.region.is_whole else _SECONDS_OF_CONE
-    return problem.region.beads * each * (5 / 3 if quantity.name == "histogram" else 1)
+    passes = (5 / 3 if quantity.name == "histogram" else 1) + (problem.every > 1) / 4
+    return problem.region.beads * each * passes
 
 
 def steps(
@@ -99,16 +117,21 @@ def steps(
     if needed <= limit:
         sizes = f"{budget.size(needed)} of memory that was not used before take longer"
     counts = quantity.name == "histogram"
-    often, last = ("three times", ", and a third time to count") if counts else ("twice", "")
+    last = ", and once more to count" if counts else ""
+    down = 1 + (problem.every > 1)
+    times = 1 + down * (1 + counts)
+    often = {2: "twice", 3: "three times", 5: "five times"}[times]
+    again = "again" if down == 1 else f"twice again, {problem.every} segments at a time,"
     why = (
         f"{often}, {k} of {all_layers} layers at a time, because {sizes}: on the way up every "
-        f"{k}-th layer is kept, and those between are deposited again on the way down{last}"
+        f"{k * problem.every}-th layer is kept, and those between are deposited {again} on the "
+        f"way down{last}"
     )
     changed = []
     for step in found:
-        if step.step in {"draw radii", "deposit"}:
+        if step.step in {"draw radii", "read radii", "deposit"}:
             reason = why if step.step == "deposit" else f"{often}, on the way up and down"
-            changed.append(replace(step, reason=reason, beads=(2 + counts) * step.beads))
+            changed.append(replace(step, reason=reason, beads=times * step.beads))
         elif step.step == "balance forces" and counts:
             reason = "twice: the bins lie between the smallest and the largest change"
             changed.append(replace(step, reason=reason, beads=2 * step.beads))

@@ -5,7 +5,8 @@ A question is a class of its own in a file of its own; ``quantities.quantity_of`
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections import UserDict
+from collections.abc import Callable, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache, cached_property
@@ -36,6 +37,22 @@ SCATTER_OF = {
 }
 
 
+Columns = MutableMapping[str, Array]
+
+
+class Later(UserDict[str, Array]):
+    """Columns that are made when one is first looked at: many take time, and memory."""
+
+    def __init__(self, make: Callable[[], Mapping[str, Array]]) -> None:
+        """``make`` gives them."""
+        self._make = make
+
+    @cached_property
+    def data(self) -> dict[str, Array]:  # type: ignore[override]
+        """All columns."""
+        return dict(self._make())
+
+
 @dataclass(frozen=True)
 class Table:
     """Rows of an answer, column by column; all columns have the same length.
@@ -46,7 +63,7 @@ class Table:
     are statistics over packings. ``in_order``: rows are as ``sorted`` gives them.
     """
 
-    index: dict[str, Array]
+    index: Columns
     numbers: dict[str, Array]
     small: tuple[str, ...]
     errors: dict[str, Array] = field(default_factory=dict)
@@ -68,7 +85,7 @@ class Table:
         order = np.lexsort(keys)
         if (order[1:] > order[:-1]).all():
             return self
-        parts = (self.index, self.numbers, self.errors)
+        parts: tuple[Columns, ...] = (self.index, self.numbers, self.errors)
         index, numbers, errors = ({k: v[order] for k, v in part.items()} for part in parts)
         return Table(index, numbers, self.small, errors)
 
@@ -105,6 +122,8 @@ class Quantity(ABC):
     """Whether realisations are merged into one set of rows."""
     statistics: ClassVar[bool] = False
     """Whether an ensemble has statistics of it."""
+    numbers: ClassVar[int] = 4
+    """How many numbers a row has, at the most."""
     branches: ClassVar[tuple[Direction, ...]] = tuple(Branch)
     """Along which contacts lead up."""
 
@@ -163,6 +182,26 @@ class Quantity(ABC):
 
     # How it is gathered
 
+    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> "Table | None":
+        """Give those rows of one packing that follow from the contacts below some layers' beads.
+
+        Of all layers one after the other, these are the rows of the answer, in order. None where
+        there are none. Rows without an ``index`` have that of ``names``.
+        """
+        raise NotImplementedError(f"{self.name} is not gathered by segments")
+
+    @property
+    def names(self) -> Columns:
+        """The columns that name all rows, where ``rows_within`` leaves them out."""
+        return {}
+
+    def left(self, solved: Solved) -> float | None:
+        """Give how far numbers are, at the most, from those that their sweeps' errors belong to.
+
+        None where the rows have to be gathered with them to know that.
+        """
+        return None
+
     @abstractmethod
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
         """Start to gather the answer."""
@@ -208,15 +247,23 @@ class Listing(Gatherer):
         """Start empty."""
         self.quantity, self.problem, self.system = quantity, problem, system
         self.parts: list[Table] = []
+        self._left: float | None = 0.0
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Take in solved realisations."""
+        left = self.quantity.left(solved)
+        known = left is not None and self._left is not None
+        self._left = max(self._left or 0.0, left or 0.0) if known else None
         for number, realisation in enumerate(realisations):
             one = solved if len(realisations) == 1 else solved.one(number)
             part = self.quantity.rows_of(self.problem, one)
             if self.problem.realisations > 1:
                 part.index["realisation"] = np.full(part.rows, realisation)
             self.parts.append(part)
+
+    def left(self) -> float | None:
+        """Give how far numbers are from those of their sweeps' errors, as far as that is known."""
+        return self._left
 
     def table(self) -> Table:
         """Put the realisations below each other."""
@@ -268,6 +315,11 @@ class ContactQuantity(Quantity):
     def is_asked(self, j: int) -> bool:
         """Whether contacts below the beads of layer j are asked for."""
         return self.layers is None or j - 1 in self.layers
+
+    def left_of_changes(self, solved: Solved) -> float | None:
+        """Give what rounding left of the changes of all contacts, where they are the answer."""
+        one = self.scene.load.magnitude == 1
+        return solved.forces.left if one and solved.forces is not None else None
 
     def blocks(self, problem: Problem) -> list[Block]:
         """Give the contacts, block by block, in the order of the groups."""

@@ -19,6 +19,10 @@ class BaseReactions(Listed):
         on_base = self.width or (region.rows[0].count if region.rows else 1)
         return on_base * realisations
 
+    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
+        """Give all rows where the layer above the base is there."""
+        return self.rows_of(problem, solved) if 1 in layers else None
+
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give a row a bead of the base, from left to right."""
         forces = solved.forces

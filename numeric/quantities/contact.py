@@ -71,6 +71,10 @@ class SingleContact(ContactQuantity):
         strength = problem.load.strength(problem.n_x, FLOAT64)
         return [Fraction(float(problem.load.ordered_force(self.contact, strength, FLOAT64)))]
 
+    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
+        """Give the one row where its upper bead lies in these layers."""
+        return self.row_of(solved) if self.contact.upper[1] in layers else None
+
     def row_of(self, solved: Solved) -> Table:
         """Give the contact of one realisation; nothing where a sweep stopped above it."""
         _, j, branch = self.contact

@@ -1,19 +1,20 @@
 """All contact forces."""
 
 from collections.abc import Sequence
-from functools import lru_cache
+from dataclasses import replace
+from functools import lru_cache, partial
 
 import numpy as np
 
-from ..arithmetic.systems import Array, NumberSystem
-from ..lattice.layers import Region, full_layer
+from ..arithmetic.systems import Array
+from ..lattice.layers import Layer, Region, full_layer
 from ..mechanics.problem import Problem, Solved
 from .base import (
     Block,
+    Columns,
     ContactQuantity,
-    Gatherer,
+    Later,
     Listed,
-    Listing,
     Table,
     above_stop,
     contact_changes,
@@ -25,6 +26,7 @@ class ContactForces(ContactQuantity, Listed):
     """All contact forces; of a periodic packing also those that no load reaches, exactly zero."""
 
     name = "contact_forces"
+    numbers = 2
     plain = True
 
     def answer_rows(self, region: Region, realisations: int) -> int:
@@ -32,18 +34,35 @@ class ContactForces(ContactQuantity, Listed):
         beads = region.beads if self.width is None else self.width * self.height
         return len(self.branches) * beads * realisations
 
-    def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
-        """Start a list."""
-        return _Forces(self, problem, system)
+    def left(self, solved: Solved) -> float | None:
+        """Give what rounding left of changes."""
+        return self.left_of_changes(solved)
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give a row a contact, layer by layer from the base, "+" before "-"."""
         assert solved.forces is not None
-        if self.at_once(problem, solved):
-            return self._at_once(solved)
+        if self.at_once(problem, solved, range(1, self.height + 1)):
+            return replace(self._at_once(solved), index=self.names)
         rows = problem.force_rows[1:]
         if self.width is not None:
             rows = tuple(full_layer(j, self.width) for j in range(1, self.height + 1))
+        return self._below(rows, solved)
+
+    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
+        """Give the contacts below the beads of some layers."""
+        width, own = self.width, problem.force_rows
+        layers = range(max(layers.start, 1), min(layers.stop, self.height + 1))
+        if self.at_once(problem, solved, layers):
+            return self._at_once(solved)
+        rows = [
+            full_layer(j, width) if width is not None else own[j]
+            for j in layers
+            if width is not None or j < len(own)
+        ]
+        return self._below(rows, solved) if rows else None
+
+    def _below(self, rows: Sequence[Layer], solved: Solved) -> Table:
+        assert solved.forces is not None
         blocks = above_stop([Block(b, row) for row in rows for b in self.branches], solved.forces)
         found = list(contact_changes(solved, blocks, 1))
         return Table(
@@ -55,20 +74,21 @@ class ContactForces(ContactQuantity, Listed):
             ("change",),
         )
 
-    def at_once(self, problem: Problem, solved: Solved) -> bool:
-        """Whether all forces of a periodic packing of discs lie in one block."""
+    def at_once(self, problem: Problem, solved: Solved, layers: range) -> bool:
+        """Whether forces below whole layers of discs lie in one block, an even layer the lowest."""
         forces = solved.forces
         return (
             forces is not None
             and self.width is not None
             and forces.g is not None
             and problem.dimension == 2
+            and layers.start % 2 == 1
             and problem.region.has_whole(problem.force_rows)
-            and forces.g.shape == (1, 2, problem.height * self.width)
+            and forces.g.shape == (1, 2, len(layers) * self.width)
         )
 
     def _at_once(self, solved: Solved) -> Table:
-        """Give the same rows, sorted, from the blocks."""
+        """Give the same rows, in order, from the blocks."""
         forces, width = solved.forces, self.width
         assert forces is not None
         assert forces.F is not None
@@ -78,31 +98,13 @@ class ContactForces(ContactQuantity, Listed):
         force = by_lower_bead(forces.F, width)
         force += change
         numbers = {"force": force.reshape(-1), "change": change.reshape(-1)}
-        return Table(dict(_names(self.height, width)), numbers, ("change",), in_order=True)
+        return Table({}, numbers, ("change",), in_order=True)
 
-
-class _Forces(Listing):
-    """A list of forces, whose errors are what rounding left of them."""
-
-    quantity: ContactForces
-
-    def __init__(self, quantity: ContactForces, problem: Problem, system: NumberSystem) -> None:
-        super().__init__(quantity, problem, system)
-        self._left: float | None = 0.0
-
-    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
-        """Take in solved realisations."""
-        super().add(solved, realisations)
-        left = None if solved.forces is None else solved.forces.left
-        exact = self.quantity.scene.load.magnitude == 1 and self._left is not None
-        if not exact or left is None:
-            self._left = None
-        elif self._left is not None:
-            self._left = max(self._left, left)
-
-    def left(self) -> float | None:
-        """Give the largest rest of a change."""
-        return self._left
+    @property
+    def names(self) -> Columns:
+        """The columns i, j and branch of a periodic packing's contacts."""
+        assert self.width is not None
+        return Later(partial(_names, self.height, self.width))
 
 
 def by_lower_bead(values: Array, width: int) -> Array:
@@ -117,11 +119,12 @@ def by_lower_bead(values: Array, width: int) -> Array:
 
 
 @lru_cache(maxsize=2)
-def _names(height: int, width: int) -> tuple[tuple[str, Array], ...]:
+def _names(height: int, width: int) -> dict[str, Array]:
     """Give the columns i, j and branch of all contacts."""
-    j = np.repeat(np.arange(height), 2 * width)
-    i = 2 * np.tile(np.repeat(np.arange(width), 2), height) + j % 2
-    found = ("i", i), ("j", j), ("branch", np.tile(np.array(["+", "-"]), height * width))
-    for _, column in found:
+    layers, columns = np.arange(height)[:, None, None], 2 * np.arange(width)[:, None]
+    parts = ("i", columns + layers % 2), ("j", layers), ("branch", np.array(["+", "-"]))
+    shape = height, width, 2
+    found = {name: np.broadcast_to(part, shape).reshape(-1) for name, part in parts}
+    for column in found.values():
         column.flags.writeable = False  # all answers of this size share it
     return found

@@ -26,6 +26,7 @@ class Histogram(ContactQuantity, Listed):
     """All changes of contact forces, or those of some layers, to be counted into bins."""
 
     name = "histogram"
+    numbers = 2
 
     @property
     def bins(self) -> int:
@@ -39,6 +40,23 @@ class Histogram(ContactQuantity, Listed):
     def answer_rows(self, region: Region, realisations: int) -> int:
         """Three a bin, for its edges as decimals; a change counts for a little."""
         return 3 * (self.scene.ask.bins or 1) + realisations * (region.beads // 50)
+
+    def left(self, solved: Solved) -> float | None:
+        """Give what rounding left of changes."""
+        return self.left_of_changes(solved)
+
+    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
+        """Give the changes of contacts below the beads of some layers."""
+        forces = solved.forces
+        assert forces is not None
+        rows = range(max(layers.start, 1), min(layers.stop, len(forces.rows)))
+        parts = [
+            np.asarray(g)
+            for j in filter(self.is_asked, rows)
+            for _, _, g in forces.below(j)
+            if g.size
+        ]
+        return Table({}, {"change": joined(solved.system, parts)}, ("change",)) if parts else None
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give all changes of one realisation."""

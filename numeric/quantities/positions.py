@@ -1,8 +1,11 @@
 """Positions of beads."""
 
+from fractions import Fraction
+from functools import lru_cache
+
 import numpy as np
 
-from ..arithmetic.systems import Array, array, zeros
+from ..arithmetic.systems import Array, NumberSystem, array, zeros
 from ..lattice import regions
 from ..lattice.layers import Layer, Region, pick, whole
 from ..lattice.regions import Rows
@@ -50,18 +53,26 @@ class Positions(Listed):
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give a row a bead, from the base up."""
+        found = self.rows_within(problem, solved, range(self.height + 1))
+        assert found is not None
+        return found
+
+    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
+        """Give a row a bead of some layers."""
         scene, system = self.scene, solved.system
         nx, ny = plain.axes(scene.n_x, system)
         r = system.number(scene.packing.radius)
-        rows = list(problem.region.rows)
+        rows = [row for row in problem.region.rows if row.j in layers]
         if scene.site is not None:
             i, j = scene.site
-            rows = [Layer(j, i, 1)]
+            rows = [Layer(j, i, 1)] if j in layers else []
+        if not rows:
+            return None
         columns: dict[str, list[Array]] = {"x": [], "y": [], "dx": [], "dy": []}
         for layer in rows:
             cp, cm = self._line_sums(solved, layer)
             dx, dy = (cp - cm) / (2 * nx) * r, (cp + cm) / (2 * ny) * r
-            columns["x"].append(array(system, [i * scene.spacing / 2 for i in layer.sites()]) + dx)
+            columns["x"].append(_ordered(layer.sites(), scene.spacing, system) + dx)
             columns["y"].append(dy + 2 * layer.j * (ny * r))
             columns["dx"].append(dx)
             columns["dy"].append(dy)
@@ -84,3 +95,9 @@ class Positions(Listed):
             pick(c.plus[layer.j], source, layer, self.width),
             pick(c.minus[layer.j], source, layer, self.width),
         )
+
+
+@lru_cache(maxsize=4)
+def _ordered(sites: range, spacing: Fraction, system: NumberSystem) -> Array:
+    """Give the x of beads of the ordered packing; whole layers take turns."""
+    return array(system, [i * spacing / 2 for i in sites])

@@ -41,9 +41,9 @@ class Profile(ContactQuantity):
         return len(self.branches) * self.height
 
     def gathered(self, region: Region, realisations: int) -> int:
-        """Whole layers, also where a load reaches few of their contacts: 50 numbers a bead."""
+        """Whole layers, also where a load reaches few of their contacts: 38 numbers a bead."""
         idle = max((self.width or 0) * (self.height + 1) - region.beads, 0)
-        return 2 * idle * (realisations + 3) // 50
+        return 2 * idle * (realisations + 3) // 38
 
     def gatherer(self, problem: Problem, system: NumberSystem) -> "ProfileMoments":
         """Start to merge moments."""
@@ -54,6 +54,17 @@ class Profile(ContactQuantity):
         assert self.width is not None
         rows = (full_layer(j, self.width) for j in range(1, self.height + 1))
         return [Block(branch, row) for row in rows for branch in self.branches]
+
+    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
+        """Give the rows of some whole layers."""
+        assert self.width is not None
+        gatherer = self.gatherer(problem, solved.system)
+        whole = [full_layer(j, self.width) for j in layers if j]
+        blocks = [Block(branch, row) for row in whole for branch in self.branches]
+        gatherer.take(contact_changes(solved, blocks, 1))
+        none = np.zeros((1, len(gatherer.found)))
+        gatherer.scatter.add(none, none)  # of one packing there is no scatter
+        return gatherer.table()
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Name the layers, by the lower beads of their contacts."""

@@ -69,9 +69,11 @@ class Response(ContactQuantity):
         blocks = above_stop(self.blocks(problem), solved.forces)
         return self._both(problem, solved, realisations, blocks)
 
-    def rows_of(self, problem: Problem, solved: Solved, within: range) -> Table:
-        """Give the rows of one packing whose upper beads lie in some layers."""
-        blocks = [block for block in self.blocks(problem) if block.row.j in within]
+    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
+        """Give the rows of contacts whose upper beads lie in some layers."""
+        blocks = [block for block in self.blocks(problem) if block.row.j in layers]
+        if not blocks:
+            return None
         return self.one(problem, solved.system, *self._both(problem, solved, 1, blocks))
 
     def one(

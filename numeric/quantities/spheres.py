@@ -128,6 +128,10 @@ class SphereContact(SphereContacts, Listed):
         (forces,) = self.ordered_of(problem, [block])
         return [forces[column] if forces else Fraction(0)]
 
+    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
+        """Give the one row where its upper bead lies in these layers."""
+        return self.rows_of(problem, solved) if self.place[0].row.j in layers else None
+
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give the one row."""
         F, g = self.changes(problem, solved, 1)
@@ -150,22 +154,32 @@ class SpherePositions(SphereQuantity, Listed):
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give a row a bead, from the base up."""
+        found = self.rows_within(problem, solved, range(self.height + 1))
+        assert found is not None
+        return found
+
+    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
+        """Give a row a bead of some layers."""
         system, r = solved.system, solved.system.number(self.scene.packing.radius)
-        rows = list(problem.region.rows)
+        rows = [row for row in problem.region.rows if row.j in layers]
+        at = self.scene.ask.at
+        if at is not None:
+            rows = [row for row in rows if row.j == int(at[2])]
+        if not rows:
+            return None
         c = [zeros(system, 3, row.count) for row in rows]
         if solved.packing is not None:
             of = [values for _, values in solved.packing.c]
-            c = [np.stack([values[j] for values in of]) for j in range(len(rows))]
-        if self.scene.ask.at is not None:
-            p, q, j = map(int, self.scene.ask.at)
+            c = [np.stack([values[row.j] for values in of]) for row in rows]
+        if at is not None:
+            p, q, j = map(int, at)
             column = p * self.side + q
-            rows, c = [Layer(j, 2 * column + j % 2, 1)], [c[j][:, column : column + 1]]
+            rows, c = [Layer(j, 2 * column + j % 2, 1)], [c[0][:, column : column + 1]]
         index = self.sites_of(rows)
         moved = _cartesian(np.concatenate(c, axis=1), problem, system, raised=False)
-        home = np.array(
-            [[2 * p, 2 * q, 2 * (j - p - q)] for p, q, j in zip(*index.values(), strict=True)]
-        )
-        numbers = from_floats(system, home.T.astype(np.float64))
+        first, second, layer = index.values()
+        home = np.stack([2 * first, 2 * second, 2 * (layer - first - second)])
+        numbers = from_floats(system, home.astype(np.float64))
         placed = _cartesian(numbers, problem, system, raised=True)
         names = ("x", "y", "z")
         return Table(
@@ -185,6 +199,10 @@ class SphereBase(SphereQuantity, Listed):
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a bead of the base."""
         return (self.width or 0) * realisations
+
+    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
+        """Give all rows where the layer above the base is there."""
+        return self.rows_of(problem, solved) if 1 in layers else None
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give a row a bead of the base."""

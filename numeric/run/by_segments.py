@@ -1,8 +1,8 @@
-"""Answers about a packing that the memory does not hold: gathered segment by segment."""
+"""Answers about one large packing: gathered segment by segment."""
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, astuple, dataclass
 from fractions import Fraction
@@ -17,18 +17,15 @@ from ..accuracy.accuracy import Accuracy
 from ..accuracy.repeated import stated
 from ..arithmetic.carried import NONE, Sizes
 from ..arithmetic.systems import FLOAT64, Array
-from ..lattice.branch import Branch, Contact
-from ..lattice.layers import full_layer
+from ..lattice.branch import AxisContact, Contact, direction
 from ..mechanics.physicality import PHYSICAL, Physicality
 from ..mechanics.problem import Solved
 from ..mechanics.work import Work
 from ..planning.plan import Plan
 from ..quantities.answer import Answer, at_home, in_units
-from ..quantities.base import Block, Listed, Table, contact_changes
+from ..quantities.base import Columns, Table
 from ..quantities.histogram import Histogram
-from ..quantities.profile import Profile
-from ..quantities.response import Response
-from ..scene.source import program_version
+from ..scene.source import program_version, source_of
 from ..statistics.histogram import counted, edges_between
 from .checkpoint import Checkpoint
 
@@ -38,45 +35,57 @@ if TYPE_CHECKING:
 
 @dataclass
 class _Part:
-    """What a segment adds to the answer: columns, and whether it is physical.
+    """What a segment adds to the answer: a table, and whether it is physical.
 
     ``apart``: how far numbers are from those of the longer arithmetic; ``sizes`` of the errors that
     the sweep carried.
     """
 
     physical: Physicality
-    index: dict[str, list[Any]]
-    numbers: dict[str, Array]
+    table: Table | None
     apart: float = 0.0
     sizes: Sizes = NONE
 
     def keep(self, kept: "Kept", number: int) -> None:
         """Keep it; what was measured first, so that it is whole once its words are there."""
-        columns = [np.asarray(column, dtype=float) for column in self.numbers.values()]
-        kept.put(f"numbers{number}", np.stack(columns) if columns else np.empty(0))
+        table = self.table or Table({}, {}, ())
+        parts: dict[str, Columns] = {
+            "index": table.index,
+            "numbers": table.numbers,
+            "errors": table.errors,
+        }
+        for kind, columns in parts.items():
+            for name, column in columns.items():
+                kept.put(f"{kind}{number} {name}", column)
         physical = asdict(self.physical)
         del physical["looks_at"]  # the one realisation
         errors = [self.apart, *astuple(self.sizes)]
-        words = [physical, self.index, list(self.numbers), errors]
-        letters = np.frombuffer(json.dumps(words).encode(), np.uint8)
-        kept.put(f"words{number}", letters.astype(float))
+        words = [physical, [list(columns) for columns in parts.values()], table.small, errors]
+        kept.put(f"words{number}", np.frombuffer(json.dumps(words).encode(), np.uint8))
 
     @classmethod
     def of(cls, kept: "Kept", number: int) -> "_Part | None":
         """Read what was kept, if it was."""
-        words, numbers = kept.get(f"words{number}"), kept.get(f"numbers{number}")
-        if words is None or numbers is None:
+        words = kept.get(f"words{number}")
+        if words is None:
             return None
-        physical, index, names, errors = json.loads(words.astype(np.uint8).tobytes())
+        physical, parts, small, errors = json.loads(words.tobytes())
         found = Physicality(**physical)
         if found.between is not None:
             lower, upper = found.between
-            found.between = (lower[0], lower[1]), (upper[0], upper[1])
+            found.between = tuple(lower), tuple(upper)
         if found.first_tensile is not None:
-            i, j, branch = physical["first_tensile"]
-            found.first_tensile = Contact(i, j, Branch(branch))
-        columns = dict(zip(names, numbers, strict=True))
-        return cls(found, index, columns, errors[0], Sizes(*errors[1:]))
+            *site, name = physical["first_tensile"]
+            make: Any = Contact if len(site) == 2 else AxisContact
+            found.first_tensile = make(*site, direction(name))
+
+        def columns(kind: str, of: list[str]) -> dict[str, Array]:
+            columns = {name: kept.get(f"{kind}{number} {name}") for name in of}
+            return {name: column for name, column in columns.items() if column is not None}
+
+        index, numbers, scatter = map(columns, ("index", "numbers", "errors"), parts)
+        table = Table(index, numbers, tuple(small), scatter) if numbers else None
+        return cls(found, table, errors[0], Sizes(*errors[1:]))
 
 
 def by_segments(plan: Plan, work: Work, checkpoint: Path | None = None) -> tuple[Answer, Accuracy]:
@@ -84,16 +93,14 @@ def by_segments(plan: Plan, work: Work, checkpoint: Path | None = None) -> tuple
 
     Raises ``CheckpointError``, and what the sweeps raise for a packing that can't be built.
     """
-    from ..mechanics.segments import KEPT, InMemory, Segments, count
+    from ..mechanics.segments import InMemory, Segments
 
-    problem = plan.problem
+    problem, quantity = plan.problem, plan.quantity
     work.uses(FLOAT64.name)
-    numbers = range(count(problem, problem.segment))
-    names = {f"{kind}{n}" for kind in (*KEPT, "numbers", "words", "counts") for n in numbers}
-    opened = None if checkpoint is None else Checkpoint(checkpoint, _key(plan), names)
+    opened = None if checkpoint is None else Checkpoint(checkpoint, _key(plan))
     with FLOAT64.active(), opened or nullcontext():
         kept: Kept = opened or InMemory()
-        counts = isinstance(plan.quantity, Histogram)
+        counts = isinstance(quantity, Histogram) and not quantity.single
         way = Segments(problem, 0, problem.segment, work, kept, again=counts)
         parts: list[_Part] = []
         missing = [n for n in range(way.count) if _Part.of(kept, n) is None]
@@ -102,14 +109,17 @@ def by_segments(plan: Plan, work: Work, checkpoint: Path | None = None) -> tuple
         for number in reversed(range(way.count)):
             part = _Part.of(kept, number)
             if part is None:
-                part = _part(plan, way.down(number), work)
-                part.keep(kept, number)
+                part = _part(plan, way.down(number), work, counts=counts)
+                if opened is not None:
+                    part.keep(kept, number)
+                way.leave(number)
             parts.insert(0, part)
-        bins = None
+        bins: list[tuple[Fraction, Fraction, int]] | None
         if counts:
             table, bins = _counted(plan, way, parts)
         else:
-            table = in_units(plan.quantity, _table(plan, parts).sorted(), FLOAT64)
+            table = _table(plan, parts)
+            bins = quantity.bins_of(table, FLOAT64)
         sizes = reduce(or_, [part.sizes for part in parts], NONE)
         answer = Answer(table, bins, _physical(plan, parts), None, sizes=sizes)
         apart = Fraction(max(part.apart for part in parts))
@@ -122,7 +132,7 @@ def _counted(
     """Count all changes into bins, on a second way down; the table has their extremes alone."""
     quantity = plan.quantity
     assert isinstance(quantity, Histogram)
-    found = [part.numbers["change"] for part in parts if part.numbers]
+    found = [part.table.numbers["change"] for part in parts if part.table is not None]
     if not found:
         return Table({}, {"change": np.empty(0)}, ("change",)), []
     change = np.array([min(low for low, _ in found), max(high for _, high in found)])
@@ -131,36 +141,27 @@ def _counted(
     for number in reversed(range(way.count)):
         own = way.kept.get(f"counts{number}")
         if own is None:
-            own = np.zeros(len(counts))
             segment = way.down(number)
-            for row in _changes(plan, segment, segment.solved):
-                own += counted(row, edges)
+            table = _rows(plan, segment, segment.solved)
+            changes = np.empty(0) if table is None else table.numbers["change"]
+            own = counted(changes, edges)
             way.kept.put(f"counts{number}", own)
+            way.leave(number)
         counts += own
     bins = zip(edges[:-1], edges[1:], map(int, counts), strict=True)
     return Table({}, {"change": change}, ("change",)), list(bins)
 
 
-def _changes(plan: Plan, segment: "Segment", solved: Solved) -> Iterator[Array]:
-    """Give the changes of a segment's contacts, row by row, in the unit of the answer."""
-    forces = solved.forces
-    assert forces is not None
-    assert isinstance(plan.quantity, Histogram)
-    rows = range(max(segment.first, 1), min(segment.last + 1, len(forces.rows)))
-    for j in filter(plan.quantity.is_asked, rows):
-        for _, _, g in forces.below(j):
-            if g.size:
-                row = Table({}, {"change": np.asarray(g)}, ("change",))
-                yield in_units(plan.quantity, row, solved.system).numbers["change"]
-
-
 def _key(plan: Plan) -> dict[str, Any]:
     """Describe what decides the numbers that are kept."""
-    scene = plan.scene.model_dump(mode="json", exclude={"folder": True})
-    return {"scene": scene, "layers": plan.problem.segment, "version": program_version()}
+    return {
+        "scene": source_of(plan.scene),
+        "layers": [plan.problem.segment, plan.problem.every],
+        "version": program_version(),
+    }
 
 
-def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
+def _part(plan: Plan, segment: "Segment", work: Work, *, counts: bool) -> _Part:
     problem, quantity, solved = plan.problem, plan.quantity, segment.solved
     forces, packing = solved.forces, segment.packing
     assert forces is not None
@@ -171,32 +172,26 @@ def _part(plan: Plan, segment: "Segment", work: Work) -> _Part:
         more = packing.region.rows[-1].j < problem.region.top
         there = range(layers.start - low, layers.stop - low)
         physical.look_at_gaps(packing, there, more=more)
-        physical.look_at_forces(forces, layers)
+        if problem.needs_forces:
+            physical.look_at_forces(forces, layers)
     rows = problem.region.rows[layers.start : layers.stop]
     work.did_rows("checked", rows, sum(row.count for row in rows))
-    assert plan.method.longer is not None
-    longer = solved.longer(plan.method.longer)
-    if isinstance(quantity, Histogram):
-        apart, extremes = 0.0, []
-        both = zip(*(_changes(plan, segment, one) for one in (solved, longer)), strict=True)
-        for row, exact in both:
-            extremes.append((row.min(), row.max()))
-            apart = max(apart, _above(np.abs(exact - row).max()))
-        if not extremes:
-            return _Part(physical, {}, {}, sizes=solved.sizes)
-        lows, highs = zip(*extremes, strict=True)
-        numbers = {"change": np.array([min(lows), max(highs)])}
-        return _Part(physical, {}, numbers, apart, solved.sizes)
-    table, exact_table = (_rows(plan, segment, one) for one in (solved, longer))
-    if table is None or exact_table is None:
-        return _Part(physical, {}, {}, sizes=solved.sizes)
-    near = in_units(quantity, table, FLOAT64).numbers
-    exact_numbers = in_units(quantity, exact_table, longer.system).numbers
-    apart = max(
-        _above(np.abs(exact_numbers[name] - near[name]).max(initial=0)) for name in table.small
-    )
-    index = {name: column.tolist() for name, column in table.index.items()}
-    return _Part(physical, index, table.numbers, apart, solved.sizes)
+    table, longer, sizes = _rows(plan, segment, solved), plan.method.longer, solved.sizes
+    if table is None:
+        return _Part(physical, None, sizes=sizes)
+    apart = quantity.left(solved)
+    if apart is None:
+        assert longer is not None
+        exact = _rows(plan, segment, solved.longer(longer))
+        assert exact is not None
+        apart = max(
+            _above(np.abs(exact.numbers[name] - table.numbers[name]).max(initial=0))
+            for name in table.small
+        )
+    if counts:
+        change = table.numbers["change"]
+        table = Table({}, {"change": np.array([change.min(), change.max()])}, ("change",))
+    return _Part(physical, table, apart, sizes)
 
 
 def _above(value: Any) -> float:
@@ -205,45 +200,23 @@ def _above(value: Any) -> float:
 
 
 def _rows(plan: Plan, segment: "Segment", solved: Solved) -> Table | None:
-    """Give the rows of the answer that a segment has; None where it has none."""
+    """Give the rows of the answer that a segment has, in its unit; None where it has none."""
     problem, quantity = plan.problem, plan.quantity
-    layers = range(segment.first, segment.last + 1)
-    if isinstance(quantity, Profile):
-        assert problem.width is not None
-        gatherer = quantity.gatherer(problem, solved.system)
-        stop = layers.stop if segment.number + 1 < segment.of else problem.height + 1
-        whole = [full_layer(j, problem.width) for j in range(layers.start, stop) if j]
-        blocks = [Block(branch, row) for row in whole for branch in Branch]
-        gatherer.take(contact_changes(solved, blocks, 1))
-        none = np.zeros((1, len(gatherer.found)))
-        gatherer.scatter.add(none, none)  # of one packing there is no scatter
-        return gatherer.table()
-    if isinstance(quantity, Response):
-        table = quantity.rows_of(problem, solved, layers)
-        return table if table.rows else None
-    contact = problem.contact
-    wanted = 1 if contact is None else contact.j + 1  # the layer whose forces are the answer
-    if wanted not in layers:
-        return None
-    assert isinstance(quantity, Listed)
-    return quantity.rows_of(problem, solved)
+    highest = segment.last if segment.number + 1 < segment.of else problem.height
+    table = quantity.rows_within(problem, solved, range(segment.first, highest + 1))
+    return None if table is None else in_units(quantity, table.sorted(), solved.system)
 
 
 def _table(plan: Plan, parts: list[_Part]) -> Table:
-    """Put the rows of all segments below each other."""
-    parts = [part for part in parts if part.numbers]
-    first = parts[0]
-    types = {"branch": "U1", "first_order_std": "U"}
-    index = {
-        name: np.concatenate([np.array(p.index[name], types.get(name, "i8")) for p in parts])
-        for name in first.index
-    }
-    numbers = {n: np.concatenate([p.numbers[n] for p in parts]) for n in first.numbers}
-    small = tuple(name for name in numbers if "change" in name or name == "std")
-    errors = {}
-    if isinstance(plan.quantity, Profile):
-        errors = {name: np.full(len(index["j"]), np.nan) for name in small}
-    return Table(index, numbers, small, errors)
+    """Put the rows of all segments below each other; the parts are used up, column by column."""
+    tables = [part.table for part in parts if part.table is not None]
+
+    def joined(columns: Sequence[Columns]) -> dict[str, Array]:
+        return {n: np.concatenate([one.pop(n) for one in columns]) for n in list(columns[0])}
+
+    index: Columns = joined([table.index for table in tables]) or plan.quantity.names
+    numbers, small = joined([table.numbers for table in tables]), tables[0].small
+    return Table(index, numbers, small, joined([table.errors for table in tables]), in_order=True)
 
 
 def _physical(plan: Plan, parts: list[_Part]) -> Physicality:

@@ -24,6 +24,7 @@ from ..scene import reading, scene
 from ..scene.sections import SceneError
 from ..scene.source import files_read
 from .by_segments import by_segments
+from .checkpoint import opened
 from .outcome import Missed, Outcome
 
 
@@ -48,8 +49,10 @@ def run(
     files = files_read(plan.scene)
     work = Work(progress=progress)
     missed: list[Missed] = []
+    path = None if checkpoint is None else Path(checkpoint)
+    if path is not None and not plan.problem.segment and (unused := opened(path)) is not None:
+        unused.close()  # it is none of somebody else's
     if plan.problem.segment:
-        path = None if checkpoint is None else Path(checkpoint)
         answer, accuracy = by_segments(plan, work, path)
     elif plan.choice is not None:
         plan, answer, accuracy = _chosen(plan.choice, work, missed)

@@ -99,7 +99,7 @@ class Solution:
         made = self.forces.plan
         scene = self.scene.model_copy(update={"ask": ask})
         certified = made.tolerance is not None and made.method.certified
-        return run(plan(scene, made.tolerance, certified=certified, system=made.system))
+        return run(plan(scene, made.tolerance, certified=certified, system=made.system, text=False))
 
     @property
     def _dimension(self) -> int:
@@ -264,4 +264,5 @@ def solve(
         system = FLOAT64 if arithmetic is None else system_of(arithmetic)
     except ValueError as error:
         raise SceneError("arithmetic", arithmetic, str(error)) from None
-    return Solution(run(plan(scene, asked, certified=certified, system=system)), scene)
+    made = plan(scene, asked, certified=certified, system=system, text=False)
+    return Solution(run(made), scene)

@@ -213,10 +213,14 @@ def test_a_checkpoint_that_was_needed_is_removed_with_the_answer(
         "relative_std = 1e-6\n[ask]\nquantity = 'histogram'\n"
     )
     usual = call(capsys, "run", path, "--quiet")
-    checkpoint.write_text("somebody's")
-    assert call(capsys, "run", path, "--quiet", "--checkpoint", checkpoint) == usual
-    assert checkpoint.read_text() == "somebody's"  # the memory held it: no checkpoint was needed
+    checkpoint.write_text("somebody's")  # the memory holds the packing: no checkpoint is needed
+    status, out, err = call(capsys, "run", path, "--quiet", "--checkpoint", checkpoint)
+    assert (status, out) == (2, "")
+    assert f"{checkpoint} is no checkpoint" in err
+    assert checkpoint.read_text() == "somebody's"
     checkpoint.unlink()
+    assert call(capsys, "run", path, "--quiet", "--checkpoint", checkpoint) == usual
+    assert not checkpoint.exists()
     monkeypatch.setattr("force_diffusion.numeric.planning.planner.free_memory", lambda: 280 * 10**6)
     status, out, err = call(capsys, "run", path, "--checkpoint", checkpoint)
     assert (status, err) == (usual[0], usual[2])
@@ -224,7 +228,7 @@ def test_a_checkpoint_that_was_needed_is_removed_with_the_answer(
     assert "three times, 8 of 601 layers at a time" in out
     assert not checkpoint.exists()
     fd.read_scene(path).run(checkpoint=checkpoint)
-    damaged = checkpoint.read_bytes().replace(b'"words4"', b'"words5"')
+    damaged = checkpoint.read_bytes().replace(b"words4.npy", b"words5.npy")
     checkpoint.write_bytes(damaged)
     status, out, err = call(capsys, "run", path, "--checkpoint", checkpoint)
     assert (status, out) == (2, "")

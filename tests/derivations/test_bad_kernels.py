@@ -1,5 +1,6 @@
 """Checkers with a planted fault: ``derive`` itself must end with a status that is not 0."""
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from importlib import import_module
@@ -85,7 +86,7 @@ def test_it_refutes_all(derive: Callable[..., Any], monkeypatch: Plant, number: 
     monkeypatch.setattr(Line, "rule_on", lambda *_: refuted("never"))
     status, printed, said = derive(number)
     assert status == 1
-    assert said.startswith(FAULT) or "0 proved" in printed or "1 undecided." in printed
+    assert said.startswith(FAULT) or re.search(r"^1 (refuted|undecided)\b", printed, re.MULTILINE)
 
 
 def test_nothing_is_written_by_a_checker_at_fault(

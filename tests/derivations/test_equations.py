@@ -160,20 +160,25 @@ def _place(number: Number) -> int:
     return 17 + next(at for at, own in enumerate(THEOREMS) if number in own.cases)
 
 
+def _imported(module: str) -> set[str]:
+    """Modules of equations that one imports, and a file of its own beside it."""
+    folder = Path(eq06_force_balance.__file__).parent
+    tree = ast.parse(folder.joinpath(*module.split(".")).with_suffix(".py").read_text("utf-8"))
+    stems = {one.split(".")[-1]: one for one in modules().values()}
+    found = set()
+    for node in ast.walk(tree):
+        within = node.module or "" if isinstance(node, ast.ImportFrom) else ""
+        if within in ("force_diffusion.derivations", "force_diffusion.derivations.beyond"):
+            found |= {stems[alias.name] for alias in node.names if alias.name in stems}
+        elif within.startswith("force_diffusion.derivations.beyond."):
+            found |= _imported(within.removeprefix("force_diffusion.derivations."))
+    return found
+
+
 def test_premises_are_the_imports() -> None:
     """The proof graph that is stated is the import graph, and it has no cycle."""
-    folder = Path(eq06_force_balance.__file__).parent
     for module in dict.fromkeys(modules().values()):
-        tree = ast.parse(folder.joinpath(*module.split(".")).with_suffix(".py").read_text("utf-8"))
-        stems = {one.split(".")[-1]: one for one in modules().values()}
-        imported = {
-            stems[alias.name]
-            for node in ast.walk(tree)
-            if isinstance(node, ast.ImportFrom)
-            and node.module in ("force_diffusion.derivations", "force_diffusion.derivations.beyond")
-            for alias in node.names
-            if alias.name in stems
-        }
+        imported = _imported(module)
         stated = set()
         for derivation in ALL:
             if modules()[derivation.number] == module:

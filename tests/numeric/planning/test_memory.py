@@ -44,10 +44,10 @@ print(1024 * int(peak.split()[1]), file=sys.stderr)
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", SCENES)
-def test_no_run_takes_more_than_its_plan_says(name: str, tmp_path: Path) -> None:
+def test_no_run_takes_more_than_its_plan_says_nor_much_less(name: str, tmp_path: Path) -> None:
     scene = tmp_path / "scene.toml"
     scene.write_text(f"{DRAWN}{SCENES[name]}\n")
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM, str(scene)], capture_output=True, text=True, check=True
     )
-    assert int(done.stderr) <= json.loads(done.stdout)["memory_bytes"]
+    assert 1 <= json.loads(done.stdout)["memory_bytes"] / int(done.stderr) <= 1.5

@@ -14,7 +14,7 @@ from force_diffusion.numeric.mechanics import first_order
 from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning import choice
-from force_diffusion.numeric.planning.budget import FLOAT_BEAD
+from force_diffusion.numeric.planning.budget import FLOAT_BEADS
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.run import run
 from hypothesis import given, settings
@@ -294,4 +294,4 @@ def test_estimates_know_what_is_printed_and_what_is_solved_together() -> None:
     # a bin with its edges as decimals takes some ten microseconds, and surely more than two
     assert many.estimated_seconds > few.estimated_seconds + 2
     one, batch = (planned(basic(quantity="profile", realisations=n)) for n in (1, 1000))
-    assert batch.memory > one.memory + 900 * one.problem.region.beads * FLOAT_BEAD
+    assert batch.memory > one.memory + 900 * one.problem.region.beads * FLOAT_BEADS[2]

@@ -77,9 +77,9 @@ def test_a_mean_below_a_load_that_is_off_by_little_is_refuted() -> None:
         one = t7.MEANS[name]
         for piece, where in zip(one.pieces, one.domains, strict=True):
             right = piece.expression * UNIT
-            assert counterexample(equation(one.is_, right), where, at_most=40) is None, piece.where
+            assert counterexample(equation(one.of, right), where, at_most=40) is None, piece.where
             if right:
-                assert counterexample(equation(one.is_, right * (1 + phi / 1000)), where)
+                assert counterexample(equation(one.of, right * (1 + phi / 1000)), where)
 
 
 @pytest.mark.long
