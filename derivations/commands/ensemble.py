@@ -23,6 +23,7 @@ from force_diffusion.derivations.commands.shared import (
 from force_diffusion.derivations.export.answers import Format
 from force_diffusion.derivations.export.tables import csv_text
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
+from force_diffusion.numeric.scene.combinations import answered, either
 
 import force_diffusion as fd
 
@@ -46,7 +47,13 @@ STATUSES = (
 
 
 def ensemble(
-    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A scene file, in TOML.")],
+    scene: Annotated[
+        Path,
+        typer.Argument(
+            metavar="SCENE",
+            help=f"A scene file, in TOML, that asks for {either(answered('ensemble'))}.",
+        ),
+    ],
     realisations: Annotated[
         int | None,
         typer.Option(metavar="N", help="Packings to solve, at most; by default as the scene says."),

@@ -19,7 +19,8 @@ from ..mechanics.problem import Problem, Route, Solved
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.base import ContactQuantity, first_order_std
-from ..quantities.network import NETWORK_QUANTITIES, NetworkQuantity
+from ..quantities.network import NetworkQuantity
+from ..scene.checks import refuse
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
 from ..statistics.moments import unit_near
@@ -33,7 +34,6 @@ FORCES = 8
 MOST_VARIABLES = 2048
 # Magnitude of a load up to which, and down to whose inverse, fourth powers of forces are float64.
 MOST_MAGNITUDE = 10**60
-KNOWN = ("profile", "contact", "contact_forces", "response", "histogram")
 
 
 class ArgumentError(ForceDiffusionError, ValueError):
@@ -164,10 +164,7 @@ def measurement(
     theoretical σ_f. Raises ``SceneError`` for what has no statistics over an ensemble.
     """
     ask = scene.ask
-    if ask.quantity not in KNOWN:
-        raise SceneError("ask.quantity", ask.quantity, f"an ensemble is of {_either(KNOWN)}")
-    if scene.effects.stop_at_tension:
-        raise SceneError("effects.stop_at_tension", True, "an ensemble needs whole packings")
+    refuse("ensemble", scene.packing, scene.effects, ask, covariance=covariance)
     if ask.tolerance is not None:
         raise SceneError(
             "ask.tolerance", ask.tolerance, "an ensemble is solved in float64: leave it out"
@@ -182,6 +179,9 @@ def measurement(
     made = Measurement(planned, (), covariance)
     if made.of_networks:
         _refuse_of_networks(made)
+    elif not (made.groups and made.members):
+        allowed = "bears on no contact that is asked for: there is nothing to gather"
+        raise SceneError("load.kind", scene.load.kind, allowed)
     if ask.quantity == "histogram":
         made = replace(made, edges=_edges(made, reach))
     elif reach is not None:
@@ -209,14 +209,6 @@ def _refuse_of_networks(made: Measurement) -> None:
     if made.problem.most_seconds is not None:
         why = "which packings come to rest in time depends on the machine: give most_events"
         raise SceneError("effects.most_seconds", made.problem.most_seconds, why)
-    if not made.network.statistics:
-        allowed = _either(tuple(q.name for q in NETWORK_QUANTITIES.values() if q.statistics))
-        why = f'contacts = "unilateral" differ from packing to packing: an ensemble is of {allowed}'
-        raise SceneError("ask.quantity", made.quantity, why)
-    if made.covariance:
-        raise ArgumentError(
-            "covariance", True, "is known on the lattice only, in which no contact opens"
-        )
 
 
 def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
@@ -257,8 +249,3 @@ def _usual_reach(made: Measurement) -> float:
         layers = made.plan.scene.ask.layers or range(len(theory.plus))
         return float(REACH * max(rows[j] for _, rows in theory for j in layers))
     return float(REACH * theory[contact.branch][contact.j])
-
-
-def _either(words: tuple[str, ...]) -> str:
-    quoted = [f'"{word}"' for word in words]
-    return ", ".join(quoted[:-1]) + f" or {quoted[-1]}"

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 from ..arithmetic.systems import Array
 from ..mechanics.problem import Route
 from ..planning.plan import Plan
+from ..scene.checks import refuse
 from ..scene.sections import SceneError
 from ..unilateral.network import Network
 from .library import drawing
@@ -28,9 +29,7 @@ def figure_of(
     answer of no rows.
     """
     quantity = plan.quantity.name
-    if plan.problem.dimension == 3 and quantity not in {"profile", "histogram"}:
-        allowed = f"{quantity} has a figure in two dimensions only"
-        raise SceneError("packing.dimension", 3, allowed)
+    refuse("figures", plan.scene.packing, plan.scene.effects, plan.scene.ask)
     with drawing():
         from . import networks_drawing
         from .answers_drawing import DRAWN
@@ -38,9 +37,7 @@ def figure_of(
         drawn = DRAWN.get(quantity)
         if plan.problem.route == Route.UNILATERAL:
             drawn = networks_drawing.drawn(quantity, networks)
-        if drawn is None:
-            other = 'ask for "contact_forces" or, of many packings, "histogram"'
-            raise SceneError("ask.quantity", quantity, f"has no figure of its own: {other}")
+        assert drawn is not None
         if not len(next(iter(columns.values()), [])):
             raise SceneError("ask.quantity", quantity, "the answer has no rows to be drawn")
         return drawn(plan, columns, errors)

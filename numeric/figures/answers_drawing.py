@@ -12,6 +12,7 @@ from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import Branch, PerAxis, PerBranch
 from ..planning.plan import Plan
 from ..quantities.base import first_order_std
+from ..scene.sections import SceneError
 from . import parts, style
 
 Columns = Mapping[str, Array]
@@ -202,7 +203,10 @@ def histogram(plan: Plan, columns: Columns, errors: Columns) -> Figure:
     theory = None if known is None else np.concatenate([rows[asked] for _, rows in known])
     if known is not None and contact is not None:
         theory = known[contact.branch][[contact.j]]
-    unit = 1.0 if theory is None else sqrt(float((theory**2).mean()))
+    unit = 1.0
+    if theory is not None:
+        largest = float(theory.max())  # squares of small ones are below what a float holds
+        unit = largest * sqrt(float(((theory / largest) ** 2).mean()))
     inside = np.isfinite(columns["low"]) & np.isfinite(columns["high"])
     low, high = columns["low"][inside] / unit, columns["high"][inside] / unit
     count = columns["count"]
@@ -211,10 +215,15 @@ def histogram(plan: Plan, columns: Columns, errors: Columns) -> Figure:
         error = np.sqrt(count) / count.sum()
     some = count[inside] > 0
     width = high - low
+    with np.errstate(all="ignore"):
+        density = (count[inside] / count.sum() / width)[some]
+    if not np.isfinite(density).all():
+        allowed = "has no density to be drawn: all changes are alike, or nearly"
+        raise SceneError("ask.quantity", plan.quantity.name, allowed)
     parts.densities(
         axes,
         ((low + high) / 2)[some],
-        (count[inside] / count.sum() / width)[some],
+        density,
         None if error is None else (error[inside] / width)[some],
         style.series(0),
         "simulated",

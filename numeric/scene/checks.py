@@ -4,6 +4,7 @@ from fractions import Fraction
 from typing import Any
 
 from ..arithmetic.decimals import decimal_string, short
+from .combinations import refusal
 from .sections import Ask, Disorder, Effects, GivenRadii, Load, Packing, SceneError
 
 
@@ -13,28 +14,41 @@ def check(
     """Check what keys say about each other. Raises ``SceneError``."""
     _check_packing(packing)
     if packing.dimension == 3:
-        _check_three(packing, effects, ask)
+        _check_three(packing)
     if isinstance(disorder, GivenRadii):
         _check_given(disorder, packing, ask)
     elif disorder is not None:
         _check_disorder(disorder, ask)
     _check_load(load, packing)
+    refuse("run", packing, effects, ask)
     _check_ask(ask, packing, load)
-    _check_layers(ask, load, effects, packing.height)
-    _check_effects(effects, packing, ask)
-    if effects.stop_at_tension and effects.geometry != "exact":
-        raise SceneError(
-            "effects.stop_at_tension", True, 'only has a meaning with geometry = "exact"'
-        )
-    if effects.stop_at_tension and ask.quantity == "response" and ask.realisations > 1:
-        raise SceneError(
-            "effects.stop_at_tension",
-            True,
-            "can't be averaged: each realisation of a response would stop elsewhere",
-        )
+    _check_layers(ask, load, packing.height)
+    _check_effects(effects, packing)
 
 
-def _check_effects(effects: Effects, packing: Packing, ask: Ask) -> None:
+def refuse(
+    command: str, packing: Packing, effects: Effects, ask: Ask, *, covariance: bool = False
+) -> None:
+    """Raise ``SceneError`` where a command does not answer what is combined here."""
+    found = refusal(
+        command=command,
+        quantity=ask.quantity,
+        dimension=packing.dimension,
+        contacts=effects.contacts,
+        geometry=effects.geometry,
+        stop=effects.stop_at_tension,
+        at=ask.at is not None,
+        layers=ask.layers is not None,
+        several=ask.realisations > 1,
+        covariance=covariance,
+    )
+    if found is not None:
+        section, _, key = found.key.partition(".")
+        sections = {"packing": packing, "effects": effects, "ask": ask}
+        raise SceneError(found.key, getattr(sections[section], key), found.why)
+
+
+def _check_effects(effects: Effects, packing: Packing) -> None:
     if effects.contacts == "bilateral":
         for key in ("protocol", "most_events", "most_seconds"):
             if key in effects.model_fields_set:
@@ -43,22 +57,11 @@ def _check_effects(effects: Effects, packing: Packing, ask: Ask) -> None:
         return
     if effects.most_seconds is not None and effects.most_seconds <= 0:
         raise SceneError("effects.most_seconds", effects.most_seconds, "must be greater than 0")
-    if effects.geometry != "exact" or effects.stop_at_tension:
-        key = "geometry" if effects.geometry != "exact" else "stop_at_tension"
-        raise SceneError(
-            f"effects.{key}",
-            getattr(effects, key),
-            'has no meaning with contacts = "unilateral": beads move, exactly, until none pulls',
-        )
     if packing.width is None or packing.width < 3:
         raise SceneError(
             "packing.width",
             packing.width,
             'must be 3 or more with contacts = "unilateral": beads move in a periodic strip',
-        )
-    if ask.quantity == "histogram" and ask.at is not None:
-        raise SceneError(
-            "ask.at", ask.at, 'can\'t be said with contacts = "unilateral": P(f) is of all contacts'
         )
 
 
@@ -86,17 +89,10 @@ def _check_packing(p: Packing) -> None:
         )
 
 
-def _check_three(packing: Packing, effects: Effects, ask: Ask) -> None:
-    """Refuse what is offered in two dimensions only."""
-    alone = ask.quantity not in {"contact", "positions"}
-    for wrong, key, value, allowed in (
-        (packing.width is None, "packing.width", None, "is required: W × W beads in a layer"),
-        (effects.contacts != "bilateral", "effects.contacts", effects.contacts, "must stay closed"),
-        (effects.stop_at_tension, "effects.stop_at_tension", True, "must be false"),
-        (ask.at is not None and alone, "ask.at", ask.at, 'is for "contact" and "positions"'),
-    ):
-        if wrong:
-            raise SceneError(key, value, f"{allowed} in three dimensions (packing.dimension = 3)")
+def _check_three(packing: Packing) -> None:
+    if packing.width is None:
+        allowed = "is required: W × W beads in a layer in three dimensions (packing.dimension = 3)"
+        raise SceneError("packing.width", None, allowed)
 
 
 def _check_bead(packing: Packing, key: str, at: Any, highest: int) -> None:
@@ -249,21 +245,12 @@ def _check_ask(ask: Ask, packing: Packing, load: Load) -> None:
         )
 
 
-def _check_layers(ask: Ask, load: Load, effects: Effects, height: int) -> None:
+def _check_layers(ask: Ask, load: Load, height: int) -> None:
     """Check the layers that a response or a histogram is asked of."""
     if ask.layers is None:
         return
-    if ask.quantity not in {"response", "histogram"}:
-        allowed = 'needs quantity = "response" or "histogram"'
-        raise SceneError("ask.layers", ask.layers, allowed)
     if ask.at is not None:
         raise SceneError("ask.layers", ask.layers, "one contact lies in one layer: leave at out")
-    if effects.contacts == "unilateral":
-        why = 'can\'t be said with contacts = "unilateral": beads leave their layers'
-        raise SceneError("ask.layers", ask.layers, why)
-    if effects.stop_at_tension:
-        why = "can't be said with stop_at_tension: the sweep may not come so far"
-        raise SceneError("ask.layers", ask.layers, why)
     top = height if load.at is None or load.pressure else int(load.at[-1])
     if not ask.layers or len(set(ask.layers)) < len(ask.layers):
         raise SceneError("ask.layers", ask.layers, "must be one layer or several, each once")

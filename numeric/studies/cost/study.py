@@ -18,6 +18,7 @@ from ...mechanics.sweep import NotStandingError, UnbuildableError
 from ...planning import planner
 from ...planning.plan import Skipped
 from ...quantities.base import Table, first_order_std
+from ...scene.checks import refuse
 from ...scene.scene import Scene
 from ...scene.sections import SceneError
 from .ensemble import study_ensemble
@@ -63,14 +64,7 @@ def cost(scene: Scene, notice: Notice = lambda _: None) -> CostStudy:
         raise TypeError(
             f"cost takes a scene, not {type(scene).__name__}: Scene(…) or read_scene(path)"
         )
-    if scene.effects.contacts == "unilateral":
-        raise SceneError(
-            "effects.contacts",
-            "unilateral",
-            "costs are compared of packings on the lattice, in which no contact opens",
-        )
-    if scene.packing.dimension == 3:
-        raise SceneError("packing.dimension", 3, "must be 2: ways are compared for discs")
+    refuse("cost", scene.packing, scene.effects, scene.ask)
     plan = planner.plan(scene, Fraction(1, 10))
     if plan.problem.route == Route.ORDERED:
         why = "every change is exactly zero here: there is nothing that errors could be relative to"
