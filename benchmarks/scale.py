@@ -76,7 +76,7 @@ def drawn(found: list[dict[str, Any]], path: Path) -> None:
             look = {"color": colour, "marker": marker, "mfc": "white", "ms": 3.5, "label": label}
             panels[0].loglog(beads, [1e9 * one["seconds"] / one["beads"] for one in lines], **look)
             panels[1].loglog(beads, [one["bytes"] / 1e6 for one in lines], **look)
-        panels[0].set_ylabel("processor time (ns a bead)")
+        panels[0].set_ylabel("processor time (ns per bead)")
         panels[1].set_ylabel("memory (MB)")
         panels[1].set_ylim(10, 10_000)
         for axes in panels:
@@ -104,7 +104,7 @@ def main() -> int:
         return 0
     sizes = [("beads", power) for power in range(BEADS[0], options.most + 1)]
     sizes += [("packings", power) for power in range(PACKINGS[0], options.packings + 1)]
-    print("| size | way | seconds | ns a bead | memory |\n|---|---|---:|---:|---:|")
+    print("| size | way | seconds | ns per bead | memory |\n|---|---|---:|---:|---:|")
     found = []
     for what, power in sizes:
         command = [sys.executable, __file__, "--memory", str(options.memory)]

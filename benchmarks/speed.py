@@ -127,8 +127,8 @@ def size() -> Iterator[Line]:
             ):
                 seconds = in_turn({"": task}, rounds, process_time)[""]
                 found[beads] = 1e9 * seconds / beads
-            yield Line(f"fast, {height} × {width}, memory that stays", again[beads], " ns a bead")
-            yield Line("  in fresh memory", fresh[beads], " ns a bead")
+            yield Line(f"fast, {height} × {width}, memory that stays", again[beads], " ns per bead")
+            yield Line("  in fresh memory", fresh[beads], " ns per bead")
         for name, each in (("memory that stays", again), ("fresh memory", fresh)):
             flat = max(each.values()) / min(each.values())
             target = ("<", 1.5) if each is again else ("", 0)
@@ -347,7 +347,7 @@ def spheres() -> Iterator[Line]:
         for name, seconds in spent.items():
             target = ("<", 50) if name == "fast" and height > 20 else ("", 0)
             what = f"{name}, {height} × {width} × {width}"
-            yield Line(what, 1e9 * seconds / beads, " ns a bead", *target)
+            yield Line(what, 1e9 * seconds / beads, " ns per bead", *target)
         yield Line("  NumPy / fast", spent["NumPy"] / spent["fast"], "", ">", 3)
         yield Line("  the same bits (1: yes)", float(same), "", ">", 1)
 

@@ -93,8 +93,8 @@ def ensemble() -> Iterator[Line]:
         )
         marginal = (found["more"] - found["fewer"]) / more
         sweeps, draws = (found[name] / (more // 10) for name in ("sweeps", "draws"))
-        yield Line(f"ensemble, {quantity}", 1e9 * marginal / BEADS, " ns a bead")
-        yield Line("  deposit + balance, compiled", 1e9 * sweeps / BEADS, " ns a bead")
+        yield Line(f"ensemble, {quantity}", 1e9 * marginal / BEADS, " ns per bead")
+        yield Line("  deposit + balance, compiled", 1e9 * sweeps / BEADS, " ns per bead")
         yield Line("  ensemble / that", marginal / sweeps, "", "<", 3)
         yield Line("  ensemble / as many doubles of NumPy's Philox", marginal / draws, "", "<", 10)
         yield Line("  NumPy alone / ensemble", found["numpy"] / 8 / marginal)
@@ -173,7 +173,7 @@ def cluster() -> Iterator[Line]:
             yield Line("Dask, two workers / one: wall, efficiency", 100 * one / two / 2, " %")
         else:
             each = 1e9 * one / (size - FEWER) / BEADS
-            yield Line("Dask, one worker: processor time", each, " ns a bead")
+            yield Line("Dask, one worker: processor time", each, " ns per bead")
             yield Line("Dask, one worker / two: processor time of all", 100 * one / two, " %")
 
 

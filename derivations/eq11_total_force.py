@@ -247,7 +247,9 @@ DERIVATION = Derivation(
     ),
 )
 
-IN_RADII = Chain((DERIVATION, (eq04.DERIVATION, eq05.DERIVATION)))
+DIRECTIONS = (eq04.DERIVATION, eq05.DERIVATION)
+"""Both contact directions in the radii."""
+IN_RADII = Chain((DERIVATION, DIRECTIONS))
 """Forces in the radii: Eqs. 4 and 5 put in."""
 
 if __name__ == "__main__":

@@ -78,7 +78,6 @@ DEEP = Where.of(j >= 6, j + 6 <= M, loading=SURFACE)
 """Away from base and surface, where all breakpoints are in order; limits are taken in it."""
 
 WHERE = DEEP.in_the_limit(at_fixed_height("≈"))
-GEOMETRY = (eq04.DERIVATION, eq05.DERIVATION)
 
 BASE_TERM = times((M - j - 1) / (2 * r * (1 - phi**2)), SecondDifference(i - j, 0))
 """The largest of the dropped terms: half a Δ on the base for each branch."""
@@ -120,7 +119,7 @@ def steps() -> Lines:
     doubled = lines.show(
         "Keeping the sums of Eq. 5 alone, and one more term n = M − j:",
         equation(PRINTED.lhs, minus(times(PREFACTOR, DOUBLE_SUM))),
-        negligible(eq11.DERIVATION, GEOMETRY),
+        negligible(eq11.DERIVATION, eq11.DIRECTIONS),
         after=(term,),
     )
     exchanged = lines.show(
@@ -139,7 +138,7 @@ def steps() -> Lines:
     lines.show(
         "That is of the order that is dropped anyway.",
         PRINTED,
-        negligible(eq11.DERIVATION, GEOMETRY),
+        negligible(eq11.DERIVATION, eq11.DIRECTIONS),
         after=(doubled, exchanged, left_out),
     )
     lines.show(
@@ -161,7 +160,7 @@ def steps() -> Lines:
     lines.claim(
         "the end term of Eq. 11, which is dropped, has no weight that grows",
         equation(LargestWeight(end), 1 / r),
-        bounded(GEOMETRY),
+        bounded(eq11.DIRECTIONS),
         where=of_order_1,
     )
     added = sympy.Sum(ON_DIAGONAL, (m, 1, M))

@@ -5,7 +5,7 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
-from force_diffusion.derivations.framework.record import usual
+from force_diffusion.derivations.framework.record import FIRST_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
     Derivation,
@@ -151,8 +151,7 @@ DERIVATION = Derivation(
     title="Variance of the forces under a surface load",
     symbols=usual(sigma, r, M, z, phi),
     assumptions=(
-        "the radii are independent, of zero mean and variance σ²",
-        "first order in δr",
+        *FIRST_ORDER,
         "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M",
     ),
     premises=(eq11.DERIVATION, eq12.DERIVATION),

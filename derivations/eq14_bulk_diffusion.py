@@ -9,14 +9,14 @@ from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
-from force_diffusion.derivations.framework.record import usual
+from force_diffusion.derivations.framework.proving import Line
+from force_diffusion.derivations.framework.record import FIRST_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (
     SUPPOSED,
     UNIT,
     Chain,
     Derivation,
     Layered,
-    Line,
     Lines,
     Where,
     Witness,
@@ -103,7 +103,7 @@ FORCE = Line(
 )
 """The second step, on which the variance rests."""
 
-IN_RADII = Chain((FORCE, (eq04.DERIVATION, eq05.DERIVATION)))
+IN_RADII = Chain((FORCE, eq11.DIRECTIONS))
 VARIANCE = Layered(RELATIVE_VARIANCE, Variance(RATIO), (IN_RADII,), BULK, ORDERED)
 
 
@@ -291,8 +291,7 @@ DERIVATION = Derivation(
         (m_g, "weight of a bead"),
     ),
     assumptions=(
-        "the radii are independent, of zero mean and variance σ²",
-        "first order in δr",
+        *FIRST_ORDER,
         "every bead above the base weighs mg, whatever its radius",
         "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M",
     ),

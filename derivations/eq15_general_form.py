@@ -19,7 +19,7 @@ from force_diffusion.derivations.framework.averaging import (
 )
 from force_diffusion.derivations.framework.layered import EveryLayer
 from force_diffusion.derivations.framework.proving import Line
-from force_diffusion.derivations.framework.record import ExactCase, Missed, usual
+from force_diffusion.derivations.framework.record import FIRST_ORDER, ExactCase, Missed, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
     Derivation,
@@ -367,8 +367,7 @@ DERIVATION = Derivation(
         *usual(sigma, r, M, z, phi),
     ),
     assumptions=(
-        "the radii are independent, of zero mean and variance σ²",
-        "first order in δr",
+        *FIRST_ORDER,
         "printed form: M → ∞; exact averages: every M",
         "the fraction of tensile contacts: Gaussian forces, M → ∞ at fixed M/M*",
     ),

@@ -7,7 +7,7 @@ from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.framework.record import ExactCase, usual
+from force_diffusion.derivations.framework.record import FIRST_ORDER, ExactCase, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
     Derivation,
@@ -324,8 +324,7 @@ DERIVATION = Derivation(
         *usual(sigma, r, phi),
     ),
     assumptions=(
-        "the radii are independent, of zero mean and variance σ²",
-        "first order in δr",
+        *FIRST_ORDER,
         "p is the vertical force that bead (i, j) gets from both upper contacts together",
         "(i, j) is inside of the cone: p, q ≥ 1",
         "printed form: l → ∞ at fixed j/l and (i − k)/l; exact forms: every site",

@@ -8,14 +8,6 @@ Export ListNotations.
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
 
-(** Radii that are listed for one period in i; 0 where none is listed. *)
-Fixpoint listed (l : list (Z * Z * R)) (i j : Z) : R :=
-  match l with
-  | nil => 0
-  | (a, b, x) :: rest => if ((i =? a) && (j =? b))%bool%Z then x else listed rest i j
-  end.
-Definition periodic (period : Z) (l : list (Z * Z * R)) : radii := fun i j => listed l (i mod period) j.
-
 Ltac fraction :=
   unfold surface_plus, surface_minus, ordered_plus, ordered_minus, response_plus, response_minus,
     tilt_plus, tilt_minus, along_plus, along_minus;

@@ -1,8 +1,9 @@
 (** What the equations speak of: sums, first order, packings, forces, loads, laws of the radii.
 
-    The statements that are generated from the printed equations use the words defined here, and
-    [root] of Roots.v in Eq. 15, and nothing else; whoever wants to know what "accepted" means has
-    to read this file alone. Nothing is proved in it. *)
+    The statements that are generated from the printed equations, and from exact packings, are read with
+    the words defined here, and [root] of Roots.v in Eq. 15, before anything else is loaded; whoever
+    wants to know what "accepted" means has to read these two files, and the statements. Nothing is
+    proved here. *)
 
 From Coq Require Import ZArith Reals.
 
@@ -83,6 +84,15 @@ Definition contact (M i j : Z) : Prop := ((i + j) mod 2 = 0 /\ 0 <= j < M)%Z.
 
 (** The radius of bead (i, j) is r + δr with δr = ε ρ. *)
 Definition radii := Z -> Z -> R.
+
+(** Radii that are listed for one period in i; 0 where none is listed. *)
+Fixpoint listed (l : list (Z * Z * R)) (i j : Z) : R :=
+  match l with
+  | nil => 0
+  | cons (a, b, x) rest => if ((i =? a) && (j =? b))%bool%Z then x else listed rest i j
+  end.
+Definition periodic (period : Z) (l : list (Z * Z * R)) : radii := fun i j => listed l (i mod period) j.
+
 Definition delta_r (rho : radii) (i j : Z) (e : R) : R := e * rho i j.
 
 (** Δ_ij, and the braces of Eq. 12: one value up to a layer, another above it. *)

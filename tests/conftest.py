@@ -1,6 +1,7 @@
 """What every test may use."""
 
 import signal
+from collections import defaultdict
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -36,6 +37,39 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         metavar="FILE",
         help="let the browser look at this page, made by 'force-diffusion report'",
     )
+
+
+def _leaves_out(config: pytest.Config) -> bool:
+    """Whether long tests are left out: neither files are named nor is the profile that of CI.
+
+    Of a test that is marked ``long(sample=8)`` eight cases are run nevertheless.
+    """
+    by_default = config.args_source is pytest.Config.ArgsSource.TESTPATHS
+    return by_default and config.getoption("--hypothesis-profile") in {None, "quick"}
+
+
+def pytest_report_header(config: pytest.Config) -> str | None:
+    if not _leaves_out(config):
+        return None
+    return "long tests: some of them; all with --hypothesis-profile=ci, or where files are named"
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    if not _leaves_out(config):
+        return
+    cases: dict[str, list[pytest.Item]] = defaultdict(list)
+    for item in items:
+        if item.get_closest_marker("long"):
+            cases[item.nodeid.partition("[")[0]].append(item)
+    left_out: set[pytest.Item] = set()
+    for every in cases.values():
+        mark = every[0].get_closest_marker("long")
+        sample = min(mark.kwargs.get("sample", 0) if mark else 0, len(every))
+        # evenly spaced, in the order of the cases
+        kept = {place * len(every) // sample for place in range(sample)}
+        left_out |= {item for place, item in enumerate(every) if place not in kept}
+    config.hook.pytest_deselected(items=list(left_out))
+    items[:] = [item for item in items if item not in left_out]
 
 
 @pytest.fixture

@@ -15,9 +15,21 @@ MODULES = ["force_diffusion"] + [
         import_module(f"force_diffusion.{room}").__path__, f"force_diffusion.{room}."
     )
 ]
+LONG = {
+    f"force_diffusion.{name}"
+    for name in (
+        "derivations.api.derived",
+        "derivations.api.equation",
+        "numeric.figures.catalogue",
+        "numeric.studies.cascade.study",
+        "numeric.studies.cost.study",
+    )
+}
 
 
-@pytest.mark.parametrize("name", MODULES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.long if name in LONG else ()) for name in MODULES]
+)
 def test_examples(name: str) -> None:
     try:
         module = import_module(name)

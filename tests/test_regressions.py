@@ -215,6 +215,7 @@ def test_the_stored_baseline_knows_every_path(program: ModuleType) -> None:
     assert list(stored["paths"]) == program.ALL
 
 
+@pytest.mark.long
 def test_every_counted_path_runs(program: ModuleType) -> None:
     """Without valgrind, in a process of its own: names and imports are those of the package."""
     command = [sys.executable, str(FOLDER / "main_paths.py"), *program.COUNTED]

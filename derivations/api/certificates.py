@@ -21,14 +21,15 @@ from force_diffusion.derivations.coq.record import (
     Change,
     Changes,
     Verdict,
-    sha256,
     theory_hash,
 )
 from force_diffusion.derivations.coq.statements import (
     Statement,
-    header,
+    files_of,
+    head_of,
     statement,
     statements,
+    words_of,
 )
 from force_diffusion.derivations.coq.words import NotStatedError
 from force_diffusion.derivations.coq.workshop import (
@@ -97,7 +98,7 @@ def certify(
             )
             return Certification(equations, packings, hashed)
         asked = stated(None if numbers is None else wanted)
-        shop.compile(theory() | {one.file: one.source for one in asked}, notice)
+        shop.compile(theory() | files_of(asked), notice)
         found = [certificate(shop, number, lambda n: statements(load(n))) for number in wanted]
         found += [certificate(shop, seed, lambda n: [packing_statement(n)]) for seed in seeds]
         notice("coqchk")
@@ -121,13 +122,13 @@ def certificate(
         asked = made(number)
     except NotStatedError as reason:
         return Certificate(number, Verdict.NOT_STATED, shop.checker, note=str(reason))
-    trouble = shop.trouble((*theory(), *(one.file for one in asked)))
+    trouble = shop.trouble((*theory(), *files_of(asked)))
     axioms: set[str] = set()
     for one in asked:
         if not trouble:
-            named = axioms_in(shop.said[one.file].printed)
+            named = axioms_in(shop.said[one.accepted_in].printed)
             if named is None:
-                trouble = f"{one.file}: Coq does not say what it rests on"
+                trouble = f"{one.accepted_in}: Coq does not say what it rests on"
             elif foreign := sorted({*named} - ALLOWED):
                 trouble = f"it rests on {', '.join(foreign)}"
             axioms |= {*(named or ())}
@@ -135,16 +136,17 @@ def certificate(
         number,
         Verdict.NOT_ACCEPTED if trouble else Verdict.ACCEPTED,
         shop.checker,
-        {one.name: sha256(one.proposition) for one in asked},
+        {one.name: one.hash for one in asked},
         tuple(sorted(axioms)),
         trouble,
+        about=tuple(dict.fromkeys(words for one in asked for words in one.about)),
     )
 
 
 def checked(shop: Workshop, found: list[Certificate]) -> list[Certificate]:
     """Let coqchk check all that was accepted; nothing of it is, if there is trouble."""
     accepted = [one for one in found if one.passed]
-    names = [Statement.file_of(name) for one in accepted for name in one.theorems or ()]
+    names = [Statement.accepted_file(name) for one in accepted for name in one.theorems or ()]
     trouble = shop.check(names) if names else ""
     if not trouble:
         return found
@@ -192,16 +194,20 @@ def answers(
         RuntimeError: Coq did not get to the end of them.
     """
     places = list(goals)
-    sources = {
-        f"{name}_from_{start}.v": "\n".join(
-            [header(), *(_goal(n, goals[n]) for n in places[start : start + IN_ONE_FILE])]
-        )
-        for start in range(0, len(places), IN_ONE_FILE)
-    }
+    asked: list[str] = []
+    sources: dict[str, str] = {}
+    for start in range(0, len(places), IN_ONE_FILE):
+        some = places[start : start + IN_ONE_FILE]
+        module = f"{name}_from_{start}"
+        says = words_of({f"statement_{place}": goals[place].proposition for place in some})
+        tried = "\n".join(_goal(place, module, goals[place].tactic) for place in some)
+        sources |= {f"{module}_statements.v": says}
+        sources |= {f"{module}.v": f"{head_of('Certify', f'{module}_statements')}\n{tried}"}
+        asked.append(f"{module}.v")
     shop.compile(sources, notice)
     said = {
         int(place): word == "accepted"
-        for file in sources
+        for file in asked
         for word, place in _ANSWER.findall(shop.said[file].printed)
     }
     if list(said) != places:
@@ -209,9 +215,10 @@ def answers(
     return said
 
 
-def _goal(place: int, made: Statement) -> str:
+def _goal(place: int, module: str, tactic: str) -> str:
+    says = f"{module}_statements.statement_{place}"
     return (
-        f"Goal\n{made.proposition}.\n"
-        f'first [timeout {MUTANT_LIMIT} (solve [{made.tactic}]); idtac "accepted {place}"\n'
+        f"Goal {says}.\ncbv delta [{says}].\n"
+        f'first [timeout {MUTANT_LIMIT} (solve [{tactic}]); idtac "accepted {place}"\n'
         f'  |idtac "refused {place}"].\nAbort.\n'
     )

@@ -24,7 +24,8 @@ from force_diffusion.derivations.export.terminal import (
 )
 from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.loading import load, with_premises
-from force_diffusion.derivations.framework.record import Outcome
+from force_diffusion.derivations.framework.own import assert_allowed
+from force_diffusion.derivations.framework.record import Derivation, Outcome
 from force_diffusion.derivations.framework.runner import run_all
 from force_diffusion.numeric.arithmetic.processes import Start
 from force_diffusion.symbolic.kernel.decisions import Verdict
@@ -80,7 +81,7 @@ class Derived:
     def _in_order(self) -> list[Outcome]:
         """Give the outcomes by number, not premises first."""
         place = {number: at for at, number in enumerate(modules())}
-        return sorted(self.outcomes, key=lambda one: place[one.derivation.number])
+        return sorted(self.outcomes, key=lambda one: place.get(one.derivation.number, len(place)))
 
     def __str__(self) -> str:
         lines = [line for one in self.outcomes for line in (summary_line(one), *trouble_lines(one))]
@@ -103,7 +104,7 @@ class Derived:
 
 
 def derive(
-    numbers: Iterable[Number] | None = None,
+    numbers: Iterable[Number | Derivation] | None = None,
     *,
     notice: Callable[[str], None] | None = None,
     finished: Callable[[Outcome], None] | None = None,
@@ -120,31 +121,48 @@ def derive(
     (True, '2 proved', ['eq01.tex', 'eq02.tex', 'equations.tex'])
 
     Args:
-        numbers: of the equations; all of them by default.
+        numbers: of the equations, all of them by default; or derivations of your own.
         notice: told which check comes next.
         finished: given the outcome of each equation as soon as it is known.
 
     Raises:
         NoSuchFormError: there is no equation of such a number.
+        OwnDerivationError: a derivation's label is not allowed.
         TypeError: ``numbers`` is a single one.
     """
-    if isinstance(numbers, int | str):
-        raise TypeError(f"derive takes several numbers: derive([{numbers}])")
+    if isinstance(numbers, int | str | Derivation):
+        one = numbers.number if isinstance(numbers, Derivation) else numbers
+        raise TypeError(f"derive takes several, in a list: derive([{one}])")
     return derive_with(None, numbers, notice, finished)
+
+
+def derivations_of(numbers: Iterable[Number | Derivation]) -> list[Derivation]:
+    """The derivations with these numbers, or these themselves.
+
+    Raises:
+        NoSuchFormError: there is no equation of such a number.
+        OwnDerivationError: a derivation's label is not allowed.
+    """
+    found = []
+    for one in numbers:
+        if isinstance(one, Derivation):
+            assert_allowed(one)
+        found.append(one if isinstance(one, Derivation) else load(equation(one).number))
+    return found
 
 
 def derive_with(
     start: Start | None,
-    numbers: Iterable[Number] | None,
+    numbers: Iterable[Number | Derivation] | None,
     notice: Callable[[str], None] | None,
     finished: Callable[[Outcome], None] | None,
 ) -> Derived:
     """Derive as ``derive`` does; ``start`` calls functions in another process (``run_all``)."""
-    wanted = modules() if numbers is None else [equation(number).number for number in numbers]
+    wanted = derivations_of(modules() if numbers is None else numbers)
     outcomes = []
     tell = notice or (lambda _: None)
     for outcome in run_all(
-        with_premises(load(number) for number in wanted),
+        with_premises(wanted),
         lambda derivation, check: tell(f"Eq. {derivation.number}: {check}"),
         start,
     ):

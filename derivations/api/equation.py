@@ -1,52 +1,36 @@
 """One equation of the paper as a Python user holds it: SymPy objects, numbers, and its proof."""
 
-from dataclasses import dataclass
+from collections.abc import Iterable
 from functools import cache, cached_property
 from numbers import Integral
-from typing import Any, Self
+from typing import Any
 
 import sympy
+from force_diffusion.derivations.api.arrays import evaluate
 from force_diffusion.derivations.api.deciding import decided
-from force_diffusion.derivations.api.evaluation import (
-    ArgumentError,
-    Number,
-    holds,
-    read_arguments,
-    told,
-    value_of,
-)
+from force_diffusion.derivations.api.evaluation import ArgumentError, Evaluation, Number
 from force_diffusion.derivations.api.exact import ExactForm
 from force_diffusion.derivations.api.formula import Formula, vocabulary
+from force_diffusion.derivations.api.profile import Profile, profile
+from force_diffusion.derivations.api.proof import Proof, Steps
 from force_diffusion.derivations.coq.record import Recorded, recorded
 from force_diffusion.derivations.export.prose import both, either
-from force_diffusion.derivations.export.terminal import (
-    check_text,
-    counts_text,
-    expected_text,
-    follows_text,
-    heading,
-    relation_of,
-    statement_text,
-    steps_text,
-    summary_line,
-)
+from force_diffusion.derivations.export.terminal import statement_text
 from force_diffusion.derivations.framework.catalogue import Number as EquationNumber
-from force_diffusion.derivations.framework.catalogue import allowed, cases_of, modules, theorem_of
-from force_diffusion.derivations.framework.loading import load, with_premises
-from force_diffusion.derivations.framework.proving import Shown
-from force_diffusion.derivations.framework.record import (
-    Check,
-    Derivation,
-    ExactCase,
-    Mutant,
-    Outcome,
+from force_diffusion.derivations.framework.catalogue import (
+    allowed,
+    cases_of,
+    modules,
+    number_of,
+    theorem_of,
 )
+from force_diffusion.derivations.framework.loading import load, with_premises
+from force_diffusion.derivations.framework.own import assert_allowed, is_own
+from force_diffusion.derivations.framework.record import Derivation, ExactCase
 from force_diffusion.derivations.framework.runner import run, run_all
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
-from force_diffusion.symbolic.printing.latex import RELATIONS
-from force_diffusion.symbolic.printing.lines import latex_body
+from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.printing.text import text
 
 
@@ -59,124 +43,6 @@ class NoSuchFormError(ForceDiffusionError, ValueError):
     def __init__(self, message: str, hint: str) -> None:
         super().__init__(message)
         self.hint = hint
-
-
-@dataclass(frozen=True)
-class Proof:
-    """What :meth:`Equation.prove` found; it prints as lines, and as a table in a notebook.
-
-    >>> import force_diffusion as fd
-    >>> proof = fd.equation(2).prove()
-    >>> [(outcome.derivation.number, str(outcome.verdict)) for outcome in proof.outcomes]
-    [(1, 'proved'), (2, 'proved')]
-    >>> proof.checks[0].name, proof.checks[0].note
-    ('printed equation', 'by the rule: solve')
-    >>> from collections import Counter
-    >>> sorted(Counter(mutant.verdict for mutant in proof.mutants).items())
-    [('not a statement', 18), ('refuted', 46)]
-
-    Attributes:
-        outcomes: all that has been run, premises first; the last is the equation's own.
-        premises_run: whether the premises have been proved too, or are taken as proved.
-    """
-
-    outcomes: tuple[Outcome, ...]
-    premises_run: bool
-
-    @property
-    def verdict(self) -> Verdict:
-        """Proved; proved, assuming; refuted or undecided: of the equation, given its premises."""
-        return self.outcomes[-1].verdict
-
-    @property
-    def checks(self) -> tuple[Check, ...]:
-        """The equation's own proofs and witnesses, each with its verdict and note."""
-        return self.outcomes[-1].checks
-
-    @property
-    def refuted(self) -> tuple[Check, ...]:
-        """Printed statements that were refuted as expected: ERRATA.md says why."""
-        return self.outcomes[-1].refuted
-
-    @property
-    def mutants(self) -> tuple[Mutant, ...]:
-        """The printed equation with one mechanical change each, and what the checker said."""
-        return self.outcomes[-1].mutants
-
-    def _said(self) -> str:
-        outcome, refuted = self.outcomes[-1], expected_text(len(self.refuted))
-        return f"Eq. {outcome.derivation.number} is {outcome.words}{refuted and f'; {refuted}'}."
-
-    def _premises(self) -> str:
-        numbers = [str(one.number) for one in self.outcomes[-1].derivation.premises]
-        if not numbers:
-            return "It rests on no other equation."
-        plural = "s" if len(numbers) > 1 else ""
-        state = "run too" if self.premises_run else "taken as proved, not run"
-        return f"Its premise{plural}, Eq{plural}. {', '.join(numbers)}: {state}."
-
-    def __str__(self) -> str:
-        outcome = self.outcomes[-1]
-        return "\n".join(
-            [
-                f"{self._said()} {self._premises()}",
-                *map(summary_line, self.outcomes[:-1]),
-                *map(check_text, self.checks),
-                f"  - {counts_text(outcome)}",
-            ]
-        )
-
-    __repr__ = __str__
-
-    def _repr_markdown_(self) -> str:
-        def row(*cells: str) -> str:
-            return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
-
-        outcome = self.outcomes[-1]
-        rows = [row(one.kind, one.words, one.name, one.note) for one in self.checks]
-        return "\n".join(
-            [
-                f"**{self._said()}** {self._premises()}",
-                "",
-                row("kind", "verdict", "check", "note"),
-                row("---", "---", "---", "---"),
-                *rows,
-                row("mutants", "", counts_text(outcome), ""),
-            ]
-        )
-
-
-class Steps(tuple[Shown, ...]):
-    """The steps of a derivation, which print as a numbered list.
-
-    >>> import force_diffusion as fd
-    >>> print(str(fd.equation(13).steps())[:46])
-    Eq. 13: Variance of the forces under a surface
-    """
-
-    _derivation: Derivation
-
-    @classmethod
-    def of(cls, derivation: Derivation) -> Self:
-        """The steps of one derivation."""
-        made = cls(derivation.steps())
-        made._derivation = derivation
-        return made
-
-    def __str__(self) -> str:
-        verdicts = [str(step.ruling) for step in self]
-        return f"{heading(self._derivation)}\n\n{steps_text(self._derivation, verdicts)}"
-
-    __repr__ = __str__
-
-    def _repr_markdown_(self) -> str:
-        lines = []
-        for place, step in enumerate(self, start=1):
-            relation = RELATIONS[relation_of(self._derivation, step)]
-            lines.append(f"{place}. {step.reason}")
-            lines.append(f"$$\n{latex_body([step.formula], relation)}\n$$")
-            lines.append(follows_text(step, step.ruling.words))
-        return "\n\n".join(lines)
 
 
 class Equation(Formula):
@@ -279,7 +145,7 @@ class Equation(Formula):
         >>> [premise.number for premise in fd.equation(13).premises]
         [11, 12]
         """
-        return tuple(equation(premise.number) for premise in self._derivation.premises)
+        return tuple(equation(premise) for premise in self._derivation.premises)
 
     @property
     def coq(self) -> Recorded:
@@ -351,12 +217,14 @@ base+1 or surface.
             )
         return ExactForm(self._derivation, wanted, self._exact[wanted])
 
-    def at(self, **arguments: Number) -> Any:
+    def at(self, **arguments: Any) -> Any:
         """The right-hand side for given numbers: exact for exact ones, else a float.
 
-        For Eqs. 13 to 16, whose right-hand side is a number; ``j`` may be given in place of z.
-        int, Fraction and SymPy's Rational are exact. A float is the exact value for the floats that
-        were given, rounded once.
+        For equations whose right-hand side is a number, as those of Eqs. 13 to 16; ``j`` may be
+        given in place of z. int, Fraction, Decimal and SymPy's Rational are exact. A float is the
+        exact value for the floats that were given, rounded once. Arrays, lists and ranges are
+        broadcast as NumPy does: an array of float64 where anything given is a float, else one of
+        exact numbers.
 
         >>> from fractions import Fraction
         >>> import force_diffusion as fd
@@ -364,6 +232,8 @@ base+1 or surface.
         8192/50625
         >>> fd.equation(13).at(M=10, z=0.3, phi=-0.125, sigma=0.01, r=1)
         0.16181728395061729
+        >>> fd.equation(13).at(M=10, z=[0, 0.5, 1], phi=0, sigma=0.01, r=1)
+        array([0.2, 0.1, 0. ])
         >>> fd.equation(15).at(M=4, sigma=Fraction(1, 8), r=1)
         (1, 4)
         >>> fd.equation(13).at(M=10, z=0.3)  # doctest: +ELLIPSIS
@@ -372,24 +242,65 @@ base+1 or surface.
         force_diffusion...ArgumentError: phi, sigma, r missing: Eq. 13 takes M, z (or j), ...
 
         Raises:
-            ArgumentError: a name is unknown or missing, or a value is not allowed.
+            ArgumentError: a name is unknown or missing, a value is not allowed, or the shapes of
+                arrays do not go together; the message names the element.
         """
-        sides = [line.rhs for line in self._lines]
+        return evaluate(self._evaluation, arguments)
+
+    @property
+    def _evaluation(self) -> Evaluation:
+        sides = tuple(line.rhs for line in self._lines)
         if any(side.has(sy.SiteFunction, *sy.VECTORS) or side == 0 for side in sides):
             raise ArgumentError(
                 f"the right-hand side of Eq. {self.number} is no number: it holds what belongs to "
                 "single beads. equation(…).python_code() is a function of these."
             )
-        needed = set().union(*(side.free_symbols for side in sides))
-        values, exact = read_arguments(self._heading, needed, arguments, self._derivation.dimension)
-        for relation in self._derivation.domain:
-            if not holds(relation, values):
-                at = sorted(relation.free_symbols, key=str)
-                raise ArgumentError(
-                    f"Eq. {self.number} is for {self._domain}, not for {told(at, values)}"
-                )
-        found = [value_of(side, values, exact=exact) for side in sides]
-        return found[0] if len(found) == 1 else tuple(found)
+        return Evaluation(
+            about=self._heading,
+            sides=sides,
+            dimension=self._derivation.dimension,
+            domain=self._derivation.domain,
+            validity=self._domain,
+        )
+
+    @property
+    def _meanings(self) -> dict[sympy.Basic, str]:
+        return dict(self._derivation.symbols)
+
+    def profile(
+        self, case: str | None = None, *, layers: Iterable[int] | None = None, **arguments: Number
+    ) -> Profile:
+        """The exact values in every layer of a packing, each from the form that it has.
+
+        The forms are those of :attr:`cases`, and the printed equation where it is exact. To first
+        order in δr, as they are.
+
+        >>> import force_diffusion as fd
+        >>> profile = fd.equation(13).profile(M=4, phi=0, sigma=0.01, r=1)
+        >>> profile.values
+        array([0.00995, 0.0074 , 0.00355, 0.0006 ])
+        >>> profile.cases
+        ('base', 'base+1', 'interior', 'surface')
+        >>> print(profile)
+        Eq. 13, M = 4, φ = 0, σ_δr = 0.01, r = 1: σ_f²(z)/⟨f⟩²
+          j        value  exact form
+          3       0.0006  surface
+          2      0.00355  interior
+          1       0.0074  base+1
+          0      0.00995  base
+
+        Args:
+            case: one of :attr:`cases`, whose quantity is meant; by default the first.
+            layers: j of the layers; by default all of them, from the base up.
+            arguments: M and all else that the forms hold, but j; a number each. Exact numbers
+                give exact values.
+
+        Raises:
+            NoSuchFormError: there is no exact form, or none of that name.
+            ArgumentError: a name is unknown or missing, a value is not allowed, or a layer has no
+                exact form; the message names such layers.
+        """
+        return profile(self._derivation, self.exact(case).case, self._exact, layers, arguments)
 
     def steps(self) -> Steps:
         """The derivation: each step has a ``reason`` in words, a ``formula`` and a ``verdict``.
@@ -444,7 +355,7 @@ base+1 or surface.
         >>> print(eq.decide(2 * M**3 * (1 - 3 * z**2 + 2 * z**3) * unit))
         proved: by the rule: leading order
         >>> print(eq.decide(2 * M**3 * (1 - z) ** 2 * unit))  # doctest: +ELLIPSIS
-        refuted: at φ = 0, M = 1 · size, j = 1/2 · size, ..., it differs by the share 0.5
+        refuted: at φ = 0, j = M/2, as M → ∞, it stays off by 0.5 of the true value (seen at ...)
         >>> print(eq.decide(2 * M**3 * unit / (2 * z - 1)))
         not a statement: the divisor 2 z − 1 is not shown to differ from zero
         >>> print(fd.equation(7).decide(fd.equation(7).expr).verdict)
@@ -472,8 +383,10 @@ def _equation(number: EquationNumber) -> Equation:
     return Equation(load(number))
 
 
-def equation(number: EquationNumber) -> Equation:
+def equation(number: EquationNumber | Derivation) -> Equation:
     """The equation with this number of the paper, or with this label: "B1" and so on.
+
+    Of a derivation of your own it gives the equation with all that the paper's have.
 
     >>> import force_diffusion as fd
     >>> fd.equation(13).title
@@ -483,15 +396,20 @@ def equation(number: EquationNumber) -> Equation:
     ...
     force_diffusion...NoSuchFormError: there is no equation 99: give a number from 1 to 16...
 
+    Args:
+        number: such as 13, "13" or "B1"; or a derivation.
+
     Raises:
         NoSuchFormError: there is none.
+        OwnDerivationError: the derivation's label is not allowed.
     """
-    if (
-        isinstance(number, bool)
-        or not isinstance(number, Integral | str)
-        or number not in modules()
-    ):
+    if isinstance(number, Derivation):
+        assert_allowed(number)
+        return Equation(number) if is_own(number) else _equation(number.number)
+    known = number_of(number) if isinstance(number, str) else number
+    is_number = isinstance(known, Integral | str) and not isinstance(known, bool)
+    if not is_number or known not in modules():
         cases = cases_of(number)
-        known = f"that theorem has {both(cases)}" if cases else f"give a number {allowed()}"
-        raise NoSuchFormError(f"there is no equation {number!r}: {known}", "number")
-    return _equation(number)
+        told = f"that theorem has {both(cases)}" if cases else f"give a number {allowed()}"
+        raise NoSuchFormError(f"there is no equation {number!r}: {told}", "number")
+    return _equation(known)

@@ -3,7 +3,10 @@
 import math
 import numbers
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
 from fractions import Fraction
+from functools import cached_property
 from typing import Any, TypeAlias
 
 import mpmath
@@ -16,33 +19,142 @@ from force_diffusion.symbolic.mechanics.lattice import kappa_in
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
 
-Number: TypeAlias = int | float | Fraction
-"""What is put in: int, Fraction and, at run time, SymPy's Rational are exact; floats are not."""
+Number: TypeAlias = int | float | Fraction | Decimal
+"""What is put in: int, Fraction, Decimal and, at run time, SymPy's Rational are exact."""
 
 _ORDER = "M l j z i k phi sigma r"
-_ALLOWED: dict[sympy.Symbol, tuple[str, Callable[[Any], bool]]] = {
+_ALLOWED: dict[sympy.Symbol, tuple[str, Callable[[Any], Any]]] = {
     sy.d: ("a whole number from 2 on", lambda value: value >= 2),
-    sy.z: ("0 ≤ z ≤ 1", lambda value: 0 <= value <= 1),
+    sy.z: ("0 ≤ z ≤ 1", lambda value: (value >= 0) & (value <= 1)),
     sy.sigma: ("a number from 0 on", lambda value: value >= 0),
     sy.M: ("a whole number from 1 on", lambda value: value >= 1),
     sy.j: ("a whole number from 0 on", lambda value: value >= 0),
     sy.N: ("a whole number from 1 on", lambda value: value >= 1),
     sy.l: ("a whole number from 0 on", lambda value: value >= 0),
 }
-_TOGETHER: dict[tuple[sympy.Symbol, ...], tuple[str, Callable[[Any, Any], bool]]] = {
+TOGETHER: dict[tuple[sympy.Symbol, ...], tuple[str, Callable[[Any, Any], Any]]] = {
     (sy.j, sy.M): ("0 ≤ j < M", lambda j, height: j < height),
     (sy.j, sy.l): ("0 ≤ j ≤ l", lambda j, level: j <= level),
     (sy.i, sy.j): ("an even sum i + j", lambda i, j: (i + j) % 2 == 0),
     (sy.k, sy.l): ("an even sum k + l", lambda k, level: (k + level) % 2 == 0),
 }
-
+"""What holds of two together; of numbers, and of arrays element by element."""
 
 _ROUNDING = sympy.Rational(4, 2**53)
 """Of n_y, relative: a rounding of each of n_y and φ, and those of a square root and of a sum."""
 
 
+EXACT = (numbers.Rational, Decimal)
+"""Types of exact numbers; others are taken for floats."""
+
+
 class ArgumentError(ForceDiffusionError, ValueError):
     """A formula can't be evaluated with these arguments; the message says what is allowed."""
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """A formula that numbers are put into, and where it is meant.
+
+    Attributes:
+        about: what it is, for messages.
+        sides: one expression, or several that are evaluated together.
+        dimension: of the packing, d; no spheres overlap where −1/d < φ < 1/2.
+        domain: relations of whole numbers, all of which hold where it is meant.
+        validity: the same in words.
+        missed: relations, and the value where all of them hold; the first that fits holds.
+        elsewhere: where to look for other layers, in words.
+    """
+
+    about: str
+    sides: tuple[sympy.Expr, ...]
+    dimension: int = 2
+    domain: tuple[sympy.Basic, ...] = ()
+    validity: str = ""
+    missed: tuple[tuple[tuple[sympy.Basic, ...], sympy.Expr], ...] = ()
+    elsewhere: str = ""
+
+    @cached_property
+    def needed(self) -> set[sympy.Symbol]:
+        """The symbols that decide its value, and whether it has one."""
+        conditions = [*self.domain, *(one for when, _ in self.missed for one in when)]
+        sides = [*self.sides, *(value for _, value in self.missed)]
+        return set().union(*(one.free_symbols for one in (*sides, *conditions)))
+
+    @cached_property
+    def fixed(self) -> dict[sympy.Symbol, sympy.Expr]:
+        """Symbols that its domain fixes, which may be left out."""
+        return {one.lhs: one.rhs for one in self.domain if isinstance(one, sympy.Eq)}
+
+    def asked(self, given: Iterable[str]) -> set[sympy.Symbol]:
+        """The symbols to give a value: those that are fixed only where they are given."""
+        return self.needed - {one for one in self.fixed if one.in_code not in given}
+
+    def at(self, given: Mapping[str, Number]) -> Any:
+        """The value for single numbers: exact for exact ones, else a float; a tuple of several.
+
+        Raises:
+            ArgumentError: a name is unknown or missing, or a value is not allowed.
+        """
+        asked = self.asked(given)
+        values, exact = read_arguments(self.about, asked, given, self.dimension)
+        for symbol, value in self.fixed.items():
+            if symbol not in asked:
+                values[symbol] = value.xreplace(values)
+        _assert_together(values)
+        for relation in self.domain:
+            if not holds(relation, values):
+                at = told(sorted(relation.free_symbols, key=str), values)
+                raise ArgumentError(
+                    f"{self.about} is for {self.validity}, not for {at}{self.elsewhere}"
+                )
+        return self.value(values, exact=exact)
+
+    def value(
+        self, values: Mapping[sympy.Symbol, sympy.Rational], *, exact: bool
+    ) -> sympy.Expr | float | tuple[sympy.Expr | float, ...]:
+        """The value within its domain; its names and ranges have been looked at."""
+        fitting = ((v,) for when, v in self.missed if all(holds(one, values) for one in when))
+        sides = next(fitting, self.sides)
+        found = tuple(value_of(side, values, exact=exact) for side in sides)
+        return found[0] if len(found) == 1 else found
+
+
+@dataclass(frozen=True)
+class _Named:
+    """What the arguments of a formula are called, and which of them stand for others."""
+
+    symbols: dict[str, sympy.Symbol]
+    by_layer: bool  # j is given in place of z
+    holds_kappa: bool  # worked out from φ
+    holds_angle: bool  # of φ and n_y one may be left out
+
+
+def _named(about: str, needed: Iterable[sympy.Symbol], given: Iterable[str]) -> _Named:
+    """Look at the names alone."""
+    by_name = {symbol.in_code: symbol for symbol in needed if isinstance(symbol, Symbol)}
+    by_layer = "z" in by_name and "j" in given
+    if by_layer:
+        if "z" in given:
+            raise ArgumentError("z and j are given, and z is j/M: leave one of them out")
+        del by_name["z"]
+        by_name |= {"M": sy.M, "j": sy.j}
+    holds_kappa = by_name.pop("kappa", None) is not None
+    if holds_kappa:
+        by_name["phi"] = sy.phi
+    spared = [name for name in ("n_y", "phi") if {"n_y", "phi"} <= set(by_name)]
+    left_out = next((name for name in spared if name not in given), None)
+    _compare_names(about, {n: s for n, s in by_name.items() if n != left_out}, given)
+    return _Named(by_name, by_layer, holds_kappa, bool(spared))
+
+
+def compare_names(about: str, needed: Iterable[sympy.Symbol], given: Iterable[str]) -> None:
+    """Refuse names that are unknown or missing.
+
+    Raises:
+        ArgumentError: there are some.
+    """
+    _named(about, needed, given)
 
 
 def read_arguments(
@@ -62,35 +174,21 @@ def read_arguments(
     Raises:
         ArgumentError: a name is unknown or missing, or a value is not allowed.
     """
-    by_name = {symbol.in_code: symbol for symbol in needed if isinstance(symbol, Symbol)}
-    by_layer = "z" in by_name and "j" in given
-    if by_layer:
-        if "z" in given:
-            raise ArgumentError("z and j are given, and z is j/M: leave one of them out")
-        del by_name["z"]
-        by_name |= {"M": sy.M, "j": sy.j}
-    holds_kappa = by_name.pop("kappa", None) is not None
-    if holds_kappa:
-        by_name["phi"] = sy.phi
-    spared = [name for name in ("n_y", "phi") if {"n_y", "phi"} <= set(by_name)]
-    left_out = next((name for name in spared if name not in given), None)
-    _compare_names(about, {n: s for n, s in by_name.items() if n != left_out}, given)
-    values = {by_name[name]: _exactly(name, value) for name, value in given.items()}
+    named = _named(about, needed, given)
+    values = {named.symbols[name]: _exactly(name, value) for name, value in given.items()}
     if sy.d in values:
         _assert_allowed(sy.d, values[sy.d], given["d"], dimension)
         dimension = int(values[sy.d])
     for symbol, value in values.items():
         _assert_allowed(symbol, value, given[symbol.in_code], dimension)
-    if spared:
+    if named.holds_angle:
         _put_angle(values, given)
-    if holds_kappa:
+    if named.holds_kappa:
         values[sy.kappa] = kappa_in(dimension).xreplace({sy.phi: values[sy.phi]})
-    for pair, (words, allowed) in _TOGETHER.items():
-        if set(pair) <= set(values) and not allowed(*(values[symbol] for symbol in pair)):
-            raise ArgumentError(f"{told(pair, values)}: {words} is allowed")
-    if by_layer:
+    _assert_together(values)
+    if named.by_layer:
         values[sy.z] = values[sy.j] / values[sy.M]
-    return values, all(isinstance(value, numbers.Rational) for value in given.values())
+    return values, all(isinstance(value, EXACT) for value in given.values())
 
 
 def _put_angle(values: dict[sympy.Symbol, sympy.Expr], given: Mapping[str, Number]) -> None:
@@ -109,8 +207,13 @@ def _put_angle(values: dict[sympy.Symbol, sympy.Expr], given: Mapping[str, Numbe
     values.setdefault(sy.n_y, expected)
 
 
-def _compare_names(about: str, known: Mapping[str, Symbol], given: Mapping[str, Number]) -> None:
-    names = sorted(known, key=lambda name: (_ORDER.find(name) if name in _ORDER else 99, name))
+def in_order(names: Iterable[str]) -> list[str]:
+    """Names of arguments in the order in which they are told and taken."""
+    return sorted(names, key=lambda name: (_ORDER.find(name) if name in _ORDER else 99, name))
+
+
+def _compare_names(about: str, known: Mapping[str, Symbol], given: Iterable[str]) -> None:
+    names = in_order(known)
     takes = f"{about} takes " + ", ".join("z (or j)" if name == "z" else name for name in names)
     if unknown := [name for name in given if name not in known]:
         raise ArgumentError(f"{about} holds no {either(unknown)}: {takes}")
@@ -121,25 +224,35 @@ def _compare_names(about: str, known: Mapping[str, Symbol], given: Mapping[str, 
 def _exactly(name: str, value: Number) -> sympy.Rational:
     if isinstance(value, numbers.Rational):
         return sympy.Rational(int(value.numerator), int(value.denominator))
+    if isinstance(value, Decimal) and value.is_finite():
+        return sympy.Rational(*value.as_integer_ratio())
     if isinstance(value, numbers.Real) and math.isfinite(value):
         return sympy.Rational(*float(value).as_integer_ratio())
     raise ArgumentError(
-        f"{name} = {value!r}: one int, Fraction, SymPy Rational or finite float is allowed"
+        f"{name} = {value!r}: one int, Fraction, SymPy Rational, Decimal or finite float is allowed"
     )
 
 
 def _assert_allowed(
     symbol: sympy.Symbol, value: sympy.Rational, given: Number, dimension: int
 ) -> None:
-    words, allowed = _range(symbol, dimension)
+    words, allowed = range_of(symbol, dimension)
     if not allowed(value) or (symbol.is_integer and not value.is_integer):
         raise ArgumentError(f"{symbol.in_code} = {given}: {words} is allowed")
 
 
-def _range(symbol: sympy.Symbol, dimension: int) -> tuple[str, Callable[[Any], bool]]:
+def _assert_together(values: Mapping[sympy.Symbol, sympy.Rational]) -> None:
+    for pair, (words, allowed) in TOGETHER.items():
+        if set(pair) <= set(values) and not allowed(*(values[symbol] for symbol in pair)):
+            raise ArgumentError(f"{told(pair, values)}: {words} is allowed")
+
+
+def range_of(symbol: sympy.Symbol, dimension: int) -> tuple[str, Callable[[Any], Any]]:
+    """What is allowed of a symbol in words, and of a number or an array: whether it is."""
     if symbol == sy.phi:
-        low, high = sympy.Rational(-1, dimension), sympy.Rational(1, 2)
-        return f"−1/{dimension} < φ < 1/2", lambda value: low < value < high
+        # 2 φ < 1 and d φ > −1, without a quotient that floats would round
+        words = f"−1/{dimension} < φ < 1/2"
+        return words, lambda value: (dimension * value > -1) & (2 * value < 1)
     if symbol in _ALLOWED:
         return _ALLOWED[symbol]
     if symbol.is_integer:
@@ -168,8 +281,15 @@ def value_of(
     value = expression.xreplace(values)
     sums = {series: _summed(series, exact=exact) for series in value.atoms(sympy.Sum)}
     value = value.xreplace(sums).doit()
-    if exact:
-        return value
+    return value if exact else rounded(value)
+
+
+def rounded(value: sympy.Expr) -> float:
+    """The float nearest to a value.
+
+    Raises:
+        ArgumentError: the value is beyond the range of floats.
+    """
     try:
         if isinstance(value, sympy.Rational):
             return int(value.p) / int(value.q)

@@ -3,22 +3,17 @@
 import re
 from typing import Any
 
+from force_diffusion.derivations.api.arrays import evaluate
 from force_diffusion.derivations.api.deciding import decided
-from force_diffusion.derivations.api.evaluation import (
-    ArgumentError,
-    Number,
-    holds,
-    read_arguments,
-    told,
-    value_of,
-)
+from force_diffusion.derivations.api.evaluation import Evaluation
 from force_diffusion.derivations.api.formula import Formula
 from force_diffusion.derivations.framework.exactly import rule_on_exact
 from force_diffusion.derivations.framework.record import Derivation, ExactCase
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
-from sympy import Eq, Expr
+from force_diffusion.symbolic.symbols import j
+from sympy import Basic, Eq, Expr
 
 
 class ExactForm(Formula):
@@ -74,10 +69,11 @@ class ExactForm(Formula):
         """
         return {missed.where: missed.expression for missed in self._form.missed}
 
-    def at(self, **arguments: Number) -> Expr | float:
+    def at(self, **arguments: Any) -> Any:
         """The value for given numbers: exact for exact ones, a float where one is a float.
 
-        A layer that the case fixes may be left out.
+        A layer that the case fixes may be left out. Arrays and ranges give an array, as in
+        :meth:`Equation.at`; :meth:`Equation.profile` takes for every layer the form that it has.
 
         >>> from fractions import Fraction
         >>> import force_diffusion as fd
@@ -86,30 +82,26 @@ class ExactForm(Formula):
         247909/1764000
         >>> form.at(M=10, j=3, phi=-0.125, sigma=0.01, r=1)
         0.14053798185941044
+        >>> form.at(M=6, j=range(2, 5), phi=0, sigma=Fraction(1, 100), r=1)
+        array([491/20000, 3/200, 127/20000], dtype=object)
         >>> form.at(M=10, j=0, phi=0, sigma=0.01, r=1)  # doctest: +ELLIPSIS
         Traceback (most recent call last):
         ...
-        force_diffusion...ArgumentError: Eq. 13, ... is for 2 ≤ j ≤ M − 2, not for j = 0
+        force_diffusion...ArgumentError: Eq. 13, ... is for 2 ≤ j ≤ M − 2, not for j = 0...
 
         Raises:
-            ArgumentError: a name is unknown or missing, or a value is not allowed.
+            ArgumentError: a name is unknown or missing, a value is not allowed, or the shapes of
+                arrays do not go together.
         """
-        form = self._form
-        fixed = {one.lhs: one.rhs for one in form.domain if isinstance(one, Eq)}
-        conditions = [*form.domain, *(one for missed in form.missed for one in missed.when)]
-        expressions = [form.expression, *(missed.expression for missed in form.missed)]
-        needed = set().union(*(one.free_symbols for one in (*expressions, *conditions)))
-        about = f"Eq. {self._number}, exact form '{self._case}',"
-        left_out = {symbol for symbol in fixed if symbol.in_code not in arguments}
-        values, exact = read_arguments(about, needed - left_out, arguments, self._dimension)
-        for symbol in left_out:
-            values[symbol] = fixed[symbol].xreplace(values)
-        for relation in form.domain:
-            if not holds(relation, values):
-                at = sorted(relation.free_symbols, key=str)
-                raise ArgumentError(f"{about} is for {form.validity}, not for {told(at, values)}")
-        fitting = (m.expression for m in form.missed if all(holds(one, values) for one in m.when))
-        return value_of(next(fitting, form.expression), values, exact=exact)
+        return evaluate(self._evaluation, arguments)
+
+    @property
+    def _evaluation(self) -> Evaluation:
+        return evaluation_of(self._derivation, self._case, self._form)
+
+    @property
+    def _meanings(self) -> dict[Basic, str]:
+        return dict(self._derivation.symbols)
 
     def decide(self, candidate: Any) -> Ruling:
         """Rule on a formula of your own for this case: with "=", at every size that it is for.
@@ -153,6 +145,20 @@ class ExactForm(Formula):
         if self.missed:
             lines += ["", "Not covered by this form:", *("  " + line for line in self._edges())]
         return "\n".join(lines)
+
+
+def evaluation_of(derivation: Derivation, case: str, form: ExactCase) -> Evaluation:
+    """An exact form as numbers are put into it."""
+    layers = any(j in relation.free_symbols for relation in form.domain)
+    return Evaluation(
+        about=f"Eq. {derivation.number}, exact form '{case}',",
+        sides=(form.expression,),
+        dimension=derivation.dimension,
+        domain=form.domain,
+        validity=form.validity,
+        missed=tuple((missed.when, missed.expression) for missed in form.missed),
+        elsewhere="; profile(…) takes for every layer the form that it has" if layers else "",
+    )
 
 
 def _in_code(case: str) -> str:

@@ -1,6 +1,8 @@
 """T1 (Eq. B1): the contact forces under a load in any direction, on the surface or everywhere."""
 
+from dataclasses import dataclass
 from functools import cache
+from typing import Self
 
 import sympy
 from force_diffusion.derivations import eq06_force_balance as eq06
@@ -9,9 +11,11 @@ from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework.catalogue import Number
+from force_diffusion.derivations.framework.proving import Source
 from force_diffusion.derivations.framework.vocabulary import (
     SUPPOSED,
     By,
+    Chain,
     Derivation,
     Lines,
     Where,
@@ -28,7 +32,7 @@ from force_diffusion.derivations.framework.vocabulary import (
 )
 from force_diffusion.derivations.witnesses.both_sides import each_tilted
 from force_diffusion.symbolic.as_printed import in_place
-from force_diffusion.symbolic.kernel.where import BULK_TILTED, SURFACE_TILTED
+from force_diffusion.symbolic.kernel.where import BULK_TILTED, SURFACE_TILTED, Loading
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
@@ -240,6 +244,40 @@ def steps() -> Lines:
 
 UNDER_SURFACE, UNDER_BULK = (Within(steps, place, "Eq. B1") for place in (3, 5))
 """``FORCES`` and ``BULK`` as they are proved: what other equations rest on."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tilted:
+    """A load −(L⁺n⁺ + L⁻n⁻) on each bead of the surface, or on every bead above the base.
+
+    Attributes:
+        name: "surface" or "bulk".
+        layers: how many layers of load a contact carries.
+        loading: of the packing.
+        forces: both forces, as they are proved.
+    """
+
+    name: str
+    layers: sympy.Expr
+    loading: Loading
+    forces: Source
+
+    @classmethod
+    def both(cls) -> tuple[Self, Self]:
+        """On the surface, and on every bead."""
+        surface = cls("surface", sympy.S.One, SURFACE_TILTED, UNDER_SURFACE)
+        return surface, cls("bulk", M - j, BULK_TILTED, UNDER_BULK)
+
+    @property
+    def facts(self) -> tuple[Chain, ...]:
+        """Forces and directions in the radii."""
+        return (Chain((self.forces, eq11.DIRECTIONS)),)
+
+    @property
+    def ordered(self) -> tuple[sympy.Expr, sympy.Expr]:
+        """Both forces in the ordered packing."""
+        return self.layers * L_plus, self.layers * L_minus
+
 
 SINE, COSINE = (Symbol(name, rf"\{name}\theta", f"{name} θ", real=True) for name in ("sin", "cos"))
 COMPONENTS = (

@@ -9,17 +9,16 @@ from types import ModuleType
 from typing import Any
 
 import sympy
-from force_diffusion.derivations import eq04_contact_plus as eq04
-from force_diffusion.derivations import eq05_contact_minus as eq05
+from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.beyond import t1_forces as t1
+from force_diffusion.derivations.framework.averaging import expansion, total
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.record import usual
+from force_diffusion.derivations.framework.layered import EveryLayer
+from force_diffusion.derivations.framework.record import FIRST_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
-    Chain,
-    Claim,
     Derivation,
     Layered,
     Lines,
@@ -27,17 +26,16 @@ from force_diffusion.derivations.framework.vocabulary import (
     Witness,
     asymptotic,
     equation,
+    formula,
     moment,
-    power,
     rewrite,
     terms,
     times,
 )
 from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.kernel.decisions import Ruling, from_test
-from force_diffusion.symbolic.kernel.where import BULK_TILTED, SURFACE_TILTED
+from force_diffusion.symbolic.kernel.decisions import Ruling
+from force_diffusion.symbolic.kernel.where import at_large_height
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     ForceMinus,
@@ -47,6 +45,9 @@ from force_diffusion.symbolic.symbols import (
     Variance,
     i,
     j,
+    k,
+    m,
+    n,
     phi,
     r,
     sigma,
@@ -64,27 +65,28 @@ VARIANCE_PLUS, VARIANCE_MINUS = (
     for name, sign, raised in (("plus", "+", "⁺"), ("minus", "-", "⁻"))
 )
 
+MEAN_SQUARE = Symbol(
+    "mean_square", r"\overline{\sigma_{f^{+}}^2/\langle f^{+}\rangle^2}", "mean of σ²(f⁺)/⟨f⁺⟩²"
+)
 UNLOADED = phi**2 * (4 * j + phi**2) / 2 * UNIT
 """Variance of f⁺ over its mean squared where n⁺ alone is loaded, for 1 ≤ j ≤ M − 1."""
 
-NOTHING = {t: sympy.S.Zero}
+NOTHING, VERTICAL = {t: sympy.S.Zero}, {t: sympy.S.One}
 
 
-@dataclass(frozen=True)
-class Load:
-    """One of the two loads, and what is known of a vertical one.
+@dataclass(frozen=True, eq=False)
+class Case:
+    """The variance under one of the two loads, and what is known of a vertical one.
 
     Attributes:
-        name: "surface" or "bulk".
-        layers: how many layers of load a contact carries.
+        load: the load.
         factor: the variance goes as factor · t² M³(1 − z)²(1 + slope z) in ``UNIT``.
         slope: of its profile.
         over_layers: its mean over all layers goes as over_layers · t² M³ in ``UNIT``.
         vertical: the equation of a vertical load.
     """
 
-    name: str
-    layers: sympy.Expr
+    load: t1.Tilted
     factor: sympy.Expr
     slope: int
     over_layers: sympy.Expr
@@ -99,7 +101,7 @@ class Load:
                 self.factor * M**3 * share / (1 - phi**2) ** 2,
                 terms(1, -z) ** 2,
                 terms(times(self.slope, z), 1),
-                power(times(sigma, 1 / r), 2),
+                formula("(σ_δr/r)²"),
             )
 
         return equation(VARIANCE_PLUS, of(t**2)), equation(VARIANCE_MINUS, of(t**-2))
@@ -107,41 +109,38 @@ class Load:
     @cached_property
     def variance(self) -> Layered:
         """σ²(f⁺)/⟨f⁺⟩² at every layer."""
-        forces, loading = (
-            (t1.UNDER_SURFACE, SURFACE_TILTED)
-            if self.name == "surface"
-            else (t1.UNDER_BULK, BULK_TILTED)
-        )
+        own, other = self.load.ordered
         return Layered(
             VARIANCE_PLUS,
-            Variance(ForcePlus(i, j) / (L_plus * self.layers)),
-            (Chain((forces, (eq04.DERIVATION, eq05.DERIVATION))),),
-            loading,
-            {VARIANCE_MINUS: Variance(ForceMinus(i, j) / (t * L_plus * self.layers))},
+            Variance(ForcePlus(i, j) / own),
+            self.load.facts,
+            self.load.loading,
+            {VARIANCE_MINUS: Variance(ForceMinus(i, j) / other), **t1.RATIO},
         )
 
 
-SURFACE = Load("surface", sympy.S.One, sympy.Integer(2), 2, sympy.S.One, eq13)
-BULK = Load("bulk", M - j, sympy.Rational(3, 10), 4, sympy.Rational(1, 5), eq14)
+_ON_SURFACE, _IN_BULK = t1.Tilted.both()
+SURFACE = Case(_ON_SURFACE, sympy.Integer(2), 2, sympy.S.One, eq13)
+BULK = Case(_IN_BULK, sympy.Rational(3, 10), 4, sympy.Rational(1, 5), eq14)
 
 
 @cache
-def steps(load: Load) -> Lines:
+def steps(case: Case) -> Lines:
     """The exact variance layer by layer, and what it goes as."""
-    variance, vertical = load.variance, load.vertical
+    variance, vertical = case.variance, case.vertical
     lines = Lines(variance.where())
     printed = variance.show_leading(
         lines,
         "In Eq. B1 every second difference comes with t: the sum of squared weights that gives "
         f"{vertical.DERIVATION.words} is multiplied by t² for f⁺ and, as its mirror image, by 1/t² "
         "for f⁻.",
-        sympy.Tuple(*load.printed),
+        sympy.Tuple(*case.printed),
         vertical.DERIVATION,
     )
     squared = variance.show_weights(lines)
     inside = variance.show_forms(lines, "each sum telescopes", squared)
     following = t**2 * vertical.next_order()
-    variance.show_next(lines, load.printed[0].rhs, following, printed, inside)
+    variance.show_next(lines, case.printed[0].rhs, following, printed, inside)
     lines.show(
         "As L⁻ is taken away, t → 0, the tilt of the contact itself is left, for 1 ≤ j ≤ M − 1: "
         "a variance that knows nothing of M.",
@@ -150,38 +149,61 @@ def steps(load: Load) -> Lines:
         where=variance.where().loaded(None),
         after=(inside,),
     )
-    _claim_vertical(lines, load)
+    _claim_vertical(lines, case)
+    _claim_mean(lines, case)
     variance.claim_shares(lines)
-    edges = ("base+1", "surface")
-    lines.claim(
+    unloaded = (
+        (variance.forms[one].expression.xreplace(NOTHING), UNLOADED, variance.where(one))
+        for one in ("base+1", "surface")
+    )
+    lines.claim_each(
         "the same in the layers next to base and surface",
-        sympy.Tuple(
-            *(equation(variance.forms[one].expression.xreplace(NOTHING), UNLOADED) for one in edges)
-        ),
+        ((form, value, where.loaded(None)) for form, value, where in unloaded),
         rewrite(),
-        where=tuple(variance.where(one).loaded(None) for one in edges),
     )
     return lines
 
 
-def _claim_vertical(lines: Lines, load: Load) -> None:
+def _claim_vertical(lines: Lines, case: Case) -> None:
     """Claim that for t = 1 each closed form, of small packings too, is that of a vertical load."""
-    known, variance = load.vertical.exact_forms(), load.variance
+    known, variance = case.vertical.exact_forms(), case.variance
     pairs = [
-        (variance.where(case), form.expression, known[case].expression)
-        for case, form in variance.forms.items()
+        (form.expression, known[name].expression, variance.where(name))
+        for name, form in variance.forms.items()
     ]
-    for case, form in variance.forms.items():
+    for name, form in variance.forms.items():
         for (size, at, value), (*same, other) in zip(
-            form.exceptions, known[case].exceptions, strict=True
+            form.exceptions, known[name].exceptions, strict=True
         ):
             assert (size, at) == tuple(same)
-            pairs.append((Where.of(sympy.Eq(j, at), sympy.Eq(M, size)), value, other))
-    lines.claim(
-        f"for t = 1 it is {load.vertical.DERIVATION.words}, exactly",
-        sympy.Tuple(*(equation(one.xreplace({t: sympy.S.One}), other) for _, one, other in pairs)),
+            pairs.append((value, other, Where.of(sympy.Eq(j, at), sympy.Eq(M, size))))
+    lines.claim_each(
+        f"for t = 1 it is {case.vertical.DERIVATION.words}, exactly",
+        ((one.xreplace(VERTICAL), other, where.loaded(None)) for one, other, where in pairs),
         rewrite(),
-        where=tuple(where.loaded(None) for where, _, _ in pairs),
+    )
+
+
+def _claim_mean(lines: Lines, case: Case) -> None:
+    """Claim the mean of the variance over all layers; where that is one, M goes as t^(−2/3)."""
+    (ratio,) = case.variance.moment.args
+    each = Variance(ratio.xreplace({i: m, j: m}))  # one contact starts at (m, m) in each layer
+    domain = Where((M,), (M >= 3,), case.load.loading)
+    meaning = {MEAN_SQUARE: sympy.Sum(each, (m, 0, M - 1)) / M, k: n}
+    exact = lines.claim(
+        "the exact mean of the variance of f⁺ over all layers, for M ≥ 3",
+        equation(MEAN_SQUARE, layer_average(case.variance.forms).expression),
+        total(EveryLayer(case.variance, DERIVATIONS["B2" if case is SURFACE else "B3"])),
+        where=domain,
+        meaning=meaning,
+    )
+    lines.claim(
+        f"to leading order that is {case.over_layers} · t² M³ (σ/r)²/(1−φ²)²: M* is that of a "
+        "vertical load divided by t^(2/3) for f⁺ and by (1/t)^(2/3) for f⁻",
+        equation(MEAN_SQUARE, case.over_layers * t**2 * M**3 * UNIT),
+        expansion(exact),
+        where=domain.in_the_limit(at_large_height("∼")),
+        meaning=meaning,
     )
 
 
@@ -196,7 +218,7 @@ def surface_steps() -> Lines:
         surface=2 * M * (t**2 + phi**2) * UNIT,
     )
     other = Variance(ForceMinus(i, j) / L_plus)
-    value = Layered(other, other, variance.facts, SURFACE_TILTED).forms["interior"].expression
+    value = Layered(other, other, variance.facts, variance.loading).forms["interior"].expression
     lines.claim(
         "variance of f⁻ in units of (L⁺)²",
         equation(other, value),
@@ -213,58 +235,42 @@ def surface_steps() -> Lines:
     return lines
 
 
-def _height_is(load: Load) -> Ruling:
-    """The mean of the variance over all layers; where that is one, M goes as t^(−2/3)."""
-    first, _ = layer_average(load.variance.forms).leading_orders()
-    return from_test(
-        (first - FIELD.from_sympy(load.over_layers * t**2 * M**3 * UNIT)).is_zero(),
-        f"the mean over the layers is {load.over_layers} · t² M³ (σ/r)²/(1−φ²)² to leading order",
-    )
-
-
-def _witness(load: Load, branch: str, packing: SmallPacking) -> Ruling:
+def _witness(case: Case, branch: str, packing: SmallPacking) -> Ruling:
     plus, minus = packing.components
-    forms, ratio = load.variance.forms, minus / plus
-    return witnesses.variances(forms, load.name, packing, ratio=ratio, branch=branch)
+    forms, ratio = case.variance.forms, minus / plus
+    return witnesses.variances(forms, case.load.name, packing, ratio=ratio, branch=branch)
 
 
-def _derivation(number: Number, load: Load, **options: Any) -> Derivation:
+def _derivation(number: Number, case: Case, **options: Any) -> Derivation:
     loaded = (
         ("L⁺, L⁻ > 0",)
-        if load is SURFACE
+        if case is SURFACE
         else ("every bead above the base carries the same load, whatever its radius; L⁺, L⁻ > 0",)
     )
     return Derivation(
         number=number,
-        name=f"{load.name}_direction",
-        title=f"Variance of the forces under a {load.name} load in any direction",
+        name=f"{case.load.name}_direction",
+        title=f"Variance of the forces under a {case.load.name} load in any direction",
         symbols=(
-            (t, f"L⁻/L⁺ of the load −(L⁺n⁺ + L⁻n⁻){'' if load is SURFACE else ' on every bead'}"),
+            (t, f"L⁻/L⁺ of the load −(L⁺n⁺ + L⁻n⁻){'' if case is SURFACE else ' on every bead'}"),
             *usual(sigma, r, M, z, phi),
         ),
         assumptions=(
-            "the radii are independent, of zero mean and variance σ²",
-            "first order in δr",
+            *FIRST_ORDER,
             *loaded,
             "printed form: M → ∞ at fixed z and t; exact form, for f⁺: every 0 ≤ j < M. For f⁻ put "
             "1/t in place of t",
         ),
-        premises=(eq04.DERIVATION, eq05.DERIVATION, t1.B1, load.vertical.DERIVATION),
-        printed=load.printed,
+        premises=(*eq11.DIRECTIONS, t1.B1, case.vertical.DERIVATION),
+        printed=case.printed,
         relation="∼",
-        exact=load.variance.exact,
-        where=load.variance.in_the_limit,
-        claims=(
-            Claim(
-                "M* is that of a vertical load divided by t^(2/3) for f⁺ and by (1/t)^(2/3) for f⁻",
-                partial(_height_is, load),
-            ),
-        ),
+        exact=case.variance.exact,
+        where=case.variance.in_the_limit,
         witnesses=tuple(
             Witness(
                 f"exact variances of f{sign} equal sums of squared weights of exact packings, all "
                 "j < M ≤ 4",
-                partial(_witness, load, branch),
+                partial(_witness, case, branch),
             )
             for branch, sign in (("+", "⁺"), ("-", "⁻"))
         ),

@@ -12,14 +12,14 @@ from functools import cache, cached_property, partial
 import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
 from force_diffusion.derivations import eq04_contact_plus as eq04
-from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.beyond import t1_forces as t1
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import Beside, OfBoth, Source
-from force_diffusion.derivations.framework.record import usual
+from force_diffusion.derivations.framework.proving import Beside, OfBoth, Source, facts_of
+from force_diffusion.derivations.framework.record import SECOND_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (
+    UNIT,
     Chain,
     Derivation,
     Layered,
@@ -28,9 +28,8 @@ from force_diffusion.derivations.framework.vocabulary import (
     Witness,
     asymptotic,
     equation,
-    minus,
+    formula,
     moment,
-    power,
     rewrite,
     terms,
     times,
@@ -38,15 +37,9 @@ from force_diffusion.derivations.framework.vocabulary import (
 from force_diffusion.derivations.witnesses import second_order as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.symbolic.algebra.exact import FIELD
+from force_diffusion.symbolic.kernel import moments
 from force_diffusion.symbolic.kernel.decisions import Ruling
-from force_diffusion.symbolic.kernel.where import (
-    BULK,
-    BULK_TILTED,
-    SURFACE,
-    SURFACE_TILTED,
-    Limit,
-    Loading,
-)
+from force_diffusion.symbolic.kernel.where import BULK, SURFACE, Limit, Loading
 from force_diffusion.symbolic.mechanics import second_order
 from force_diffusion.symbolic.mechanics.contacts import radii
 from force_diffusion.symbolic.mechanics.lattice import N_MINUS, N_PLUS
@@ -67,8 +60,6 @@ from force_diffusion.symbolic.symbols import (
     Dot,
     ForceMinus,
     ForcePlus,
-    L_minus,
-    L_plus,
     M,
     Shift,
     Variance,
@@ -89,24 +80,14 @@ from force_diffusion.symbolic.symbols import (
 )
 from force_diffusion.symbolic.variances.variance import ClosedForm
 
-DIRECTIONS = (eq04.DERIVATION, eq05.DERIVATION)
-VARIANCE = power(times(sigma, 1 / r), 2)
+VARIANCE = formula("(σ_δr/r)²")
 TILT = Dot(n_minus, DeltaNPlus(i, j))
 """ν = n⁻·δn⁺_ij, all that a change of direction holds."""
 
 # positions
 
 MEAN_HEIGHT = Symbol("mean_delta_y", r"\langle\delta y_{ij}\rangle", "⟨δy_ij⟩")
-SETTLING = equation(
-    MEAN_HEIGHT,
-    minus(
-        times(
-            r / (2 * n_y * (1 - phi**2)),
-            terms(times(2, j, terms(j, -1)), times(phi**2, j), 1, minus(phi)),
-            VARIANCE,
-        )
-    ),
-)
+SETTLING = equation(MEAN_HEIGHT, formula("−(r/(2n_y(1 − φ²))) [2j(j − 1) + φ²j + 1 − φ] (σ_δr/r)²"))
 ABOVE_BASE = Where.of(j >= 1)
 HEIGHT = {MEAN_HEIGHT: Shift(Dot(e_y, DeltaX(i, j)))}
 UPWARDS = Limit("∼", "j → ∞", (j,), (j,))
@@ -115,11 +96,10 @@ UPWARDS = Limit("∼", "j → ∞", (j,), (j,))
 @cache
 def settling() -> Lines:
     """The constraint at order ε², the steps it makes in the mean, their sum."""
-    lines = Lines(ABOVE_BASE)
-    squares = [
-        lines_of.forms["at"].expression
-        for lines_of in (_tilt_variance(j >= 1), _tilt_variance(sympy.Eq(j, 0)))
-    ]
+    lines = Lines(ABOVE_BASE, moment(eq11.DIRECTIONS), HEIGHT)
+    layers = (ABOVE_BASE, Where.of(sympy.Eq(j, 0)))
+    tilted = Variance(TILT)
+    squares = (moments.value(tilted, facts_of((eq11.DIRECTIONS,)), where) for where in layers)
     step = lines.show(
         "Let the centres of a contact along n⁺ be 2r n⁺ + ε d₁ + ε² d₂ apart, ρ the sum of both "
         "δr. Here d₁ = ρ n⁺ + 2r δn⁺ by the first order, δn⁺ = ν b⁻, and |b⁻|² = 1/(1−φ²). The "
@@ -132,17 +112,14 @@ def settling() -> Lines:
     tilts = lines.show(
         "In the mean all contacts of a layer are alike. Their tilt has the variance, for j ≥ 1 and "
         "at the base,",
-        sympy.Tuple(*(equation(mean_square, one) for one in squares)),
-        moment(DIRECTIONS),
-        where=(ABOVE_BASE, Where.of(sympy.Eq(j, 0))),
-        meaning={mean_square: Variance(TILT)},
+        sympy.Tuple(*(equation(mean_square, one.to_sympy()) for one in squares)),
+        where=layers,
+        meaning={mean_square: tilted},
     )
     lines.show(
         "Both line sums of a bead are the sums of these steps from the base up, and a displacement "
         "with c⁺ = c⁻ = c is c (b⁺ + b⁻) = (c/n_y) e_y.",
         SETTLING,
-        moment(DIRECTIONS),
-        meaning=HEIGHT,
         after=(step, tilts),
     )
     unit = second_order.unit_vector()
@@ -166,18 +143,10 @@ def settling() -> Lines:
         "the pile settles, by a share of its height that grows as its height: ⟨δy⟩ goes as "
         "−j² (σ/r)² r/(n_y (1−φ²))",
         equation(MEAN_HEIGHT, -(j**2) * sigma**2 / (r * n_y * (1 - phi**2))),
-        asymptotic(DIRECTIONS),
+        asymptotic(eq11.DIRECTIONS),
         where=ABOVE_BASE.in_the_limit(UPWARDS),
-        meaning=HEIGHT,
     )
     return lines
-
-
-def _tilt_variance(relation: sympy.Basic) -> Layered:
-    from force_diffusion.derivations.framework.layered import Case as Layers
-
-    cases = {"at": Layers("", (relation,))}
-    return Layered(mean_square, Variance(TILT), (DIRECTIONS,), None, cases=cases)  # type: ignore[arg-type]
 
 
 B4 = Derivation(
@@ -189,11 +158,10 @@ B4 = Derivation(
         *usual(sigma, r, phi),
     ),
     assumptions=(
-        "the radii are independent, of zero mean and variance σ², of whatever law",
-        "second order in δr",
+        *SECOND_ORDER,
         "j ≥ 1; the beads of the base do not move",
     ),
-    premises=(eq02.DERIVATION, eq04.DERIVATION, eq05.DERIVATION),
+    premises=(eq02.DERIVATION, *eq11.DIRECTIONS),
     printed=(SETTLING,),
     domain=(sympy.Ge(j, 1),),
     where=ABOVE_BASE,
@@ -215,33 +183,29 @@ B4 = Derivation(
 # forces
 
 
-def _mean(name: str, latex: str, text: str) -> Symbol:
-    return Symbol(name, latex, text)
-
-
-MEAN = _mean(
+MEAN = Symbol(
     "mean_force_ratio",
     r"\frac{\langle f^{\pm}_{ij}\rangle}{f^{\mathrm{load}}/2 n_{y}}",
     "⟨f^±_ij⟩/(f_load/2n_y)",
 )
-MEAN_BULK = _mean(
+MEAN_BULK = Symbol(
     "mean_bulk_ratio",
     r"\frac{\langle f^{\pm}_{ij}\rangle}{(M-j)\,mg/2 n_{y}}",
     "⟨f^±_ij⟩/[(M−j) mg/2n_y]",
 )
-TILTED = (
-    _mean("mean_plus_ratio", r"\frac{\langle f^{+}_{ij}\rangle}{L^{+}}", "⟨f⁺_ij⟩/L⁺"),
-    _mean("mean_minus_ratio", r"\frac{\langle f^{-}_{ij}\rangle}{L^{-}}", "⟨f⁻_ij⟩/L⁻"),
-)
-TILTED_BULK = tuple(
-    _mean(
-        f"mean_{name}_bulk_ratio",
-        rf"\frac{{\langle f^{{{sign}}}_{{ij}}\rangle}}{{(M-j)\,L^{{{sign}}}}}",
-        f"⟨f{raised}_ij⟩/[(M−j) L{raised}]",
+TILTED, TILTED_BULK = (
+    tuple(
+        Symbol(
+            f"mean_{name}_{kind}",
+            rf"\frac{{\langle f^{{{sign}}}_{{ij}}\rangle}}{{{latex}L^{{{sign}}}}}",
+            f"⟨f{raised}_ij⟩/{words % f'L{raised}'}",
+        )
+        for name, sign, raised in (("plus", "+", "⁺"), ("minus", "-", "⁻"))
     )
-    for name, sign, raised in (("plus", "+", "⁺"), ("minus", "-", "⁻"))
+    for kind, latex, words in (("ratio", "", "%s"), ("bulk_ratio", r"(M-j)\,", "[(M−j) %s]"))
 )
-U = (sigma / r) ** 2 / ((1 - phi**2) * (1 + phi))
+U_BELOW = (1 - phi**2) * (1 + phi)
+U = (sigma / r) ** 2 / U_BELOW
 
 
 @dataclass(frozen=True, eq=False)
@@ -272,8 +236,8 @@ class Case:
         meaning = {s: 1 + one for s, one in zip(self.symbols, shifts, strict=False)}
         subject = self.symbols[0] - 1
         return Layered(
-            subject, shifts[0], (Chain((self.forces, DIRECTIONS)),), self.loading,
-            {**meaning, L_minus: t * L_plus},
+            subject, shifts[0], (Chain((self.forces, eq11.DIRECTIONS)),), self.loading,
+            {**meaning, **t1.RATIO},
         )  # fmt: skip
 
     @property
@@ -282,13 +246,11 @@ class Case:
         return self.mean.forms
 
 
-def _both_parts(
-    symbols: Iterable[sympy.Symbol], own: sympy.Expr, other: sympy.Expr
-) -> tuple[sympy.Eq, sympy.Eq]:
+def _both_parts(symbols: Iterable[sympy.Symbol], own: str, other: str) -> tuple[sympy.Eq, sympy.Eq]:
     """What each branch's own load changes in ⟨f⟩/L less 1, and t or 1/t times what the other's."""
-    below, (plus, less) = 4 * (1 - phi**2) ** 2, symbols
-    first = times(1 / below, terms(*own.args, times(t, other)), VARIANCE)
-    second = times(1 / (t * below), terms(times(t, own), *other.args), VARIANCE)
+    plus, less = symbols
+    first = formula(f"(1/(4(1 − φ²)²)) ({own} + t[{other}]) (σ_δr/r)²")
+    second = formula(f"(1/(4t(1 − φ²)²)) (t[{own}] + {other}) (σ_δr/r)²")
     return equation(terms(plus, -1), first), equation(terms(less, -1), second)
 
 
@@ -301,11 +263,7 @@ ON_SURFACE = Case(
     (
         equation(
             terms(MEAN, -1),
-            times(
-                1 / ((1 - phi**2) * (1 + phi)) / 2,
-                terms(times(4, terms(j, minus(times(phi, M)))), times(phi, terms(1, phi))),
-                VARIANCE,
-            ),
+            times(1 / (2 * U_BELOW), formula("4(j − φM) + φ(1 + φ)"), VARIANCE),
         ),
     ),
     2 * M * (z - phi) * U,
@@ -320,65 +278,42 @@ IN_BULK = Case(
         equation(
             terms(MEAN_BULK, -1),
             times(
-                1 / ((1 - phi**2) * (1 + phi)) / 4,
-                terms(
-                    times(8, j),
-                    minus(times(4, phi, terms(M, j))),
-                    minus(times(2, phi, terms(1, -phi))),
-                    (1 - phi) ** 2 / (M - j),
-                ),
+                1 / (4 * U_BELOW),
+                formula("8j − 4φ(M + j) − 2φ(1 − φ) + (1 − φ)²/(M − j)"),
                 VARIANCE,
             ),
         ),
     ),
     M * (2 * z - phi * (1 + z)) * U,
 )
-_TILTED_UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
+_ON_SURFACE, _IN_BULK = t1.Tilted.both()
 SURFACE_AT_ANGLE = Case(
     "B15",
     TILTED,
-    (L_plus, L_minus),
-    SURFACE_TILTED,
-    t1.UNDER_SURFACE,
+    _ON_SURFACE.ordered,
+    _ON_SURFACE.loading,
+    _ON_SURFACE.forces,
     _both_parts(
         TILTED,
-        terms(
-            times(4, j, terms(1, phi, times(2, phi**2))),
-            minus(times(8, phi, M)),
-            times(phi, terms(4, -phi), terms(1, phi)),
-        ),
-        terms(
-            times(4, j, terms(1, minus(times(3, phi)), minus(times(2, phi**2)))),
-            times(8, phi**2, M),
-            minus(times(phi, terms(1, phi), terms(2, phi))),
-        ),
+        "4j(1 + φ + 2φ²) − 8φM + φ(4 − φ)(1 + φ)",
+        "4j(1 − 3φ − 2φ²) + 8φ²M − φ(1 + φ)(2 + φ)",
     ),
     M
     * (z * (1 + phi + 2 * phi**2) - 2 * phi + t * (z * (1 - 3 * phi - 2 * phi**2) + 2 * phi**2))
-    * _TILTED_UNIT,
+    * UNIT,
 )
 BULK_AT_ANGLE = Case(
     "B16",
     TILTED_BULK,
-    ((M - j) * L_plus, (M - j) * L_minus),
-    BULK_TILTED,
-    t1.UNDER_BULK,
+    _IN_BULK.ordered,
+    _IN_BULK.loading,
+    _IN_BULK.forces,
     _both_parts(
         TILTED_BULK,
-        terms(
-            times(4, j, terms(1, times(2, phi**2))),
-            minus(times(4, phi, M)),
-            times(phi**2, terms(3, -phi)),
-            (1 - phi) ** 2 / (M - j),
-        ),
-        terms(
-            times(4, j, terms(1, minus(times(3, phi)))),
-            times(4, phi**2, terms(M, -j)),
-            minus(times(phi, terms(2, -phi, phi**2))),
-            minus(times(phi, (1 - phi) ** 2, 1 / (M - j))),
-        ),
+        "4j(1 + 2φ²) − 4φM + φ²(3 − φ) + (1 − φ)²/(M − j)",
+        "4j(1 − 3φ) + 4φ²(M − j) − φ(2 − φ + φ²) − φ(1 − φ)²/(M − j)",
     ),
-    M * (z * (1 + 2 * phi**2) - phi + t * (z * (1 - 3 * phi) + phi**2 * (1 - z))) * _TILTED_UNIT,
+    M * (z * (1 + 2 * phi**2) - phi + t * (z * (1 - 3 * phi) + phi**2 * (1 - z))) * UNIT,
 )
 
 _VERTICAL = (
@@ -399,7 +334,7 @@ _AT_ANGLE = (
 def _forces(case: Case) -> Lines:
     """The balance of a layer in the mean; the covariances; every layer; z in place of j."""
     mean = case.mean
-    lines = Lines(mean.where())
+    lines = Lines(mean.where(), moment(*mean.facts), mean.meant)
     tilted = len(case.symbols) == 2
     balance, solved = (
         (second_order.balance_along_b(), FORCE_AT_ANGLE)
@@ -422,8 +357,6 @@ def _forces(case: Case) -> Lines:
         "The tilt ν of a contact and its force α₁ are linear forms in the radii: line sums that "
         "share few sites. Their covariances, weight by weight, give for 2 ≤ j ≤ M − 2",
         sympy.Tuple(*case.printed) if tilted else case.printed[0],
-        moment(*mean.facts),
-        meaning=mean.meant,
         after=(first, *_SOURCES[case.number]),
     )
     mean.show_forms(lines, "the covariances there", printed)
@@ -433,7 +366,6 @@ def _forces(case: Case) -> Lines:
     lines.show(
         _IN_Z[case.number],
         equation(terms(case.symbols[0], -1), terms(case.leading, rest)),
-        moment(*mean.facts),
         meaning={z: j / M, **mean.meant},
         after=(printed,),
     )
@@ -454,7 +386,7 @@ _IN_Z: dict[Number, str] = {
 
 
 def _claim(case: Case, lines: Lines) -> None:
-    mean, one = case.mean, {t: sympy.S.One}
+    mean = case.mean
     if case in (ON_SURFACE, IN_BULK):
         share = sympy.Rational(1, 8 if case is IN_BULK else 4)
         base, above = (3 * M * (1 - 2 * phi) * share * U, -M * (3 + 8 * phi) * share * U)
@@ -471,31 +403,28 @@ def _claim(case: Case, lines: Lines) -> None:
                     FIELD.from_sympy(case.forms["base+1"].expression - above).to_sympy(),
                 ),
             ),
-            moment(*mean.facts),
             where=mean.where("base+1"),
-            meaning=mean.meant,
         )
     else:
         vertical = ON_SURFACE if case is SURFACE_AT_ANGLE else IN_BULK
-        lines.claim(
+        lines.claim_each(
             f"for t = 1 it is Eq. {vertical.number}, in every layer",
-            sympy.Tuple(
-                *(
-                    equation(form.expression.xreplace(one), vertical.forms[name].expression)
-                    for name, form in case.forms.items()
+            (
+                (
+                    form.expression.xreplace({t: sympy.S.One}),
+                    vertical.forms[name].expression,
+                    mean.where(name).loaded(None),
                 )
+                for name, form in case.forms.items()
             ),
             rewrite(),
-            where=tuple(mean.where(name).loaded(None) for name in case.forms),
         )
     other = {IN_BULK: ON_SURFACE, BULK_AT_ANGLE: SURFACE_AT_ANGLE}.get(case)
     if other:
         lines.claim(
             "one layer below the surface both loads agree",
             equation(mean.symbol, other.forms["surface"].expression),
-            moment(*mean.facts),
             where=mean.where("surface"),
-            meaning=mean.meant,
         )
 
 
@@ -507,7 +436,6 @@ def _witness(case: Case, branch: str, packing: SmallPacking) -> Ruling:
     return witnesses.forces(case.forms, load, packing, ratio, branch)
 
 
-_LAW = "the radii are independent, of zero mean and variance σ², of whatever law"
 _EVERY = "printed form: 2 ≤ j ≤ M − 2; exact forms: every 0 ≤ j < M"
 _PLUS_ONLY = (
     "printed form: 2 ≤ j ≤ M − 2; exact forms, for f⁺: every 0 ≤ j < M. For f⁻ put 1/t in "
@@ -540,8 +468,8 @@ def _derivation(
         name=name,
         title=title,
         symbols=(*told, *further, *usual(sigma, r, M, phi)),
-        assumptions=(_LAW, "second order in δr", *load, _PLUS_ONLY if tilted else _EVERY),
-        premises=(*_SOURCES[case.number], *DIRECTIONS, B4, *premises),
+        assumptions=(*SECOND_ORDER, *load, _PLUS_ONLY if tilted else _EVERY),
+        premises=(*_SOURCES[case.number], *eq11.DIRECTIONS, B4, *premises),
         printed=case.printed,
         domain=(sympy.Ge(j, 2), sympy.Ge(M, j + 2)),
         where=case.mean.where(),

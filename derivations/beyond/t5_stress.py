@@ -11,25 +11,23 @@ from itertools import product
 from typing import Any
 
 import sympy
-from force_diffusion.derivations import eq04_contact_plus as eq04
-from force_diffusion.derivations import eq05_contact_minus as eq05
+from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.beyond import t1_forces as t1
 from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.proving import Line, Meaning, facts_of
-from force_diffusion.derivations.framework.record import ExactCase, usual
+from force_diffusion.derivations.framework.record import SECOND_ORDER, ExactCase, usual
 from force_diffusion.derivations.framework.vocabulary import (
+    UNIT,
     By,
-    Chain,
     Derivation,
     Layered,
     Lines,
     Where,
     Witness,
     equation,
-    minus,
+    formula,
     moment,
-    power,
     rewrite,
     terms,
     times,
@@ -43,7 +41,6 @@ from force_diffusion.symbolic.kernel import moments
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import Theorem, check
-from force_diffusion.symbolic.kernel.where import BULK_TILTED, SURFACE_TILTED
 from force_diffusion.symbolic.mechanics import second_order
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.mechanics.second_order import (
@@ -99,24 +96,14 @@ SHEAR = Symbol("mean_shear", r"\langle s_{xy}\rangle_{\mathrm{layer}}", "⟨s_xy
 """Change of the mean S_xy of a layer over its ordered value, which is zero for t = 1."""
 
 SUBJECTS, AXES = (
-    {
-        load: Symbol(f"{name}_{load}", latex % load, f"{words}_{load}")
-        for load in ("surface", "bulk")
-    }
+    {load: Symbol(f"{name}_{load}", rf"{latex}_{{\mathrm{{{load}}}}}", f"{words}_{load}")
+     for load in ("surface", "bulk")}
     for name, latex, words in (
-        (
-            "shear",
-            r"\left(\frac{\langle S_{xy}\rangle}{S_{xy}^{0}}\right)_{\mathrm{%s}}",
-            "(⟨S_xy⟩/S⁰_xy)",
-        ),
-        (
-            "axes",
-            r"\left(2 n_{x}n_{y}\,\frac{1-t}{1+t}\operatorname{cot}2\psi\right)"
-            r"_{\mathrm{%s}}",
-            "[2n_x n_y (1−t)/(1+t) cot 2ψ]",
-        ),
+        ("shear", r"\left(\frac{\langle S_{xy}\rangle}{S_{xy}^{0}}\right)", "(⟨S_xy⟩/S⁰_xy)"),
+        ("axes", r"\left(2 n_{x}n_{y}\,\frac{1-t}{1+t}\operatorname{cot}2\psi\right)",
+         "[2n_x n_y (1−t)/(1+t) cot 2ψ]"),
     )
-)
+)  # fmt: skip
 WITH_HEIGHT = Symbol(
     "momentum_with_height",
     r"\frac{\langle\delta(fN_y)\,\delta(\ell N_y)\rangle}"
@@ -124,12 +111,11 @@ WITH_HEIGHT = Symbol(
     "⟨δ(fN_y) δ(ℓN_y)⟩/⟨fN_y⟩⟨ℓN_y⟩",
 )
 
-UNIT = power(times(sigma, 1 / r), 2)
+VARIANCE = formula("(σ_δr/r)²")
 HALF_UNIT = 1 / ((1 - phi**2) * (1 + phi)) / 2
 
 TWO = sympy.Integer(2)
 INTERIOR = (sympy.Ge(j, 2), sympy.Ge(M, j + 2))
-
 
 Means = dict[sympy.Expr, RationalFunction]
 """A linear combination of moments, by their weights."""
@@ -148,42 +134,26 @@ def _shown(means: Means) -> sympy.Expr:
 
 
 @dataclass(frozen=True, eq=False)
-class Load:
-    """One of the two loads.
-
-    Attributes:
-        name: "surface" or "bulk".
-        layers: how many layers of load a contact carries.
-        derivation: of its mean forces.
-    """
-
-    name: str
-    layers: sympy.Expr
-    derivation: Derivation
-
-    @property
-    def facts(self) -> tuple[Chain, ...]:
-        """Forces and directions in the radii."""
-        forces = t1.UNDER_SURFACE if self.name == "surface" else t1.UNDER_BULK
-        return (Chain((forces, (eq04.DERIVATION, eq05.DERIVATION))),)
+class Load(t1.Tilted):
+    """One of the two loads, with the stress under it."""
 
     def where(self, *relations: sympy.Basic) -> Where:
         """Layers, under this load in any direction."""
-        loading = SURFACE_TILTED if self.name == "surface" else BULK_TILTED
-        return Where.of(*(relations or INTERIOR), loading=loading)
+        return Where.of(*(relations or INTERIOR), loading=self.loading)
 
     def _products(self, branch: str) -> Meaning:
         """Means of products of two first-order quantities of a contact, and of its partner."""
-        own = {"+": ForcePlus(i, j) / L_plus, "-": ForceMinus(i, j) / (t * L_plus)}
+        plus, less = (one.xreplace(t1.RATIO) for one in self.ordered)
+        forces = {"+": ForcePlus(i, j) / plus, "-": ForceMinus(i, j) / less}
         tilts = {"+": t4.TILT, "-": mirror(t4.TILT)}
         other = "-" if branch == "+" else "+"
         radii = DeltaR(i, j) + DeltaR(i + (1 if branch == "+" else -1), j + 1)
-        force, tilt = own[branch] / self.layers, tilts[branch]
+        force, tilt = forces[branch], tilts[branch]
         return {
             mean_square: Variance(tilt),
             with_radii: Covariance(tilt, radii),
             with_force: Covariance(tilt, force),
-            with_other: Covariance(tilts[other], own[other] / self.layers),
+            with_other: Covariance(tilts[other], forces[other]),
             with_both: Covariance(force, radii),
         }
 
@@ -226,7 +196,7 @@ class Load:
         """What is printed, in moments, but for SHEAR."""
         found = {symbol: _shown(change) for symbol, change in self.changes.items()}
         for symbol in self.printed:
-            found[symbol] += self.ordered(symbol) + self.sheared_by(symbol) * SHEAR
+            found[symbol] += self.undisturbed(symbol) + self.sheared_by(symbol) * SHEAR
         del found[SHEAR]
         return found
 
@@ -235,7 +205,7 @@ class Load:
         """What closed forms are given of."""
         return RATIO, VERTICAL, BY_FLUX, self.shear, self.axes
 
-    def ordered(self, symbol: sympy.Symbol) -> sympy.Expr:
+    def undisturbed(self, symbol: sympy.Symbol) -> sympy.Expr:
         """Its value in the ordered packing."""
         return phi if symbol == self.axes else sympy.S.One
 
@@ -256,18 +226,16 @@ class Load:
     @cached_property
     def layered(self) -> dict[sympy.Symbol, Layered]:
         """Each of them less its ordered value, at every layer."""
-        loading = self.where().loading
-        assert loading is not None
         shear = _times(self.changes[SHEAR], FIELD.from_sympy(1 / (1 - t)))
         found = {}
         for symbol in self.printed:
             factor = self.sheared_by(symbol)
             change = _added(self.changes[symbol], _times(shear, FIELD.from_sympy(factor)))
             found[symbol] = Layered(
-                symbol - self.ordered(symbol),
+                symbol - self.undisturbed(symbol),
                 _shown(change),
                 self.facts,
-                loading,
+                self.loading,
                 by=self.sheared if factor else None,
                 said_as=_shown(self.changes[symbol]) + factor * SHEAR,
             )
@@ -277,6 +245,10 @@ class Load:
     def forms(self) -> dict[sympy.Symbol, dict[str, ClosedForm]]:
         """Their closed forms."""
         return {symbol: one.forms for symbol, one in self.layered.items()}
+
+    def exact(self, symbol: sympy.Symbol, case: str = "interior") -> sympy.Expr:
+        """The closed form of some layers."""
+        return self.forms[symbol][case].expression
 
     @cached_property
     def sheared(self) -> By:
@@ -302,10 +274,7 @@ class Load:
         return By(rule, self.facts, lambda formula, _: without_shear(formula))
 
 
-LOADS = (
-    Load("surface", sympy.S.One, t4.B15),
-    Load("bulk", M - j, t4.B16),
-)
+OF_SURFACE, OF_BULK = LOADS = Load.both()
 
 
 @cache
@@ -316,76 +285,51 @@ def mean_moments() -> tuple[sympy.Expr, ...]:
     )
 
 
-OF_SURFACE, OF_BULK = LOADS
+def _ratio(change: str) -> sympy.Eq:
+    scale = 1 / (1 - phi**2) ** 2
+    return equation(terms(RATIO, -1), times(scale, formula(change), VARIANCE))
 
 
-def _printed() -> dict[Number, tuple[sympy.Eq, ...]]:
-    above = terms(M, -j)
-    of_axes = (
-        times(phi, terms(2, -phi, phi**2)),
-        minus(times(4, j, terms(1, minus(times(3, phi))))),
-    )
-
-    def half(symbol: sympy.Symbol, *change: sympy.Expr, ordered: sympy.Expr | int = 1) -> sympy.Eq:
-        return equation(terms(symbol, -ordered), times(HALF_UNIT, terms(*change), UNIT))
-
-    def ratio(*change: sympy.Expr) -> sympy.Eq:
-        return equation(terms(RATIO, -1), times(1 / (1 - phi**2) ** 2, terms(*change), UNIT))
-
-    return {
-        "B10": (
-            ratio(
-                times(4, j, terms(1, phi)),
-                minus(times(8, phi, M)),
-                times(4, phi),
-                phi**2,
-                minus(phi**3),
-            ),
-            half(VERTICAL, 3, minus(phi**2), minus(times(4, above))),
-            half(BY_FLUX, 3, times(8, j), minus(times(4, M))),
-        ),
-        "B17": (
-            ratio(
-                times(4, j),
-                minus(times(4, phi, M)),
-                times(phi**2, terms(1, -phi)),
-                (1 - phi) ** 2 / (M - j),
-            ),
-            half(VERTICAL, 1, minus(phi**2), minus(times(2, above)), minus((1 - phi) / (M - j))),
-            half(BY_FLUX, 1, times(6, j), minus(times(2, M)), minus((1 - phi) / (M - j))),
-        ),
-        "B18": (
-            half(SUBJECTS["surface"], times(4, M), minus(times(12, j)), -3, -(phi**2)),
-            half(
-                SUBJECTS["bulk"],
-                *(times(2, M), minus(times(10, j)), -1, -(phi**2), (1 - phi) / (M - j)),
-            ),
-            half(AXES["surface"], *of_axes, ordered=phi),
-            half(AXES["bulk"], *of_axes, minus((1 - phi**2) / (M - j)), ordered=phi),
-        ),
-    }
+def _half(symbol: sympy.Symbol, change: str, ordered: sympy.Expr = sympy.S.One) -> sympy.Eq:
+    return equation(terms(symbol, -ordered), times(HALF_UNIT, formula(change), VARIANCE))
 
 
-PRINTED = _printed()
+PRINTED: dict[Number, tuple[sympy.Eq, ...]] = {
+    "B10": (
+        _ratio("4j(1 + φ) − 8φM + 4φ + φ² − φ³"),
+        _half(VERTICAL, "3 − φ² − 4(M − j)"),
+        _half(BY_FLUX, "3 + 8j − 4M"),
+    ),
+    "B17": (
+        _ratio("4j − 4φM + φ²(1 − φ) + (1 − φ)²/(M − j)"),
+        _half(VERTICAL, "1 − φ² − 2(M − j) − (1 − φ)/(M − j)"),
+        _half(BY_FLUX, "1 + 6j − 2M − (1 − φ)/(M − j)"),
+    ),
+    "B18": (
+        _half(SUBJECTS["surface"], "4M − 12j − 3 − φ²"),
+        _half(SUBJECTS["bulk"], "2M − 10j − 1 − φ² + (1 − φ)/(M − j)"),
+        _half(AXES["surface"], "φ(2 − φ + φ²) − 4j(1 − 3φ)", phi),
+        _half(AXES["bulk"], "φ(2 − φ + φ²) − 4j(1 − 3φ) − (1 − φ²)/(M − j)", phi),
+    ),
+}
 
 
-def _show_moments(lines: Lines, parts: tuple[int, ...]) -> Line:
+def _show_moments(lines: Lines, parts: slice) -> Line:
     """Show the moment of a contact along n⁺ at order ε², and its mean."""
-    moment_of, mean_of = second_order.contact_moment(), mean_moments()
-    shares = {SHARES[part]: moment_of[part] for part in parts}
-    means = {MEANS[part]: mean_of[part] for part in parts}
+    shares = dict(zip(SHARES[parts], second_order.contact_moment()[parts], strict=True))
+    means = dict(zip(MEANS[parts], mean_moments()[parts], strict=True))
     at_order_2 = lines.show(
         "The contacts of a layer have the moment S = Σ f ℓ N⊗N, ℓ = 2r + ερ being the distance of "
         "the centres. With f = 1 + εα₁ + ε²α₂ and N = n⁺ + εν b⁻ + ε²u₂, at order ε² and over the "
         "ordered values:",
-        sympy.Tuple(*(equation(*one) for one in shares.items())),
+        sympy.Tuple(*map(equation, shares.keys(), shares.values())),
         rewrite(),
         where=Where(),
         meaning=shares,
     )
     return lines.show(
         "In the mean, with ⟨α₂⟩ of Eqs. B15 and B16 and ⟨u₂⟩ of Eq. B4:",
-        sympy.Tuple(*(equation(*one) for one in means.items())),
+        sympy.Tuple(*map(equation, means.keys(), means.values())),
         rewrite(),
         where=Where(),
         meaning=means,
@@ -394,19 +338,20 @@ def _show_moments(lines: Lines, parts: tuple[int, ...]) -> Line:
 
 
 def _claim_leading(
-    lines: Lines, name: str, *parts: tuple[dict[str, ClosedForm], sympy.Expr, sympy.Expr]
+    lines: Lines, name: str, unit: sympy.Expr, *parts: tuple[Load, sympy.Symbol, str, str]
 ) -> None:
-    """Claim what grows with M in closed forms, and what else there is."""
-    lines.claim(
+    """Claim what grows with M in closed forms, and what else there is, in a unit."""
+    lines.claim_each(
         name,
-        sympy.Tuple(
-            *(
-                equation(forms["interior"].expression, terms(growing, rest))
-                for forms, growing, rest in parts
+        (
+            (
+                load.exact(symbol),
+                terms(formula(growing) * unit, formula(rest) * unit),
+                Where.of(*INTERIOR),
             )
+            for load, symbol, growing, rest in parts
         ),
         rewrite(),
-        where=Where.of(*INTERIOR),
     )
 
 
@@ -435,19 +380,17 @@ def _claim_virial(lines: Lines, load: Load) -> None:
 
 
 @cache
-def stress_steps(number: Number) -> Lines:
+def stress_steps(number: str) -> Lines:
     """The contact moment at order ε², its mean, and the covariances."""
     load, growing, rest, words = OF_STRESS[number]
     ratio, vertical, flux = PRINTED[number]
-    lines = Lines(load.where())
-    mean = _show_moments(lines, (0, 1))
+    lines = Lines(load.where(), moment(*load.facts), load.meaning)
+    mean = _show_moments(lines, slice(2))
     changes = lines.show(
         "A contact along n⁻ is the mirror image: t times the same, with 1/t in place of t. Of both "
         "together t drops out. The ratio of the means changes by ⟨s_xx⟩ − ⟨s_yy⟩; all covariances "
         "in closed form, for 2 ≤ j ≤ M − 2:",
         sympy.Tuple(ratio, vertical),
-        moment(*load.facts),
-        meaning=load.meaning,
         after=(mean,),
     )
     height = lines.show(
@@ -456,38 +399,23 @@ def stress_steps(number: Number) -> Lines:
         "through a cut is the load. What the two differ by is the covariance of a contact's "
         "vertical momentum, fN_y, with its height, ℓN_y, both over their means:",
         equation(terms(BY_FLUX, -1), WITH_HEIGHT),
-        moment(*load.facts),
-        meaning=load.meaning,
         after=(t4.B4, mean),
     )
-    lines.show(
-        "The covariances put in there:",
-        flux,
-        moment(*load.facts),
-        meaning=load.meaning,
-        after=(height,),
-    )
+    lines.show("The covariances put in there:", flux, after=(height,))
     load.layered[RATIO].show_forms(lines, "the covariances there", changes)
     for symbol in (VERTICAL, BY_FLUX):
         load.layered[symbol].claim_forms(lines, f"{text(symbol)} at every layer")
     if load is OF_SURFACE:
         _claim_order_zero(lines)
-    unit = UNIT / (1 - phi**2) ** 2
-    _claim_leading(
-        lines,
-        f"to leading order the ratio changes by {words}",
-        (load.forms[RATIO], growing * unit, rest * unit),
-    )
+    leading = f"to leading order the ratio changes by {words}"
+    _claim_leading(lines, leading, UNIT, (load, RATIO, growing, rest))
     _claim_virial(lines, load)
     if load is OF_BULK:
+        below = ([one.exact(s, "surface") for one in LOADS]
+                 for s in (RATIO, VERTICAL, BY_FLUX))  # fmt: skip
         lines.claim(
             "one layer below the surface both loads agree",
-            sympy.Tuple(
-                *(
-                    equation(*(one.forms[symbol]["surface"].expression for one in LOADS))
-                    for symbol in (RATIO, VERTICAL, BY_FLUX)
-                )
-            ),
+            sympy.Tuple(*(equation(*one) for one in below)),
             rewrite(),
             where=Where.of(M >= 3),
         )
@@ -523,7 +451,7 @@ def _claim_order_zero(lines: Lines) -> None:
 def shear_steps() -> Lines:
     """The shear part of the contact moment, its mean, both branches; the axes."""
     lines = Lines(OF_SURFACE.where())
-    mean = _show_moments(lines, (2,))
+    mean = _show_moments(lines, slice(2, 3))
     both: dict[str, Any] = {
         "by": tuple(load.sheared for load in LOADS),
         "where": tuple(load.where() for load in LOADS),
@@ -548,37 +476,25 @@ def shear_steps() -> Lines:
         load.layered[load.shear].show_forms(lines, how, shear)
     for load in LOADS:
         load.layered[load.axes].claim_forms(lines, f"the axes at every layer, {load.name} load")
-    turned, above = -4 * j * (1 - 3 * phi), 1 / (M - j)
-    beside = phi * (2 - phi + phi**2)
+    turned = "−4j(1 − 3φ)"
     _claim_leading(
         lines,
         "leading orders: the axes turn with the height j, whatever M is",
-        *(
-            (load.forms[symbol], growing * HALF_UNIT * UNIT, rest * HALF_UNIT * UNIT)
-            for load, symbol, growing, rest in (
-                (OF_SURFACE, OF_SURFACE.shear, 4 * M - 12 * j, -3 - phi**2),
-                (OF_SURFACE, OF_SURFACE.axes, turned, beside),
-                (OF_BULK, OF_BULK.shear, 2 * M - 10 * j, -1 - phi**2 + (1 - phi) * above),
-                (OF_BULK, OF_BULK.axes, turned, beside - (1 - phi**2) * above),
-            )
-        ),
+        HALF_UNIT * VARIANCE,
+        (OF_SURFACE, OF_SURFACE.shear, "4M − 12j", "−3 − φ²"),
+        (OF_SURFACE, OF_SURFACE.axes, turned, "φ(2 − φ + φ²)"),
+        (OF_BULK, OF_BULK.shear, "2M − 10j", "−1 − φ² + (1 − φ)/(M − j)"),
+        (OF_BULK, OF_BULK.axes, turned, "φ(2 − φ + φ²) − (1 − φ²)/(M − j)"),
     )
-    lines.claim(
+    apart = (
+        (load.exact(load.shear, case) - load.exact(VERTICAL, case), load.exact(BY_FLUX, case),
+         load.layered[RATIO].where(case).loaded(None))
+        for load, case in product(LOADS, CASES)
+    )  # fmt: skip
+    lines.claim_each(
         "moments and flux differ for σ_xy as for σ_yy, with the opposite sign",
-        sympy.Tuple(
-            *(
-                equation(
-                    load.forms[load.shear][case].expression
-                    - load.forms[VERTICAL][case].expression
-                    + load.forms[BY_FLUX][case].expression,
-                    -load.forms[BY_FLUX][case].expression,
-                )
-                for load in LOADS
-                for case in CASES
-            )
-        ),
+        ((shear + flux, -flux, where) for shear, flux, where in apart),
         rewrite(),
-        where=tuple(load.layered[RATIO].where(c).loaded(None) for load in LOADS for c in CASES),
     )
     return lines
 
@@ -621,27 +537,23 @@ def _cases(*named: tuple[str, Layered]) -> dict[str, ExactCase]:
     }
 
 
-OF_STRESS: dict[Number, tuple[Load, sympy.Expr, sympy.Expr, str]] = {
+OF_STRESS = {
     "B10": (
         OF_SURFACE,
-        4 * (j * (1 + phi) - 2 * phi * M),
-        4 * phi + phi**2 - phi**3,
+        "4j(1 + φ) − 8φM",
+        "4φ + φ² − φ³",
         "4M[(1 + φ)z − 2φ](σ/r)²/(1−φ²)²: no constant",
     ),
     "B17": (
         OF_BULK,
-        4 * (j - phi * M),
-        phi**2 * (1 - phi) + (1 - phi) ** 2 / (M - j),
+        "4j − 4φM",
+        "φ²(1 − φ) + (1 − φ)²/(M − j)",
         "4M(z − φ)(σ/r)²/(1−φ²)²: no constant, and not that of a surface load",
     ),
 }
-ASSUMED = (
-    "the radii are independent, of zero mean and variance σ², of whatever law",
-    "second order in δr",
-)
 
 
-def _stress(number: Number, load_in_words: str, **options: Any) -> Derivation:
+def _stress(number: str, load_in_words: str, **options: Any) -> Derivation:
     load, *_ = OF_STRESS[number]
     quantities = (("", RATIO), ("vertical-", VERTICAL), ("flux-", BY_FLUX))
     return Derivation(
@@ -655,7 +567,7 @@ def _stress(number: Number, load_in_words: str, **options: Any) -> Derivation:
             *usual(sigma, r, M, phi),
         ),
         assumptions=(
-            *ASSUMED,
+            *SECOND_ORDER,
             load_in_words,
             "printed form: 2 ≤ j ≤ M − 2; exact forms: every 0 ≤ j < M",
         ),
@@ -674,7 +586,7 @@ def _stress(number: Number, load_in_words: str, **options: Any) -> Derivation:
     )
 
 
-_MEANS = (eq04.DERIVATION, eq05.DERIVATION, t1.B1, t4.B4, t4.B15, t4.B16)
+_MEANS = (*eq11.DIRECTIONS, t1.B1, t4.B4, t4.B15, t4.B16)
 
 B10 = _stress(
     "B10",
@@ -710,7 +622,7 @@ B18 = Derivation(
         *usual(sigma, r, M, phi),
     ),
     assumptions=(
-        *ASSUMED,
+        *SECOND_ORDER,
         "L⁺, L⁻ > 0, not equal; a load on the surface, or the same on every bead above the base",
         "printed form: 2 ≤ j ≤ M − 2; exact forms: every 0 ≤ j < M",
     ),

@@ -5,7 +5,6 @@ bead, the paper's Green's function: the same plateau down to the base, which the
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 
@@ -13,11 +12,10 @@ import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.beyond import t4_second_order as t4
-from force_diffusion.derivations.framework.proving import facts_of
-from force_diffusion.derivations.framework.record import ExactCase, Piece, usual
+from force_diffusion.derivations.framework.proving import Beside, facts_of
+from force_diffusion.derivations.framework.record import SECOND_ORDER, ExactCase, Piece, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
-    Beside,
     Chain,
     Derivation,
     Lines,
@@ -25,9 +23,9 @@ from force_diffusion.derivations.framework.vocabulary import (
     Witness,
     equation,
     exhausting,
-    minus,
+    formula,
     moment,
-    power,
+    relations,
     rewrite,
     terms,
     times,
@@ -88,124 +86,91 @@ PUSH_ON_LEG = Symbol(
 )
 LOSS = Symbol("leg_loss", r"\Delta_{\mathrm{leg}}", "loss of a leg per layer")
 
-_VARIANCE = power(times(sigma, 1 / r), 2)
-PRINTED = (
-    equation(
-        INSIDE,
-        times(1 / (1 - phi**2) ** 2, terms(times(2, phi**2), times(3, phi), -1), _VARIANCE),
-    ),
-    equation(
-        terms(ON_LEG, -1),
-        times(
-            1 / (1 - phi**2) ** 2,
-            terms(
-                times(2, l, terms(1, -phi) ** 2),
-                minus(times(terms(times(2, phi**2), phi, 1), terms(l, -j))),
-                minus(times(Rational(1, 2), phi**3)),
-                times(Rational(9, 4), phi**2),
-                times(3, phi),
-                minus(Rational(3, 4)),
-            ),
-            _VARIANCE,
-        ),
-    ),
-)
+
+def _printed(left: sympy.Expr, change: str) -> sympy.Eq:
+    return equation(left, times(1 / (1 - phi**2) ** 2, formula(change), formula("(σ_δr/r)²")))
+
+
+_PLATEAU = "2φ² + 3φ − 1"
+_LEG = "2l(1 − φ)² − (2φ² + φ + 1)(l − j) − φ³/2 + 9φ²/4 + 3φ − 3/4"
+PRINTED = (_printed(INSIDE, _PLATEAU), _printed(terms(ON_LEG, -1), _LEG))
 
 # Closed forms at every site, in units of (σ/r)²/(1−φ²)², the first that fits: the contact f⁺_ij, or
 # the bead (i, j), lies p steps along n⁺ and q along n⁻ below the loaded bead, on a leg for q = 0.
 
-_PLATEAU = 2 * phi**2 + 3 * phi - 1
-_LEG = (
-    2 * l * (1 - phi) ** 2
-    - (2 * phi**2 + phi + 1) * (l - j)
-    - phi**3 / 2 + 9 * phi**2 / 4 + 3 * phi - Rational(3, 4)
-)  # fmt: skip
-LEG_LOSS = 2 * phi**2 + phi + 1
+LEG_LOSS = formula("2φ² + φ + 1")
 _BESIDE_ALL, _STRAIGHT_BELOW = (p >= 2, q >= 2), {p: 1, q: 1}
 
 CONTACT = (
-    Piece("j = 0, straight below the load", {j: 0, **_STRAIGHT_BELOW},
-          (1 + 9 * phi + 6 * phi**2) / 4),
-    Piece("j = 0, q = 1", {j: 0, q: 1}, (5 * phi**2 + 13 * phi - 2) / 4, (p >= 2,)),
-    Piece("j = 0, p = 1", {j: 0, p: 1}, (7 * phi**2 + 7 * phi + 2) / 4, (q >= 2,)),
-    Piece("j = 0, further inside", {j: 0}, (6 * phi**2 + 11 * phi - 1) / 4, _BESIDE_ALL),
-    Piece("j = 1, q = 1", {j: 1, q: 1}, (7 * phi**2 + 17 * phi - 8) / 4),
-    Piece("j = 1, q > 1", {j: 1}, (8 * phi**2 + 15 * phi - 7) / 4, (q >= 2,)),
-    Piece("j ≥ 2, q = 1", {q: 1}, (7 * phi**2 + 14 * phi - 5) / 4, (j >= 2,)),
-    Piece("j ≥ 2, every other contact inside of the cone", {}, _PLATEAU, (j >= 2, q >= 2)),
-)  # fmt: skip
+    Piece("j = 0, straight below the load", {j: 0, **_STRAIGHT_BELOW}, formula("(1 + 9φ + 6φ²)/4")),
+    Piece("j = 0, q = 1", {j: 0, q: 1}, formula("(5φ² + 13φ − 2)/4"), (p >= 2,)),
+    Piece("j = 0, p = 1", {j: 0, p: 1}, formula("(7φ² + 7φ + 2)/4"), (q >= 2,)),
+    Piece("j = 0, further inside", {j: 0}, formula("(6φ² + 11φ − 1)/4"), _BESIDE_ALL),
+    Piece("j = 1, q = 1", {j: 1, q: 1}, formula("(7φ² + 17φ − 8)/4")),
+    Piece("j = 1, q > 1", {j: 1}, formula("(8φ² + 15φ − 7)/4"), (q >= 2,)),
+    Piece("j ≥ 2, q = 1", {q: 1}, formula("(7φ² + 14φ − 5)/4"), (j >= 2,)),
+    Piece("j ≥ 2, every other contact inside of the cone", {}, formula(_PLATEAU), (j >= 2, q >= 2)),
+)
 """⟨f⁺_ij⟩ over f_load/2n_y, inside."""
 
 LEG = (
-    Piece("j = 0, l = 1", {j: 0, p: 1}, (1 - phi) * (2 - phi) * (1 - 2 * phi) / 2),
+    Piece("j = 0, l = 1", {j: 0, p: 1}, formula("(1 − φ)(2 − φ)(1 − 2φ)/2")),
     Piece("j = 0, l > 1", {j: 0},
-          l * (1 - 5 * phi) - (3 * phi**3 - 11 * phi**2 - 11 * phi + 3) / 4, (p >= 2,)),
-    Piece("j = 1, l = 2", {j: 1, p: 1}, (1 - phi) * (3 * phi**2 - 16 * phi + 6) / 4),
+          formula("l(1 − 5φ) − (3φ³ − 11φ² − 11φ + 3)/4"), (p >= 2,)),
+    Piece("j = 1, l = 2", {j: 1, p: 1}, formula("(1 − φ)(3φ² − 16φ + 6)/4")),
     Piece("j = 1, l > 2", {j: 1},
-          l * (1 - 5 * phi) - (2 * phi**3 - 17 * phi**2 - 19 * phi + 2) / 4, (p >= 2,)),
-    Piece("j = l − 1 ≥ 2", {p: 1}, (1 - phi) * (8 * l * (1 - phi) + 3 * phi**2 - 7) / 4, (j >= 2,)),
-    Piece("2 ≤ j ≤ l − 2, on a leg", {}, _LEG, (j >= 2, p >= 2)),
+          formula("l(1 − 5φ) − (2φ³ − 17φ² − 19φ + 2)/4"), (p >= 2,)),
+    Piece("j = l − 1 ≥ 2", {p: 1}, formula("(1 − φ)[8l(1 − φ) + 3φ² − 7]/4"), (j >= 2,)),
+    Piece("2 ≤ j ≤ l − 2, on a leg", {}, formula(_LEG), (j >= 2, p >= 2)),
 )  # fmt: skip
 """⟨f⟩ on a leg over f_load/2n_y, less 1."""
 
 PUSH = (
-    Piece("j = 0, straight below the load", {j: 0, **_STRAIGHT_BELOW},
-          (phi**2 + 16 * phi - 1) / 4),
-    Piece("j = 0, beside the left leg", {j: 0, q: 1}, (phi**2 + 36 * phi - 5) / 8, (p >= 2,)),
-    Piece("j = 0, beside the right leg", {j: 0, p: 1}, (phi**2 + 36 * phi - 5) / 8, (q >= 2,)),
-    Piece("i = k, j = l − 2 ≥ 1", _STRAIGHT_BELOW, (22 * phi - 5 - phi**2) / 4, (j >= 1,)),
-    Piece("j ≥ 1, beside the left leg", {q: 1}, (42 * phi - 9 - phi**2) / 8, (j >= 1, p >= 2)),
-    Piece("j ≥ 1, beside the right leg", {p: 1}, (42 * phi - 9 - phi**2) / 8, (j >= 1, q >= 2)),
-    Piece("every other bead inside of the cone", {}, 5 * phi - 1, _BESIDE_ALL),
-)  # fmt: skip
+    Piece("j = 0, straight below the load", {j: 0, **_STRAIGHT_BELOW}, formula("(φ² + 16φ − 1)/4")),
+    Piece("j = 0, beside the left leg", {j: 0, q: 1}, formula("(φ² + 36φ − 5)/8"), (p >= 2,)),
+    Piece("j = 0, beside the right leg", {j: 0, p: 1}, formula("(φ² + 36φ − 5)/8"), (q >= 2,)),
+    Piece("i = k, j = l − 2 ≥ 1", _STRAIGHT_BELOW, formula("(22φ − 5 − φ²)/4"), (j >= 1,)),
+    Piece("j ≥ 1, beside the left leg", {q: 1}, formula("(42φ − 9 − φ²)/8"), (j >= 1, p >= 2)),
+    Piece("j ≥ 1, beside the right leg", {p: 1}, formula("(42φ − 9 − φ²)/8"), (j >= 1, q >= 2)),
+    Piece("every other bead inside of the cone", {}, formula("5φ − 1"), _BESIDE_ALL),
+)
 """⟨p⟩/f_load inside, p being the vertical force that a bead gets from both upper contacts."""
 
 LEG_PUSH = (
     Piece("j = l − 1, below the load", {p: 1}, Integer(0)),
-    Piece("j = 0, l > 1", {j: 0}, (4 * (1 - 5 * phi) * l - phi**2 + 24 * phi - 7) / 8, (p >= 2,)),
+    Piece("j = 0, l > 1", {j: 0}, formula("[4(1 − 5φ)l − φ² + 24φ − 7]/8"), (p >= 2,)),
     Piece("1 ≤ j ≤ l − 2, on a leg", {},
-          (4 * (1 - 5 * phi) * (l - j) + phi**2 + 18 * phi - 3) / 8, (j >= 1, p >= 2)),
+          formula("[4(1 − 5φ)(l − j) + φ² + 18φ − 3]/8"), (j >= 1, p >= 2)),
 )  # fmt: skip
 """⟨p⟩/f_load on a leg, less ½."""
 
 
-@dataclass(frozen=True)
-class _Mean:
-    """What has closed forms: its symbol and what that is, where it is, and the forms."""
-
-    printed: sympy.Expr
-    is_: sympy.Expr
-    where: Where
-    pieces: tuple[Piece, ...]
-    steps_below: dict[sympy.Symbol, sympy.Expr]
-
-    @property
-    def domains(self) -> tuple[Where, ...]:
-        """Those of its closed forms."""
-        return cone.domains(self.where, self.pieces)
+def _mean(
+    left: sympy.Expr,
+    of: sympy.Expr,
+    pieces: tuple[Piece, ...],
+    sites: tuple[Where, dict[sympy.Symbol, sympy.Expr]],
+) -> cone.Below:
+    where, steps = sites
+    return cone.Below(left, Shift(of), where, pieces, UNIT, steps, "second order")
 
 
+_INSIDE, _ON_LEG = (cone.INSIDE, STEPS_BELOW), (cone.LEFT_LEG, cone.STEPS_DOWN_LEG)
 MEANS = {
-    "contact": _Mean(INSIDE, Shift(ForcePlus(i, j) / cone.ORDERED), cone.INSIDE, CONTACT,
-                     STEPS_BELOW),
-    "leg-force": _Mean(ON_LEG - 1, Shift(ForcePlus(i, j) / cone.ORDERED), cone.LEFT_LEG, LEG,
-                       cone.STEPS_DOWN_LEG),
-    "bead": _Mean(BEAD, Shift(cone.PRESSED), cone.INSIDE, PUSH, STEPS_BELOW),
-    "leg": _Mean(PUSH_ON_LEG - Rational(1, 2), Shift(cone.VERTICAL_PLUS), cone.LEFT_LEG, LEG_PUSH,
-                 cone.STEPS_DOWN_LEG),
-}  # fmt: skip
+    "contact": _mean(INSIDE, ForcePlus(i, j) / cone.ORDERED, CONTACT, _INSIDE),
+    "leg-force": _mean(ON_LEG - 1, ForcePlus(i, j) / cone.ORDERED, LEG, _ON_LEG),
+    "bead": _mean(BEAD, cone.PRESSED, PUSH, _INSIDE),
+    "leg": _mean(PUSH_ON_LEG - Rational(1, 2), cone.VERTICAL_PLUS, LEG_PUSH, _ON_LEG),
+}
 """By the names of their exact forms; nothing inside of the cone is of order 0."""
 
-OF_RADII = Chain((cone.FORCES, t4.DIRECTIONS))
+OF_RADII = Chain((cone.FORCES, eq11.DIRECTIONS))
 """Forces and directions to first order, in the radii."""
 
 
 def at_finite_size() -> dict[str, ExactCase]:
     """The exact forms, of a contact and of a bead's p, inside of the cone and on its legs."""
-    return {
-        name: cone.exact_case(one.printed, one.pieces, UNIT, one.steps_below, "second order")
-        for name, one in MEANS.items()
-    }
+    return {name: one.exact() for name, one in MEANS.items()}
 
 
 # The means of all f⁺, from layer to layer down, proved together: below the bead that a contact
@@ -214,8 +179,8 @@ def at_finite_size() -> dict[str, ExactCase]:
 _DOWN = {j: l - n, p: n - q}
 _STEPS = tuple(
     (*across, *down)
-    for across in ((q <= -1,), (Eq(q, 0),), (Eq(q, 1),), (q >= 2,))
-    for down in ((q >= n,), (Eq(q, n - 1),), (Eq(q, n - 2),), (q <= n - 3,))
+    for across in map(relations, ("q ≤ −1", "q = 0", "q = 1", "q ≥ 2"))
+    for down in map(relations, ("q ≥ n", "q = n − 1", "q = n − 2", "q ≤ n − 3"))
 )
 """Contacts by their distances from the legs."""
 
@@ -255,26 +220,19 @@ OF_FORCES = Beside(_means)
 
 # lines
 
-WITHIN = 2 * phi
-AT_LOAD = (8 * phi * j + 2 * phi**3 - phi**2 + 6 * phi - 1) / 4
-FURTHER = phi * (4 * j + phi**2 + 2) / 2
+TILTED = tuple(map(formula, ("2φ", "φ(4j + φ² + 2)/2", "(8φj + 2φ³ − φ² + 6φ − 1)/4")))
 """⟨να₁⟩ in units of (σ/r)²/(1−φ²), for j ≥ 2: inside, on a leg's first contact, further down it."""
 
 _BY_HEIGHT = ((Eq(j, 0),), (Eq(j, 1),), (j >= 2,))
 _OF_FORCE, _OF_PUSH = moment(OF_FORCES), moment(OF_FORCES, OF_RADII, cases=_BY_HEIGHT)
 
 
-def _meaning(name: str) -> dict[sympy.Symbol, sympy.Expr]:
-    one = MEANS[name]
-    (symbol,) = one.printed.free_symbols
-    return {symbol: one.is_ + symbol - one.printed}
-
-
 @cache
 def steps() -> Lines:
     """The balance of every bead in the mean: its sources, what they add up to, all sites."""
     inside, leg = MEANS["contact"].domains[-1], MEANS["leg-force"].domains[-1]
-    lines = Lines(inside)
+    meaning = {symbol: of for one in MEANS.values() for symbol, of in one.meaning.items()}
+    lines = Lines(inside, _OF_FORCE, meaning)
     balance = lines.show(
         "At order ε² the momentum of a contact is α₂n + α₁δn + α₀u₂, with α₀ = 1 on the legs of "
         "the cone and 0 inside. In the mean it balances at every bead: along b⁺, with δn^± = "
@@ -291,7 +249,7 @@ def steps() -> Lines:
     sources = lines.show(
         "α₁ is Eq. 10 inside, Eqs. 7 and 9 on a leg. ⟨να₁⟩ inside, further down a leg, and on its "
         "first contact, for j ≥ 2:",
-        sympy.Tuple(*(equation(with_force, one * scale) for one in (WITHIN, FURTHER, AT_LOAD))),
+        sympy.Tuple(*(equation(with_force, one * scale) for one in TILTED)),
         moment(OF_RADII),
         where=(cone.INSIDE.also(j >= 2), leg, cone.LEFT_LEG.also(Eq(p, 1), j >= 2)),
         meaning={with_force: Covariance(t4.TILT, ForcePlus(i, j) / cone.ORDERED)},
@@ -302,14 +260,11 @@ def steps() -> Lines:
         "the right leg it enters with what the tilt of the leg changes from layer to layer, the "
         "same at each height:",
         PRINTED[0],
-        _OF_FORCE,
-        meaning=_meaning("contact"),
         after=(t4.B4, balance, sources),
     )
     loss = lines.show(
         "The leg pays for it: it loses per layer",
         equation(LOSS, LEG_LOSS * UNIT),
-        _OF_FORCE,
         where=leg.also(p >= 3),
         meaning={LOSS: (Shift(ForcePlus(i + 1, j + 1)) - Shift(ForcePlus(i, j))) / cone.ORDERED},
         after=(t4.B4, balance, sources),
@@ -317,9 +272,7 @@ def steps() -> Lines:
     lines.show(
         "From the loaded bead downwards, summed:",
         PRINTED[1],
-        _OF_FORCE,
         where=leg,
-        meaning=_meaning("leg-force"),
         after=(loss,),
     )
     _claim(lines)
@@ -345,22 +298,19 @@ def _claim(lines: Lines) -> None:
             equation(Shift(ForcePlus(i - 1, j - 1)), Shift(here)),
             equation(Shift(ForcePlus(i + 2, j)), Shift(here)),
         ),
-        _OF_FORCE,
         where=(inside.also(j >= 3), inside.also(p >= 2)),
     )
     lines.claim(
         "on the two lines of contacts that start at the bead straight below the load it is "
         "¼(7φ² + 14φ − 5)(σ/r)²/(1−φ²)² for 2 ≤ j ≤ l − 2",
-        equation(INSIDE, (7 * phi**2 + 14 * phi - 5) / 4 * UNIT),
-        _OF_FORCE,
+        equation(INSIDE, formula("(7φ² + 14φ − 5)/4") * UNIT),
         where=cone.INSIDE.also(Eq(q, 1), j >= 2),
-        meaning=_meaning("contact"),
     )
     lines.claim(
         "the plateau is positive for φ > (√17 − 3)/4 and negative below; the legs lose "
         "2φ² + φ + 1 > 0 per layer, in units of (σ/r)²/(1−φ²)²",
         sympy.Tuple(
-            equation(8 * _PLATEAU, terms((4 * phi + 3) ** 2, -17)),
+            equation(8 * formula(_PLATEAU), terms((4 * phi + 3) ** 2, -17)),
             equation(8 * LEG_LOSS, terms((4 * phi + 1) ** 2, 7)),
         ),
         rewrite(),
@@ -368,13 +318,7 @@ def _claim(lines: Lines) -> None:
     )
     for name, one in MEANS.items():
         by = _OF_FORCE if name in ("contact", "leg-force") else _OF_PUSH
-        lines.claim(
-            _NAMES[name],
-            cone.closed_forms(one.printed, one.pieces, UNIT),
-            exhausting(one.where, one.domains, by),
-            where=one.domains,
-            meaning=_meaning(name),
-        )
+        lines.claim_each(_NAMES[name], one.forms(), exhausting(one.where, one.domains, by))
     pushed = {k - l + j: 2, k - l + j + 2: 2, i: l - j - 3}
     lines.claim(
         "in p the legs pay what the plateau gains, in every layer: both legs, the beads beside "
@@ -394,7 +338,6 @@ def _claim(lines: Lines) -> None:
     lines.claim(
         "outside of the cone the mean is zero at second order, too",
         sympy.Tuple(*(equation(Shift(ForcePlus(*cone.BELOW)), 0),) * 2),
-        _OF_FORCE,
         where=tuple(cone.LAYERS.also(one, indices=(q,)) for one in (q <= -1, q >= n)),
     )
 
@@ -405,13 +348,11 @@ LEVELS = (1, 2, 3, 5)
 """Layers of the load; below the last there are contacts of every closed form."""
 
 
-def _stated(inside: Sequence[Piece], leg: Sequence[Piece], at: explicit.Values) -> Fraction:
+def _stated(inside: str, leg: str, at: explicit.Values) -> Fraction:
     """By a closed form, the first that fits; nothing outside of the cone."""
     if at[p] < 1 or at[q] < 0:
         return Fraction(0)
-    pieces = inside if at[q] else leg
-    piece = next(one for one in pieces if one.at.items() <= at.items())
-    return explicit.number(piece.expression * UNIT, at)
+    return MEANS[inside if at[q] else leg].value(at)
 
 
 def _witness(packing: SmallPacking) -> Ruling:
@@ -430,10 +371,10 @@ def _witness(packing: SmallPacking) -> Ruling:
                     where = f"l = {level}, j = {layer}, p = {left}, q = {right}"
                     for branch, side in (("+", 1), ("-", -1)):
                         true = forces[(side * (right - left), layer), branch]
-                        yield f"f{branch}, {where}", _stated(CONTACT, LEG, at), true
+                        yield f"f{branch}, {where}", _stated("contact", "leg-force", at), true
                     if left < 1:  # on the right leg it is as on the left one
                         at |= {p: right, q: left}
-                    yield f"p, {where}", _stated(PUSH, LEG_PUSH, at), pushes[right - left, layer]
+                    yield f"p, {where}", _stated("bead", "leg", at), pushes[right - left, layer]
 
     return compare(pairs())
 
@@ -454,8 +395,7 @@ B9 = Derivation(
         *usual(sigma, r, phi),
     ),
     assumptions=(
-        "the radii are independent, of zero mean and variance σ², of whatever law",
-        "second order in δr",
+        *SECOND_ORDER,
         "inside: 2 ≤ j ≤ l − 3, and not on the two lines of contacts that start at the bead "
         "straight below the load; leg: 2 ≤ j ≤ l − 2; exact forms: every site",
     ),

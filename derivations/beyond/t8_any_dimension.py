@@ -16,7 +16,7 @@ from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.framework.averaging import integral
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.record import usual
+from force_diffusion.derivations.framework.record import FIRST_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Layered,
@@ -25,9 +25,9 @@ from force_diffusion.derivations.framework.vocabulary import (
     Witness,
     asymptotic,
     equation,
+    formula,
     minus,
     moment,
-    power,
     rewrite,
     terms,
     times,
@@ -58,15 +58,14 @@ from force_diffusion.symbolic.variances.variance import ClosedForm, packings, va
 from sympy import Rational
 
 CROSS = Symbol("kappa_cross", r"\kappa'", "κ′", real=True)
-BELOW = times(terms(1, -phi), terms(1, times(terms(d, -1), phi)))
-KAPPA: sympy.Expr = terms(1, times(terms(d, -2), phi)) / BELOW
+BELOW = formula("(1 − φ)[1 + (d − 1)φ]")
+KAPPA: sympy.Expr = formula("1 + (d − 2)φ") / BELOW
 """b^a·b^a of the reciprocal vectors of d base vectors with the mutual dot product φ."""
 CROSSED: sympy.Expr = -phi / BELOW
 """b^a·b^c of two of them."""
 IN_THREE = (sigma / r) ** 2 / ((1 - phi) ** 2 * (1 + 2 * phi) ** 2)
 
-SURFACE_PROFILE = times(M**3, terms(1, -z) ** 2, terms(times(2, z), 1))
-BULK_PROFILE = times(M**3, terms(1, -z) ** 2, terms(times(4, z), 1))
+SURFACE_PROFILE, BULK_PROFILE = formula("M³(1 − z)²(2z + 1)"), formula("M³(1 − z)²(4z + 1)")
 
 
 def _at(dimension: int, expression: sympy.Expr) -> sympy.Expr:
@@ -101,7 +100,7 @@ class Case:
         number, *factors = self.scale
         first, *rest = self.profile.args
         leading = (number * kappa**2 * first, *factors, *rest)
-        return equation(self.symbol, times(*leading, power(times(sigma, 1 / r), 2)))
+        return equation(self.symbol, times(*leading, formula("(σ_δr/r)²")))
 
     @property
     def forms(self) -> dict[str, ClosedForm]:
@@ -122,16 +121,13 @@ class Case:
 
 _VARIANCES: dict[Case, Layered] = {}
 OF_SURFACE, OF_BULK = eq13.PRINTED.lhs, eq14.PRINTED.lhs
-B11 = Case("B11", OF_SURFACE, SURFACE, d,
-           (Rational(2, 3), terms(d, -1), terms(times(2, d), -1)), SURFACE_PROFILE)  # fmt: skip
+_ANY = (terms(d, -1), terms(times(2, d), -1))
+B11 = Case("B11", OF_SURFACE, SURFACE, d, (Rational(2, 3), *_ANY), SURFACE_PROFILE)
+B20 = Case("B20", OF_BULK, BULK, d, (Rational(1, 10), *_ANY), BULK_PROFILE)
 B13 = Case("B13", OF_SURFACE, SURFACE, 3, (Rational(20, 3),), SURFACE_PROFILE,
-           -(M**2) * (1 - z)
-           * (5 + 16 * phi + 5 * phi**2 + 3 * z * (5 + 8 * phi + phi**2)))  # fmt: skip
+           formula("−M²(1 − z)[5 + 16φ + 5φ² + 3z(5 + 8φ + φ²)]"))  # fmt: skip
 B14 = Case("B14", OF_BULK, BULK, 3, (sympy.S.One,), BULK_PROFILE,
-           M**2 * (1 - z)
-           * (5 + 4 * phi + 3 * phi**2 - z * (5 + 4 * phi - 13 * phi**2)) / 4)  # fmt: skip
-B20 = Case("B20", OF_BULK, BULK, d,
-           (Rational(1, 10), terms(d, -1), terms(times(2, d), -1)), BULK_PROFILE)  # fmt: skip
+           formula("M²(1 − z)[5 + 4φ + 3φ² − z(5 + 4φ − 13φ²)]/4"))  # fmt: skip
 
 
 def exact_forms(case: Case) -> dict[str, ClosedForm]:
@@ -151,7 +147,7 @@ def _any_dimension(case: Case) -> Lines:
         "Let a bead rest on d others, along base vectors n^a of equal mutual dot product φ. The "
         "reciprocal vectors have the products κ, with themselves, and κ′, with each other:",
         sympy.Tuple(
-            equation(times(kappa, BELOW), terms(1, times(terms(d, -2), phi))),
+            equation(times(kappa, BELOW), formula("1 + (d − 2)φ")),
             equation(times(CROSS, BELOW), -phi),
         ),
         rewrite(),
@@ -222,11 +218,8 @@ def _claim_any(case: Case, lines: Lines, geometry: Where) -> None:
             "no overlap: (1 − 2φ) > 0 for neighbours in a layer, (d−1)(1 + dφ) > 0 for the bead "
             "straight above",
             sympy.Tuple(
-                equation(terms(times(2, terms(1, -phi)), -1), terms(1, minus(times(2, phi)))),
-                equation(
-                    terms(d, times(d, terms(d, -1), phi), -1),
-                    times(terms(d, -1), terms(1, times(d, phi))),
-                ),
+                equation(formula("2(1 − φ) − 1"), formula("1 − 2φ")),
+                equation(formula("d + d(d − 1)φ − 1"), formula("(d − 1)(1 + dφ)")),
             ),
             rewrite(),
             where=geometry,
@@ -379,7 +372,6 @@ def _solved_spheres(packing: SmallPacking) -> Ruling:
 
 # what is derived
 
-_FIRST_ORDER = ("the radii are independent, of zero mean and variance σ²", "first order in δr")
 _FLAT = "the base is flat and does not move"
 _IN_ANY = (
     (d, "dimensions; every bead rests on d others, along base vectors with one dot product φ"),
@@ -410,9 +402,9 @@ def _derivation(
     own = "every bead rests on three others, along base vectors with one mutual dot product φ"
     limit = "M → ∞ at fixed z"
     assumptions = (
-        (*_FIRST_ORDER, load, limit, _FLAT)
+        (*FIRST_ORDER, load, limit, _FLAT)
         if any_d
-        else (own, *_FIRST_ORDER, _FLAT, load,
+        else (own, *FIRST_ORDER, _FLAT, load,
               f"printed form: {limit}; exact form: every 0 ≤ j < M")
     )  # fmt: skip
     return Derivation(

@@ -5,7 +5,6 @@ another below it, p, q ≥ 1, in layer j = l − p − q; a leg has q = 0.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import product
@@ -13,24 +12,24 @@ from itertools import product
 import sympy
 from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.beyond import t8_any_dimension as t8
-from force_diffusion.derivations.framework.record import ExactCase, Missed, Piece, usual
+from force_diffusion.derivations.framework.record import FIRST_ORDER, ExactCase, Piece, usual
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
     Where,
     Witness,
     equation,
+    formula,
     minus,
     moment,
-    power,
     rewrite,
     terms,
     times,
 )
+from force_diffusion.derivations.parts import cone
 from force_diffusion.derivations.witnesses import dimensions as witnesses
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import compare
-from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.any_dimension import POINT
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.notation import Symbol
@@ -49,115 +48,78 @@ from force_diffusion.symbolic.symbols import (
     r,
     sigma,
 )
-from sympy import Eq, Integer, Rational
+from sympy import Integer, Rational
 
+_OVER_LOAD = r"{(f^{\mathrm{load}})^{2}}"
 ON_FACE = Symbol(
     "face_response",
-    r"\frac{\sigma_{\mathrm{face}}^{2}(n_{z} f)}{(f^{\mathrm{load}})^{2}}",
+    rf"\frac{{\sigma_{{\mathrm{{face}}}}^{{2}}(n_{{z}} f)}}{_OVER_LOAD}",
     "σ²(n_z f on a face)/f_load²",
 )
 BEAD = Symbol(
     "face_bead_response",
-    r"\frac{\sigma_{\mathrm{face}}^{2}(p)}{(f^{\mathrm{load}})^{2}}",
+    rf"\frac{{\sigma_{{\mathrm{{face}}}}^{{2}}(p)}}{_OVER_LOAD}",
     "σ²(p on a face)/f_load²",
 )
-ON_LEG = Symbol(
-    "leg_response",
-    r"\frac{\sigma_{\mathrm{leg}}^{2}(p)}{(f^{\mathrm{load}})^{2}}",
-    "σ²(p on a leg)/f_load²",
-)
-LEG_MAGNITUDE = Symbol(
-    "leg_force",
-    r"\frac{\sigma_{\mathrm{leg}}^{2}(f)}{\langle f\rangle^{2}}",
-    "σ²(f on a leg)/⟨f⟩²",
-)
+ON_LEG = eq16.ON_LEG
+LEG_MAGNITUDE = eq16.LEG_MAGNITUDE
 
 UNIT = t8.IN_THREE
 SHARE = 1 + 2 * phi + 2 * phi**2
-_HALF = Rational(1, 2)
-_FACE = (SHARE * (12 * (j + q) - 9) + 3 + phi**2) / 2
-_BEAD = SHARE * (6 * (l + j) - 9) + 3 + phi**2
-_BELOW = 2 * phi**2 * j + _HALF + 3 * phi + 7 * phi**2
-_LEG = (6 + 12 * phi + 10 * phi**2) * l + 4 * j - 4 * (1 + phi - phi**2)
-_LEG_FORCE = (
-    (6 + 12 * phi + 10 * phi**2) * l
-    + 4 * phi**2 * j
-    - 5 - 12 * phi + 3 * phi**2 + 8 * phi**3 + 2 * phi**4
-)  # fmt: skip
+_FACE = formula("[(1 + 2φ + 2φ²)(12(j + q) − 9) + 3 + φ²]/2")
+_BEAD = formula("(1 + 2φ + 2φ²)(6(l + j) − 9) + 3 + φ²")
+_BELOW = formula("2φ²j + 1/2 + 3φ + 7φ²")
+_LEG = formula("(6 + 12φ + 10φ²)l + 4j − 4(1 + φ − φ²)")
+_LEG_FORCE = formula("(6 + 12φ + 10φ²)l + 4φ²j − 5 − 12φ + 3φ² + 8φ³ + 2φ⁴")
 
+
+# The first that fits holds; ``further`` says where none before it does.
+_BESIDE_LEG = _BEAD + formula("−2 − 7φ/2 − φ²/2")
 CONTACT_PIECES = (
-    Piece("j = 0, one step from the leg", {j: 0, q: 1}, Rational(7, 2) + 4 * phi + 5 * phi**2),
-    Piece("every other contact of a face", {}, _FACE),
+    Piece("j = 0, one step from the leg", {j: 0, q: 1}, formula("7/2 + 4φ + 5φ²")),
+    Piece("every other contact of a face", {}, _FACE, (j + q >= 2,)),
 )
 BEAD_PIECES = (
-    Piece("j = 0, l = 2", {j: 0, p: 1, q: 1}, _BEAD - _HALF + 2 * phi + 9 * phi**2),
-    *(
-        Piece(
-            f"j = 0, beside a leg ({steps} = 1)",
-            {j: 0, steps: 1},
-            _BEAD - 2 - 7 * phi / 2 - phi**2 / 2,
-        )
-        for steps in (p, q)
-    ),
-    Piece("j = 0, further inside", {j: 0}, _BEAD - 3 * (1 + phi) ** 2),
+    Piece("j = 0, l = 2", {j: 0, p: 1, q: 1}, _BEAD + formula("−1/2 + 2φ + 9φ²")),
+    Piece("j = 0, beside a leg (p = 1)", {j: 0, p: 1}, _BESIDE_LEG, (q >= 2,)),
+    Piece("j = 0, beside a leg (q = 1)", {j: 0, q: 1}, _BESIDE_LEG, (p >= 2,)),
+    Piece("j = 0, further inside", {j: 0}, _BEAD - 3 * (1 + phi) ** 2, (p >= 2, q >= 2)),
     Piece("j = 1, l = 3", {j: 1, p: 1, q: 1}, _BEAD + _BELOW + 4 * (1 + phi) ** 2),
-    Piece("j = 1, l > 3", {j: 1}, _BEAD + 4 * (1 + phi) ** 2),
-    Piece("j = 2, l = 4", {j: 2, p: 1, q: 1}, _BEAD + _BELOW - 3 * _HALF * (1 + phi) ** 2),
-    Piece("j = 2, l > 4", {j: 2}, _BEAD - 3 * _HALF * (1 + phi) ** 2),
-    Piece("j = l − 2 ≥ 3", {p: 1, q: 1}, _BEAD + _BELOW),
-    Piece("j ≥ 3, every other bead of a face", {}, _BEAD),
+    Piece("j = 1, l > 3", {j: 1}, _BEAD + 4 * (1 + phi) ** 2, (p + q >= 3,)),
+    Piece("j = 2, l = 4", {j: 2, p: 1, q: 1}, _BEAD + _BELOW - formula("3(1 + φ)²/2")),
+    Piece("j = 2, l > 4", {j: 2}, _BEAD - formula("3(1 + φ)²/2"), (p + q >= 3,)),
+    Piece("j = l − 2 ≥ 3", {p: 1, q: 1}, _BEAD + _BELOW, (j >= 3,)),
+    Piece("j ≥ 3, every other bead of a face", {}, _BEAD, (j >= 3, p + q >= 3)),
 )
 LEG_PIECES = (
-    Piece("j = 0, l = 1", {j: 0, p: 1}, 3 * _HALF * (1 + 4 * phi + 4 * phi**2)),
-    Piece("j = 0, l = 2", {j: 0, p: 2}, _LEG - (5 + 14 * phi + 7 * phi**2) / 2),
-    Piece("j = 0, l > 2", {j: 0}, _LEG - (5 + 14 * phi + 4 * phi**2) / 2),
-    Piece("j = 1, l = 2", {j: 1, p: 1}, _LEG + 3 + 10 * phi - 15 * phi**2 / 2),
-    Piece("j = 1, l > 2", {j: 1}, _LEG + 3 * (1 + phi)),
-    Piece("j = l − 1 ≥ 2", {p: 1}, _LEG + 4 * phi * j + 3 * phi * (1 - 2 * phi)),
-    Piece("2 ≤ j ≤ l − 2, on a leg", {}, _LEG),
+    Piece("j = 0, l = 1", {j: 0, p: 1}, formula("3(1 + 4φ + 4φ²)/2")),
+    Piece("j = 0, l = 2", {j: 0, p: 2}, _LEG - formula("(5 + 14φ + 7φ²)/2")),
+    Piece("j = 0, l > 2", {j: 0}, _LEG - formula("(5 + 14φ + 4φ²)/2"), (p >= 3,)),
+    Piece("j = 1, l = 2", {j: 1, p: 1}, _LEG + formula("3 + 10φ − 15φ²/2")),
+    Piece("j = 1, l > 2", {j: 1}, _LEG + formula("3(1 + φ)"), (p >= 2,)),
+    Piece("j = l − 1 ≥ 2", {p: 1}, _LEG + formula("4φj + 3φ(1 − 2φ)"), (j >= 2,)),
+    Piece("2 ≤ j ≤ l − 2, on a leg", {}, _LEG, (j >= 2, p >= 2)),
 )
 LEG_FORCE_PIECES = (
-    Piece("j = 0, l = 1", {j: 0, p: 1}, 2 - 2 * phi + 27 * phi**2 / 2 - 2 * phi**3 + 2 * phi**4),
-    Piece("j = 0, l = 2", {j: 0, p: 2}, _LEG_FORCE - phi * (3 + 6 * phi + 4 * phi**2)),
-    Piece("j = 0, l > 2", {j: 0}, _LEG_FORCE - phi * (6 + 9 * phi + 8 * phi**2) / 2),
-    Piece("j = 1, l = 2", {j: 1, p: 1}, _LEG_FORCE + phi * (6 + 17 * phi - 12 * phi**2) / 2),
-    Piece("j = 1, l > 2", {j: 1}, _LEG_FORCE + 3 * phi * (1 + phi)),
-    Piece("j = l − 1 ≥ 2", {p: 1}, _LEG_FORCE + phi**2 * (4 * j + 3 - 6 * phi)),
-    Piece("2 ≤ j ≤ l − 2, on a leg", {}, _LEG_FORCE),
+    Piece("j = 0, l = 1", {j: 0, p: 1}, formula("2 − 2φ + 27φ²/2 − 2φ³ + 2φ⁴")),
+    Piece("j = 0, l = 2", {j: 0, p: 2}, _LEG_FORCE - formula("φ(3 + 6φ + 4φ²)")),
+    Piece("j = 0, l > 2", {j: 0}, _LEG_FORCE - formula("φ(6 + 9φ + 8φ²)/2"), (p >= 3,)),
+    Piece("j = 1, l = 2", {j: 1, p: 1}, _LEG_FORCE + formula("φ(6 + 17φ − 12φ²)/2")),
+    Piece("j = 1, l > 2", {j: 1}, _LEG_FORCE + formula("3φ(1 + φ)"), (p >= 2,)),
+    Piece("j = l − 1 ≥ 2", {p: 1}, _LEG_FORCE + formula("φ²(4j + 3 − 6φ)"), (j >= 2,)),
+    Piece("2 ≤ j ≤ l − 2, on a leg", {}, _LEG_FORCE, (j >= 2, p >= 2)),
 )
 
-_VARIANCE = power(times(sigma, 1 / r), 2)
-_BELOW_LINE = 1 / ((1 - phi) ** 2 * (1 + 2 * phi) ** 2)
-_OF_FACE = terms(1, times(2, phi), times(2, phi**2))
+
+def _printed(symbol: sympy.Symbol, share: str, number: int) -> sympy.Eq:
+    unit = 1 / ((1 - phi) ** 2 * (1 + 2 * phi) ** 2) / number
+    return equation(symbol, times(unit, formula(share), formula("(σ_δr/r)²")))
+
+
 PRINTED = (
-    equation(
-        ON_FACE,
-        times(
-            _BELOW_LINE / 18,
-            terms(times(_OF_FACE, terms(times(12, terms(j, q)), -9)), 3, phi**2),
-            _VARIANCE,
-        ),
-    ),
-    equation(
-        BEAD,
-        times(
-            _BELOW_LINE / 9,
-            terms(times(_OF_FACE, terms(times(6, terms(l, j)), -9)), 3, phi**2),
-            _VARIANCE,
-        ),
-    ),
-    equation(
-        ON_LEG,
-        times(
-            _BELOW_LINE / 9,
-            terms(
-                times(2, terms(3, times(6, phi), times(5, phi**2)), l),
-                times(4, j),
-                minus(times(4, terms(1, phi, -(phi**2)))),
-            ),
-            _VARIANCE,
-        ),
-    ),
+    _printed(ON_FACE, "(1 + 2φ + 2φ²)[12(j + q) − 9] + 3 + φ²", 18),
+    _printed(BEAD, "(1 + 2φ + 2φ²)[6(l + j) − 9] + 3 + φ²", 9),
+    _printed(ON_LEG, "2(3 + 6φ + 5φ²)l + 4j − 4(1 + φ − φ²)", 9),
 )
 
 ONE, TWO, NONE = Integer(1), Integer(2), Integer(0)
@@ -176,104 +138,41 @@ DOWN = (j >= 0, l >= j + 1)
 """Those of a leg."""
 
 
-@dataclass(frozen=True)
-class Quantity:
-    """A variance below the load: what it is, its closed forms, and where each of them holds.
-
-    Attributes:
-        of: what varies.
-        pieces: the first that fits has the value, in ``unit``.
-        steps: p, and the relations of all sites.
-        domains: for each piece, the parts of those that no piece before is for.
-    """
-
-    symbol: sympy.Symbol
-    of: sympy.Expr
-    pieces: tuple[Piece, ...]
-    unit: sympy.Expr
-    steps: sympy.Expr
-    sites: tuple[sympy.Basic, ...]
-    domains: tuple[tuple[tuple[sympy.Basic, ...], ...], ...]
-
-    def wheres(self) -> Iterator[tuple[Piece, Where]]:
-        """Each piece with a part of its domain."""
-        for piece, parts in zip(self.pieces, self.domains, strict=True):
-            for part in parts:
-                yield piece, _below(*self.sites, *part)
-
-    @property
-    def on_leg(self) -> bool:
-        """Whether q does not count."""
-        return not self.steps.has(q)
-
-
 _CONTACT = PushBelow(TWO, ALONG_FACE, q, NONE)
 _BESIDE = PushBelow(ONE, ALONG_FACE, q, NONE)
 _UP_LEG = (ONE, ALONG_LEG, NONE, NONE)
-_OF_LEG = (
-    ((Eq(j, 0), Eq(l, 1)),),
-    ((Eq(j, 0), Eq(l, 2)),),
-    ((Eq(j, 0), l >= 3),),
-    ((Eq(j, 1), Eq(l, 2)),),
-    ((Eq(j, 1), l >= 3),),
-    ((j >= 2, Eq(l, j + 1)),),
-    ((j >= 2, l >= j + 2),),
-)
-_OF_BEAD = (
-    ((Eq(j, 0), Eq(l, 2)),),
-    ((Eq(j, 0), Eq(l, q + 1), q >= 2),),
-    ((Eq(j, 0), Eq(q, 1), l >= 3),),
-    ((Eq(j, 0), q >= 2, l >= q + 2),),
-    ((Eq(j, 1), Eq(l, 3)),),
-    ((Eq(j, 1), l >= 4),),
-    ((Eq(j, 2), Eq(l, 4)),),
-    ((Eq(j, 2), l >= 5),),
-    ((j >= 3, Eq(l, j + 2)),),
-    ((j >= 3, l >= j + 3),),
-)
-ALL = {
-    one.symbol: one
-    for one in (
-        Quantity(ON_FACE, _CONTACT / 3, CONTACT_PIECES, UNIT / 9, ALONG_FACE, INSIDE,
-                 (((Eq(j, 0), Eq(q, 1)),), ((j + q >= 2,),))),
-        Quantity(BEAD, (_CONTACT + _BESIDE) / 3, BEAD_PIECES, UNIT / 9, ALONG_FACE, INSIDE,
-                 _OF_BEAD),
-        Quantity(ON_LEG, PushBelow(*_UP_LEG) / 3, LEG_PIECES, UNIT / 9, ALONG_LEG, DOWN, _OF_LEG),
-        Quantity(LEG_MAGNITUDE, ForceBelow(*_UP_LEG), LEG_FORCE_PIECES, UNIT, ALONG_LEG, DOWN,
-                 _OF_LEG),
-    )
-}  # fmt: skip
-"""By symbol; the vertical force of a contact is a third of the load on a leg."""
+_ON_FACE = (_below(*INSIDE), {p: ALONG_FACE, q: q})
+_ON_LEG = (_below(*DOWN), {p: ALONG_LEG})
 
-MEANING = {symbol: Variance(one.of) for symbol, one in ALL.items()}
+
+def _variance(
+    symbol: sympy.Symbol,
+    force: sympy.Expr,
+    pieces: tuple[Piece, ...],
+    unit: sympy.Expr,
+    sites: tuple[Where, dict[sympy.Symbol, sympy.Expr]],
+) -> cone.Below:
+    where, steps = sites
+    return cone.Below(symbol, Variance(force), where, pieces, unit, steps)
+
+
+QUANTITIES = {
+    "contact": _variance(ON_FACE, _CONTACT / 3, CONTACT_PIECES, UNIT / 9, _ON_FACE),
+    "bead": _variance(BEAD, (_CONTACT + _BESIDE) / 3, BEAD_PIECES, UNIT / 9, _ON_FACE),
+    "leg": _variance(ON_LEG, PushBelow(*_UP_LEG) / 3, LEG_PIECES, UNIT / 9, _ON_LEG),
+    "leg-force": _variance(LEG_MAGNITUDE, ForceBelow(*_UP_LEG), LEG_FORCE_PIECES, UNIT, _ON_LEG),
+}
+"""By the names of their exact forms; the vertical force of a contact is a third of the load on a
+leg."""
+
+MEANING = {one.symbol: one.of for one in QUANTITIES.values()}
 WHERE = _below(j >= 3, q >= 1, l >= j + q + 1, l >= j + 3)
 """Where all that is printed holds."""
 
 
 def at_finite_size() -> dict[str, ExactCase]:
     """The exact forms of a face's beads and contacts, and of a leg's."""
-
-    def case(one: Quantity) -> ExactCase:
-        steps = {p: one.steps}
-
-        def put_in(piece: Piece) -> sympy.Expr:
-            numbers = {symbol: sympy.Integer(value) for symbol, value in piece.at.items()}
-            expression = piece.expression.xreplace({j: numbers[j]} if j in numbers else {})
-            return sympy.together(expression) * one.unit  # one fraction: 5/2 is no whole number
-
-        *edges, main = (
-            Missed(
-                piece.where,
-                tuple(Eq(steps.get(s, s), value) for s, value in piece.at.items()),
-                put_in(piece),
-            )
-            for piece in one.pieces
-        )
-        inside = (sympy.Ge(one.steps, 1), *(() if one.on_leg else (sympy.Ge(q, 1),)))
-        return ExactCase(one.symbol, main.where, main.expression, inside, tuple(edges))
-
-    names = ("contact", "bead", "leg", "leg-force")
-    return {name: case(one) for name, one in zip(names, ALL.values(), strict=True)}
+    return {name: one.exact() for name, one in QUANTITIES.items()}
 
 
 TILTS = tuple(
@@ -291,7 +190,7 @@ def steps() -> Lines:
     nu_2, below_2, nu_3, below_3 = TILTS
     gram = sympy.Matrix(3, 3, lambda a, b: 1 if a == b else phi)
     tilts = sympy.Matrix([0, nu_2 - below_2, nu_3 - below_3])
-    lines = Lines(WHERE)
+    lines = Lines(WHERE, moment(), MEANING)
     turned = lines.show(
         "The ordered load goes straight down the three legs, as the same force f in each contact. "
         "To first order what enters a bead from above along e_a leaves it along e_a, plus "
@@ -321,60 +220,48 @@ def steps() -> Lines:
             equation(Variance(ForceBelow(ONE, ALONG_FACE - 1, q, ONE)), NONE),
             equation(Mean(ForceBelow(TWO, ALONG_FACE, q, NONE)), NONE),
         ),
-        moment(),
         where=(_below(*INSIDE), _below(j >= 0, q >= 1, l >= j + q + 2), _below(*INSIDE)),
         after=(turned,),
     )
 
-    def printed(words: str, part: int, *relations: sympy.Basic) -> None:
-        lines.show(
-            words, PRINTED[part], moment(), where=_below(*relations), meaning=MEANING,
-            after=(turned, nothing),
-        )  # fmt: skip
-
-    printed(
+    lines.show(
         "Both ν are differences of line sums down 2 and down 3, in the planes of these and of the "
         "leg, and of radii of the leg. In the face the bead p steps along 1 and q along 2 below "
         "the load is in layer j = l − p − q. Squared and summed, and with the share ⅓ of the "
         "vertical, one contact of a face has, but for j = 0 and q = 1,",
-        0, *INSIDE, j + q >= 2,
-    )  # fmt: skip
-    printed(
+        PRINTED[0],
+        where=_below(*INSIDE, j + q >= 2),
+        after=(turned, nothing),
+    )
+    lines.show(
         "The vertical force of both contacts of the face on a bead: where lines of both cross, the "
         "products of their weights add up to zero, for j ≥ 3 and p + q ≥ 3. The layers j + q and "
         "j + p, where they turn, add up to l + j:",
-        1, *WHERE.relations,
-    )  # fmt: skip
-    printed(
+        PRINTED[1],
+        after=(turned, nothing),
+    )
+    inside = _below(j >= 2, l >= j + 2)
+    lines.show(
         "On a leg the sum telescopes: what is left is the split at the loaded bead and the tilt of "
         "the contact itself. Its vertical component, for 2 ≤ j ≤ l − 2:",
-        2, j >= 2, l >= j + 2,
-    )  # fmt: skip
+        PRINTED[2],
+        where=inside,
+        after=(turned, nothing),
+    )
     lines.show(
         "The magnitude of that force, over its mean squared:",
-        equation(LEG_MAGNITUDE, LEG_FORCE_PIECES[-1].expression * UNIT),
-        moment(),
-        where=_below(j >= 2, l >= j + 2),
-        meaning=MEANING,
+        equation(LEG_MAGNITUDE, _LEG_FORCE * UNIT),
+        where=inside,
         after=(turned,),
     )
-    for name, symbol in (
-        ("the exact variance of every contact of a face", ON_FACE),
-        ("the exact variance of p at every bead of a face; for j ≥ 3 it depends on l + j alone, "
-         "but for p = q = 1", BEAD),
-        ("the exact variance on a leg, vertical", ON_LEG),
-        ("and of the magnitude there", LEG_MAGNITUDE),
+    for name, words in (
+        ("contact", "the exact variance of every contact of a face"),
+        ("bead", "the exact variance of p at every bead of a face; for j ≥ 3 it depends on l + j "
+         "alone, but for p = q = 1"),
+        ("leg", "the exact variance on a leg, vertical"),
+        ("leg-force", "and of the magnitude there"),
     ):  # fmt: skip
-        pieces = list(ALL[symbol].wheres())
-        lines.claim(
-            name,
-            sympy.Tuple(
-                *(equation(symbol, piece.expression * ALL[symbol].unit) for piece, _ in pieces)
-            ),
-            moment(),
-            where=tuple(where for _, where in pieces),
-            meaning=MEANING,
-        )
+        lines.claim_each(words, QUANTITIES[name].forms())
     of_three, of_two = (
         (t8.KAPPA**2 + (d - 2) * t8.CROSSED**2).xreplace({d: Integer(n)}) for n in (3, 2)
     )
@@ -403,19 +290,16 @@ def _exact(quantity: sympy.Basic, level: int, first: int, other: int, cosine: Fr
 
 def _squares(packing: SmallPacking) -> Ruling:
     cosine = witnesses.cosine_of(packing)
-    values: explicit.Values = {phi: cosine, sigma: 1, r: 1}
 
     def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
-        for layer, first, second in product(range(4), (1, 2, 3), (1, 2)):
-            for symbol, one in ALL.items():
-                if one.on_leg and second > 1:
-                    continue
-                other = 0 if one.on_leg else second
+        sites = product(QUANTITIES.values(), range(4), (1, 2, 3), (1, 2))
+        for one, layer, first, second in sites:
+            other = second if q in one.steps else 0
+            if other or second == 1:
                 at = {j: layer, p: first, q: other, l: layer + first + other}
-                piece = next(each for each in one.pieces if each.at.items() <= at.items())
-                stated = explicit.number(piece.expression * one.unit, {**values, **at})
-                where = f"{symbol.name}, j = {layer}, p = {first}, q = {other}"
-                yield where, stated, _exact(symbol, at[l], first, other, cosine)
+                stated = one.value({phi: cosine, sigma: 1, r: 1, **at})
+                where = f"{one.symbol.name}, j = {layer}, p = {first}, q = {other}"
+                yield where, stated, _exact(one.symbol, at[l], first, other, cosine)
 
     return compare(pairs())
 
@@ -459,8 +343,7 @@ DERIVATION = Derivation(
     ),
     assumptions=(
         "every bead rests on three others, along base vectors with one mutual dot product φ",
-        "the radii are independent, of zero mean and variance σ²",
-        "first order in δr",
+        *FIRST_ORDER,
         "printed forms: p, q ≥ 1 and j + q ≥ 2; p, q ≥ 1, j ≥ 3 and l ≥ j + 3; 2 ≤ j ≤ l − 2. "
         "Exact forms: every site",
     ),

@@ -39,7 +39,7 @@ def cascade(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
     overwrite: Overwrite = False,
 ) -> None:
-    """Open one contact that pulls as weakly as one pleases, and count what changes."""
+    """Open one contact that barely pulls, and count what changes."""
     command = command_line()
     names = ["cascade.json", "cascade.csv", *images("cascade")]
     with output(out, "cascade", names, overwrite) as folder:

@@ -1,6 +1,7 @@
 """The command ``certify``: a thin layer over ``fd.certify``."""
 
 import json
+import re
 from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -40,14 +41,15 @@ def certify(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
     overwrite: Overwrite = False,
 ) -> None:
-    """Ask Coq, an unrelated checker, whether it accepts the printed equations."""
+    """Ask Coq, an independent proof assistant, whether it accepts the printed equations."""
     from force_diffusion.derivations.api.certificates import stated
-    from force_diffusion.derivations.coq.record import RECORD, sha256
+    from force_diffusion.derivations.coq.record import RECORD
+    from force_diffusion.derivations.coq.statements import files_of, sha256
     from force_diffusion.derivations.coq.workshop import theory
     from force_diffusion.derivations.framework.loading import load
 
     wanted = [equation_number(word) for word in numbers] if numbers else None
-    files = theory() | {one.file: one.source for one in stated(wanted)}
+    files = theory() | files_of(stated(wanted))
     with output(out, "certify", [*files, RECORD], overwrite) as folder:
         with noticing() as notice:
             found = fd.certify(wanted, mutants=mutants, notice=notice)
@@ -71,6 +73,9 @@ def certify(
 def _line(name: str, one: "Certificate", title: str) -> str:
     """One line about an equation or a packing, and what is wrong with it."""
     said = f"{name:<6}  {one!s:<24}  {title}"
+    if one.about:
+        shown = ", ".join(re.sub(r"^\((.*)\)%Z$", r"\1", words) for words in one.about)
+        said += f"\n    for {shown.replace('>=', '≥').replace('<=', '≤')}"
     if one.note:
         said += f"\n    {one.note}"
     if one.changes:

@@ -22,16 +22,16 @@ from typer.core import TyperGroup
 COMMANDS = {
     "derive": (
         "equations",
-        "Prove equations, and the ones that they rest on, and check them.",
+        "Prove equations and all that they rest on, and check them.",
     ),
     "certify": (
         "certify",
-        "Ask Coq, an unrelated checker, whether it accepts the printed equations.",
+        "Ask Coq, an independent proof assistant, whether it accepts the printed equations.",
     ),
     "show": ("equations", "Print an equation, or all of a theorem, without deriving it."),
     "list": ("equations", "List the equations."),
     "examples": ("examples", "Copy the example scenes into a folder."),
-    "run": ("scenes", "Answer a scene's question."),
+    "run": ("scenes", "Solve the packing of a scene and answer its question."),
     "explain": ("scenes", "Say what 'run' would do, and why."),
     "check-packings": (
         "packings",
@@ -43,11 +43,11 @@ COMMANDS = {
     ),
     "stability": (
         "stability",
-        "Measure what stability costs: errors and lost bits of both forms, time beside them.",
+        "Measure what stability costs: errors, lost bits and times with and without it.",
     ),
     "cascade": (
         "cascade",
-        "Open one contact that pulls as weakly as one pleases, and count what changes.",
+        "Open one contact that barely pulls, and count what changes.",
     ),
     "ensemble": (
         "ensemble",
@@ -57,7 +57,7 @@ COMMANDS = {
         "ensemble",
         "Say what the store of an ensemble holds, and check it.",
     ),
-    "figures": ("figures", "Draw the paper's figures anew, from exact packings."),
+    "figures": ("figures", "Draw the paper's figures from new simulations of exact packings."),
     "report": (
         "report",
         "Write all results as one HTML page: derivations, checks, figures, costs, stability.",

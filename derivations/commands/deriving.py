@@ -22,12 +22,14 @@ WORTH_ANOTHER_PROCESS = 16
 """Equations from which on another process, which has to load SymPy, repays itself."""
 
 
-def premises_first(numbers: Iterable[Number]) -> "list[Derivation]":
+def premises_first(numbers: "Iterable[Number | Derivation]") -> "list[Derivation]":
     """The derivations of these equations and of all that they rest on."""
-    return with_premises(load(number) for number in numbers)
+    return with_premises(load(one) if isinstance(one, int | str) else one for one in numbers)
 
 
-def watched(numbers: Iterable[Number], watch: Silence, start: Start | None = None) -> "Derived":
+def watched(
+    numbers: "Iterable[Number | Derivation]", watch: Silence, start: Start | None = None
+) -> "Derived":
     """Derive these equations under a display; ``start`` calls functions in another process."""
     from force_diffusion.derivations.api.derived import derive_with
 
@@ -36,7 +38,7 @@ def watched(numbers: Iterable[Number], watch: Silence, start: Start | None = Non
 
 
 def derive(
-    numbers: Sequence[Number],
+    numbers: "Sequence[Number | Derivation]",
     out: Path | None,
     as_json: bool,
     overwrite: bool = False,
@@ -70,7 +72,8 @@ def derive(
             parts |= {
                 one.derivation.number: (one.derivation, finding(one)) for one in found.outcomes
             }
-            about = [parts[number] for number in modules() if number in parts]
+            places = [*modules(), *(number for number in parts if number not in modules())]
+            about = [parts[number] for number in places if number in parts]
             folder.write(
                 {**found.fragments(columns), DOCUMENT: document(about)}, [one for _, one in about]
             )

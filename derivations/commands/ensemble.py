@@ -41,7 +41,7 @@ class Where(StrEnum):
 
 STATUSES = (
     "Exit status: 0 answered, 2 something wrong in the scene, the options or the store, 3 the "
-    "asked confidence is not reached, or workers or the disk failed, 130 interrupted."
+    "confidence is not reached, or workers or the disk failed, 130 interrupted."
 )
 
 
@@ -109,17 +109,19 @@ def ensemble(
         data["source"] = sourced(data["source"], scene, None)  # the same, whoever solved it
         if folder:
             matrix = data.get("covariance")
-            tables = {} if matrix is None else {"covariance": _matrix_text(matrix).encode()}
-            write(folder, found, data, written, **tables)
+            more = {} if matrix is None else {"covariance.csv": _matrix_text(matrix)}
+            write(folder, found, data, written, more)
     lines = str(found).splitlines()
     show(found, data, lines, as_json=as_json, quiet=quiet, folder=folder)
     if found.reached is False:
         assert until is not None
         N, width = found.realisations, found.half_width
-        guess = f"about {N * (width / until) ** 2:.2g} realisations may do"
+        times = width / until
+        guess = "more realisations are needed"
+        if times < MOST_TOLD:
+            guess = f"about {N * times**2:.2g} realisations may do"
         raise NotReachedError(
-            f"the asked confidence is not reached: σ_f is known to {width:.2g}, not {until:g}; "
-            f"{guess if width < MOST_TOLD else 'more realisations are needed'}"
+            f"the confidence is not reached: σ_f is known to {width:.2g}, not {until:g}; {guess}"
         )
 
 

@@ -1,5 +1,7 @@
 """The commands for equations: a thin layer over ``deriving`` and ``Equation``."""
 
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -7,13 +9,20 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from force_diffusion.derivations.commands.cli import STATUSES
 from force_diffusion.derivations.commands.output import Overwrite, out_option
-from force_diffusion.derivations.framework.catalogue import Number, allowed, cases_of, modules
+from force_diffusion.derivations.framework.catalogue import (
+    Number,
+    allowed,
+    cases_of,
+    modules,
+    number_of,
+)
 
 import force_diffusion as fd
 
 if TYPE_CHECKING:
     from force_diffusion.derivations.api.equation import Equation
     from force_diffusion.derivations.api.formula import Formula
+    from force_diffusion.derivations.framework.record import Derivation
 
 
 class Form(StrEnum):
@@ -33,11 +42,9 @@ Columns = Annotated[
 
 def equation_number(word: str) -> Number:
     """An equation's number or label from outside text, which is read and never evaluated."""
-    known = modules()
-    if word.isascii() and word.isdigit() and len(word) < 5 and int(word) in known:
-        return int(word)
-    if word.upper() in known:
-        return word.upper()
+    number = number_of(word)
+    if number is not None:
+        return number
     raise typer.BadParameter(
         f"'{word}' is not an equation of this package. Give a number {allowed()}; "
         "'force-diffusion list' names them.",
@@ -50,11 +57,39 @@ def equations_of(word: str) -> list[Number]:
     return list(cases_of(word.upper())) or [equation_number(word)]
 
 
+def wanted_of(words: Iterable[str]) -> "list[Number | Derivation]":
+    """Numbers of equations and theorems, and the derivations that Python files state."""
+    found: list[Number | Derivation] = []
+    for word in words:
+        if word.endswith(".py"):
+            from force_diffusion.derivations.framework.own import derivations_in
+
+            found += derivations_in(Path(word))
+        else:
+            found += equations_of(word)
+    return found
+
+
+@contextmanager
+def blamed(words: Iterable[str]) -> Iterator[None]:
+    """Tell what goes wrong in the Python files among these words by their lines."""
+    paths = [Path(word) for word in words if word.endswith(".py")]
+    if not paths:
+        yield
+        return
+    from force_diffusion.derivations.framework.own import blamed_on
+
+    with blamed_on(*paths):
+        yield
+
+
 def derive(
     numbers: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="[N...]", help="Equations, or theorems such as T4; all of them by default."
+            metavar="[N...]",
+            help="Equations, theorems such as T4, or Python files with derivations of your own, "
+            "which are run; all equations by default.",
         ),
     ] = None,
     out: Annotated[Path | None, out_option("LaTeX and a manifest")] = None,
@@ -64,16 +99,23 @@ def derive(
     columns: Columns = 1,
     overwrite: Overwrite = False,
 ) -> None:
-    """Prove equations, and the ones that they rest on, and check them."""
+    """Prove equations and all that they rest on, and check them."""
     from force_diffusion.derivations.commands import deriving
 
-    wanted = [one for word in numbers or () for one in equations_of(word)] or list(modules())
-    raise typer.Exit(deriving.derive(wanted, out, as_json, overwrite, columns))
+    with blamed(numbers or ()):
+        wanted = wanted_of(numbers or ()) or list(modules())
+        status = deriving.derive(wanted, out, as_json, overwrite, columns)
+    raise typer.Exit(status)
 
 
 def show(
     number: Annotated[
-        str, typer.Argument(metavar="N", help="Number of the equation, or a theorem's name.")
+        str,
+        typer.Argument(
+            metavar="N",
+            help="Number of the equation, a theorem's name, or a Python file with a derivation of "
+            "your own, which is run.",
+        ),
     ],
     form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
     exact: Annotated[
@@ -95,9 +137,14 @@ def show(
     columns: Columns = 1,
 ) -> None:
     """Print an equation, or all of a theorem, without deriving it."""
-    numbers = equations_of(number)
+    with blamed([number]):
+        _show(number, form, exact, at_j, columns)
+
+
+def _show(number: str, form: Form, exact: bool, at_j: str | None, columns: int) -> None:
+    numbers = wanted_of([number])
     if exact and len(numbers) > 1:
-        names = ", ".join(map(str, numbers))
+        names = ", ".join(str(getattr(one, "number", one)) for one in numbers)
         raise typer.BadParameter(
             f"{number} has several equations; name one: {names}.", param_hint="N"
         )

@@ -115,7 +115,7 @@ def figures(
     ] = False,
     overwrite: Overwrite = False,
 ) -> None:
-    """Draw the paper's figures anew, from exact packings."""
+    """Draw the paper's figures from new simulations of exact packings."""
     wanted = list(dict.fromkeys(which or NAMES))
     scenes = {name: Path(name).stem for name in wanted if name.endswith(".toml")}
     for name in wanted:

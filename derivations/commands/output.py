@@ -9,7 +9,9 @@ A command replaces the files that it has written before, adds others beside what
 deletes nothing. It refuses to replace a file that this program did not write, one that was changed
 since, and the answer to another question, unless ``--overwrite`` is given. ``manifest.json`` of the
 folder knows which is which. Each file is written aside and renamed, the manifest last, so that none
-is ever half-written.
+is ever half-written. A command that is killed between two renames leaves that manifest aside: what
+it lists was written by this program, too, so that the command can be given again. The next one that
+succeeds in the folder takes away what such a one has left.
 
 Commands that run at once may share a folder. Each locks the names that it will write until it
 ends, and the manifest while it reads or adds to it: one that would write what another one is about
@@ -20,6 +22,7 @@ process, however that ends. Where the system or the disk has no such locks, ther
 import errno
 import hashlib
 import os
+import re
 import secrets
 import stat
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -31,6 +34,7 @@ from typing import Annotated, Any
 
 import typer
 from force_diffusion.derivations.commands.cli import command_line
+from force_diffusion.derivations.commands.interrupts import waiting
 from force_diffusion.derivations.export.manifest import (
     LARGEST,
     MANIFEST,
@@ -42,9 +46,12 @@ from force_diffusion.derivations.export.manifest import (
 )
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
 
+# Files are written aside under a dot, their name, eight random digits, and this.
+PART = ".fd-part"
 # Locks are on files beside those that are written: a dot, the name, and this.
 LOCK = ".fd-lock"
 NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP}
+_LEFT = re.compile(rf"\..+\.[0-9a-f]{{8}}{re.escape(PART)}")
 # How often a folder is made that others take away at once.
 ATTEMPTS = 100
 
@@ -84,9 +91,16 @@ class Folder:
 
     def __init__(self, path: Path, result_of: str, overwrite: bool) -> None:
         self.path = path
-        self.manifest = read_manifest(path)
+        self._read()
         self._result_of = printable(result_of)
         self._overwrite = overwrite
+
+    def _read(self) -> None:
+        """Read the manifest, and those of commands that were killed before they could rename it."""
+        self.manifest = read_manifest(self.path)
+        parts = sorted(self.path.glob(f".{MANIFEST}.*{PART}"))
+        begun = (read_manifest(self.path, part.name) for part in parts)
+        self._begun = [one for one in begun if one is not None]
 
     def check(self, names: Iterable[str]) -> None:
         """Raise ``OutputError`` if a file of these names must not be replaced, and name it."""
@@ -107,14 +121,21 @@ class Folder:
             return ""
         if name == MANIFEST:
             return "" if self.manifest else "was not written by this program"
-        made = self.manifest.files.get(name) if self.manifest else None
-        if made is None or not stat.S_ISREG(mode):
+        manifests = [one for one in (self.manifest, *self._begun) if one is not None]
+        made = [one.files[name] for one in manifests if name in one.files]
+        if not made or not stat.S_ISREG(mode):
             return f"is there, and no {MANIFEST} says that this program wrote it"
-        if made.result_of != self._result_of:
-            return f"is the result of '{made.result_of}'"
-        with path.open("rb") as file:
-            same = hashlib.file_digest(file, "sha256").hexdigest() == made.sha256
-        return "" if same else "was changed after this program wrote it"
+        own = {one.sha256 for one in made if one.result_of == self._result_of}
+        if own and self._digest(name) in own:
+            return ""
+        others = [one for one in made if one.result_of != self._result_of]
+        if others and (not own or self._digest(name) in {one.sha256 for one in others}):
+            return f"is the result of '{others[0].result_of}'"
+        return "was changed after this program wrote it"
+
+    def _digest(self, name: str) -> str:
+        with (self.path / name).open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
 
     def holds(self, name: str) -> bool:
         """Say whether a file that this program wrote before is still there."""
@@ -139,8 +160,10 @@ class Folder:
             name: content if isinstance(content, bytes) else content.encode()
             for name, content in files.items()
         }
-        with _locked(self.path / MANIFEST, wait=True):
+        with _locked(self.path / MANIFEST, wait=True) as locked:
             self._write(contents, equations, seed, inputs or {})
+            if locked:  # else another may still write
+                _clear(self.path)
 
     def _write(
         self,
@@ -150,10 +173,16 @@ class Folder:
         inputs: Mapping[str, str],
     ) -> None:
         """Write files and the manifest, while no other command reads it to write it anew."""
-        self.manifest = read_manifest(self.path)  # another command may have written meanwhile
+        self._read()  # another command may have written meanwhile
         self.check(contents)
         before = self.manifest or Manifest(program=PROGRAM, files={})
         kept = {name: made for name, made in before.files.items() if self.holds(name)}
+        for begun in self._begun:
+            kept |= {
+                name: one
+                for name, one in begun.files.items()
+                if (self.path / name).is_file() and self._digest(name) == one.sha256
+            }
         made = {n: self._made(content, seed, inputs) for n, content in contents.items()}
         contents[MANIFEST] = (
             Manifest(
@@ -185,9 +214,10 @@ class Folder:
 def write_whole(folder: Path, contents: Mapping[str, bytes]) -> None:
     """Write files aside in their folder; when all are there, rename them, in their order.
 
-    Raises ``OSError`` that names the file which can't be written; nothing is left aside then.
+    Interrupts wait until all are renamed. Raises ``OSError`` that names the file which can't be
+    written; nothing is left aside then but a manifest of what was renamed.
     """
-    suffix = f".{secrets.token_hex(4)}.part"
+    suffix = f".{secrets.token_hex(4)}{PART}"
     aside = {name: folder / f".{name}{suffix}" for name in contents}
     try:
         for name, content in contents.items():
@@ -197,11 +227,27 @@ def write_whole(folder: Path, contents: Mapping[str, bytes]) -> None:
             except OSError as failure:  # a write that fails half-way names no file
                 failure.filename = str(folder / name)
                 raise
-        for name, path in aside.items():
-            os.replace(path, folder / name)
+        with waiting():
+            for name in list(aside):
+                os.replace(aside[name], folder / name)
+                del aside[name]
     finally:
+        if len(aside) < len(contents):
+            aside.pop(MANIFEST, None)
         for path in aside.values():
             path.unlink(missing_ok=True)
+
+
+def _clear(folder: Path) -> None:
+    """Take away what killed commands have left in a folder in which no other one writes now."""
+    for path in folder.iterdir():
+        if _LEFT.fullmatch(path.name):
+            path.unlink(missing_ok=True)
+        elif path.name.startswith(".") and path.name.endswith(LOCK):
+            own = folder / path.name[1 : -len(LOCK)]
+            # not so where its command still runs
+            with suppress(OutputError, OSError), _locked(own, wait=False):
+                pass
 
 
 @contextmanager
@@ -243,7 +289,8 @@ def copied(contents: Mapping[str, bytes], folder: Path, overwrite: bool) -> list
             if os.path.lexists(path) and not overwrite:
                 raise _in_the_way(path, "is there, and differs from the one to be written")
             new[name] = content
-        write_whole(folder, new)
+        with _locked(folder / MANIFEST, wait=True):
+            write_whole(folder, new)
     return list(new)
 
 
@@ -297,19 +344,21 @@ def _mode(path: Path) -> int | None:
 
 
 @contextmanager
-def _locked(path: Path, *, wait: bool) -> Iterator[None]:
+def _locked(path: Path, *, wait: bool) -> Iterator[bool]:
     """Keep other commands from writing a file; raise ``OutputError`` where one does, or wait.
 
-    The lock is on a hidden file beside it, which goes when the lock does.
+    Says whether the system and the disk have locks. The lock is on a hidden file beside it, which
+    goes when the lock does.
     """
     try:
         import fcntl
     except ImportError:  # not on this system
-        yield
+        yield False
         return
     beside = path.with_name(f".{path.name}{LOCK}")
     while True:
         number = _opened(beside, path)
+        locked = True
         try:
             try:
                 fcntl.flock(number, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
@@ -321,10 +370,11 @@ def _locked(path: Path, *, wait: bool) -> Iterator[None]:
             except OSError as failure:
                 if failure.errno not in NO_LOCKS:
                     raise
+                locked = False
             if not _is_at(number, beside):  # who had the lock took it away with the file
                 continue
             try:
-                yield
+                yield locked
             finally:
                 beside.unlink(missing_ok=True)
             return

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 # Seconds from which on progress is shown.
 MOMENT = 1.0
 STATUSES = (
-    "Exit status: 0 answered, 2 something wrong in the scene or its files, 3 the asked tolerance "
+    "Exit status: 0 answered, 2 something wrong in the scene or its files, 3 the tolerance "
     "can't be reached or the disk failed, 130 interrupted."
 )
 
@@ -123,7 +123,7 @@ def run(
     seed: Seed = None,
     overwrite: Overwrite = False,
 ) -> None:
-    """Answer a scene's question."""
+    """Solve the packing of a scene and answer its question."""
     checked(written, out)
     asked = variants(settings, seed)
     if len(asked) > 1 and checkpoint is not None:
@@ -169,9 +169,8 @@ def _answer(
         about = found.data(rows=False)
         about["source"] = sourced(about["source"], scene, command_line())
         if folder:
-            write(folder, found, about, written)
-            if unilateral:
-                folder.write({"packings.json": json.dumps(found.packings())})
+            more = {"packings.json": json.dumps(found.packings())} if unilateral else {}
+            write(folder, found, about, written, more)
     lines = outcome_lines(about, found.count)
     show(found, about, lines, as_json=as_json, quiet=quiet, folder=folder)
     if checkpoint is not None and planned.problem.segment:

@@ -1,7 +1,7 @@
 """What several commands share: a line that tells how far they are, and plots if they can be."""
 
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -52,12 +52,16 @@ def sourced(source: dict[str, Any], scene: Path, command: str | None) -> dict[st
 
 
 def write(
-    folder: Folder, answer: answers.Answered, about: dict[str, Any], written: Format, **more: bytes
+    folder: Folder,
+    answer: answers.Answered,
+    about: dict[str, Any],
+    written: Format,
+    more: Mapping[str, str],
 ) -> None:
-    """Write an answer and ``more`` CSV tables into a folder, and what they came from."""
+    """Write an answer and ``more`` files beside it into a folder, and what they came from."""
     source = about["source"]
     folder.write(
-        answers.files_of(answer, about, written) | {f"{k}.csv": v for k, v in more.items()},
+        {**answers.files_of(answer, about, written), **more},
         seed=source["seed"],
         inputs=source["sha256"],
     )

@@ -25,7 +25,7 @@ def stability(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
     overwrite: Overwrite = False,
 ) -> None:
-    """Measure what stability costs: errors and lost bits of both forms, time beside them."""
+    """Measure what stability costs: errors, lost bits and times with and without it."""
     from force_diffusion.numeric.studies.stability import study
 
     where = [] if out is None else ["--out", str(out)]

@@ -9,7 +9,7 @@ load on one bead.
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
-from force_diffusion.derivations.coq.statements import Statement
+from force_diffusion.derivations.coq.statements import Companion, Statement
 from force_diffusion.derivations.witnesses.draws import SmallPacking, draw
 from force_diffusion.numeric.mechanics import taylor
 
@@ -102,8 +102,13 @@ def packing_statement(seed: int) -> Statement:
         (f"  forall {variables},", *(f"  {one} ->" for one in hypotheses)),
         _all(_claims(packing)),
         "prove_packing",
-        f"Lemma packing_{seed}_is_about_something : exists {variables},\n    {_all(hypotheses)}.\n"
-        f"Proof. destruct (lattice_exists {n_x} {n_y}) as [G ?]; [lra..|].\n"
-        f"  exists G, {rho}, (laid_packing G {rho}). something; tauto. Qed.\n",
+        (
+            Companion(
+                "is_about_something",
+                f"exists {variables},\n    {_all(hypotheses)}",
+                f"destruct (lattice_exists {n_x} {n_y}) as [G ?]; [lra..|].\n"
+                f"  exists G, {rho}, (laid_packing G {rho}). something; tauto.",
+            ),
+        ),
         theory="Fractions",
     )

@@ -1,6 +1,5 @@
 """What Coq said of the printed equations: now, and when it was last asked."""
 
-import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
@@ -8,7 +7,7 @@ from enum import StrEnum
 from functools import cache
 from typing import Any
 
-from force_diffusion.derivations.coq.statements import statements
+from force_diffusion.derivations.coq.statements import sha256, statements
 from force_diffusion.derivations.coq.words import NotStatedError
 from force_diffusion.derivations.coq.workshop import PROOFS, theory
 from force_diffusion.derivations.framework.catalogue import Number
@@ -68,6 +67,7 @@ class Certificate:
         axioms: what the theorems rest on.
         note: why it is not accepted.
         changes: what came of its mechanical changes, where Coq was asked.
+        about: ranges of the indices and sites for which it is stated, in the words of Model.v.
     """
 
     number: Number
@@ -77,6 +77,7 @@ class Certificate:
     axioms: tuple[str, ...] = ()
     note: str = ""
     changes: Changes | None = None
+    about: tuple[str, ...] = ()
 
     @property
     def wrong(self) -> tuple[Change, ...]:
@@ -118,11 +119,6 @@ class Certification:
     def data(self) -> dict[str, Any]:
         """What JSON can hold."""
         return asdict(self)
-
-
-def sha256(content: str) -> str:
-    """Hash of a text."""
-    return hashlib.sha256(content.encode()).hexdigest()
 
 
 def theory_hash() -> str:
@@ -170,7 +166,7 @@ _theory_now = cache(theory_hash)
 def recorded(derivation: Derivation) -> Recorded:
     """Compare what Coq accepted with what is printed now."""
     try:
-        now = {one.name: sha256(one.proposition) for one in statements(derivation)}
+        now = {one.name: one.hash for one in statements(derivation)}
     except NotStatedError:
         now = {}
     record, verdict, checker = _record(), "not on record" if now else str(Verdict.NOT_STATED), ""

@@ -5,8 +5,9 @@ index ranges from the assumptions, its sites from the left-hand side. What is wr
 which hypotheses of ``Model.v`` an equation is about. Proofs are found by tactics in ``proofs/``.
 """
 
+import hashlib
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import sympy
@@ -26,34 +27,21 @@ from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.mechanics.paths import BRANCH_COUNT, IN_CONE
 
-_LETTERS = "".join(symbol.name for symbol in sy.INDICES)
-_LETTER = rf"[{_LETTERS}](?!\w)"
-_SIDE = rf"(?:\d|{_LETTER})(?:\s*[+−]\s*(?:\d|{_LETTER}))*"
-_CHAIN = re.compile(rf"(?<![\w(])(?:{_LETTER}, )*{_SIDE}(?:\s*[≤<≥>=]\s*{_SIDE})+")
-_RELATIONS = {"≤": "<=", "<": "<", "≥": ">=", ">": ">", "=": "="}
-
 
 def ranges(derivation: Derivation) -> Iterator[str]:
-    """What the domain says of the indices, or the assumptions' inequalities where it has none."""
-    if derivation.where is not None and derivation.where.limit is None:
+    """What the domain of the printed equation says of the indices.
+
+    Of an asymptotic one nothing: it is stated of every contact, with a bound.
+
+    Raises:
+        NotStatedError: it has no domain.
+    """
+    if derivation.where is None:
+        raise NotStatedError(f"Eq. {derivation.number} has no domain")
+    if derivation.where.limit is None:
         for relation in derivation.where.relations:
             left, right = map(index, relation.args)
             yield f"({left} {relation.rel_op.replace('==', '=')} {right})%Z"
-        return
-    radius = any(symbol in derivation.printed[0].free_symbols for symbol in (sy.site_r, sy.site_s))
-    for assumption in derivation.assumptions:
-        for chain in _CHAIN.findall(assumption):
-            if not re.search("[≤<≥>]", chain):
-                continue
-            *alike, last = chain.replace("−", "-").split(", ")
-            sides = re.split(r"\s*([≤<≥>=])\s*", last)
-            if radius:
-                sides = [re.sub(r"\b([rs])\b", r"site_\1", side) for side in sides]
-            for one in (*alike, sides[0]):
-                for left, relation, right in zip(
-                    (one, *sides[2::2]), sides[1::2], sides[2::2], strict=False
-                ):
-                    yield f"({left} {_RELATIONS[relation]} {right})%Z"
 
 
 def _spoken_of(side: sympy.Expr) -> Iterator[str]:
@@ -145,7 +133,8 @@ class Frame:
 _BELOW = {sy.M: 7, sy.k: 6, sy.l: 6}
 _HIGHER = {sy.M: 3, sy.i: 1, sy.j: 1}
 _AT = {sy.M: 3, sy.i: 0, sy.j: 0}
-_VARIANCE = Frame(_AT, _near("f_plus F i j", "56 * IZR M ^ 2"), ("contact M i j",), random=True)
+_EVERY_CONTACT = ("contact M i j", "(0 <= j)%Z", "(j < M)%Z")
+_VARIANCE = Frame(_AT, _near("f_plus F i j", "56 * IZR M ^ 2"), _EVERY_CONTACT, random=True)
 
 FRAMES = {
     1: Frame(_HIGHER, _exactly),
@@ -230,13 +219,14 @@ class _Case:
             *(f"  {hypothesis} ->" for hypothesis in self.hypotheses),
         )
 
-    def lemma(self, name: str) -> str:
+    def companion(self, name: str = "is_about_something") -> "Companion":
         """That the hypotheses can be fulfilled."""
         supposed = "".join(f"{one} -> " for one in self.supposed)
-        return (
-            f"Lemma {name}_is_about_something :\n  forall {self.given}, {supposed}\n"
-            f"  exists {self.variables},\n  {_all(self.hypotheses)}.\n"
-            f"Proof. intros. {self.law}exists {', '.join(self.example)}. something. Qed.\n"
+        return Companion(
+            name,
+            f"forall {self.given}, {supposed}\n  exists {self.variables},\n"
+            f"  {_all(self.hypotheses)}",
+            f"intros. {self.law}exists {', '.join(self.example)}. something.",
         )
 
 
@@ -302,6 +292,9 @@ def _random_packings(
     )
 
 
+_LAYERS = ("(1 <= M)%Z", "(0 <= j < M)%Z", "contact M (across j) j")
+
+
 def _across_layers(load: _Load) -> _Case:
     """One contact of each layer, at ``across j`` in layer j."""
     return _random_packings(
@@ -346,36 +339,54 @@ def _averages(derivation: Derivation, part: int, stated: sympy.Eq) -> str:
     return _all(claims)
 
 
+def sha256(content: str) -> str:
+    """Hash of a text."""
+    return hashlib.sha256(content.encode()).hexdigest()
+
+
+@dataclass(frozen=True)
+class Companion:
+    """A proposition about the hypotheses of a statement, and its proof."""
+
+    name: str
+    proposition: str
+    proof: str
+
+
+HEAD = "Open Scope R_scope.\n"
+WORDS = (
+    "From Coq Require Import ZArith Reals List.\nImport ListNotations.\n"
+    "From ForceDiffusion Require Import Roots Model.\n"
+)
+"""All that a statement is read with."""
+
+
 @dataclass(frozen=True)
 class Statement:
-    """One printed equation in Coq.
+    """One printed equation in Coq, in three files.
+
+    The first imports nothing but the words of ``Model.v`` and ``Roots.v``: no other file of the
+    theory can change what it says. The second proves it. The third imports neither; in it what was
+    proved is what was stated, and the axioms that this rests on are named.
 
     Attributes:
         name: of the theorem.
         hypotheses: what it is about.
         conclusion: what it says then.
         tactic: of ``proofs/Certify.v``, which should prove it.
-        companions: lemmas about the hypotheses: they can be fulfilled, and no sum's bounds are
-            reversed under them (SymPy reads such sums in another way).
+        companions: that the hypotheses can be fulfilled, and that no sum's bounds are reversed
+            under them (SymPy reads such sums in another way).
         theory: the file of ``proofs/`` that holds the tactic.
+        about: its ranges and sites, from among the hypotheses.
     """
 
     name: str
     hypotheses: tuple[str, ...]
     conclusion: str
     tactic: str
-    companions: str = ""
+    companions: tuple[Companion, ...] = ()
     theory: str = "Certify"
-
-    @property
-    def file(self) -> str:
-        """The file that holds it."""
-        return self.file_of(self.name)
-
-    @staticmethod
-    def file_of(name: str) -> str:
-        """The file that holds a theorem."""
-        return f"{name.capitalize()}.v"
+    about: tuple[str, ...] = ()
 
     @property
     def proposition(self) -> str:
@@ -383,19 +394,110 @@ class Statement:
         return "\n".join((*self.hypotheses, f"  {self.conclusion}"))
 
     @property
-    def source(self) -> str:
-        """A file of its own for Coq; it ends by naming the axioms that the theorem rests on."""
-        theorem = f"Theorem {self.name} :\n{self.proposition}.\nProof. {self.tactic}. Qed.\n"
-        return "\n".join(
-            (header(self.theory), theorem, self.companions, f"Print Assumptions {self.name}.\n")
+    def stated(self) -> str:
+        """The file that says it."""
+        return words_of(
+            {"statement": self.proposition} | {c.name: c.proposition for c in self.companions}
         )
 
+    @property
+    def proof(self) -> str:
+        """The file that proves it, and the companions."""
+        return proof_of(
+            self.theory,
+            self.statement_in,
+            ("Theorem", self.name, "statement", f"{self.tactic}."),
+            *(("Lemma", f"{self.name}_{c.name}", c.name, c.proof) for c in self.companions),
+        )
 
-def header(theory: str = "Certify") -> str:
-    """What stands at the head of a file of statements."""
+    @property
+    def acceptance(self) -> str:
+        """The file that compares both; it ends by naming the axioms."""
+        library = "ForceDiffusion"
+        proved = {self.name: "statement"} | {
+            f"{self.name}_{c.name}": c.name for c in self.companions
+        }
+        return "\n".join(
+            (
+                f"From {library} Require {self.statement_in} {self.module}.",
+                *(
+                    f"Definition accepted_{says} : {library}.{self.statement_in}.{says} :=\n"
+                    f"  {library}.{self.module}.{name}."
+                    for name, says in proved.items()
+                ),
+                "Print Assumptions accepted_statement.\n",
+            )
+        )
+
+    @property
+    def hash(self) -> str:
+        """SHA-256 of all three."""
+        return sha256("".join(self.files.values()))
+
+    @property
+    def module(self) -> str:
+        """The name of the file that proves it; also of ``accepted_in`` without its ending."""
+        return self.name.capitalize()
+
+    @property
+    def statement_in(self) -> str:
+        """The name of the file that says it."""
+        return f"{self.module}_statement"
+
+    @property
+    def accepted_in(self) -> str:
+        """The file in which it is accepted."""
+        return self.accepted_file(self.name)
+
+    @staticmethod
+    def accepted_file(name: str) -> str:
+        """The file in which a theorem is accepted."""
+        return f"{name.capitalize()}_accepted.v"
+
+    @property
+    def files(self) -> dict[str, str]:
+        """Names and sources of the three."""
+        return {
+            f"{self.statement_in}.v": self.stated,
+            f"{self.module}.v": self.proof,
+            self.accepted_in: self.acceptance,
+        }
+
+
+def words_of(propositions: Mapping[str, str]) -> str:
+    """A file of propositions, by name, which nothing but ``WORDS`` has a say in."""
+    return "\n".join(
+        (
+            f"{WORDS}{HEAD}",
+            *(f"Definition {name} : Prop :=\n{says}.\n" for name, says in propositions.items()),
+        )
+    )
+
+
+def head_of(theory: str, stated_in: str) -> str:
+    """What stands at the head of a file of proofs."""
     return (
-        f"From ForceDiffusion Require Import {theory}.\nOpen Scope R_scope.\n"
-        "Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.\n"
+        f"From ForceDiffusion Require Import {theory}.\nFrom ForceDiffusion Require {stated_in}.\n"
+        f"{HEAD}Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.\n"
+    )
+
+
+def files_of(made: Iterable[Statement]) -> dict[str, str]:
+    """Names and sources of all files of several statements."""
+    return {name: source for one in made for name, source in one.files.items()}
+
+
+def proof_of(theory: str, stated_in: str, *proofs: tuple[str, str, str, str]) -> str:
+    """A file of proofs: kind, name, which proposition of ``stated_in``, and the proof."""
+    return "\n".join(
+        (
+            head_of(theory, stated_in),
+            *(
+                f"{kind} {name} : {stated_in}.{says}.\n"
+                f"Proof. cbv delta [{stated_in}.{says}]. {proof} Qed.\n"
+                for kind, name, says, proof in proofs
+            ),
+        )
     )
 
 
@@ -422,9 +524,12 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
     name = f"equation_{derivation.number}" + (f"_part_{part + 1}" if several else "")
     tactic = f"prove_{derivation.number}"
     if derivation.number == AVERAGES:
-        lemmas = [_across_layers(_LOADS[one]).lemma(f"{name}_{one}") for one in derivation.loads]
+        companions = [
+            _across_layers(_LOADS[one]).companion(f"{one}_is_about_something")
+            for one in derivation.loads
+        ]
         claims = _averages(derivation, part, stated)
-        return Statement(name, (), claims, f"{tactic}_{part + 1}", "\n".join(lemmas))
+        return Statement(name, (), claims, f"{tactic}_{part + 1}", (*companions,), about=_LAYERS)
     if derivation.number not in FRAMES:
         raise NotStatedError(f"Eq. {derivation.number} has no hypotheses in Model.v yet")
     frame = FRAMES[derivation.number]
@@ -447,14 +552,19 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
         )
     else:
         case = _one_packing(frame.example, conditions, load)
-    companions = case.lemma(name)
+    companions = [case.companion()]
     orders = [f"({index(low)} <= {index(high + 1)})%Z" for low, high in _bounds(stated)]
     if orders:
-        companions += (
-            f"Lemma {name}_sums_in_order : forall M {indices} : Z,\n"
-            f"  {_all(conditions)} -> {_all(orders)}.\nProof. site. Qed.\n"
+        companions.append(
+            Companion(
+                "sums_in_order",
+                f"forall M {indices} : Z,\n  {_all(conditions)} -> {_all(orders)}",
+                "site.",
+            )
         )
-    return Statement(name, case.before(), frame.conclude(stated), tactic, companions)
+    return Statement(
+        name, case.before(), frame.conclude(stated), tactic, (*companions,), about=conditions
+    )
 
 
 def _all(conditions: Iterable[str]) -> str:

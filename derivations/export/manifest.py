@@ -118,13 +118,13 @@ class Manifest(_Part):
         return self.model_dump_json(indent=2, exclude_defaults=True) + "\n"
 
 
-def read_manifest(folder: Path) -> Manifest | None:
+def read_manifest(folder: Path, name: str = MANIFEST) -> Manifest | None:
     """Read a folder's manifest; None where there is none that this program could have written.
 
     Only a regular file of at most ``LARGEST`` bytes is read. Raises ``OSError`` where it is there
     and can't be read.
     """
-    path = folder / MANIFEST
+    path = folder / name
     try:
         found = path.lstat()
         if not stat.S_ISREG(found.st_mode) or found.st_size > LARGEST:

@@ -11,6 +11,7 @@ from force_diffusion.derivations.export.prose import both
 from force_diffusion.derivations.framework.catalogue import theorem_of
 from force_diffusion.derivations.framework.proving import Shown
 from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome
+from force_diffusion.derivations.framework.runner import UNLIKE
 from force_diffusion.symbolic.kernel.decisions import Verdict, in_words
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
@@ -119,6 +120,8 @@ def check_text(check: Check) -> str:
 def mutant_text(mutant: Mutant) -> str:
     """One changed equation that the checker did not refute."""
     kind = "equivalent rewriting" if mutant.equivalent else str(mutant.ruling.verdict)
+    if mutant.reason == UNLIKE:
+        return _paragraph(f"{UNLIKE}: {mutant.change}", "  - ", "    ")
     note = f". {mutant.note}" if mutant.note else ""
     return _paragraph(f"{kind}: {mutant.change}{note}", "  - ", "    ")
 
@@ -130,7 +133,7 @@ def mutant_counts(outcome: Outcome) -> dict[str, int]:
         "made": len(verdicts),
         "refuted": verdicts.count(Verdict.REFUTED),
         "no_statements": verdicts.count(Verdict.NOT_A_STATEMENT),
-        "equivalent": sum(mutant.equivalent for mutant in outcome.mutants),
+        "equivalent": sum(m.equivalent and m.reason != UNLIKE for m in outcome.mutants),
     }
 
 
@@ -163,13 +166,15 @@ def tried_text(counts: Mapping[str, int]) -> str:
     """The same in words; "" where none was tried."""
     if not counts["false"] + counts["true"]:
         return ""
-    none = counts["no_statements"]
-    left = counts["false"] - counts["refuted"] - none, counts["true"] - counts["proved"]
-    return (
-        f"Tried on {counts['false']} false statements: none proved, {counts['refuted']} refuted, "
-        f"{none} not a statement, {left[0]} undecided; on {counts['true']} true ones: "
-        f"none refuted, {counts['proved']} proved, {left[1]} undecided."
+    none, false, true = counts["no_statements"], counts["false"], counts["true"]
+    left, missed = false - counts["refuted"] - none, true - counts["proved"]
+    words = (
+        f"The checker itself was tried. Of {false} false statements it proved none: "
+        f"{counts['refuted']} are refuted, {none} are no statements, {left} stay undecided, which "
+        f"is no failure where a statement is false. Of {true} true ones it proved "
+        f"{counts['proved']}"
     )
+    return words + (f" and left {missed} undecided, which is a failure." if missed else ".")
 
 
 def outcome_text(outcome: Outcome) -> str:
@@ -217,7 +222,7 @@ def trouble_lines(outcome: Outcome) -> list[str]:
     lines += [
         mutant_text(mutant)
         for mutant in outcome.mutants
-        if mutant.ruling.verdict is Verdict.UNDECIDED
+        if mutant.ruling.verdict is Verdict.UNDECIDED or mutant.reason == UNLIKE
     ]
     lines += [
         _paragraph(

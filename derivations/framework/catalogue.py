@@ -72,6 +72,17 @@ def modules() -> dict[Number, str]:
     return {**printed, **dict(sorted(beyond.items(), key=lambda one: int(str(one[0])[1:])))}
 
 
+def number_of(word: str) -> Number | None:
+    """The number or label that a word from outside stands for; None where there is none.
+
+    >>> number_of("13"), number_of("b5"), number_of("17")
+    (13, 'B5', None)
+    """
+    is_short = word.isascii() and len(word) < 5
+    number: Number = int(word) if is_short and word.isdigit() else word.upper()
+    return number if number in modules() else None
+
+
 def theorem_of(number: Number) -> Theorem | None:
     """The theorem that an equation is a case of; None for those of the paper."""
     return next((one for one in THEOREMS if number in one.cases), None)

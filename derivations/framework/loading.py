@@ -5,6 +5,7 @@ from importlib import import_module
 
 from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.record import Derivation
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
 
 def load(number: Number) -> Derivation:
@@ -18,7 +19,11 @@ def load(number: Number) -> Derivation:
 
 
 def with_premises(wanted: Iterable[Derivation]) -> list[Derivation]:
-    """The derivations wanted and all that they rest on, premises first."""
+    """The derivations wanted and all that they rest on, premises first.
+
+    Raises:
+        ForceDiffusionError: two of a user's own have one label.
+    """
     ordered: dict[Number, Derivation] = {}
 
     def visit(derivation: Derivation) -> None:
@@ -26,6 +31,8 @@ def with_premises(wanted: Iterable[Derivation]) -> list[Derivation]:
             for premise in derivation.premises:
                 visit(premise)
             ordered[derivation.number] = derivation
+        elif derivation.number not in modules() and ordered[derivation.number] is not derivation:
+            raise ForceDiffusionError(f"two derivations are called {derivation.number!r}")
 
     for derivation in wanted:
         visit(derivation)

@@ -623,21 +623,54 @@ class Lines(list[Line]):
 
     Args:
         where: the domain of a line that does not have its own.
+        by: the rule of a line that names none.
+        meaning: what is written in short in all lines that do not say it themselves.
     """
 
-    def __init__(self, where: Where):
+    def __init__(self, where: Where, by: By | None = None, meaning: Meaning | None = None):
         super().__init__()
-        self._where = where
+        self._where, self._by, self._meaning = where, by, meaning
         self.claims: list[Line] = []
         self.refuted: list[Refuted] = []
 
+    def _line(
+        self,
+        reason: str,
+        formula: sympy.Basic,
+        by: By | tuple[By, ...] | None,
+        where: Where | tuple[Where, ...] | None = None,
+        meaning: Meaning | tuple[Meaning, ...] | None = None,
+        **others: Any,
+    ) -> Line:
+        rule = self._by if by is None else by
+        if rule is None:
+            raise TypeError("a line needs a rule")
+        domain = self._where if where is None else where
+        said = self._meaning if meaning is None else meaning
+        return Line(reason, formula, rule, domain, said, **others)
+
     def claim(
-        self, name: str, formula: sympy.Basic, by: By | tuple[By, ...], **options: Any
+        self,
+        name: str,
+        formula: sympy.Basic,
+        by: By | tuple[By, ...] | None = None,
+        **options: Any,
     ) -> Line:
         """Add a further statement that the lines prove, and return it; it is not one of them."""
-        domain = options.pop("where", self._where)
-        self.claims.append(Line(name, formula, by, domain, **options))
+        self.claims.append(self._line(name, formula, by, **options))
         return self.claims[-1]
+
+    def claim_each(
+        self,
+        name: str,
+        said: Iterable[tuple[sympy.Expr, sympy.Expr, Where]],
+        by: By | tuple[By, ...] | None = None,
+        **options: Any,
+    ) -> Line:
+        """Claim several equations, each given by its sides and its own domain."""
+        lefts, rights, wheres = zip(*said, strict=True)
+        formulas = sympy.Tuple(*map(equation, lefts, rights))
+        return self.claim(name, formulas, by, where=wheres, **options)
 
     def refute(
         self, reading: str, formula: sympy.Eq, by: Line, *, where: Where, meaning: Meaning
@@ -656,16 +689,11 @@ class Lines(list[Line]):
         self,
         reason: str,
         formula: sympy.Basic,
-        by: By | tuple[By, ...],
-        *,
-        where: Where | tuple[Where, ...] | None = None,
-        meaning: Meaning | tuple[Meaning, ...] | None = None,
-        after: tuple[Proved, ...] = (),
-        alike: tuple[Line, ...] = (),
+        by: By | tuple[By, ...] | None = None,
+        **options: Any,
     ) -> Line:
-        """Add a line and return it."""
-        domain = self._where if where is None else where
-        self.append(Line(reason, formula, by, domain, meaning, after, len(self) + 1, alike))
+        """Add a line and return it; ``options`` are further attributes of it."""
+        self.append(self._line(reason, formula, by, number=len(self) + 1, **options))
         return self[-1]
 
 

@@ -88,6 +88,14 @@ def usual(*symbols: sympy.Symbol) -> tuple[tuple[sympy.Symbol, str], ...]:
     return tuple((symbol, _MEANINGS[symbol]) for symbol in symbols)
 
 
+FIRST_ORDER = ("the radii are independent, of zero mean and variance σ²", "first order in δr")
+SECOND_ORDER = (
+    "the radii are independent, of zero mean and variance σ², of whatever law",
+    "second order in δr",
+)
+"""What is assumed of all variances and covariances, and of all mean values."""
+
+
 @dataclass(frozen=True)
 class Derivation:
     """One numbered equation: what is printed, why it holds, and how it is checked.
@@ -190,7 +198,13 @@ class Derivation:
         place = line.equations.index(printed)
         line = line if where is None else replace(line, where=where)
         ruling = proved_by_line(self, line, place, printed, candidate)
-        if ruling.verdict.is_proved and any(one.supposed for one in self.theorems):
+        if not ruling.verdict.is_proved:
+            return ruling
+        try:
+            theorems = self.theorems
+        except NotProvedError:  # what is printed is none, and the candidate is
+            theorems = (line.prove(place, candidate),)
+        if any(one.supposed for one in theorems):
             return undecided("it rests on what is only supposed")
         return ruling
 

@@ -8,7 +8,7 @@ from itertools import chain
 from time import perf_counter
 
 import sympy
-from force_diffusion.derivations.framework.catalogue import Number
+from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proving import Shown
 from force_diffusion.derivations.framework.record import (
@@ -27,6 +27,12 @@ from force_diffusion.symbolic.kernel.where import Where
 
 SEEDS = (20021, 20022, 20023)
 """Seeds of the witnesses' draws, so that two runs check the same packings."""
+
+PRINTED = "printed equation"
+"""How checks of it are called."""
+
+UNLIKE = "proved, unlike the printed equation"
+"""What is said of a change that makes a theorem of what is none."""
 
 Watch = Callable[[Derivation, str], None]
 """Told which check of which derivation comes next."""
@@ -65,7 +71,7 @@ def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
     several = len(derivation.printed) > 1
     found: dict[sympy.Eq, Check] = {}
     for place, equation in enumerate(derivation.printed):
-        name = f"printed equation, part {place + 1}" if several else "printed equation"
+        name = f"{PRINTED}, part {place + 1}" if several else PRINTED
         watch(derivation, name)
         found[equation] = _timed(
             "proof",
@@ -120,7 +126,8 @@ def judged_mutants(
     """Change each printed equation mechanically and let the same procedure rule on it.
 
     Raises:
-        KernelError: one is proved that is not listed as an equivalent rewriting.
+        KernelError: one is proved that is not listed as an equivalent rewriting; where the printed
+            equation is not proved, such a change tells what may have been meant.
     """
     from force_diffusion.symbolic.search.mutants import mutants
 
@@ -130,9 +137,11 @@ def judged_mutants(
             ruling = rule(derivation, place, change, mutated, None)
             reason = derivation.equivalent.get(change, "")
             if ruling.verdict.is_proved and not reason:
-                raise derivation.fault(
-                    mutated, f"proved, a change that is not listed as equivalent: {change}"
-                )
+                if derivation.rule_on(place, equation).verdict.is_proved:
+                    raise derivation.fault(
+                        mutated, f"proved, a change that is not listed as equivalent: {change}"
+                    )
+                reason = UNLIKE
             yield Mutant(kind, change, mutated, ruling, reason)
 
 
@@ -277,7 +286,8 @@ def run(
     waited = perf_counter() - asked - before.seconds
     rule = _read(before.rulings)
     mutants = tuple(judged_mutants(derivation, watch, rule))
-    on = tuple(tried(derivation, watch, rule))
+    stands = all(one.verdict.is_proved for one in checks if one.name.startswith(PRINTED))
+    on = tuple(tried(derivation, watch, rule)) if stands else ()  # made from what is printed
     verdict = overall(checks, mutants, on)
     return Outcome(derivation, verdict, checks, mutants, on, perf_counter() - start - waited)
 
@@ -295,7 +305,9 @@ def run_all(
     """
     wanted = list(derivations)
     known: dict[Number, Verdict] = {}
-    ruled = [start(rulings, one.number) if start else Ruled for one in wanted]
+    ruled = [  # derivations of a user's own are not found elsewhere
+        start(rulings, one.number) if start and one.number in modules() else Ruled for one in wanted
+    ]
     with _rarely_collected():
         if wanted:
             attacked()

@@ -44,6 +44,7 @@ from force_diffusion.derivations.framework.record import (
     on_packings,
 )
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
+from force_diffusion.symbolic.as_written import formula, relations
 from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.where import Where
 
@@ -72,6 +73,7 @@ __all__ = [
     "equation",
     "exhausting",
     "follows",
+    "formula",
     "heaviest",
     "in_cases",
     "in_terms_of",
@@ -85,6 +87,7 @@ __all__ = [
     "order",
     "power",
     "reach",
+    "relations",
     "rewrite",
     "slope",
     "solve",

@@ -1,14 +1,16 @@
 """Forces below a point load, and closed forms of their variances: inside of its cone and on it."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
 
 import sympy
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
+from force_diffusion.derivations.framework.proving import Beside
 from force_diffusion.derivations.framework.record import ExactCase, Missed, Piece
 from force_diffusion.derivations.framework.vocabulary import (
-    Beside,
     Where,
     axioms,
     equation,
@@ -16,6 +18,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     terms,
     times,
 )
+from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel import rules
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import Theorem
@@ -206,7 +209,7 @@ def exact_case(
 
     def put_in(piece: Piece) -> sympy.Expr:
         at = {symbol: sympy.Integer(value) for symbol, value in piece.at.items()}
-        return sympy.together(piece.expression.xreplace(at)) * unit  # one fraction, of integers
+        return sympy.together(piece.expression.xreplace(at).doit()) * unit  # one fraction
 
     *edges, main = (
         Missed(
@@ -218,3 +221,64 @@ def exact_case(
     )
     inside = tuple(sympy.Ge(steps, 1) for steps in steps_below.values())
     return ExactCase(quantity, main.where, main.expression, inside, tuple(edges), to_order)
+
+
+@dataclass(frozen=True)
+class Below:
+    """A statistic below a point load that has a closed form at every site.
+
+    Attributes:
+        printed: what stands on the left of its closed forms, a symbol but for a constant.
+        of: what that is.
+        where: all sites.
+        pieces: its closed forms, the first that fits, in ``unit``.
+        steps: p, and q where there is one, in other indices.
+        to_order: to which it is exact.
+    """
+
+    printed: sympy.Expr
+    of: sympy.Expr
+    where: Where
+    pieces: tuple[Piece, ...]
+    unit: sympy.Expr
+    steps: Mapping[sympy.Symbol, sympy.Expr]
+    to_order: str = "first order"
+
+    @property
+    def symbol(self) -> sympy.Symbol:
+        """That on the left."""
+        (symbol,) = self.printed.free_symbols
+        return symbol
+
+    @property
+    def meaning(self) -> dict[sympy.Symbol, sympy.Expr]:
+        """What the symbol on the left stands for."""
+        return {self.symbol: self.of + self.symbol - self.printed}
+
+    @property
+    def domains(self) -> tuple[Where, ...]:
+        """Those of its closed forms, in the indices of ``where``."""
+        steps = {s: one for s, one in self.steps.items() if s not in self.where.indices}
+        found = []
+        for piece in self.pieces:
+            relations = (*(Eq(symbol, at) for symbol, at in piece.at.items()), *piece.further)
+            found.append(self.where.also(*(one.xreplace(steps) for one in relations)))
+        return tuple(found)
+
+    def forms(self) -> Iterator[tuple[sympy.Expr, sympy.Expr, Where]]:
+        """Both sides of each closed form, and its domain."""
+        for piece, where in zip(self.pieces, self.domains, strict=True):
+            yield self.printed, piece.expression * self.unit, where
+
+    def exact(self) -> ExactCase:
+        """Its closed forms as users get them."""
+        return exact_case(self.printed, self.pieces, self.unit, self.steps, self.to_order)
+
+    def value(self, at: explicit.Values) -> Fraction:
+        """By the first closed form that fits."""
+        return explicit.number(fitting(self.pieces, at) * self.unit, at)
+
+
+def fitting(pieces: Iterable[Piece], at: explicit.Values) -> sympy.Expr:
+    """The first closed form that fits."""
+    return next(one.expression for one in pieces if one.at.items() <= at.items())

@@ -3,8 +3,10 @@
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from functools import cache
+from itertools import product
 from typing import TYPE_CHECKING
 
+from force_diffusion.derivations.witnesses import modular
 from force_diffusion.derivations.witnesses.draws import Site, SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import (
     compare,
@@ -17,7 +19,6 @@ if TYPE_CHECKING:
     from force_diffusion.numeric.mechanics.taylor import TaylorPacking
 
 Direction = tuple[Fraction, Fraction]
-DIRECTION: Direction = (Fraction(21, 29), Fraction(20, 29))
 
 
 @cache
@@ -54,31 +55,46 @@ def mean_variance(quantity: str, height: int, layer: int, count: int, n: Directi
     return sum((w**2 for w in summed.values()), Fraction(0)) / count**2
 
 
-def between_layers(height: int, lower: int, upper: int, places: int, n: Direction) -> Fraction:
-    """Covariance of f⁺/⟨f⟩ in two layers, so many places beside one diagonal, r = σ = 1."""
+def between_layers(height: int, lower: int, upper: int, n: Direction) -> Fraction:
+    """Covariance of f⁺/⟨f⟩ in two layers, on one diagonal, for r = σ = 1."""
     around = 2 * (height + 2)  # columns of the periodic packings that these are from
-    across = upper - lower + 2 * places
     above = {
-        ((offset + across) % around, at): w
+        ((offset + upper - lower) % around, at): w
         for (offset, at), w in weights("force", height, upper, n).items()
     }
     below = weights("force", height, lower, n).items()
     return sum((w * above.get((o % around, at), 0) for (o, at), w in below), Fraction(0))
 
 
-def agree(
-    quantity: str,
-    stated: Callable[[int, int, int, Fraction], Fraction],
-    places: tuple[tuple[int, int, int], ...],
-    packing: SmallPacking,
-) -> Ruling:
-    """A stated variance of (M, j, N, φ) against exact packings, at several places."""
+Stated = Callable[[int, int, int, Fraction], Fraction]
+"""A closed form, of M, j, N and φ, for r = σ = 1."""
+
+
+def agree_in_small_ones(quantity: str, stated: Stated, packing: SmallPacking) -> Ruling:
+    """A closed form against exact packings of M ≤ 4, every layer, N from 2 to 7."""
     phi = packing.n[1] ** 2 - packing.n[0] ** 2
 
     def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
-        for height, layer, count in places:
-            true = mean_variance(quantity, height, layer, count, packing.n)
-            where = f"M = {height}, j = {layer}, N = {count}"
-            yield where, stated(height, layer, count, phi), true
+        for height, count in product(range(1, 5), range(2, 8)):
+            for layer in range(height):
+                true = mean_variance(quantity, height, layer, count, packing.n)
+                where = f"M = {height}, j = {layer}, N = {count}"
+                yield where, stated(height, layer, count, phi), true
 
     return compare(pairs())
+
+
+def agree_in_high_ones(quantity: str, stated: Stated, packing: SmallPacking) -> Ruling:
+    """A closed form against packings of 12 ≤ M ≤ 15, every layer and N ≤ 2M, modulo a prime."""
+    phi = packing.n[1] ** 2 - packing.n[0] ** 2
+
+    def pairs() -> Iterator[tuple[str, int, int]]:
+        height = 9 + packing.height
+        for layer in range(height):
+            true = modular.mean_variances(quantity, height, layer, phi)
+            for count in range(2, 2 * height + 1):
+                where = f"M = {height}, j = {layer}, N = {count}"
+                form = stated(height, layer, count, phi)
+                yield where, modular.residue(form), true[count - 1]
+
+    return compare(pairs(), modular.EQUAL)

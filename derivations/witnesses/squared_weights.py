@@ -4,7 +4,7 @@ What the nonlinear packing says at order ε¹ is compared, as fractions, with wh
 state in closed form.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -21,8 +21,11 @@ if TYPE_CHECKING:
     from force_diffusion.numeric.mechanics.taylor import TaylorPacking
 
 
-def compare(pairs: Iterator[tuple[str, Fraction, Fraction]]) -> Ruling:
-    """Agree when there are pairs of values and all are equal, as fractions."""
+def compare(
+    pairs: Iterable[tuple[str, Fraction, Fraction] | tuple[str, int, int]],
+    equal: str = "equal as fractions",
+) -> Ruling:
+    """Agree when there are pairs of values and all are equal, in words ``equal``."""
     count = 0
     for where, stated, true in pairs:
         if stated != true:
@@ -30,7 +33,7 @@ def compare(pairs: Iterator[tuple[str, Fraction, Fraction]]) -> Ruling:
         count += 1
     if not count:
         return undecided("there was nothing to compare")
-    return Ruling(Verdict.AGREES, f"equal as fractions, {count} compared")
+    return Ruling(Verdict.AGREES, f"{equal}, {count} compared")
 
 
 def zero_outside(packing: SmallPacking) -> Ruling:

@@ -1,5 +1,6 @@
 """Processes of this machine: how they start, how they end, and one that works beside this one."""
 
+import ctypes
 import os
 import signal
 import threading
@@ -16,25 +17,46 @@ from .machine import cores
 Start = Callable[..., Callable[[], Any]]
 """Takes a function and its arguments; gives what waits for its value. ``partial`` is one, too."""
 
+_SIGNAL_OF_DEATH = 1  # PR_SET_PDEATHSIG of Linux
+
 Answer = tuple[Any, Exception | None]
 """What a call gave, or why it did not."""
 
 
 @contextmanager
-def without_interrupts() -> Iterator[None]:
-    """Start processes that no signal of a terminal reaches; it comes to us afterwards.
+def without_interrupts(*more: int) -> Iterator[None]:
+    """Let signals of a terminal, and ``more``, wait; they come to us afterwards.
 
-    Those that load their modules could only end with a traceback, and the one that keeps account of
-    all others must see their end.
+    None of these signals reaches processes that are started meanwhile: those that load their
+    modules could only end with a traceback, and the one that keeps account of all others must see
+    their end.
     """
     if not hasattr(signal, "pthread_sigmask"):  # not on this system
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGHUP})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGHUP, *more})
     try:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def ending_with(parent: int) -> Callable[[], None] | None:
+    """Give what another program does first (``preexec_fn``), so that it ends when its parent does.
+
+    However that ends: SIGKILL leaves no time to end a program. None where the system can't do it.
+    """
+    try:
+        prctl = ctypes.CDLL(None).prctl
+    except (AttributeError, OSError, TypeError):  # not on this system
+        return None
+
+    def first() -> None:
+        prctl(_SIGNAL_OF_DEATH, signal.SIGKILL)
+        if os.getppid() != parent:  # it has ended before
+            os._exit(1)
+
+    return first
 
 
 def end_with_parent() -> None:

@@ -75,14 +75,9 @@ def ensemble(
             f"ensemble takes a scene, not {type(scene).__name__}: Scene(…) or read_scene(path)"
         )
     size = _size(scene, realisations)
-    if until is not None and not 0 < _number("until", until) < 1:
-        raise ArgumentError("until", f"{until:g}", "must lie between 0 and 1, such as 0.01")
-    if not 0 < _number("confidence", confidence) < 1:
-        raise ArgumentError(
-            "confidence", f"{confidence:g}", "must lie between 0 and 1, such as 0.95"
-        )
-    if reach is not None:
-        _number("reach", reach)
+    until = None if until is None else _share("until", until, "0.01")
+    confidence = _share("confidence", confidence, "0.95")
+    reach = None if reach is None else _number("reach", reach)
     if scheduler is not None and not isinstance(scheduler, str):
         raise ArgumentError("scheduler", scheduler, 'must be an address, or "local"')
     if store is not None and not isinstance(store, str | Path):
@@ -140,7 +135,17 @@ def _size(scene: Scene, realisations: int | None) -> int:
 def _number(name: str, value: object) -> float:
     if not isinstance(value, Real):
         raise ArgumentError(name, value, "must be a number")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise ArgumentError(name, "a number", "must be one that float64 holds") from None
+
+
+def _share(name: str, value: object, such_as: str) -> float:
+    number = _number(name, value)
+    if not 0 < number < 1:
+        raise ArgumentError(name, f"{number:g}", f"must lie between 0 and 1, such as {such_as}")
+    return number
 
 
 def _executor(m: Measurement, size: int, workers: int | None, scheduler: str | None) -> Executor:

@@ -254,7 +254,8 @@ def _usual_reach(made: Measurement) -> float:
         )
     contact = made.problem.contact
     if contact is None:
-        return float(REACH * max(*theory.plus, *theory.minus))
+        layers = made.plan.scene.ask.layers or range(len(theory.plus))
+        return float(REACH * max(rows[j] for _, rows in theory for j in layers))
     return float(REACH * theory[contact.branch][contact.j])
 
 

@@ -198,7 +198,8 @@ def histogram(plan: Plan, columns: Columns, errors: Columns) -> Figure:
     figure = style.figure(style.COLUMN, 2.8)
     axes = figure.subplots()
     known, contact = _theory(plan), plan.problem.contact
-    theory = None if known is None else np.concatenate([known.plus, known.minus])
+    asked = slice(None) if plan.scene.ask.layers is None else list(plan.scene.ask.layers)
+    theory = None if known is None else np.concatenate([rows[asked] for _, rows in known])
     if known is not None and contact is not None:
         theory = known[contact.branch][[contact.j]]
     unit = 1.0 if theory is None else sqrt(float((theory**2).mean()))

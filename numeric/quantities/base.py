@@ -311,9 +311,19 @@ class ContactQuantity(Quantity):
         one = self.scene.load.magnitude == 1
         return solved.forces.left if one and solved.forces is not None else None
 
+    @cached_property
+    def layers(self) -> frozenset[int] | None:
+        """The layers of lower beads that are asked for; None: all."""
+        asked = self.scene.ask.layers
+        return None if asked is None else frozenset(asked)
+
+    def is_asked(self, j: int) -> bool:
+        """Whether contacts below the beads of layer j are asked for."""
+        return self.layers is None or j - 1 in self.layers
+
     def blocks(self, problem: Problem) -> list[Block]:
         """Give the contacts, block by block, in the order of the groups."""
-        rows = (row for row in problem.force_rows[1:] if row.count)
+        rows = (row for row in problem.force_rows[1:] if row.count and self.is_asked(row.j))
         return [Block(branch, row) for row in rows for branch in self.branches]
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -33,17 +32,6 @@ class Response(ContactQuantity):
     name = "response"
     plain = True
     merged = True
-
-    @cached_property
-    def layers(self) -> frozenset[int] | None:
-        """The layers of lower beads that are asked for; None: all."""
-        asked = self.scene.ask.layers
-        return None if asked is None else frozenset(asked)
-
-    def blocks(self, problem: Problem) -> list[Block]:
-        """Give the contacts, block by block: of the layers that are asked for."""
-        found, layers = super().blocks(problem), self.layers
-        return found if layers is None else [one for one in found if one.row.j - 1 in layers]
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """The contacts below each bead of the cone."""

@@ -30,6 +30,9 @@ class Solution:
     beads in each. Bead (j, q) is the paper's (i, j) with i = 2q + j mod 2. Forces are in the unit
     in which the load's magnitude is written, lengths in that of the radii.
 
+    Of spheres, W × W in each layer, p and q stand in place of a column, and the three axes in place
+    of the two branches.
+
     Numbers are float64, or objects of a longer arithmetic where one was chosen or a tolerance needs
     it. A ball of python-flint prints few digits, and holds all: ``.astype(float)`` rounds an array,
     ``forces.decimals()`` and ``positions.decimals()`` write every digit that is known.
@@ -48,24 +51,24 @@ class Solution:
     def force(self) -> Array:
         """f^±_ij, shape (2, M, W): branch (0: "+", 1: "-"), layer j and column q of the lower bead.
 
-        Compressive forces are positive.
+        Compressive forces are positive. Of spheres (3, M, W, W): axis, layer j, p and q.
         """
         return self._contacts("force")
 
     @property
     def change(self) -> Array:
-        """f^±_ij less its value in the ordered packing, (2, M, W); found without cancelling."""
+        """Each force less its value in the ordered packing, found without cancelling."""
         return self._contacts("change")
 
     @property
     def position(self) -> Array:
-        """Bead centres, shape (M + 1, W, 2): layer, column, (x, y)."""
-        return self._beads("x", "y")
+        """Bead centres, (M + 1, W, 2): layer, column, (x, y); of spheres (M + 1, W, W, 3)."""
+        return self._beads("")
 
     @property
     def displacement(self) -> Array:
-        """Bead centres less those of the ordered packing (Eqs. 1 to 3), shape (M + 1, W, 2)."""
-        return self._beads("dx", "dy")
+        """Bead centres less those of the ordered packing (Eqs. 1 to 3), as ``position``."""
+        return self._beads("d")
 
     @property
     def accuracy(self) -> Accuracy:
@@ -97,29 +100,34 @@ class Solution:
         return run(plan(scene, made.tolerance, certified=certified, system=made.system, text=False))
 
     @property
+    def _dimension(self) -> int:
+        return self.scene.packing.dimension
+
+    @property
     def _shape(self) -> tuple[int, ...]:
-        """(…, M, W)."""
+        """(…, M + 1, W), or of spheres (…, M + 1, W, W)."""
         given = self.scene.disorder
         assert isinstance(given, GivenRadii)
-        *batch, layers, width = given.values.shape
-        return (*batch, layers - 1, width)
+        return given.values.shape
 
     def _contacts(self, name: str) -> Array:
-        *batch, M, W = self._shape
-        rows = self._numbers(self.forces, name).reshape(*batch, M, W, 2)
-        return np.moveaxis(rows, -1, -3)
+        d = self._dimension
+        *batch, layers = self._shape[: 1 - d]
+        width = self._shape[1 - d :]
+        rows = self._numbers(self.forces, name).reshape(*batch, layers - 1, *width, d)
+        return np.moveaxis(rows, -1, -d - 1)
 
-    def _beads(self, *names: str) -> Array:
-        *batch, M, W = self._shape
+    def _beads(self, kind: str) -> Array:
+        names = [kind + axis for axis in "xyz"[: self._dimension]]
         columns = [self._numbers(self.positions, name) for name in names]
-        return np.stack([column.reshape(*batch, M + 1, W) for column in columns], axis=-1)
+        return np.stack([column.reshape(self._shape) for column in columns], axis=-1)
 
     def _numbers(self, outcome: Outcome, name: str) -> Array:
         """Give a column; of equal radii, which are solved once, in balls, as was asked for."""
         values = outcome.arrays[name]
         if outcome.plan.problem.route != Route.ORDERED:
             return values
-        values = np.tile(values, math.prod(self._shape[:-2]))
+        values = np.tile(values, math.prod(self._shape[: -self._dimension]))
         return values if outcome.plan.tolerance is not None else as_floats(values)
 
     def __str__(self) -> str:
@@ -139,6 +147,28 @@ def _named_as_here() -> Iterator[None]:
         raise SceneError(name, error.value, error.allowed) from None
 
 
+def _dimension_of(given: GivenRadii, asked: Any) -> int:
+    """Give the dimension of a packing, which shapes tell, but for that of a stack of squares."""
+    shape = given.values.shape
+    if asked is not None and (type(asked) is not int or asked not in {2, 3}):
+        raise SceneError("dimension", asked, "must be 2, of discs, or 3, of spheres")
+    if asked is None and len(shape) == 3 and shape[1] == shape[2]:
+        count, side = shape[:2]
+        raise SceneError(
+            given.name,
+            None,
+            f"shape {shape}: say dimension=3 if it is one packing of spheres in {count} layers of "
+            f"{side} × {side}, or dimension=2 if it is {count} packings of discs in {side} layers "
+            f"of {side}",
+        )
+    dimension = asked or (3 if len(shape) == 4 else 2)
+    beads, form = ("discs", "(layers, W)") if dimension == 2 else ("spheres", "(layers, W, W)")
+    if len(shape) not in {dimension, dimension + 1} or len(set(shape[1 - dimension :])) > 1:
+        allowed = f"shape {shape}: {beads} take {form}, with an axis before it for several packings"
+        raise SceneError(given.name, None, allowed)
+    return int(dimension)
+
+
 def solve(
     radii: Any = None,
     *,
@@ -146,6 +176,7 @@ def solve(
     radius: Any = None,
     spacing: Any = None,
     load: Load | None = None,
+    dimension: int | None = None,
     tolerance: Any = None,
     certified: bool = False,
     arithmetic: str | None = None,
@@ -154,13 +185,18 @@ def solve(
     """Solve periodic packings of given radii exactly: contact forces, positions and their errors.
 
     Args:
-        radii: array of shape (M + 1, W), layer 0 the base; (N, M + 1, W) for N packings.
+        radii: array of shape (M + 1, W), layer 0 the base; (N, M + 1, W) for N packings. Of spheres
+            (M + 1, W, W) or (N, M + 1, W, W), [j, p, q] being bead (p, q, j).
         delta_r: their deviations from ``radius``, in place of ``radii``; the same shapes.
         radius: r, the radius of the ordered packing, in the same unit; by default the mean of
             ``radii`` (over all N packings: changes of a packing by itself need its own), and 1
             where ``delta_r`` is given.
-        spacing: s, the distance of neighbours in the base, 2 r < s < 2√3 r; by default 3 r.
-        load: ``SurfaceLoad()`` by default, ``BulkLoad()`` or ``PointLoad(at=(k, l))``.
+        spacing: s, the distance of neighbours in the base, 2 r < s < 2√3 r, of spheres
+            2 r < s < √(32/3) r; by default 3 r.
+        load: ``SurfaceLoad()`` by default, ``BulkLoad()``, ``PointLoad(at=(k, l))`` or, of spheres,
+            ``PointLoad(at=(p, q, l))``.
+        dimension: 2 for discs or 3 for spheres. By default the shape says it; an array of shape
+            (N, W, W) could be either, and is refused without a dimension.
         tolerance: error allowed, relative to the largest change; the first of float64, pairs
             and balls that meets it is taken.
         certified: with a tolerance, only a rigorous bound will do.
@@ -192,14 +228,17 @@ def solve(
         raise SceneError("arithmetic", arithmetic, "a tolerance chooses it: leave one of them out")
     if certified and tolerance is None:
         raise SceneError("certified", True, "needs a tolerance, as tolerance=1e-30")
+    dimension = _dimension_of(given, dimension)
     shape = given.values.shape
-    if shape[-2] < 2:
+    *batch, layers = shape[: 1 - dimension]
+    if layers < 2:
         raise SceneError(given.name, None, f"shape {shape}: a packing has at least 2 layers")
-    if shape[-1] < shape[-2] and not allow_images:
+    if shape[-1] < layers and not allow_images:
+        beads = " × ".join(map(str, shape[1 - dimension :]))
         raise SceneError(
             given.name,
             None,
-            f"shape {shape}: {shape[-2]} layers of {shape[-1]} beads bear on their own periodic "
+            f"shape {shape}: {layers} layers of {beads} beads bear on their own periodic "
             "images; layers come before columns: if that is what it is, say allow_images=True",
         )
     if radius is None:
@@ -207,15 +246,16 @@ def solve(
     with _named_as_here():
         scene = Scene(
             packing=Packing(
-                height=shape[-2] - 1,
+                height=layers - 1,
                 width=shape[-1],
+                dimension=dimension,
                 radius=radius,
                 spacing=spacing,
                 allow_images=allow_images,
             ),
             disorder=given,
             load=SurfaceLoad() if load is None else load,
-            ask=Ask(quantity="contact_forces", realisations=shape[0] if len(shape) == 3 else 1),
+            ask=Ask(quantity="contact_forces", realisations=batch[0] if batch else 1),
         )
     asked = None if tolerance is None else read_tolerance(tolerance)
     try:

@@ -20,7 +20,7 @@ def check(
         _check_disorder(disorder, ask)
     _check_load(load, packing)
     _check_ask(ask, packing, load)
-    _check_layers(ask, load, effects)
+    _check_layers(ask, load, effects, packing.height)
     _check_effects(effects, packing, ask)
     if effects.stop_at_tension and effects.geometry != "exact":
         raise SceneError(
@@ -249,20 +249,22 @@ def _check_ask(ask: Ask, packing: Packing, load: Load) -> None:
         )
 
 
-def _check_layers(ask: Ask, load: Load, effects: Effects) -> None:
-    """Check the layers that a response is asked of."""
+def _check_layers(ask: Ask, load: Load, effects: Effects, height: int) -> None:
+    """Check the layers that a response or a histogram is asked of."""
     if ask.layers is None:
         return
-    if ask.quantity != "response":
-        raise SceneError("ask.layers", ask.layers, 'needs quantity = "response"')
+    if ask.quantity not in {"response", "histogram"}:
+        allowed = 'needs quantity = "response" or "histogram"'
+        raise SceneError("ask.layers", ask.layers, allowed)
+    if ask.at is not None:
+        raise SceneError("ask.layers", ask.layers, "one contact lies in one layer: leave at out")
     if effects.contacts == "unilateral":
         why = 'can\'t be said with contacts = "unilateral": beads leave their layers'
         raise SceneError("ask.layers", ask.layers, why)
     if effects.stop_at_tension:
         why = "can't be said with stop_at_tension: the sweep may not come so far"
         raise SceneError("ask.layers", ask.layers, why)
-    assert load.at is not None
-    top = int(load.at[-1])
+    top = height if load.at is None or load.pressure else int(load.at[-1])
     if not ask.layers or len(set(ask.layers)) < len(ask.layers):
         raise SceneError("ask.layers", ask.layers, "must be one layer or several, each once")
     if not all(0 <= j < top for j in ask.layers):

@@ -7,6 +7,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TypeVar
 
+from ..arithmetic.foreign import ForeignFileError, opened
 from .scene import Scene
 from .sections import SceneError, Written, unknown
 
@@ -27,18 +28,12 @@ def read_scene(path: Path, kind: type[S], changes: Mapping[str, str] = MappingPr
     ``changes`` are keys, as "packing.height", with values as a scene file has them.
     """
     try:
-        if not path.is_file():  # a device or a pipe may have no end
-            why = "a scene must be an ordinary file" if path.exists() else "there is no such file"
-            raise SceneError(str(path), None, why)
-        with path.open("rb") as file:
-            content = file.read(LARGEST_FILE + 1)
-        text = content.decode("utf-8")
+        with opened(path, LARGEST_FILE) as file:
+            text = file.read(LARGEST_FILE).decode("utf-8")
     except UnicodeDecodeError:
         raise SceneError(str(path), None, "a scene must be UTF-8 text") from None
-    except OSError as error:
-        raise SceneError(str(path), None, f"can't be read ({error.strerror})") from None
-    if len(content) > LARGEST_FILE:
-        raise SceneError(str(path), None, f"a scene has at most {LARGEST_FILE} bytes")
+    except ForeignFileError as error:
+        raise SceneError(str(path), None, str(error)) from None
     try:
         return parse_scene(text, kind, path.parent, changes)
     except SceneError as error:

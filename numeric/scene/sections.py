@@ -16,6 +16,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 
 from ..arithmetic.decimals import decimal_string, exact, short
 from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.foreign import finite
 from ..arithmetic.systems import Array
 
 
@@ -178,10 +179,11 @@ def radii_array(value: object) -> Array:
     if not values.size:
         raise ValueError(f"is empty: its shape is {values.shape}")
     if values.ndim not in (2, 3, 4):
-        raise ValueError("must be an array of shape (layers, W), or (packings, layers, W)")
-    if not np.isfinite(values).all():
-        at = tuple(int(k) for k in np.argwhere(~np.isfinite(values))[0])
-        raise ValueError(f"must hold finite numbers, and [{', '.join(map(str, at))}] is not")
+        raise ValueError(
+            "must be an array of shape (layers, W) or, of spheres, (layers, W, W); "
+            "with an axis before it for several packings"
+        )
+    finite(values)
     values.setflags(write=False)
     return values
 
@@ -274,7 +276,8 @@ class Effects(Section):
 class Ask(Section):
     """The question; ``at`` is a contact (i, j, "+" or "-"), or for positions a bead (i, j).
 
-    ``layers`` are those of the lower beads of a response's contacts, by default all.
+    ``layers`` are those of the lower beads of the contacts of a response or a histogram, by default
+    all.
     """
 
     section = "ask"

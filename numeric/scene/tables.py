@@ -6,13 +6,13 @@ import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from fractions import Fraction
+from io import TextIOWrapper
 from pathlib import Path
 from typing import TextIO
 
-import numpy as np
-
 from ..arithmetic.decimals import parse, short
 from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.foreign import ForeignFileError, opened, read_numbers
 from ..arithmetic.systems import Array
 from ..lattice.branch import Site
 from ..lattice.layers import bead_of, full_layer, site_of
@@ -20,9 +20,9 @@ from .sections import radii_array
 
 Bead = tuple[int, ...]
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}", re.ASCII)
-_NO_FILE = "there is no such file"
 LONGEST_LINE = 20_000  # characters; a number has at most 5000
 MOST = 10**100  # of δr/r: gaps between beads are measured in float64, which holds their squares
+FARTHEST = 2**50  # r: beyond, float64 tells no beads apart
 
 
 class TableError(ForceDiffusionError, ValueError):
@@ -44,10 +44,7 @@ Row = tuple[str, list[str], list[str]]
 
 def _rows(path: Path, *headers: list[str]) -> Iterator[Row]:
     try:
-        if not path.is_file():  # a device or a pipe may have no end
-            why = "must be an ordinary file" if path.exists() else _NO_FILE
-            raise TableError(f"{path}: {why}")
-        with path.open(encoding="utf-8-sig", newline="") as file:
+        with opened(path) as raw, TextIOWrapper(raw, encoding="utf-8-sig", newline="") as file:
             reader = csv.reader(_lines(path, file), strict=True)
             first = next(reader, None)
             header = [name.strip() for name in first or ()]
@@ -61,8 +58,8 @@ def _rows(path: Path, *headers: list[str]) -> Iterator[Row]:
                 if len(row) != len(header):
                     raise TableError(f"{where}: {len(row)} values where {len(header)} are expected")
                 yield where, header, row
-    except OSError as error:
-        raise TableError(f"{path}: can't be read ({error.strerror})") from None
+    except ForeignFileError as error:
+        raise TableError(f"{path}: {error}") from None
     except (UnicodeDecodeError, csv.Error) as error:
         raise TableError(f"{path.name}: is no CSV text in UTF-8 ({error})") from None
 
@@ -107,6 +104,10 @@ def _on_lattice(
     where: str, x: Fraction, y: Fraction, *, radius: Fraction, spacing: Fraction, width: int | None
 ) -> Site:
     """Name the site of the ordered packing, bead (0, 0) at the origin, nearest to a place."""
+    if max(abs(x), abs(y)) > FARTHEST * radius:
+        raise TableError(
+            f"{where}: x = {short(x)}, y = {short(y)} lies more than 2^50 r from bead (0, 0)"
+        )
     across, up = float(x / spacing), float(y / radius)
     step = 2 * math.sqrt(1 - float(spacing / (4 * radius)) ** 2)
     best: tuple[float, Site] | None = None
@@ -203,12 +204,10 @@ def read_array(path: Path, shape: tuple[int | None, ...]) -> Array:
     """
     if None in shape:
         raise TableError(f"{path.name}: an array needs packing.width: a slab has no last column")
-    if not path.is_file():
-        raise TableError(f"{path}: {'must be an ordinary file' if path.exists() else _NO_FILE}")
     try:
-        values = np.load(path, mmap_mode="r", allow_pickle=False)
-    except (OSError, ValueError, EOFError) as error:
-        raise TableError(f"{path.name}: is no NumPy file of numbers ({error})") from None
+        values = read_numbers(path)
+    except ForeignFileError as error:
+        raise TableError(f"{path}: {error}") from None
     if values.shape != shape:
         raise TableError(
             f"{path.name}: an array of shape {values.shape}; the packing has {shape[0]} layers, "

@@ -260,7 +260,7 @@ class RationalFunction:
             raise NotExactError("only a polynomial can be put in place of a symbol")
         if not any(self.holds(symbol) for symbol in images):
             return self
-        full = list(self.domain.context.gens())
+        full = list(self.domain._gens)
         for symbol, image in images.items():
             full[self.domain.position[symbol]] = image.numerator
         denominator = self.denominator.compose(*full)

@@ -181,19 +181,18 @@ def _products(one: LinearForm, other: LinearForm, where: Where) -> RationalFunct
 
 def _parts(where: Where, reason: UndeterminedError) -> tuple[Where, ...]:
     """The parts of a domain where a number whose sign was undecided is > 0, < 0 and 0."""
-    refused = NotProvedError(f"two places may be one: {reason}")
     if reason.apart is None or len(where.relations) > _MOST_RELATIONS:
-        raise refused from reason
+        raise NotProvedError(f"two places may be one: {reason}") from reason
     divisor = gcd(*reason.apart)
     number = affine.to_sympy(tuple(c // divisor for c in reason.apart))
     if not number.free_symbols <= {*where.indices}:
-        raise refused from reason
+        raise NotProvedError(f"two places may be one: {reason}") from reason
     parts = [
         where.also(kind(number, sympy.Integer(side), evaluate=False))
         for kind, side in ((sympy.Ge, 1), (sympy.Le, -1), (sympy.Eq, 0))
     ]
     if where in parts:
-        raise refused from reason
+        raise NotProvedError(f"two places may be one: {reason}") from reason
     return tuple(one.tightened() for one in parts if not one.is_empty)
 
 
@@ -208,7 +207,7 @@ def _agreed(
     for part, other in zip(parts[1:], found[1:], strict=True):
         known = {index: FIELD.from_sympy(at) for index, at in part.solved.items()}
         if not (found[0] - other).substitute(known).is_zero():
-            raise UndeterminedError(str(reason), reason.apart)
+            raise UndeterminedError(reason.reason, reason.apart)
     return found[0]
 
 
@@ -331,14 +330,26 @@ def _between(
     Raises:
         NotProvedError: it depends on the place along the layer.
     """
-    first, across, facts, beads = one
-    at = {symbol: affine.from_sympy(place) for symbol, place in domain.solved.items()}
-    further = {across: affine.from_sympy(sympy.expand(across + 2 * places))}
-    form = in_the_radii(first, facts, beads)
-    found = _products(form.put_in(at), form.put_in(further).put_in(at), domain)
-    if found.holds(across):
+    solved = tuple(domain.solved.items())
+    found = _products(
+        _placed(one, sympy.S.Zero, solved), _placed(one, sympy.expand(places), solved), domain
+    )
+    if found.holds(one[1]):
         raise NotProvedError("covariances are not the same along the layer")
     return found
+
+
+@lru_cache(maxsize=1024)
+def _placed(
+    one: tuple[sympy.Expr, sympy.Symbol, Facts, Where],
+    places: sympy.Expr,
+    solved: tuple[tuple[sympy.Symbol, sympy.Expr], ...],
+) -> LinearForm:
+    """The neighbour so many places away in the radii, with indices that are fixed put in."""
+    first, across, facts, beads = one
+    at = {symbol: affine.from_sympy(place) for symbol, place in solved}
+    further = {across: affine.from_sympy(across + 2 * places)}
+    return in_the_radii(first, facts, beads).put_in(further).put_in(at)
 
 
 def _neighbours(side: sympy.Expr, facts: Facts, where: Where, alone: Alone) -> _Neighbours | None:

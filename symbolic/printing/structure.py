@@ -56,7 +56,7 @@ def is_negative(term: Expr) -> bool:
     """Whether a term is written with a minus sign in front."""
     while isinstance(term, Mul):
         term = term.args[0]
-    return bool(term.is_number and term.is_negative)
+    return bool(term.is_Rational and term.is_negative)
 
 
 def without_sign(term: Expr) -> Expr:
@@ -169,7 +169,7 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
             self._one_or_more(over), self._one_or_more(under), alone=not beside
         )
         return self.juxtaposition.join(
-            [fraction, *([self._side_by_side(beside)] if beside else [])]
+            [fraction, *([self._side_by_side(beside, alone=False)] if beside else [])]
         )
 
     def _one_or_more(self, factors: list[Expr]) -> str:
@@ -177,13 +177,18 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
             return "1"
         return self._print(factors[0]) if len(factors) == 1 else self._side_by_side(factors)
 
-    def _side_by_side(self, factors: list[Expr]) -> str:
+    def _side_by_side(self, factors: list[Expr], *, alone: bool = True) -> str:
         texts = []
+        alone = alone and len(factors) == 1
         for place, factor in enumerate(factors):
             last = place == len(factors) - 1
             text = self._print(factor)
             open_ended = isinstance(factor, Sum | Mul) and factor.has(Sum) and not last
-            if isinstance(factor, Add) or open_ended or (is_negative(factor) and len(factors) > 1):
+            if (
+                isinstance(factor, Add)
+                or open_ended
+                or (text.startswith(("-", self.minus)) and not alone)
+            ):
                 text = self.set_brackets(text)
             elif isinstance(factor, Mul) and not last:
                 text = self.set_group(text)

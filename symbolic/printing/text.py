@@ -62,8 +62,9 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
     def _print_Symbol(self, expr: Symbol) -> str:
         return str(getattr(expr, "in_text", expr.name))
 
-    def _print_GreaterThan(self, expr: Any) -> str:
-        return f"{self._print(expr.lhs)} ≥ {self._print(expr.rhs)}"
+    def _print_Relational(self, expr: Any) -> str:
+        sign = {"==": "=", ">=": "≥", "<=": "≤", "!=": "≠"}.get(expr.rel_op, expr.rel_op)
+        return f"{self._print(expr.lhs)} {sign} {self._print(expr.rhs)}"
 
     def _print_Pi(self, _expr: Any) -> str:
         return "π"

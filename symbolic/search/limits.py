@@ -92,10 +92,7 @@ def parts_in_the_limit(
         if min(a, b) > 1:
             continue  # every φ at two places, and every place at two φ
         shares = []
-        where = ", ".join(
-            [f"{text(sy.phi)} = {geometry[sy.phi]}"]
-            + [f"{text(s)} = {multiple} · size" for s, multiple in place.items()]
-        )
+        where, grown = _told(geometry[sy.phi], place)
         for size in (10**digits, 10 ** (2 * digits)):
             values = {**_OTHERS, **geometry, **{s: c * size for s, c in place.items()}}
             if sy.M in values and sy.j in values:
@@ -103,15 +100,29 @@ def parts_in_the_limit(
             try:
                 found = explicit.number(candidate, values)
             except explicit.DivisionError:
-                return WithoutValue(f"it has no value at {where}")
+                return WithoutValue(f"it has no value at {where}, however large {grown} is")
             except explicit.AmbiguousError:
                 return None
             true = _number(exact, tuple(values.items()))
             shares.append(abs((found - true) / true))
         if shares[1] > _SHARE and shares[1] * 10 > shares[0]:
             share = _shown(shares[1])
-            return f"at {where}, size = 10^{2 * digits}, it differs by the share {share}"
+            at = f"seen at {grown} of order 10^{2 * digits}"
+            return f"at {where}, as {grown} → ∞, it stays off by {share} of the true value ({at})"
     return None
+
+
+def _told(cosine: Fraction | int, place: Place) -> tuple[str, str]:
+    """φ and how what grows stands to the first of it, and that, in words."""
+    first, *others = place
+    ratios = [f"{text(one)} = {_times(place[one] / place[first], text(first))}" for one in others]
+    return ", ".join([f"{text(sy.phi)} = {cosine}", *ratios]), text(first)
+
+
+def _times(ratio: Fraction, what: str) -> str:
+    number = "" if ratio.numerator == 1 and ratio > 0 else str(ratio.numerator)
+    divided = "" if ratio.denominator == 1 else f"/{ratio.denominator}"
+    return f"{number} {what}{divided}".strip() if ratio else "0"
 
 
 def counterexample(statement: sympy.Eq, where: Where, force: sympy.Eq | None = None) -> str | None:

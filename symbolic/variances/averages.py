@@ -3,14 +3,9 @@
 from dataclasses import dataclass
 
 import sympy
-from force_diffusion.symbolic.algebra.exact import (
-    FIELD,
-    NotExactError,
-    RationalFunction,
-    sum_polynomial,
-)
+from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction, sum_polynomial
 from force_diffusion.symbolic.symbols import M, j, k
-from force_diffusion.symbolic.variances.variance import ClosedForm, leading, order, value_at
+from force_diffusion.symbolic.variances.variance import ClosedForm, value_at
 
 
 @dataclass(frozen=True)
@@ -42,14 +37,6 @@ class LayerAverage:
         if height in small:
             return small[height]
         return self.expression.xreplace({M: sympy.Integer(height)}).doit()
-
-    def leading_orders(self) -> tuple[RationalFunction, RationalFunction]:
-        """The two highest orders in M, the harmonic part being shown to lie below both."""
-        first = leading(self.rational)
-        second = leading(self.rational - first)
-        if not self.harmonic.is_zero() and order(self.harmonic) + 1 >= order(second):
-            raise NotExactError("the harmonic sum is not of lower order")
-        return first, second
 
 
 def layer_average(forms: dict[str, ClosedForm]) -> LayerAverage:

@@ -1,7 +1,7 @@
-"""Variances of linear forms, and their order as the packing grows.
+"""Variances of linear forms in closed form, by the layers that they are for.
 
 The radii are independent with variance σ², so the variance of a form is σ² times the sum of its
-squared weights. Orders count M and j together, as at a fixed relative height z = j/M.
+squared weights.
 """
 
 from collections.abc import Iterator
@@ -10,24 +10,8 @@ from functools import cached_property
 
 import sympy
 from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
+from force_diffusion.symbolic.algebra.exact import RationalFunction
 from force_diffusion.symbolic.symbols import M, j
-
-
-def order(value: RationalFunction, *sizes: sympy.Expr) -> int:
-    """Power of M with which a rational function grows at fixed z (−1 less than any, for zero)."""
-    if value.is_zero():
-        return -(10**9)
-    return _degree(value.numerator, sizes or (M, j)) - _degree(value.denominator, sizes or (M, j))
-
-
-def leading(value: RationalFunction, *sizes: sympy.Expr) -> RationalFunction:
-    """The part of highest order: what is left of value / M^order as M → ∞ at fixed z.
-
-    Other indices that grow together may be given in place of M and j.
-    """
-    sizes = sizes or (M, j)
-    return _top(value.numerator, sizes) / _top(value.denominator, sizes)
 
 
 @dataclass(frozen=True)
@@ -82,22 +66,3 @@ def value_at(forms: dict[str, ClosedForm], height: int, layer: int, case: str) -
         if (size, at) == (height, layer):
             return small
     return form.expression.xreplace({M: sympy.Integer(height), j: sympy.Integer(layer)})
-
-
-def _degree(polynomial: object, sizes: tuple[sympy.Expr, ...]) -> int:
-    positions = [FIELD.position[size] for size in sizes]
-    return max(
-        sum(int(exponents[p]) for p in positions)
-        for exponents in polynomial.to_dict()  # type: ignore[attr-defined]
-    )
-
-
-def _top(polynomial: object, sizes: tuple[sympy.Expr, ...]) -> RationalFunction:
-    positions = [FIELD.position[size] for size in sizes]
-    degree = _degree(polynomial, sizes)
-    kept = {
-        exponents: c
-        for exponents, c in polynomial.to_dict().items()  # type: ignore[attr-defined]
-        if sum(int(exponents[p]) for p in positions) == degree
-    }
-    return RationalFunction(FIELD, FIELD.context.from_dict(kept), FIELD.context.constant(1))

@@ -1,5 +1,6 @@
 """A page of the report, in the system's Chromium."""
 
+import fcntl
 import os
 import shutil
 from collections.abc import Iterator
@@ -49,11 +50,25 @@ def browser() -> Iterator[Any]:
 
 
 @pytest.fixture(scope="session")
-def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config) -> Path:
+def report(
+    tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config, worker_id: str
+) -> Path:
     """The page that is given, or one of all equations, of few mutants and measurements."""
     given = pytestconfig.getoption("--report")
     if given:
         return Path(given).resolve()
+    folder = tmp_path_factory.getbasetemp()
+    if worker_id != "master":
+        folder = folder.parent  # the same for all processes of a run: one makes the page
+    with (folder / "report.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        page = folder / "report" / "out" / "report.html"
+        if not page.exists():
+            _make(folder / "report")
+    return page
+
+
+def _make(folder: Path) -> None:
     from force_diffusion.derivations.export.page import sections
     from force_diffusion.numeric.arithmetic import processes
     from force_diffusion.numeric.figures import catalogue
@@ -62,10 +77,9 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
     from force_diffusion.numeric.studies.stability import study as tables
     from force_diffusion.symbolic.search import mutants
 
-    folder = tmp_path_factory.mktemp("report")
+    folder.mkdir()
     scene = folder / sections.SCENE.name
     scene.write_text(sections.SCENE.read_text().replace("16", "3").replace("34", "5"))
-    out = folder / "out"
     every_mutant, every_case, every_strip = mutants.mutants, tables.cases, tables.strips
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(mutants, "mutants", lambda equation: islice(every_mutant(equation), 3))
@@ -77,5 +91,4 @@ def report(tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
         patch.setattr(forms, "ENOUGH_SECONDS", 0.0)
         patch.setattr(rows, "LEAST_RUNS", 1)
         patch.setattr(rows, "ENOUGH_SECONDS", 0.0)
-        assert main(["report", "--out", str(out)]) == 0
-    return out / "report.html"
+        assert main(["report", "--out", str(folder / "out")]) == 0

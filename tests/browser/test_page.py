@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-pytestmark = pytest.mark.xdist_group("browser")  # one browser and one page for all of it
+pytestmark = pytest.mark.long
 
 UNFOLD = "document.querySelectorAll('details').forEach(d => d.open = true)"
 

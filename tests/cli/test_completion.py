@@ -84,6 +84,7 @@ def typed(shell: str, home: Path, load: str, line: str, until: str) -> str:
     return shown
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("shell", START)
 def test_a_shell_completes_the_names_of_commands(shell: str, tmp_path: Path) -> None:
     if shutil.which(shell) is None:

@@ -48,6 +48,7 @@ def written(folder: Path, text: str = SCENE) -> Path:
     return path
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("name", ["$x^{$", os.fsdecode(b"\xff\x1b[2J")])
 def test_scenes_of_any_name(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path, out = tmp_path / f"{name}.toml", tmp_path / "out"
@@ -59,6 +60,7 @@ def test_scenes_of_any_name(name: str, tmp_path: Path, capsys: pytest.CaptureFix
     assert (out / "cost.png").stat().st_size
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("text", [SCENE, PROFILE])
 def test_json_and_files(text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "out"

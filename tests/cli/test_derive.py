@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -43,6 +44,16 @@ def test_premises_are_proved_first(made_up, capsys: pytest.CaptureFixture[str]) 
     lines = capsys.readouterr().out.splitlines()
     assert [line.split()[:2] for line in lines[:2]] == [["1", "proved"], ["2", "proved"]]
     assert lines[2] == "2 proved."
+
+
+def test_what_stays_undecided_is_no_failure_where_it_is_false(capsys) -> None:
+    assert main(["derive", "1"]) == 0
+    words = " ".join(capsys.readouterr().out.split())
+    found = re.search(
+        r"(\d+) stay undecided, which is no failure where a statement is false", words
+    )
+    assert found
+    assert re.search(r"Of (\d+) true ones it proved \1\. 1 proved\.$", words)
 
 
 @pytest.mark.parametrize("verdict", [Verdict.REFUTED, Verdict.UNDECIDED])
@@ -106,6 +117,7 @@ def test_the_output_folder_twice(made_up, tmp_path: Path, capsys) -> None:
     assert {path.name: path.read_bytes() for path in out.iterdir()} == first
 
 
+@pytest.mark.long
 def test_a_part_of_them_again_loses_nothing(made_up, tmp_path: Path, capsys) -> None:
     out = tmp_path / "out"
     assert main(["derive", "--out", str(out), "2"]) == 0
@@ -169,6 +181,7 @@ def test_a_disk_that_fails(made_up, tmp_path: Path, monkeypatch, capsys, number,
     assert not out.exists()
 
 
+@pytest.mark.long
 def test_a_write_that_really_fails_half_way(tmp_path: Path) -> None:
     out = tmp_path / "out"
     done = run(
@@ -193,6 +206,7 @@ def test_an_interrupt_in_this_process(made_up, tmp_path: Path, monkeypatch, caps
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.long
 def test_a_real_signal_leaves_nothing_half_written(tmp_path: Path) -> None:
     program = textwrap.dedent(
         """
@@ -232,6 +246,7 @@ def test_a_real_signal_leaves_nothing_half_written(tmp_path: Path) -> None:
     assert not out.exists()
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
 @pytest.mark.parametrize("arguments", [["derive", "1", "--json"], ["derive", "1"], ["list"]])
 def test_a_full_disk_under_standard_output(arguments: list[str]) -> None:
@@ -245,6 +260,7 @@ def test_a_full_disk_under_standard_output(arguments: list[str]) -> None:
     assert "Exception" not in done.stderr
 
 
+@pytest.mark.long
 def test_a_closed_pipe_is_no_traceback() -> None:
     shell = f"{sys.executable} -m force_diffusion derive 1 2 3 | head -c 1"
     done = run("bash", "-c", shell + '; exit "${PIPESTATUS[0]}"')
@@ -276,6 +292,7 @@ def test_a_terminal_that_knows_only_ascii() -> None:
     assert done.stdout.isascii()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "words",
     [

@@ -71,6 +71,7 @@ def test_kept_in_a_file_and_written_out(
     assert held["ensemble"]["disorder"]["seed"] == 1
 
 
+@pytest.mark.long(sample=11)
 @pytest.mark.parametrize("written", ["csv", "npz", "parquet"])
 @pytest.mark.parametrize("name", CASES)
 def test_covariances_of_every_quantity_are_written_and_printed(
@@ -215,6 +216,7 @@ def test_without_dask_it_says_what_to_install(
     assert "pip install 'force-diffusion[cluster]'" in err
 
 
+@pytest.mark.long
 def test_a_cluster_on_this_machine(small: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("distributed")
     usual = call(capsys, small, "--json")[1]
@@ -226,6 +228,7 @@ def test_a_cluster_on_this_machine(small: Path, capsys: pytest.CaptureFixture[st
     assert done.stderr == ""
 
 
+@pytest.mark.long
 def test_killed_again_and_again_at_random(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -254,6 +257,7 @@ def test_killed_again_and_again_at_random(
     assert shown == call(capsys, *arguments, whole)[1]
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="no limit of a file's size there")
 def test_a_full_disk_keeps_what_is_written_and_says_how_to_go_on(
     small: Path, tmp_path: Path
@@ -315,6 +319,7 @@ def test_an_interrupt_while_workers_load(tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("how", ["SIGINT", "SIGTERM", "SIGHUP"])
 def test_an_interrupt_says_how_to_go_on(
     how: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -52,6 +52,7 @@ def test_the_questions_are_all() -> None:
     assert len(QUESTIONS) >= 7
 
 
+@pytest.mark.long(sample=14)
 @pytest.mark.parametrize("command", COMMANDS)
 @pytest.mark.parametrize("quantity", QUESTIONS)
 @pytest.mark.parametrize("dimension", DIMENSIONS)

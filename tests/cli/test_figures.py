@@ -49,6 +49,7 @@ def check_images(folder: Path, name: str, command: str) -> None:
     assert b"CreationDate" not in pdf
 
 
+@pytest.mark.long
 def test_figures_are_files_that_say_what_made_them_and_come_again_byte_for_byte(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -80,6 +81,7 @@ def test_figures_are_files_that_say_what_made_them_and_come_again_byte_for_byte(
     assert [height["height"] for height in one["heights"]] == [2, 4]
 
 
+@pytest.mark.long
 def test_the_other_figures_and_the_simpler_models(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -281,6 +283,7 @@ def test_a_figure_of_a_scene_says_where_it_came_from(
     assert (status, "--seed" in err) == (2, True)
 
 
+@pytest.mark.long
 def test_a_figure_replaces_only_the_same_one(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

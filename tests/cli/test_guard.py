@@ -35,6 +35,7 @@ def shell(line: str) -> subprocess.CompletedProcess[str]:
     return done
 
 
+@pytest.mark.long(sample=1)
 @full
 @pytest.mark.parametrize("program", [f"{PYTHON} --help", f"{PYTHON} derive --help", ALONE])
 def test_a_full_disk_under_standard_output(program: str) -> None:
@@ -43,6 +44,7 @@ def test_a_full_disk_under_standard_output(program: str) -> None:
     assert "writing to standard output failed: No space left on device" in done.stderr
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("program", [f"{PYTHON} --help", f"{PYTHON} list", ALONE])
 def test_a_closed_standard_output(program: str) -> None:
     done = shell(f"{program} >&-")
@@ -50,6 +52,7 @@ def test_a_closed_standard_output(program: str) -> None:
     assert "writing to standard output failed: Bad file descriptor" in done.stderr
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("program", [f"{PYTHON} --help", ALONE])
 def test_a_reader_that_stops(program: str) -> None:
     done = shell(f'{program} | true; exit "${{PIPESTATUS[0]}}"')
@@ -57,6 +60,7 @@ def test_a_reader_that_stops(program: str) -> None:
     assert done.stderr == ""
 
 
+@pytest.mark.long(sample=2)
 @full
 @pytest.mark.parametrize("stream", ["2>/dev/full", "2>&-"])
 @pytest.mark.parametrize("program", [f"{PYTHON} bogus", f"{ALONE} bogus"])

@@ -22,6 +22,14 @@ def _blocks(page: Path, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)\n```$", text, re.MULTILINE | re.DOTALL)
 
 
+def _save_files(page: Path, folder: Path) -> None:
+    """Save the files that a page has its reader save: blocks whose caption is their name."""
+    text = page.read_text(encoding="utf-8")
+    block = r"^```\{code-block\} \w+\n:caption: (\S+)\n\n(.*?)\n```$"
+    for name, content in re.findall(block, text, re.MULTILINE | re.DOTALL):
+        (folder / name).write_text(f"{content}\n", encoding="utf-8")
+
+
 def _name(page: Path) -> str:
     return str(page.relative_to(ROOT).with_suffix(""))
 
@@ -43,8 +51,10 @@ def _python(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     )  # fmt: skip
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("page", [p for p in PAGES if _blocks(p, "sh")], ids=_name)
 def test_its_commands_run_as_written(page: Path, folder: Path) -> None:
+    _save_files(page, folder)
     for command in "\n".join(_blocks(page, "sh")).splitlines():
         program, *arguments = shlex.split(command)
         assert program == "force-diffusion", command
@@ -55,6 +65,7 @@ def test_its_commands_run_as_written(page: Path, folder: Path) -> None:
 
 @pytest.mark.parametrize("page", [p for p in PAGES if _blocks(p, "python")], ids=_name)
 def test_its_python_runs_as_written(page: Path, folder: Path) -> None:
+    _save_files(page, folder)
     done = _python(folder, "-c", "\n".join(_blocks(page, "python")))
     assert done.returncode == 0, done.stderr
 

@@ -1,6 +1,7 @@
 """The output folder: whole files only, and only our own are replaced."""
 
 import errno
+import hashlib
 import json
 import os
 import random
@@ -226,6 +227,7 @@ def rounds() -> None:
             print("refused" if any(word in str(error) for word in known) else error)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["two names", "one name", "one fails"])
 def test_commands_at_the_same_moment_lose_no_answer(kind: str, tmp_path: Path) -> None:
     """What is written is listed; one that could not write its file was told before it solved."""
@@ -286,6 +288,7 @@ def test_a_lock_dies_with_its_process(tmp_path: Path) -> None:
     assert set(contents(tmp_path)) == {"a", "manifest.json"}
 
 
+@pytest.mark.long
 def test_two_runs_at_once_into_one_folder(tmp_path: Path) -> None:
     """One answers; the other is refused, in words, and may be given another folder."""
     for name in "ab":
@@ -451,6 +454,133 @@ def test_killed_at_any_moment_no_half_written_file_is_seen(tmp_path: Path) -> No
         assert set(listed(tmp_path)) == {"a", "b"}
         shown = {path.name for path in tmp_path.iterdir() if not path.name.startswith(".")}
         assert shown == {"a", "b", "manifest.json"}
+
+
+def run_and(folder: Path, death: str, *options: str) -> int:
+    """Answer a scene in a process that ends at a rename, ``death`` being what it does there."""
+    program = textwrap.dedent(
+        f"""
+        import os, signal, sys
+        from force_diffusion.__main__ import main
+
+        real, renames = os.replace, []
+
+        def replace(old, new):
+            if os.path.basename(os.path.dirname(new)) == "out":  # caches are renamed, too
+                renames.append(new)
+                {death}
+            real(old, new)
+
+        os.replace = replace
+        sys.exit(main(sys.argv[1:]))
+        """
+    )
+    command = ["run", "scene.toml", "--out", "out", *options]
+    done = subprocess.run(
+        [sys.executable, "-c", program, *command],
+        env=ENVIRONMENT, cwd=folder, capture_output=True, timeout=60, check=False,
+    )  # fmt: skip
+    return done.returncode
+
+
+def is_whole(folder: Path, seed: int) -> bool:
+    """Whether all files are those of one seed, listed, and the only ones there."""
+    said = json.loads((folder / "result.json").read_text())
+    manifest = read_manifest(folder)
+    assert manifest is not None
+    digests = {
+        name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in manifest.files
+    }
+    assert {name: made.sha256 for name, made in manifest.files.items()} == digests
+    assert {path.name for path in folder.iterdir()} == {*manifest.files, "manifest.json"}
+    return said["source"]["seed"] == seed and {m.seed for m in manifest.files.values()} == {seed}
+
+
+@pytest.mark.long(sample=3)
+@pytest.mark.parametrize("earlier", [True, False])
+@pytest.mark.parametrize("rename", [1, 2, 3, 4])
+def test_killed_between_two_renames_the_same_command_repairs(
+    rename: int, earlier: bool, tmp_path: Path
+) -> None:
+    """Of packings.json, too, which is one file more than most questions have."""
+    scene = SCENE.replace("ask", 'effects = {contacts = "unilateral"}\nask')
+    out = tmp_path / "out"
+    if earlier:
+        (tmp_path / "scene.toml").write_text(scene)
+        assert run_and(tmp_path, "pass") == 0
+        assert is_whole(out, 0)
+    (tmp_path / "scene.toml").write_text(scene.replace("1e-4", "1e-4, seed = 7"))
+    death = f"if len(renames) == {rename}: os.kill(os.getpid(), signal.SIGKILL)"
+    assert run_and(tmp_path, death) == -signal.SIGKILL
+    assert any(path.name.endswith(".fd-part") for path in out.iterdir())
+    assert run_and(tmp_path, "pass") == 0
+    assert is_whole(out, 7)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
+def test_an_interrupt_waits_until_all_is_renamed(number: str, tmp_path: Path) -> None:
+    (tmp_path / "scene.toml").write_text(SCENE)
+    assert run_and(tmp_path, f"os.kill(os.getpid(), signal.{number})") == 130
+    assert is_whole(tmp_path / "out", 0)
+
+
+@pytest.mark.long
+def test_a_rename_that_fails_can_be_repaired(tmp_path: Path) -> None:
+    (tmp_path / "scene.toml").write_text(SCENE)
+    assert run_and(tmp_path, "pass") == 0
+    (tmp_path / "scene.toml").write_text(SCENE.replace("1e-4", "1e-4, seed = 7"))
+    death = "if len(renames) == 2: raise OSError(5, 'Input/output error', new)"
+    assert run_and(tmp_path, death) == 3
+    assert run_and(tmp_path, "pass") == 0
+    assert is_whole(tmp_path / "out", 7)
+
+
+def killed_while_renaming(folder: Path, files: dict[str, str], question: str) -> None:
+    """Rename the first file, then leave the rest aside, as a kill does."""
+    real, done = os.replace, []
+
+    def replace(old: Path, new: Path) -> None:
+        if done:
+            os._exit(9)
+        done.append(new)
+        real(old, new)
+
+    child = os.fork()
+    if not child:
+        os.replace = replace  # type: ignore[assignment]
+        write(folder, files, question)
+        os._exit(0)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 9
+
+
+def test_another_command_keeps_what_is_needed_to_repair(tmp_path: Path) -> None:
+    write(tmp_path, {"a": "one", "b": "one"}, "run a.toml")
+    killed_while_renaming(tmp_path, {"a": "two", "b": "two"}, "run a.toml")
+    write(tmp_path, {"c": "other"}, "figures")
+    assert contents(tmp_path).keys() == {"a", "b", "c", "manifest.json"}
+    with pytest.raises(OutputError, match=r"is the result of 'run a\.toml'"):
+        write(tmp_path, {"a": "three"}, "run b.toml")
+    write(tmp_path, {"a": "two", "b": "two"}, "run a.toml")
+    assert listed(tmp_path) == {"a": "run a.toml", "b": "run a.toml", "c": "figures"}
+
+
+def test_what_a_user_changed_after_a_kill_is_kept(tmp_path: Path) -> None:
+    killed_while_renaming(tmp_path, {"a": "two", "b": "two"}, "run a.toml")
+    (tmp_path / "a").write_text("mine")
+    with pytest.raises(OutputError, match="was changed after this program wrote it"):
+        write(tmp_path, {"a": "two", "b": "two"}, "run a.toml")
+
+
+def test_only_what_is_left_by_this_program_is_cleared(tmp_path: Path) -> None:
+    others = {
+        "a.1234abcd.fd-part", ".a.fd-part", ".a.1234ABCD.fd-part", ".a.1234abcd.part", "b.fd-lock",
+    }  # fmt: skip
+    left = {".a.1234abcd.fd-part", ".other.00000000.fd-part", ".other.fd-lock"}
+    for name in others | left:
+        (tmp_path / name).write_text("")
+    write(tmp_path, {"a": "one"})
+    assert contents(tmp_path).keys() == {"a", "manifest.json"} | others
 
 
 # What every command says of a folder that can't be used, before it solves anything.

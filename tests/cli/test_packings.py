@@ -42,6 +42,7 @@ def test_run_writes_packings_that_are_proved_again(
     assert not verdict["proved"]
 
 
+@pytest.mark.long(sample=4)
 @pytest.mark.parametrize(
     "quantity", ["contact_forces", "positions", "profile", "histogram", "base_reactions"]
 )
@@ -63,6 +64,7 @@ def test_check_packings_of_something_else(
     assert main(["check-packings", str(tmp_path / "none.json")]) == 2
 
 
+@pytest.mark.long
 def test_cascade_writes_tables_and_a_figure(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -50,6 +50,7 @@ def test_its_python_runs_as_written(tmp_path) -> None:
     )  # fmt: skip
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("use", USES)
 def test_the_uses_that_it_lists_are_understood(use, tmp_path, monkeypatch, capsys) -> None:
     shutil.copytree(ROOT / "scenes", tmp_path / "scenes")
@@ -72,9 +73,17 @@ def test_the_equations_that_the_reference_shows_are_shown(capsys) -> None:
         assert capsys.readouterr().out
 
 
+def test_it_leads_to_a_guide_for_each_of_the_five_tasks() -> None:
+    """Each guide is run by ``test_guides``."""
+    tasks = README.partition("## What would you like to do?\n")[2].partition("\n\nMore")[0]
+    guides = re.findall(r"\(docs/(guides/\w+\.md)\)", tasks)
+    assert guides == [
+        f"guides/{n}.md" for n in ("formula", "profile", "radii", "conjecture", "derive")
+    ]
+
+
 def test_every_exit_status_is_told() -> None:
     for status in re.findall(r"\d+", STATUSES):
-        assert f"\n| {status} |" in README
         assert f"\n| {status} |" in REFERENCE
 
 

@@ -32,6 +32,7 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, Any]:
     return table
 
 
+@pytest.mark.long
 def test_one_page_and_the_manifest(made_up, tmp_path: Path, capsys) -> None:
     out = tmp_path / "out"
     for _ in range(2):  # again into its own folder
@@ -50,6 +51,7 @@ def test_the_folder_has_a_name_of_its_own(made_up, tmp_path: Path, monkeypatch) 
     assert (tmp_path / "report" / "report.html").is_file()
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("verdict", [Verdict.REFUTED, Verdict.UNDECIDED])
 def test_what_is_not_proved_ends_with_status_1_and_is_written(
     made_up, verdict, tmp_path: Path, capsys
@@ -61,6 +63,7 @@ def test_what_is_not_proved_ends_with_status_1_and_is_written(
     assert f'<span class="verdict {verdict}">' in page
 
 
+@pytest.mark.long
 def test_it_stands_beside_other_results(made_up, tmp_path: Path) -> None:
     out = tmp_path / "out"
     assert main(["derive", "1", "--out", str(out)]) == 0
@@ -94,6 +97,7 @@ def test_what_it_needs_is_named(made_up, missing: str, tmp_path: Path, monkeypat
     assert not out.exists()
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize(
     ("failure", "status"), [(KeyboardInterrupt(), 130), (OSError(28, os.strerror(28), "x"), 3)]
 )

@@ -21,6 +21,7 @@ def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, s
     return status, shown.out, shown.err
 
 
+@pytest.mark.long(sample=5)
 @pytest.mark.parametrize("path", sorted(SCENES.glob("*.toml")), ids=lambda p: p.stem)
 def test_the_examples_work(path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = call(capsys, "run", path, "--json")

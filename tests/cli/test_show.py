@@ -53,6 +53,7 @@ def test_list_names_every_equation(capsys: pytest.CaptureFixture[str]) -> None:
     assert "surface_diffusion" in lines[12]
 
 
+@pytest.mark.long(sample=96)
 @pytest.mark.parametrize("number", NUMBERS)
 @pytest.mark.parametrize("form", ["text", "latex", "sympy", "python", "steps"])
 def test_every_form_of_every_equation(capsys, number: int, form: str) -> None:
@@ -84,6 +85,7 @@ def test_python_source_is_python(capsys: pytest.CaptureFixture[str], number: int
     compile(shown(capsys, str(number), "--as", "python"), "shown", "exec")
 
 
+@pytest.mark.long(sample=70)
 @pytest.mark.parametrize(("number", "place"), EXACT)
 def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int, place: str) -> None:
     exact_forms = load(number).exact

@@ -37,6 +37,7 @@ def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, s
     return status, shown.out, shown.err
 
 
+@pytest.mark.long
 def test_json_and_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "out"
     status, printed, err = call(capsys, "stability", "--out", out, "--json")

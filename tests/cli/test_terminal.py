@@ -42,6 +42,7 @@ def plain(shown: str) -> str:
     return re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", shown).replace("\r", "")
 
 
+@pytest.mark.long
 def test_a_live_bar_and_a_line_for_each_equation() -> None:
     status, shown = on_a_terminal("derive", "1", "2")
     assert status == 0
@@ -53,6 +54,7 @@ def test_a_live_bar_and_a_line_for_each_equation() -> None:
     assert "2 proved." in text
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("arguments", [("derive", "1"), ("list",), ("show", "4")])
 def test_a_dumb_terminal_gets_plain_lines(arguments: tuple[str, ...]) -> None:
     status, shown = on_a_terminal(*arguments, term="dumb")

@@ -18,6 +18,7 @@ def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("how", [["derivations/eq13_surface_diffusion.py"], MODULE])
 def test_from_the_checkout(how: list[str]) -> None:
     done = run(FOLDER.parent, *how)
@@ -25,6 +26,7 @@ def test_from_the_checkout(how: list[str]) -> None:
     assert "Eq. 13 is proved" in done.stdout
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("how", [[str(SCRIPT)], MODULE])
 def test_from_elsewhere(how: list[str], tmp_path: Path) -> None:
     """Beside folders and files that have the names of the package's rooms."""

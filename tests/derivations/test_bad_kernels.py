@@ -68,6 +68,7 @@ def in_all_derivations(monkeypatch: Plant, name: str, planted: object) -> None:
             monkeypatch.setattr(module, name, planted)
 
 
+@pytest.mark.long(sample=14)
 @pytest.mark.parametrize("number", modules())
 def test_it_proves_all(derive: Callable[..., Any], monkeypatch: Plant, number: Number) -> None:
     monkeypatch.setattr(runner, "attacked", lambda: None)  # they are not fooled
@@ -77,6 +78,7 @@ def test_it_proves_all(derive: Callable[..., Any], monkeypatch: Plant, number: N
     assert said.startswith(FAULT)
 
 
+@pytest.mark.long(sample=7)
 @pytest.mark.parametrize("number", modules())
 def test_it_refutes_all(derive: Callable[..., Any], monkeypatch: Plant, number: Number) -> None:
     monkeypatch.setattr(runner, "attacked", lambda: None)
@@ -98,6 +100,7 @@ def test_nothing_is_written_by_a_checker_at_fault(
 
 
 # Eq. 2 is solved for, and Eq. 3 read in Cartesian components, of which a change changes both.
+@pytest.mark.long(sample=4)
 @pytest.mark.parametrize(
     ("fault", "number"),
     [
@@ -150,6 +153,7 @@ def test_an_order_too_many(derive: Callable[..., Any], monkeypatch: Plant, numbe
     assert said.startswith(FAULT)
 
 
+@pytest.mark.long(sample=17)
 @pytest.mark.parametrize("number", modules())
 def test_only_one_sign_of_phi(
     derive: Callable[..., Any], monkeypatch: Plant, number: Number
@@ -195,6 +199,7 @@ def test_layers_are_dropped_from_an_induction(
     assert said.startswith(FAULT)
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("number", [3, 4, 5])
 @pytest.mark.parametrize(("low", "high"), [(1, 0), (0, 1), (0, -1)])
 def test_a_sum_is_off_by_one(
@@ -211,5 +216,6 @@ def test_a_sum_is_off_by_one(
     assert said.startswith(FAULT) or "undecided" in printed
 
 
+@pytest.mark.long
 def test_the_kernel_without_a_plant_is_right(derive: Callable[..., Any]) -> None:
     assert derive(3)[0] == 0

@@ -47,17 +47,20 @@ def is_noticed(number: int | str) -> bool:
         return True
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("number", [3, 6, 11, 13, 15])
 def test_without_a_plant_nothing_is_noticed(number: int) -> None:
     assert not is_noticed(number)
 
 
+@pytest.mark.long(sample=2)
 @pytest.mark.parametrize("number", [*range(1, 17), "B4"])
 def test_what_is_put_in_cancels_zero_over_zero(monkeypatch: Plant, number: int | str) -> None:
     monkeypatch.setattr(language, "in_place", lambda side, image: side.xreplace(image))
     assert is_noticed(number)
 
 
+@pytest.mark.long(sample=4)
 @pytest.mark.parametrize("number", [1, 2, 3, 4, 5, 6])
 def test_any_component_will_do(monkeypatch: Plant, number: int) -> None:
     monkeypatch.setattr(record, "_component", lambda *_: proved("a component"))
@@ -77,12 +80,14 @@ def test_one_component_is_unread(monkeypatch: Plant, number: int) -> None:
     assert is_noticed(number)
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("number", [3, 4, 5, 11])
 def test_bounds_are_unchecked(monkeypatch: Plant, number: int) -> None:
     monkeypatch.setattr(Where, "nonnegative", lambda *_: True)
     assert is_noticed(number)
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("number", range(1, 12))
 def test_divisors_are_unchecked(monkeypatch: Plant, number: int) -> None:
     monkeypatch.setattr(theorem, "_check_power", lambda *_: None)
@@ -91,6 +96,7 @@ def test_divisors_are_unchecked(monkeypatch: Plant, number: int) -> None:
 
 
 # elsewhere the divisor that a factor becomes is refused as well
+@pytest.mark.long(sample=2)
 @pytest.mark.parametrize("number", [1, 3, 4, 5, 6])
 def test_a_statement_may_say_nothing_somewhere(monkeypatch: Plant, number: int) -> None:
     monkeypatch.setattr(record, "fixes_it", lambda *_: "")

@@ -12,7 +12,7 @@ from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.api.derived import Derived
-from force_diffusion.derivations.api.equation import Proof
+from force_diffusion.derivations.api.proof import Proof
 from force_diffusion.derivations.export import terminal
 from force_diffusion.derivations.export.document import finding, statement_latex
 from force_diffusion.derivations.export.manifest import Manifest

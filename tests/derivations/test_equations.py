@@ -39,6 +39,7 @@ def test_proved(derivation: Derivation) -> None:
         assert one.ruling.verdict is Verdict.REFUTED, one.reading
 
 
+@pytest.mark.long(sample=2)
 @every_equation
 def test_mutants_are_refuted(derivation: Derivation) -> None:
     refuted, equivalent = 0, []
@@ -57,6 +58,7 @@ def test_mutants_are_refuted(derivation: Derivation) -> None:
     assert len(equivalent) == (6 if derivation.number == 12 else 0), equivalent
 
 
+@pytest.mark.long(sample=3)
 @pytest.mark.parametrize(
     "derivation", [d for d in ALL if d.number not in SEEDED], ids=lambda d: f"eq{d.number:02}"
 )
@@ -68,6 +70,7 @@ def test_witnesses_agree(derivation: Derivation, packing: SmallPacking) -> None:
         assert ruling.verdict is Verdict.AGREES, (witness.name, ruling.note)
 
 
+@pytest.mark.long(sample=36)
 @pytest.mark.parametrize("number", sorted(SEEDED, key=str))
 @pytest.mark.parametrize("seed", [1, 2])
 def test_costly_witnesses_agree(number: Number, seed: int) -> None:

@@ -96,6 +96,7 @@ def names_known_to(number: int | str) -> set[str]:
     return known | {"z"} if {"j", "M"} <= known else known
 
 
+@pytest.mark.long(sample=27)
 @pytest.mark.parametrize("number", NUMBERS)
 def test_with_a_symbol_that_is_not_the_equations_it_is_no_statement(number: int | str) -> None:
     strange = {*INDICES, *QUANTITIES} - names_known_to(number)
@@ -107,6 +108,7 @@ def test_with_a_symbol_that_is_not_the_equations_it_is_no_statement(number: int 
             assert found.verdict == "not a statement", (name, candidate, str(found))
 
 
+@pytest.mark.long(sample=2)
 @pytest.mark.parametrize("number", [n for n in NUMBERS if n != 15])
 def test_a_factor_in_the_equations_own_symbols_is_not_proved(number: int | str) -> None:
     """Eq. 15 is a proportion, in which factors that hold φ alone are free."""
@@ -232,6 +234,7 @@ ELSEWHERE = re.compile(r"N|next|(base|base\+1|surface)$")
 but for windows that reach below the base, whose form is the printed one (Eq. B8, N ≥ j + 2)."""
 
 
+@pytest.mark.long(sample=4)
 @pytest.mark.parametrize(("number", "case"), CASES)
 def test_an_exact_form_is_proved_and_a_millionth_more_is_not(number: int | str, case: str) -> None:
     equation = fd.equation(number)
@@ -264,6 +267,7 @@ def kappa_of(number: int | str) -> sympy.Expr:
     return (1 + (d - 2) * phi) / ((1 - phi) * (1 + (d - 1) * phi))
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("number", ["B11", "B13", "B14", "B20"])
 def test_the_printed_definition_of_kappa_may_be_put_in(number: int | str) -> None:
     equation, kappa, phi = fd.equation(number), VOCABULARY["kappa"], VOCABULARY["phi"]
@@ -351,6 +355,7 @@ def test_a_large_factor_of_a_lower_order_is_no_counterexample(number: int | str)
         assert equation.decide(other).verdict == "refuted"
 
 
+@pytest.mark.long
 def test_a_large_number_beside_m_is_still_in_proportion() -> None:
     M, r, sigma = (VOCABULARY[name] for name in ("M", "r", "sigma"))
     equation = fd.equation(15)
@@ -424,6 +429,7 @@ def test_what_sympy_cancels_in_a_step_of_eq_15_is_not_proved(words: str) -> None
             assert not step.rule_on(0, false).verdict.is_proved
 
 
+@pytest.mark.long
 def test_a_root_that_no_one_factors_is_left_open() -> None:
     """The product of two primes of 39 digits."""
     hard = Integer(sympy.nextprime(10**38) * sympy.nextprime(3 * 10**38))

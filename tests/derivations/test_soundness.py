@@ -165,6 +165,7 @@ DEPENDENT: list[tuple[int, str, Change]] = [
 BELOW = sy.Position(i - 1, j - 1)
 
 
+@pytest.mark.long(sample=3)
 @pytest.mark.parametrize(("number", "change"), [(n, c) for n, _, c in DEPENDENT])
 def test_what_is_true_for_another_reason_is_not_refuted(number: int, change: Change) -> None:
     assert ruling(number, change).verdict is not Verdict.REFUTED
@@ -203,6 +204,7 @@ def test_an_order_that_fails_at_one_place_is_refuted_by_values() -> None:
     assert "1/2" in found.note
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("number", modules())
 def test_the_whole_corpus(number: int | str) -> None:
     """Nothing false is proved; all that is true is."""
@@ -216,6 +218,7 @@ def test_the_whole_corpus(number: int | str) -> None:
     assert found[False, Verdict.REFUTED] >= 30
 
 
+@pytest.mark.long
 def test_every_kind_is_tried_where_it_can_be() -> None:
     kinds = {one.kind for n in modules() for one in statements(load(n).source(0), 0)}
     assert kinds == {LARGER, *FALSE_KINDS, *TRUE_KINDS}

@@ -128,6 +128,7 @@ def test_a_step_follows_from_premises_and_earlier_steps(derivation: Derivation) 
     assert printed_at
 
 
+@pytest.mark.long
 @every_equation
 def test_a_changed_step_is_not_proved(derivation: Derivation) -> None:
     for place, step in enumerate(derivation.steps(), start=1):
@@ -161,6 +162,7 @@ def changed(old: sympy.Basic, new: sympy.Basic) -> Callable[[sympy.Basic], sympy
     return lambda formula: formula.xreplace({old: new})
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize(
     ("number", "place", "change"),
     [
@@ -184,6 +186,7 @@ def test_a_wrong_step_fails_the_run(number: int, place: int, change) -> None:
     assert failed.name == f"step {place}"
 
 
+@pytest.mark.long(sample=4)
 @pytest.mark.parametrize(
     ("number", "place", "divisor"),
     [(2, 4, sy.phi), (4, 2, sy.j - 3), (11, 5, sy.n_x - sy.n_y), (13, 4, 2 * sy.z - 1),

@@ -3,6 +3,7 @@
 from fractions import Fraction
 from itertools import combinations
 
+import pytest
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.witnesses.both_sides import Truth, evaluate
@@ -91,6 +92,7 @@ def test_linearity_in_the_radii(one: SmallPacking, two: SmallPacking, factor: Fr
     assert slopes(total) == [a + factor * b for a, b in parts]
 
 
+@pytest.mark.long
 @given(small_packings())
 def test_isostatic_count(packing: SmallPacking) -> None:
     """Twice as many contacts as supported beads, counted on solved positions.

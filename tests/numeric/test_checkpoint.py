@@ -70,6 +70,7 @@ def states(plan: Plan, path: Path, monkeypatch: pytest.MonkeyPatch) -> list[byte
     return found
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("quantity", ["profile", "histogram", "contact_forces"])
 def test_no_byte_of_a_checkpoint_can_be_changed(quantity: str, tmp_path: Path) -> None:
     """Any bit, any byte: of headers, of names, of numbers, of the sum; 500 of all."""

@@ -413,6 +413,7 @@ def test_responses_add_up(width: int) -> None:
         )
 
 
+@pytest.mark.long(sample=13)
 @pytest.mark.parametrize(
     ("dimension", "effects"),
     [(2, "exact"), (2, "first-order"), (2, "ordered"), (3, "exact"), (3, "ordered")],

@@ -55,6 +55,7 @@ CASES: dict[str, dict[str, dict[str, Any]]] = {
         "ask": {"quantity": "response", "layers": [3]},
     },
     "histogram": {"packing": STRIP, "ask": {"quantity": "histogram", "bins": 7}},
+    "histogram of a layer": {"packing": STRIP, "ask": {"quantity": "histogram", "layers": [9]}},
     "histogram of a point load": {
         "packing": STRIP, "load": POINT | {"magnitude": "=3.7"}, "ask": {"quantity": "histogram"},
     },
@@ -113,6 +114,7 @@ def same(a: Outcome, b: Outcome) -> None:
     assert a.physical == b.physical
 
 
+@pytest.mark.long(sample=8)
 @pytest.mark.parametrize("layers", [2, 6, 8, 40])
 @pytest.mark.parametrize("name", CASES)
 @pytest.mark.parametrize("kind", ["uniform", "two-point"])
@@ -161,6 +163,7 @@ def true_error(plan: Plan) -> float:
         return max(float(abs(b - a).upper()) for b, a in pairs) / largest
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("name", CASES)
 def test_the_stated_error_covers_the_true_one(name: str) -> None:
     for seed, std in product(range(10), ("=1e-8", "=1e-3")):
@@ -168,6 +171,7 @@ def test_the_stated_error_covers_the_true_one(name: str) -> None:
         assert true_error(made) <= run(cut(made, 6)).accuracy.error_bound, (seed, std)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("layers", [2, 8, 40])
 @pytest.mark.parametrize("name", CASES)
 def test_the_error_is_that_of_the_sweep_in_memory(name: str, layers: int) -> None:
@@ -267,6 +271,7 @@ class KilledError(Exception):
     pass
 
 
+@pytest.mark.long(sample=9)
 @pytest.mark.parametrize(
     ("name", "calls"),
     [
@@ -341,6 +346,7 @@ def test_a_bead_that_cannot_rest_is_named_alike() -> None:
     assert str(found.value) == str(usual.value)
 
 
+@pytest.mark.long(sample=12)
 @pytest.mark.parametrize("kind", ["uniform", "two-point"])
 @pytest.mark.parametrize("name", CASES)
 def test_gaps_by_compiled_loops_are_those_of_numpy(

@@ -47,6 +47,7 @@ def unit(step: Array, period: float) -> Array:
     return np.asarray(step / np.linalg.norm(step))
 
 
+@pytest.mark.long
 @given(
     st.integers(1, 5).flatmap(
         lambda M: st.integers(2, 8).flatmap(
@@ -158,6 +159,83 @@ def test_an_array_that_may_be_transposed_is_refused(shape: tuple[int, ...]) -> N
     with pytest.raises(fd.SceneError, match=r"13 layers of \d+ beads.*allow_images=True"):
         fd.solve(np.ones(shape))
     assert fd.solve(np.ones(shape), allow_images=True).force.shape[-2:] == (12, shape[-1])
+
+
+@pytest.mark.parametrize("shape", [(13, 24, 24), (2, 3, 3)])
+def test_a_stack_of_squares_needs_its_dimension(shape: tuple[int, ...]) -> None:
+    """It is one packing of spheres or several of discs; nobody is to get the other one unawares."""
+    layers, side = shape[0], shape[-1]
+    with pytest.raises(fd.SceneError, match=r"dimension=3.*dimension=2") as told:
+        fd.solve(np.ones(shape))
+    assert f"{layers} layers of {side} × {side}" in str(told.value)
+    flat = fd.solve(np.ones(shape), dimension=2)
+    assert flat.force.shape == (layers, 2, side - 1, side)
+    spheres = fd.solve(np.ones(shape), dimension=3)
+    assert spheres.force.shape == (3, layers - 1, side, side)
+    assert spheres.position.shape == (layers, side, side, 3)
+
+
+def test_spheres_are_those_of_a_scene() -> None:
+    delta = 2e-3 * np.random.default_rng(8).uniform(-1, 1, (4, 5, 5))
+    solution = fd.solve(delta_r=delta, radius=2, spacing=6, dimension=3, load=fd.BulkLoad())
+    for quantity in ("contact_forces", "positions"):
+        rows = fd.Scene(
+            packing=fd.Packing(height=3, width=5, dimension=3, radius=2, spacing=6),
+            disorder=fd.GivenRadii(delta_r=delta),
+            load=fd.BulkLoad(),
+            ask=fd.Ask(quantity=quantity),
+        ).run()
+        for row in rows.rows():
+            j, p, q = row["j"], row["p"], row["q"]
+            if quantity == "positions":
+                place = solution.position[j, p, q], solution.displacement[j, p, q]
+                assert place[0].tolist() == [row["x"], row["y"], row["z"]]
+                assert place[1].tolist() == [row["dx"], row["dy"], row["dz"]]
+            else:
+                axis = int(row["branch"]) - 1
+                assert solution.force[axis, j, p, q] == row["force"]
+                assert solution.change[axis, j, p, q] == row["change"]
+
+
+def test_a_batch_of_spheres_is_its_packings() -> None:
+    batch = 1 + np.random.default_rng(4).uniform(-1e-4, 1e-4, (2, 3, 4, 4))
+    together = fd.solve(batch, radius=1, dimension=3)
+    assert together.force.shape == (2, 3, 2, 4, 4)
+    assert together.position.shape == (2, 3, 4, 4, 3)
+    for k, radii in enumerate(batch):
+        alone = fd.solve(radii, radius=1, dimension=3)
+        assert np.array_equal(together.force[k], alone.force)
+        assert np.array_equal(together.position[k], alone.position)
+
+
+def test_four_axes_can_only_be_spheres() -> None:
+    batch = 1 + np.random.default_rng(4).uniform(-1e-4, 1e-4, (2, 3, 4, 4))
+    assert np.array_equal(fd.solve(batch).force, fd.solve(batch, dimension=3).force)
+
+
+@pytest.mark.parametrize(
+    ("shape", "dimension", "says"),
+    [
+        ((3, 4), 3, r"shape \(3, 4\): spheres take \(layers, W, W\)"),
+        ((3, 4, 5), 3, r"shape \(3, 4, 5\): spheres take \(layers, W, W\)"),
+        ((2, 3, 4, 5), None, r"shape \(2, 3, 4, 5\): spheres take \(layers, W, W\)"),
+        ((2, 3, 4, 4), 2, r"shape \(2, 3, 4, 4\): discs take \(layers, W\)"),
+        ((1, 4, 4), 3, "at least 2 layers"),
+        ((5, 4, 4), 3, r"5 layers of 4 × 4 beads.*allow_images=True"),
+        ((3, 4), 4, "^dimension = 4: must be 2, of discs, or 3, of spheres"),
+        ((3, 4), "3", '^dimension = "3": must be 2'),
+        ((3, 4), True, "^dimension = true: must be 2"),
+    ],
+)
+def test_what_does_not_fit_its_dimension(shape: Any, dimension: Any, says: str) -> None:
+    with pytest.raises(fd.SceneError, match=says):
+        fd.solve(np.ones(shape), dimension=dimension)
+
+
+def test_a_load_on_a_sphere_names_a_sphere() -> None:
+    assert fd.solve(np.ones((3, 4, 4)), dimension=3, load=fd.PointLoad(at=(0, 0, 2))).force.shape
+    with pytest.raises(fd.SceneError, match=r"load.at.*\[p, q, l\]"):
+        fd.solve(np.ones((3, 4, 4)), dimension=3, load=fd.PointLoad(at=(0, 2)))
 
 
 @pytest.mark.parametrize(

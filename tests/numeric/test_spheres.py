@@ -67,6 +67,7 @@ def test_one_contact_and_one_bead_are_those_of_all() -> None:
     assert one.rows()[0] in beads.rows()
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("quantity", ["profile", "positions", "base_reactions"])
 @pytest.mark.parametrize(("geometry", "height"), [("exact", 2), ("first-order", 3)])
 def test_images_are_seen_where_a_wider_packing_differs(

@@ -12,7 +12,7 @@ from force_diffusion.derivations.coq.packings import packing_statement
 from force_diffusion.derivations.coq.record import Certificate, Verdict
 from force_diffusion.derivations.coq.statements import (
     Statement,
-    header,
+    head_of,
     statement,
 )
 from force_diffusion.derivations.coq.words import NotStatedError
@@ -20,16 +20,14 @@ from force_diffusion.derivations.coq.workshop import ALLOWED, Workshop, theory
 from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import SEEDS
+from force_diffusion.symbolic.as_printed import equation, times
 
 from tests.derivations.test_soundness import FALSE, TRUE, Change
 
-pytestmark = [
-    pytest.mark.skipif(
-        os.environ.get("FORCE_DIFFUSION_TEST_COQ") != "required",
-        reason="takes minutes; asked for by FORCE_DIFFUSION_TEST_COQ=required",
-    ),
-    pytest.mark.xdist_group("coq"),
-]
+pytestmark = pytest.mark.skipif(
+    os.environ.get("FORCE_DIFFUSION_TEST_COQ") != "required",
+    reason="takes minutes; asked for by FORCE_DIFFUSION_TEST_COQ=required",
+)
 
 
 @pytest.fixture(scope="module")
@@ -41,8 +39,9 @@ def shop(tmp_path_factory: pytest.TempPathFactory) -> Workshop:
 
 
 def ask(shop: Workshop, made: Statement) -> Certificate:
-    shop.said.pop(made.file, None)
-    shop.compile({made.file: made.source}, print)
+    for name in made.files:
+        shop.said.pop(name, None)
+    shop.compile(made.files, print)
     return certificate(shop, 0, lambda _: [made])
 
 
@@ -64,7 +63,7 @@ def test_another_packing_is_not_accepted(shop: Workshop) -> None:
             true,
             hypotheses=tuple(line.replace(number, other) for line in true.hypotheses),
             conclusion=true.conclusion.replace(number, other),
-            companions="",
+            companions=(),
         )
         assert ask(shop, changed).verdict is Verdict.NOT_ACCEPTED
 
@@ -106,7 +105,7 @@ def test_true_rewritings_are_accepted(shop: Workshop) -> None:
     [
         ("0 = 1", "exact I. Qed.", "0 = 1"),
         ("0 = 1", "lra. Qed.", "Cannot find witness"),
-        ("0 = 1", "Admitted.", "rests on planted"),
+        ("0 = 1", "Admitted.", "rests on Planted.planted"),
         (
             "True \\/ ~ True",
             "apply Classical_Prop.classic. Qed.",
@@ -126,9 +125,42 @@ class Planted(Statement):
     """A statement with a proof that is given."""
 
     @property
-    def source(self) -> str:
-        stated = f"Theorem {self.name} : {self.conclusion}.\nProof. {self.tactic}\n"
-        return f"{header()}{stated}Print Assumptions {self.name}.\n"
+    def proof(self) -> str:
+        says = f"{self.statement_in}.statement"
+        head = head_of("Certify", self.statement_in)
+        return f"{head}Theorem {self.name} : {says}.\nProof. unfold {says}. {self.tactic}\n"
+
+
+BENT = {
+    "a word": "Definition first_order_vector (one other : R -> vector) : Prop := True.",
+    "a notation": "Notation \"'first_order_vector'\" := (fun _ _ => True).",
+    "a file": "Module Equation_3_statement.\n"
+    "Definition statement : Prop := True. End Equation_3_statement.",
+    "a library": "Module ForceDiffusion. Module Equation_3_statement.\n"
+    "Definition statement : Prop := True. End Equation_3_statement. End ForceDiffusion.",
+    "an axiom": "Axiom trust_me : forall P : Prop, P.",
+}
+"""What a file of the theory may say to change what a statement says, or what proves it."""
+AT_ONCE = "Ltac prove_3 ::= intros; first [exact I|exact (trust_me _)]."
+
+
+@pytest.mark.parametrize("kind", BENT)
+def test_no_file_of_the_theory_can_change_what_is_stated(
+    shop: Workshop, tmp_path: Path, kind: str
+) -> None:
+    """Seven times the right side of Eq. 3, with a tactic that proves what is bent at once."""
+    folder = tmp_path / "bent"
+    shutil.copytree(shop.folder, folder)
+    bent = Workshop(folder)
+    bent.said = {name: said for name, said in shop.said.items() if name != "Certify.v"}
+    at_once = AT_ONCE if kind == "an axiom" else AT_ONCE.replace("|exact (trust_me _)", "")
+    bent.compile({"Certify.v": f"{theory()['Certify.v']}\n{BENT[kind]}\n{at_once}\n"}, print)
+    (printed,) = load(3).printed
+    changed = equation(printed.lhs, times(7, printed.rhs))
+    found = ask(bent, replace(statement(load(3), 0, changed), companions=()))
+    assert found.verdict is Verdict.NOT_ACCEPTED
+    assert not bent.trouble(["Certify.v", "Equation_3_statement.v"])
+    assert kind != "an axiom" or found.note == "it rests on Certify.trust_me"
 
 
 def test_a_theory_that_does_not_compile_accepts_nothing(monkeypatch: pytest.MonkeyPatch) -> None:

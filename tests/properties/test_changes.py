@@ -75,7 +75,9 @@ def survivors(number: int, left: list[Change]) -> list[Change]:
     return left
 
 
-@pytest.mark.parametrize("number", CHECKS)
+@pytest.mark.parametrize(
+    "number", [pytest.param(n, marks=pytest.mark.long if n == 12 else ()) for n in CHECKS]
+)
 def test_each_change_of_what_is_printed_fails(number: int) -> None:
     """Only Eq. 12 hides some, of its sum's bounds and cases: they change what it drops anyway."""
     every = list(changes(number))

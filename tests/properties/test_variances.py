@@ -7,7 +7,7 @@ from functools import lru_cache
 import pytest
 import sympy
 from force_diffusion.symbolic.symbols import M, f_load, i, j, sigma, z
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import force_diffusion as fd
@@ -37,6 +37,10 @@ def larger(
     """One bead of each layer larger by ε r, and the forces under a load."""
     each = one_larger_each(*geometry, height, epsilon)
     return tuple(loaded(packing, load, exactly(weight)) for packing in each)
+
+
+FEWER = settings(max_examples=max(3, settings().max_examples // 8))
+"""An example takes a second, and more."""
 
 
 # Eq. 12: weights
@@ -75,6 +79,7 @@ def leaves_out_order_two(equation: sympy.Eq, line: Line) -> None:
     assert falls(sizes, 1, rounding=QUOTIENT_ROUNDING), [mp.nstr(size, 5) for size in sizes]
 
 
+@FEWER
 @given(lines())
 def test_eq_12_leaves_out_one_order_of_the_height(line: Line) -> None:
     for equation in printed(12):
@@ -114,6 +119,7 @@ def exact_form(number: int, height: int, layer: int) -> sympy.Expr:
 
 
 @pytest.mark.parametrize("number", [13, 14])
+@FEWER
 @given(geometry=geometries, sd=lengths, weight=lengths, height=st.integers(1, 8))
 def test_the_exact_variance_is_the_sum_of_squared_weights(
     number: int, geometry: Geometry, sd: Fraction, weight: Fraction, height: int

@@ -119,7 +119,7 @@ def cascade(
     packings: int = 16,
     protocol: Protocol = "linear-programs",
 ) -> CascadeStudy:
-    """Open one contact that pulls as weakly as one pleases, and count what changes.
+    """Open one contact that barely pulls, and count what changes.
 
     For each of ``heights`` M, under a surface and a bulk load, ``packings`` strips of width 2M with
     uniform disorder and s = 3 r. By default a minute. ``notice`` is told lines as they come. Raises

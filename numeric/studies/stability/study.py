@@ -101,7 +101,7 @@ class StabilityStudy:
 def stability(
     notice: Callable[[str], None] = lambda _: None, *, only: Collection[str] = tuple(FILES)
 ) -> StabilityStudy:
-    """Measure what stability costs: errors and lost bits of both forms, time beside them.
+    """Measure what stability costs: errors, lost bits and times with and without it.
 
     All takes about 40 s; ``only`` names the tables to be measured. ``notice`` is told the lines of
     the tables as they come, those of the closed forms last. Raises ``ForceDiffusionError`` for a

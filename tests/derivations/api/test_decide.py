@@ -83,6 +83,7 @@ def test_a_tuple_of_one_is_the_one_line() -> None:
 DIRECTIONS = (sy.e_x, *sy.VECTORS)
 
 
+@pytest.mark.long(sample=18)
 @pytest.mark.parametrize("number", OF_VECTORS)
 @pytest.mark.parametrize("vector", DIRECTIONS, ids=str)
 def test_a_component_of_an_equation_between_vectors(number: int, vector: sympy.Expr) -> None:
@@ -171,6 +172,7 @@ def test_what_has_a_value_and_is_not_read_is_undecided(number: int, candidate: s
 FORMS = [(n, case) for n in NUMBERS for case in fd.equation(n).cases]
 
 
+@pytest.mark.long(sample=2)
 @pytest.mark.parametrize(("number", "case"), FORMS)
 def test_an_exact_form_is_decided_on_its_own(number: int | str, case: str) -> None:
     form = fd.equation(number).exact(case)

@@ -70,8 +70,41 @@ def test_ranges_are_those_of_the_domain() -> None:
     assert list(coq.ranges(load(11))) == ["(j >= 0)%Z", "(j < M)%Z"]
 
 
-def test_ranges_are_what_the_assumptions_say_where_there_is_no_domain() -> None:
-    assert list(coq.ranges(load(12))) == []  # 0 < z < 1 is of no index; every layer is meant
+def test_asymptotic_ones_are_stated_of_every_contact() -> None:
+    assert list(coq.ranges(load(12))) == []
+    for number in (13, 14):
+        (made,) = coq.statements(load(number))
+        assert made.about == ("contact M i j", "(0 <= j)%Z", "(j < M)%Z")
+        assert all(words in "".join(made.hypotheses) for words in made.about)
+
+
+def test_words_in_an_assumption_change_no_range() -> None:
+    reworded = replace(load(11), assumptions=("0 ≤ j < 1",))
+    assert coq.statement(reworded, 0) == coq.statement(load(11), 0)
+
+
+def test_without_a_domain_nothing_is_stated() -> None:
+    with pytest.raises(words.NotStatedError, match="no domain"):
+        coq.statement(replace(load(11), where=None), 0)
+
+
+def test_a_statement_is_read_with_the_words_of_the_model_alone() -> None:
+    for number in coq.STATED:
+        for made in coq.statements(load(number)):
+            loaded = re.findall(r"^From ForceDiffusion Require.*$", made.stated, re.MULTILINE)
+            assert loaded == ["From ForceDiffusion Require Import Roots Model."]
+            assert "Import" not in made.acceptance
+            assert made.proposition in made.stated
+            assert made.proposition not in made.proof
+
+
+def test_its_hash_covers_all_that_is_written() -> None:
+    made = coq.statement(load(3), 0)
+    changed = (
+        replace(made, conclusion="True"), replace(made, tactic="exact I"),
+        replace(made, theory="Fractions"), replace(made, companions=made.companions[:1]),
+    )  # fmt: skip
+    assert len({made.hash, *(one.hash for one in changed)}) == 5
 
 
 def test_ranges_are_the_relations_of_a_domain() -> None:
@@ -79,6 +112,7 @@ def test_ranges_are_the_relations_of_a_domain() -> None:
     assert list(coq.ranges(load(16))) == [*steps, "(k = i + p - q)%Z", "(l = j + p + q)%Z"]
 
 
+@pytest.mark.long(sample=2)
 @pytest.mark.parametrize("number", coq.STATED)
 def test_a_change_changes_the_statement_and_not_its_hypotheses(number: int) -> None:
     derivation = load(number)
@@ -106,7 +140,7 @@ def test_a_statistic_is_the_one_that_is_printed() -> None:
 def test_the_load_is_the_one_that_the_derivation_names(load_of: str, words: str) -> None:
     made = coq.statement(replace(load(13), loads=(load_of,)), 0)
     assert f"carries M (Xs rho) ({words}) (Fs rho)" in made.proposition
-    assert f"({words.replace('M', '3%Z').replace('f_load', '1')})" in made.companions
+    assert f"({words.replace('M', '3%Z').replace('f_load', '1')})" in made.companions[0].proof
 
 
 def test_a_change_of_the_ranges_changes_the_statement() -> None:
@@ -121,12 +155,14 @@ def test_all_that_is_supposed_is_shown_to_be_possible() -> None:
             for line in made.hypotheses:
                 if line.endswith(" ->") and "forall" not in line.split("(")[0]:
                     supposed = line.strip().removesuffix(" ->")
-                    assert supposed in made.companions
+                    assert any(supposed in one.proposition for one in made.companions)
 
 
 def test_reversed_bounds_are_asked_about() -> None:
     printed = equation(sy.DeltaX(i, j), sympy.Sum(sy.DeltaR(i, m), (m, 3, j)) * sy.b_plus)
-    assert "(3 <= j + 1)%Z" in coq.statement(load(3), 0, printed).companions
+    in_order = coq.statement(load(3), 0, printed).companions[-1]
+    assert in_order.name == "sums_in_order"
+    assert "(3 <= j + 1)%Z" in in_order.proposition
 
 
 def test_the_theory_declares_no_axiom_and_admits_nothing() -> None:

@@ -59,6 +59,27 @@ def test_the_second_check_is_read_whole() -> None:
         assert unexpected(SUMMARY.replace(good, bad)) != ""
 
 
+NEWER = SUMMARY.replace("* Axioms:\n", "* Theory: Rewrite rules are not allowed\n  \n* Axioms:\n")
+"""Of Coq 8.20."""
+
+
+def test_the_second_check_of_newer_versions_is_read_whole() -> None:
+    assert unexpected(NEWER) == ""
+    rocq = NEWER.replace(" Coq.", " Stdlib.") + (
+        "\n* Inductives relying on indices not mattering: <none>\n"
+    )
+    assert unexpected(rocq) == ""
+    for good, bad in (
+        ("Rewrite rules are not", "Rewrite rules are"),
+        ("mattering: <none>", "mattering: ForceDiffusion.Model.t"),
+        ("Set is predicative", "Set is impredicative"),
+        ("* Theory: Set is predicative", "* Theory: Rewrite rules are not allowed"),
+        (" Stdlib.", " Mine.Coq."),
+    ):
+        assert good in rocq
+        assert unexpected(rocq.replace(good, bad)) != ""
+
+
 def test_without_coq_nothing_is_accepted(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -76,7 +97,7 @@ def test_statements_and_hashes_are_written(tmp_path: Path, monkeypatch: pytest.M
     assert main(["certify", "7", "--out", str(tmp_path)]) == 1
     said = json.loads((tmp_path / "certificate.json").read_text())
     assert [one["verdict"] for one in said["equations"]] == ["Coq absent"]
-    for name in ("Model.v", "Equation_7_part_1.v", "Equation_7_part_2.v"):
+    for name in ("Model.v", "Equation_7_part_1_statement.v", "Equation_7_part_2.v"):
         content = (tmp_path / name).read_bytes()
         assert said["files"][name] == hashlib.sha256(content).hexdigest()
     listed = json.loads((tmp_path / "manifest.json").read_text())["files"]
@@ -142,6 +163,7 @@ def test_a_program_without_a_version_is_no_coq(programs: Path, tmp_path: Path, s
     assert str(fd.certify([1]).equations[0]) == "Coq absent"
 
 
+@pytest.mark.long
 def test_a_program_that_does_not_answer_is_ended(
     programs: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -153,6 +175,7 @@ def test_a_program_that_does_not_answer_is_ended(
     assert "no answer within" in found.note
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupt_ends_what_is_under_way_and_leaves_nothing(
     programs: Path, tmp_path: Path, number: int
@@ -178,3 +201,32 @@ def test_an_interrupt_ends_what_is_under_way_and_leaves_nothing(
             os.kill(process, 0)
     assert not out.exists()
     assert not list(scratch.iterdir())
+
+
+@pytest.mark.long
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the system does not tell of it")
+def test_a_kill_ends_what_is_under_way(programs: Path, tmp_path: Path) -> None:
+    put(programs, "coqc", VERSION + f'echo $$ >> "{tmp_path}/started"\nexec sleep 60')
+    running = subprocess.Popen([sys.executable, "-m", "force_diffusion", "certify", "1"])
+    started = tmp_path / "started"
+    while not (started.exists() and started.read_text().endswith("\n")):
+        assert running.poll() is None
+        time.sleep(0.05)
+    running.kill()
+    running.wait()
+    left = set(map(int, started.read_text().split()))
+    until = time.monotonic() + 10
+    while left and time.monotonic() < until:
+        left = {process for process in left if _runs(process)}
+        time.sleep(0.05)
+    for process in left:
+        os.kill(process, signal.SIGKILL)
+    assert not left
+
+
+def _runs(process: int) -> bool:
+    """Whether a process is there and not only waits to be reaped."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False

@@ -35,6 +35,7 @@ def test_the_file_is_what_the_derivations_generate() -> None:
     )
 
 
+@pytest.mark.long(sample=4)
 @pytest.mark.parametrize("load", EXACT)
 @pytest.mark.parametrize("height", range(1, 13))
 def test_exact_variance_is_the_sum_of_squared_weights(load: str, height: int) -> None:
@@ -48,6 +49,7 @@ def test_exact_variance_is_the_sum_of_squared_weights(load: str, height: int) ->
             assert EXACT[load](height, layer, values[sy.phi], Fraction(1), Fraction(1)) == total
 
 
+@pytest.mark.long(sample=11)
 @pytest.mark.parametrize("load", EXACT)
 @pytest.mark.parametrize("height", range(1, 13))
 def test_exact_variance_is_that_of_exact_packings(load: str, height: int) -> None:
@@ -245,7 +247,7 @@ def test_covariances_between_layers_are_those_of_exact_packings(
 ) -> None:
     n = DIRECTIONS[3]
     phi = n[1] ** 2 - n[0] ** 2
-    true = neighbours.between_layers(height, lower, upper, 0, n)
+    true = neighbours.between_layers(height, lower, upper, n)
     form = closed_forms.layers_covariance
     assert form(height, lower, upper, phi, ONE, ONE) == true
     for wrong in ((height, 1, upper), (height, lower, lower + 1), (upper + 1, lower, upper)):

@@ -30,6 +30,7 @@ def characters(source: str) -> Counter[str]:
     return Counter(re.findall("[A-Za-z0-9]", shown))
 
 
+@pytest.mark.long
 def test_every_letter_and_digit_of_the_equations_is_there() -> None:
     for source in formulas():
         found = str(words.mathml(source)).replace("&ApplyFunction;", "")

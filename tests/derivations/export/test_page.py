@@ -127,6 +127,7 @@ def test_depths_follow_the_longest_chain() -> None:
     assert depths({1: [], 2: [1], 3: [1, 2], 4: [1], 5: [3, 4]}) == {1: 0, 2: 1, 3: 2, 4: 1, 5: 3}
 
 
+@pytest.mark.long
 def test_the_same_page_every_time() -> None:
     program = (
         "from tests.derivations.export.test_page import PART, fakes, made\n"

@@ -251,6 +251,7 @@ def test_rulings_of_another_process_change_nothing() -> None:
         run(derivation, ruled=lambda: Ruled(wrong))
 
 
+@pytest.mark.long
 def test_seconds_count_the_work_wherever_it_was_done_and_no_waiting() -> None:
     derivation = load(6)
 

@@ -56,6 +56,7 @@ def is_refuted(statement: sympy.Eq, scene: str, points: Points) -> bool:
     return Verdict.DISAGREES in found
 
 
+@pytest.mark.long(sample=3)
 @pytest.mark.parametrize("number", SCENES)
 def test_packings_refute_mutants_too(number: int) -> None:
     """Exact packings, which know nothing of the algebra, speak against every mutant."""

@@ -27,6 +27,7 @@ def _two_cores(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(processes, "cores", lambda: 2)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("_two_cores")
 def test_what_has_begun_is_done_beside_and_the_rest_here() -> None:
     with processes.beside() as start:
@@ -40,6 +41,7 @@ def test_what_has_begun_is_done_beside_and_the_rest_here() -> None:
     assert {process for _, process in found[1:]} == {os.getpid()}
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("_two_cores")
 def test_who_waits_works_meanwhile() -> None:
     with processes.beside() as start:
@@ -52,6 +54,7 @@ def test_who_waits_works_meanwhile() -> None:
         assert [rest[0](), rest[2]()] == [(1, os.getpid()), (4, os.getpid())]
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("_two_cores")
 def test_errors_come_back_and_a_death_is_made_good() -> None:
     with processes.beside() as start:

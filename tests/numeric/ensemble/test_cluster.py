@@ -70,6 +70,7 @@ def test_a_scheduler_that_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
             run.run(M, 40, Cluster(address))
 
 
+@pytest.mark.long
 def test_a_scheduler_without_workers(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cluster_module, "PATIENCE", 1)
     with (

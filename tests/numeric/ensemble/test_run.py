@@ -101,6 +101,7 @@ def test_what_fails_goes_on_from_the_file(
     assert seen == sorted(seen)  # nothing finished was lost
 
 
+@pytest.mark.long
 def test_a_pool_of_processes_one_of_which_is_killed(monkeypatch: pytest.MonkeyPatch) -> None:
     import os
     import signal
@@ -121,6 +122,7 @@ def test_a_pool_of_processes_one_of_which_is_killed(monkeypatch: pytest.MonkeyPa
     assert killed
 
 
+@pytest.mark.long
 def test_workers_that_always_die_are_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(workers, "PATIENCE", 2)
     monkeypatch.setattr(workers, "_start", _die)
@@ -128,6 +130,7 @@ def test_workers_that_always_die_are_given_up(monkeypatch: pytest.MonkeyPatch) -
         run.run(M, 40, Pool(1))
 
 
+@pytest.mark.long(sample=2)
 @pytest.mark.parametrize(
     "trouble", [BrokenProcessPool("gone"), RuntimeError("can't start new thread"), OSError("fork")]
 )

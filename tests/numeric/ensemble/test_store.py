@@ -332,6 +332,7 @@ run.run(m, 40, InProcess(), store=opened)
 """
 
 
+@pytest.mark.long
 def test_killed_at_every_kind_of_moment(tmp_path: Path) -> None:
     """SIGKILL just before a statement runs; the last run has nothing to stop it."""
     path = tmp_path / "ensemble.fd"

@@ -66,6 +66,7 @@ def test_compiled_and_numpy_sweeps_give_the_same_bytes(
     assert measured(m, range(3)).to_bytes() == usual
 
 
+@pytest.mark.long(sample=46)
 @ALL
 @pytest.mark.parametrize("kind", ["uniform", "normal", "two-point"])
 def test_whoever_solves_gives_the_same_bytes(

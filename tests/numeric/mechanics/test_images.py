@@ -74,6 +74,7 @@ def strip(height: int, width: int, geometry: str, at: list[Any]) -> dict[str, di
     return sections
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("geometry", ["exact", "first-order"])
 @pytest.mark.parametrize("load", ["surface", "bulk"])
 def test_a_contact_sees_images_exactly_where_the_slab_differs(geometry: str, load: str) -> None:
@@ -120,6 +121,7 @@ def test_the_widest_strip_is_looked_at_where_its_load_is() -> None:
         assert not planned({**sections, "effects": {"geometry": geometry}}).sees_images
 
 
+@pytest.mark.long(sample=3)
 @pytest.mark.parametrize("geometry", ["exact", "first-order", "ordered"])
 @pytest.mark.parametrize(
     ("quantity", "load"),

@@ -325,6 +325,7 @@ def test_without_numba_the_engine_takes_the_numpy_sweeps(monkeypatch: pytest.Mon
     assert packing.memory is None
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.skipif(platform.machine() not in {"x86_64", "AMD64"}, reason="other instructions")
 @pytest.mark.parametrize("carried", [False, True])
 @pytest.mark.parametrize("dimension", [2, 3])

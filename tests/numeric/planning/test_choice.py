@@ -104,6 +104,7 @@ def grid() -> Iterator[Any]:
             yield pytest.param({**sections, "ask": ask}, id=name)
 
 
+@pytest.mark.long(sample=36)
 @pytest.mark.parametrize("sections", list(grid()))
 def test_every_way_that_may_answer_keeps_the_tolerance(
     sections: dict[str, dict[str, Any]], record_property: Callable[[str, object], None]

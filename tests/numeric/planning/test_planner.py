@@ -108,6 +108,7 @@ def test_exactly_the_visited_beads_matter(
     assert gradient(M, contact, load) == visited
 
 
+@pytest.mark.long
 @settings(deadline=None)
 @given(contacts, st.sampled_from(["surface", "bulk", "point"]), st.data())
 def test_first_order_depends_on_exactly_the_beads_it_reads(

@@ -85,6 +85,7 @@ def test_one_periodic_packing() -> None:
     assert found.sampling_floor is None
 
 
+@pytest.mark.long(sample=2)
 @pytest.mark.parametrize(
     ("sections", "way", "why"),
     [

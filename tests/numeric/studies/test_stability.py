@@ -84,6 +84,7 @@ def test_near_the_limits_of_the_spacing() -> None:
     assert all(row.overlaps for row in crowded)
 
 
+@pytest.mark.long
 def test_errors_grow_slowly_with_the_height() -> None:
     """Up to 4096 layers: the float error grows no faster than √M, that of balls than M^(3/2)."""
     assert max(row.height for row in rows("height")) == 4096

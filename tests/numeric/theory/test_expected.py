@@ -61,6 +61,7 @@ def test_packings_of_spheres_have_as_many(load: str, relative_std: float) -> Non
     assert found.tensile.sum() / 60 == pytest.approx(expected, rel=0.2)
 
 
+@pytest.mark.long(sample=9)
 @pytest.mark.parametrize("load", ["surface", "bulk"])
 @pytest.mark.parametrize("height", [1, 3, 40, 399, 400, 401, 2000])
 def test_the_number_is_the_fraction_times_the_contacts(load: str, height: int) -> None:

@@ -40,6 +40,7 @@ def test_it_is_the_mean_of_gaussian_tails(load: str, height: int, strength: floa
     assert 0 <= found < 0.5
 
 
+@pytest.mark.long(sample=1)
 @loads
 @pytest.mark.parametrize("ratio", [1, 3])
 def test_the_limit_is_approached_as_one_over_m(load: str, ratio: float) -> None:
@@ -55,6 +56,7 @@ def test_the_limit_is_approached_as_one_over_m(load: str, ratio: float) -> None:
     assert 3 < errors[1] / errors[0] < 5
 
 
+@pytest.mark.long(sample=3)
 @loads
 @pytest.mark.parametrize("ratio", [0.1, 0.4, 1, 20])
 def test_the_integral_is_as_good_as_it_says(load: str, ratio: float) -> None:
@@ -69,6 +71,7 @@ def test_the_integral_is_as_good_as_it_says(load: str, ratio: float) -> None:
     assert float(limiting_fraction(ratio, load)) == pytest.approx(whole, rel=1e-12, abs=0)
 
 
+@pytest.mark.long
 @loads
 def test_more_digits_agree_with_fewer(load: str) -> None:
     for ratio in ("0.02", 1, 50):
@@ -77,6 +80,7 @@ def test_more_digits_agree_with_fewer(load: str) -> None:
             assert relative_error(few, many) < mpmath.mpf(10) ** -19
 
 
+@pytest.mark.long(sample=1)
 @loads
 def test_it_grows_from_none_to_one_half(load: str) -> None:
     ratios = [0, 0.1, 0.3, 1, 3, 10, 1e4]

@@ -19,6 +19,7 @@ def by_lammps(folder: Path, seed: int, *options: str) -> tuple[dict[str, Any], f
     return json.loads(said), verdict
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [1, 3])
 def test_our_packing_is_one_for_lammps(tmp_path: Path, seed: int) -> None:
     """Discs give way by force/stiffness: the same contacts, and forces that approach ours."""
@@ -30,6 +31,7 @@ def test_our_packing_is_one_for_lammps(tmp_path: Path, seed: int) -> None:
     assert stiff["error"] < 2e-3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [1, 3])
 def test_where_lammps_comes_to_rest_by_itself_is_proved(tmp_path: Path, seed: int) -> None:
     """It starts from the deposited packing: one of many minima, which need not be ours."""

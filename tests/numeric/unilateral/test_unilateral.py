@@ -135,6 +135,7 @@ def _onto_another(packing: dict[str, Any]) -> None:
     packing["centres"].append(packing["centres"][100])
 
 
+@pytest.mark.long(sample=5)
 @pytest.mark.parametrize(
     "change", [_moved, _grown, _upside_down, _one_contact_less, _another_contact, _onto_another]
 )
@@ -172,6 +173,7 @@ def test_without_tension_forces_are_as_deposited(seed: int, protocol: str) -> No
         assert apart < Fraction(1, 10**19)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "load", [fd.BulkLoad(), fd.SurfaceLoad(angle_deg=10), fd.PointLoad(at=[0, 8])], ids=str
 )
@@ -182,6 +184,7 @@ def test_all_loads_come_to_rest(load: fd.Load, protocol: str) -> None:
     assert outcome.answer.networks[0].events > 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("std", "width", "seed"),
     [(0.03, 16, 3), (0.08, 16, 3), (0.12, 16, 3), (0.3, 16, 1), (0.354, 5, 1)],
@@ -197,6 +200,7 @@ def test_what_cannot_be_deposited_starts_from_a_stretched_lattice(
         strip(std=std, seed=seed, width=width, protocol="event-driven").run()
 
 
+@pytest.mark.long
 def test_beads_that_fall_through_the_base_are_told() -> None:
     """Radii down to 0.48 r, 3 r apart: four weightless beads fall, all others come to rest."""
     with pytest.raises(UnfinishedError, match=r"bead 23 fell through the base, and 3 more"):
@@ -242,6 +246,7 @@ def own(
     )
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("tiny", ["1e-9", "1e-14", "1e-300"])
 @pytest.mark.parametrize("protocol", PROTOCOLS)
 def test_a_bead_that_bears_next_to_nothing_is_held_or_is_no_answer(
@@ -262,6 +267,7 @@ def test_a_bead_that_bears_next_to_nothing_is_held_or_is_no_answer(
         assert proved(outcome, tmp_path)
 
 
+@pytest.mark.long
 def test_under_no_pressure_to_speak_of_beads_are_no_equilibrium() -> None:
     """The load sinks to the base; it was called a strict minimum with all others in the air."""
     with pytest.raises(UnfinishedError, match="bears a load, and no contact holds it"):
@@ -279,6 +285,7 @@ def test_a_load_that_lifts_beads_off_is_never_an_answer() -> None:
         strip(load=fd.SurfaceLoad(angle_deg=180)).run()
 
 
+@pytest.mark.long(sample=1)
 def test_every_question_is_answered(relaxed: fd.Outcome) -> None:
     protocol = relaxed.plan.problem.protocol
     (network,) = relaxed.answer.networks
@@ -299,6 +306,7 @@ def test_every_question_is_answered(relaxed: fd.Outcome) -> None:
     assert (positions["contacts"][network.rattlers] == 0).all()
 
 
+@pytest.mark.long
 def test_the_event_driven_energy_never_rises(monkeypatch: pytest.MonkeyPatch) -> None:
     from force_diffusion.numeric.unilateral import event_driven
 
@@ -374,6 +382,7 @@ def test_quantities_are_the_same_under_the_effect() -> None:
     assert all(issubclass(one, Quantity) for one in NETWORK_QUANTITIES.values())  # type: ignore[arg-type]
 
 
+@pytest.mark.long
 def test_statistics_end_where_they_scatter_from_packing_to_packing() -> None:
     found = strip("profile", realisations=4).run()
     for row, shown in zip(found.rows(), found.decimals(), strict=True):
@@ -395,6 +404,7 @@ def proved(outcome: fd.Outcome, folder: Path) -> bool:
     return written(outcome, folder, lambda packing: None).proved
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("protocol", "pressure"),
     [("linear-programs", 0.1), ("linear-programs", 10), ("event-driven", 10)],
@@ -446,6 +456,7 @@ def test_a_small_bead_is_held_at_the_side_of_a_large_one() -> None:
                 _must_hold(grains)
 
 
+@pytest.mark.long
 def test_a_motion_that_gets_stuck_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     """Here steps shrink to nothing, though forces say that energy falls."""
     scene = fd.Scene(
@@ -462,6 +473,7 @@ def test_a_motion_that_gets_stuck_ends(monkeypatch: pytest.MonkeyPatch) -> None:
         scene.run()
 
 
+@pytest.mark.long
 def test_contacts_that_stop_being_independent_are_no_answer() -> None:
     """Beads under almost no pressure are pushed aside until two contacts hold the same."""
     with pytest.raises(UnfinishedError, match="independent"):
@@ -490,6 +502,7 @@ def test_narrow_strips_are_proved(width: int, seed: int, tmp_path: Path) -> None
     assert proved(strip(std=0.03, seed=seed, width=width).run(), tmp_path)
 
 
+@pytest.mark.long
 def test_an_inclined_load_on_a_larger_strip(tmp_path: Path) -> None:
     outcome = strip(width=40, load=fd.SurfaceLoad(angle_deg=10)).run()
     (network,) = outcome.answer.networks
@@ -497,6 +510,7 @@ def test_an_inclined_load_on_a_larger_strip(tmp_path: Path) -> None:
     assert proved(outcome, tmp_path)
 
 
+@pytest.mark.long
 def test_rattlers_touch_nothing() -> None:
     """Beads that lost a load above them, or a support: each has room on all sides."""
     load = fd.PointLoad(at=[0, 8], pressure=0.1)

@@ -26,6 +26,7 @@ THEIRS = sympy.QQ.frac_field(M, phi).field
 """SymPy's own field, which is fast where ``cancel`` is slow."""
 
 
+@pytest.mark.long
 @given(fractions_, fractions_)
 def test_arithmetic_agrees_with_sympy(left: sympy.Expr, right: sympy.Expr) -> None:
     ours = FIELD.from_sympy(left), FIELD.from_sympy(right)

@@ -52,6 +52,7 @@ def unfold(form: LinearForm, point: Point, top: int) -> explicit.Weights:
     return weights
 
 
+@pytest.mark.long
 @given(expressions, points())
 def test_normal_form_unfolds_to_the_loops(expression: sympy.Expr, point: Point) -> None:
     form = Reader(None).scalar(expression)
@@ -98,6 +99,7 @@ def test_what_is_divided_by_what_may_vanish_is_not_read(divisor: sympy.Expr) -> 
         Reader(REGION).scalar(quotient)
 
 
+@pytest.mark.long
 @given(expressions, points())
 def test_sum_of_squares(expression: sympy.Expr, point: Point) -> None:
     form = Reader(None).scalar(expression)
@@ -109,6 +111,7 @@ def test_sum_of_squares(expression: sympy.Expr, point: Point) -> None:
     assert evaluate(closed, point) == sum((w**2 for w in weights.values()), Fraction(0))
 
 
+@pytest.mark.long
 @given(expressions, expressions, points(), st.booleans())
 def test_sum_of_products(
     one: sympy.Expr, other: sympy.Expr, point: Point, is_variance: bool
@@ -139,6 +142,7 @@ def test_runs_that_share_some_layers_are_summed_over_these(slope: int) -> None:
         sum_of_products(*map(Reader(None).scalar, lines), Region({sy.j: 2, sy.M: 2}))
 
 
+@pytest.mark.long
 @given(expressions, points(), st.integers(-2, 2))
 def test_other_indices_are_put_in(expression: sympy.Expr, point: Point, across: int) -> None:
     """M = j + 2, so many places to the right."""

@@ -40,6 +40,7 @@ def proved(rule: rules.Rule, left: sympy.Expr, right: sympy.Expr, where: Where) 
         return False
 
 
+@pytest.mark.long
 @given(st.lists(st.integers(-4, 4), min_size=1, max_size=4), st.integers(0, 3))
 def test_the_mean_of_a_polynomial_is_that_of_its_layers(
     coefficients: list[int], wrong: int
@@ -110,6 +111,7 @@ def test_mean_roots_are_numbers(a: int, b: int, scale: int) -> None:
     assert math.isclose(scale * numeric, float(right), rel_tol=1e-6)  # h²f''/24f' is below
 
 
+@pytest.mark.long
 @given(st.lists(st.tuples(st.fractions(-9, 9, max_denominator=9), st.integers(1, 60)), max_size=4))
 def test_a_surd_is_read_as_the_number_that_it_is(terms: list[tuple[Fraction, int]]) -> None:
     written = sympy.Add(

@@ -19,6 +19,7 @@ def test_steps_below_a_bead_lead_back_to_it() -> None:
         assert sympy.expand(IN_CONE[index].xreplace(STEPS_BELOW)) == index
 
 
+@pytest.mark.long(sample=6)
 @pytest.mark.parametrize("number", [n for n in paper() if n <= 11])
 def test_twice_mirrored_is_the_same(number: int) -> None:
     for printed in load(number).printed:

@@ -75,7 +75,11 @@ HALF = sympy.Rational(1, 2)
             "{M − j if m ≤ j; M − m if m > j}",
         ),
         (sympy.sqrt(M), r"\sqrt{M}", "√M"),
+        (sympy.Le(j, M - 1), None, "j ≤ M − 1"),
+        (sympy.Eq(j, 0), None, "j = 0"),
         (sympy.Rational(-3, 2), r"-\frac{3}{2}", "−3/2"),
+        (times(1 / r, minus(times(2, z))), r"\frac{1}{r} (-2 z)", "(1/r) (−2 z)"),
+        (times(2, power(-1, -1)), r"\frac{2}{-1}", None),
     ],
 )
 def test_notation(expression: sympy.Expr, source: str | None, plain: str | None) -> None:
@@ -204,6 +208,7 @@ def test_a_broken_fraction_shows_no_stand_in() -> None:
         assert "GAP" not in " ".join(lines)
 
 
+@pytest.mark.long(sample=26)
 @pytest.mark.parametrize("room", [120, 222, 330])
 @pytest.mark.parametrize("number", list(modules()))
 def test_lines_put_together_are_the_formula(number: int | str, room: float) -> None:

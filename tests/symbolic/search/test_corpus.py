@@ -27,6 +27,7 @@ AT_LEAST: dict[int | str, tuple[int, int, int]] = {
 """Mutants, statements and kinds of statements of each equation: they may grow, and never fall."""
 
 
+@pytest.mark.long(sample=14)
 @pytest.mark.parametrize("number", modules())
 def test_mutants_and_statements_do_not_fall(number: int | str) -> None:
     derivation, found, kinds = load(number), 0, set()
@@ -41,6 +42,7 @@ def test_mutants_and_statements_do_not_fall(number: int | str) -> None:
     assert len(kinds) >= least[2]
 
 
+@pytest.mark.long(sample=17)
 @pytest.mark.parametrize("number", modules())
 def test_every_statement_says_why(number: int | str) -> None:
     derivation = load(number)

@@ -82,6 +82,7 @@ def test_every_mutant_has_one(number: int, equation: sympy.Eq) -> None:
         assert counterexample(mutant.equation, DOMAINS[number]), mutant.change
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("number", "equation"), PRINTED)
 def test_true_statements_in_another_form_have_none(number: int, equation: sympy.Eq) -> None:
     source = Source(equation, "=")
@@ -207,6 +208,7 @@ MOVED = [one.put_in({k: i + M - j, l: M}) for one in (*LOADINGS[:2], ENTERING, M
 MOVED += [PASSING.put_in({site_r: k + 1, site_s: l + 1})]
 
 
+@pytest.mark.long(sample=2)
 @pytest.mark.parametrize("loading", [*LOADINGS, *MIRRORED, *MOVED, *(o.mirrored() for o in MOVED)])
 def test_what_a_loading_says_has_none_and_other_places_have(loading: Loading) -> None:
     """The packings know a loading by its name alone."""
@@ -223,6 +225,7 @@ def test_what_a_loading_says_has_none_and_other_places_have(loading: Loading) ->
         assert counterexample(equation, elsewhere), (equation, when)
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("loading", [None, LOADED, LOADED_VERTICALLY, PASSING, ENTERING])
 def test_any_bead_is_balanced(loading: Loading | None) -> None:
     def push(force: type, change: type, unit: sympy.Symbol, *at: sympy.Expr) -> sympy.Expr:
@@ -312,6 +315,7 @@ def _powers() -> sympy.Expr:
 WHEREVER = Where.of(j >= 0, indices=(i, M))
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize(
     "side",
     [

@@ -42,6 +42,7 @@ def found(left: sympy.Expr, right: sympy.Expr | int, where: Where = BEADS) -> st
     return counterexample(equation(left, sympy.sympify(right)), where)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("left", "right", "where"),
     [

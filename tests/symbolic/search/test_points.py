@@ -12,6 +12,7 @@ from force_diffusion.symbolic.symbols import M, i, j, k, l, n, p, q, site_s
 from tests.symbolic.search.domains import DOMAINS
 
 
+@pytest.mark.long(sample=3)
 @pytest.mark.parametrize("number", DOMAINS)
 def test_points_are_beads_of_the_domain(number: int) -> None:
     where = DOMAINS[number]

@@ -48,6 +48,7 @@ def test_a_load_on_one_bead_is_refused() -> None:
         quadratic.forces(N, ONE, given("loaded", (0, 2), ONE, ONE), 1, (1, 1))
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("level", [1, 2, 4])
 def test_below_one_load_it_is_what_taylor_packings_give(level: int) -> None:
     across = 5 - level % 2
@@ -70,6 +71,7 @@ def test_too_high_a_load_is_refused() -> None:
         quadratic.forces(N, ONE, given("point", (top, top), ONE, ONE), 1, (0, 0))
 
 
+@pytest.mark.long
 def test_a_mean_below_a_load_that_is_off_by_little_is_refuted() -> None:
     for name in ("contact", "bead", "leg"):
         one = t7.MEANS[name]
@@ -80,6 +82,7 @@ def test_a_mean_below_a_load_that_is_off_by_little_is_refuted() -> None:
                 assert counterexample(equation(one.is_, right * (1 + phi / 1000)), where)
 
 
+@pytest.mark.long
 def test_a_push_is_read_as_one() -> None:
     """Under a surface load a whole one is half of the load, whatever the radii."""
     whole = Shift((n_y + Dot(e_y, DeltaNPlus(i, j))) * ForcePlus(i, j))
@@ -88,6 +91,7 @@ def test_a_push_is_read_as_one() -> None:
     assert counterexample(equation(whole, f_load * phi**2), where, at_most=40)
 
 
+@pytest.mark.long
 def test_a_mean_that_is_off_by_little_is_refuted() -> None:
     where = Where.of(j >= 2, j + 2 <= M, loading=SURFACE)
     mean, printed = Shift(ForcePlus(i, j) / (f_load / (2 * n_y))), t4.ON_SURFACE.printed[0].rhs

@@ -11,6 +11,7 @@ from force_diffusion.symbolic.variances.variance import packings, value_at
 MODULES = pytest.mark.parametrize("module", [eq13, eq14], ids=["surface", "bulk"])
 
 
+@pytest.mark.long(sample=1)
 @MODULES
 def test_it_is_the_mean_of_the_layers(module) -> None:
     forms = module.exact_forms()

@@ -1,0 +1,248 @@
+"""Files and numbers from elsewhere that nobody would write: each is refused in words."""
+
+import io
+import json
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
+from force_diffusion.numeric.arithmetic.foreign import ForeignFileError, read_numbers
+from force_diffusion.numeric.scene.sections import SceneError
+from force_diffusion.numeric.scene.tables import TableError
+from force_diffusion.numeric.unilateral import checker
+from hypothesis import given
+from hypothesis import strategies as st
+
+import force_diffusion as fd
+from force_diffusion.__main__ import main
+
+LAYERS, WIDTH = 4, 5
+GOOD = np.linspace(0.99, 1.01, LAYERS * WIDTH).reshape(LAYERS, WIDTH)
+
+
+def npy(values: Any = GOOD) -> bytes:
+    buffer = io.BytesIO()
+    np.save(buffer, values)
+    return buffer.getvalue()
+
+
+def npz() -> bytes:
+    buffer = io.BytesIO()
+    np.savez(buffer, GOOD)
+    return buffer.getvalue()
+
+
+def headed(header: str, version: bytes = b"\x01\x00") -> bytes:
+    """Give the good array under a header of one's own."""
+    text = header.encode().ljust(118 - 1) + b"\n"
+    return b"\x93NUMPY" + version + len(text).to_bytes(2, "little") + text + GOOD.tobytes()
+
+
+def about(descr: str = "<f8", order: str = "False", shape: str = "(4, 5)", more: str = "") -> bytes:
+    return headed(f"{{'descr': '{descr}', 'fortran_order': {order}, 'shape': {shape}, {more}}}")
+
+
+def read(path: Path) -> Any:
+    packing = fd.Packing(height=LAYERS - 1, width=WIDTH)
+    scene = fd.Scene(
+        packing=packing,
+        disorder=fd.Disorder(kind="file", file=str(path)),
+        ask=fd.Ask(quantity="contact_forces"),
+    )
+    return scene.run()
+
+
+@pytest.mark.parametrize(
+    ("content", "says"),
+    {
+        "archive": (npz(), "is a ZIP archive"),
+        "PK": (b"PK", "is a ZIP archive"),
+        "PK and more": (b"PK\x03\x04" + bytes(50), "is a ZIP archive"),
+        "unclosed": (npy().replace(b"}", b" "), "header is damaged"),
+        "unclosed shape": (about(shape="(4, 5"), "header is damaged"),
+        "nested": (about(shape="(" * 50), "header is damaged"),
+        "a calculation": (about(shape="(4, 5**1)"), "header is damaged"),
+        "another key": (about(more="'x': 1"), "header is damaged"),
+        "commas": (about(shape="(4 5)"), "header is damaged"),
+        "twice": (about(more="'shape': (4, 5)"), "header is damaged"),
+        "huge": (about(shape="(4, 999999999999999999)"), "too short for its shape"),
+        "many axes": (about(shape="(4, 5" + ", 1" * 9 + ")"), "shape"),
+        "too long": (about(shape="(4, 9999999999999999999)"), "header is damaged"),
+        "negative": (about(shape="(-4, 5)"), "header is damaged"),
+        "empty": (about(shape="(4, 0)"), "is empty"),
+        "objects": (about("|O"), "real numbers are needed"),
+        "no kind": (about("<q8"), "real numbers are needed"),
+        "no size": (about("<f3"), "type <f3 is unknown"),
+        "version": (headed("{}", b"\x09\x00"), "version is 9.0"),
+        "cut": (npy()[:-1], "too short"),
+        "header cut": (npy()[:60], "header"),
+        "length cut": (npy()[:9], "header"),
+        "infinite": (npy(GOOD * np.inf), "finite"),
+        "large": (npy(GOOD * 1.7e308), "at most 1e\\+300"),
+    }.values(),
+)
+def test_what_is_no_array_of_numbers(content: bytes, says: str, tmp_path: Path) -> None:
+    path = tmp_path / "radii.npy"
+    path.write_bytes(content)
+    with pytest.raises(TableError, match=rf"disorder.file: .*radii.npy: .*{says}"):
+        read(path)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        GOOD,
+        np.asfortranarray(GOOD),
+        GOOD.astype(">f8"),
+        GOOD.astype(np.float32),
+        GOOD.astype(np.longdouble),
+        np.ones((LAYERS, WIDTH), dtype=np.int16),
+        np.ones((LAYERS, WIDTH), dtype="|u1"),
+    ],
+)
+@pytest.mark.parametrize("version", [(1, 0), (2, 0), (3, 0)])
+def test_all_real_arrays_of_numpy_are_read(
+    values: Any, version: tuple[int, int], tmp_path: Path
+) -> None:
+    path = tmp_path / "radii.npy"
+    with path.open("wb") as file:
+        np.lib.format.write_array(file, values, version)
+    found = read_numbers(path)
+    assert found.dtype == values.dtype
+    assert (found == values).all()
+    assert read(path).count == 2 * WIDTH * (LAYERS - 1)
+
+
+@given(data=st.data())
+def test_a_changed_file_is_read_or_refused_as_numpy_would(
+    data: Any, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    """NumPy's own reader is the expectation, where it gives an array of as many bytes at all."""
+    content = bytearray(npy())
+    for _ in range(data.draw(st.integers(1, 4))):
+        at = data.draw(st.integers(0, 127))
+        content[at] = data.draw(st.sampled_from(b"0123456789<>|fiuOcU'(),{} \x00\xff\n-*"))
+    path = tmp_path_factory.mktemp("npy") / "radii.npy"
+    path.write_bytes(content)
+    try:
+        found = read_numbers(path)
+    except ForeignFileError:
+        return
+    expected = np.load(io.BytesIO(content), allow_pickle=False)
+    assert (found.shape, found.dtype) == (expected.shape, expected.dtype)
+    assert np.array_equal(found, expected, equal_nan=True)
+
+
+@pytest.mark.parametrize("unit", ["1", "1e-100"])
+@pytest.mark.parametrize("place", ["1e400,0", "0,1e400", "0,1e308", "-1e308,0", "0,1e20"])
+def test_places_that_no_float_holds(place: str, unit: str, tmp_path: Path) -> None:
+    (tmp_path / "radii.csv").write_text(f"x,y,r\n{place},{unit}\n")
+    scene = fd.Scene(
+        packing=fd.Packing(height=3, width=5, radius=Fraction(unit)),
+        disorder=fd.Disorder(kind="file", file="radii.csv"),
+        ask=fd.Ask(quantity="profile"),
+        folder=tmp_path,
+    )
+    with pytest.raises(TableError, match=r"line 2: .*more than 2\^50 r from bead"):
+        scene.run()
+
+
+def test_arrays_whose_mean_is_no_float() -> None:
+    for largest in (1.7e308, 1e302):
+        with pytest.raises(SceneError, match=r"radii.*at most 1e\+300"):
+            fd.solve(GOOD * largest)
+    assert fd.solve(GOOD * 9e299).error < 1e-15
+
+
+def packings(tmp_path: Path, change: dict[str, Any]) -> Path:
+    """Write a packing of two beads on two of the base, with something changed."""
+    packing = {
+        "period": "12",
+        "fixed": 2,
+        "radii": ["1"] * 3,
+        "loads": [["0", "0"], ["0", "0"], ["0", "-1"]],
+        "centres": [["0", "0"], ["3", "0"], ["1.5", "1.3228756555322952952508078768196302128551"]],
+        "contacts": [[2, 0], [2, 1]],
+    } | change
+    path = tmp_path / "packings.json"
+    written = {"format": "force-diffusion packings 1", "packings": [packing]}
+    path.write_text(json.dumps(written))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("change", "status"),
+    [
+        ({}, 0),
+        ({"period": "0"}, 3),
+        ({"period": "-12"}, 3),
+        ({"centres": [["0", "0"], ["3", "0"], ["1e999", "1.3"]]}, 3),
+        ({"centres": [["1e99", "1e99"]] * 3}, 3),
+        ({"radii": ["1", "1", "1e-999"]}, 3),
+        ({"contacts": [[2, 0], [2**70, 1]]}, 2),
+        ({"fixed": 2**70}, 2),
+    ],
+)
+def test_packings_that_no_program_wrote(
+    change: dict[str, Any], status: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check-packings", str(packings(tmp_path, change))]) == status
+    shown = capsys.readouterr()
+    assert status == 0 or "NOT proved" in shown.out or "packings.json: " in shown.err
+
+
+def test_a_packing_that_the_memory_does_not_hold_is_refused_before(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    n = 20_000
+    change = {
+        "period": "1e5",
+        "radii": ["1"] * n,
+        "loads": [["0", "-1"]] * n,
+        "centres": [[str(i), str(i)] for i in range(n)],
+        "contacts": [[i - k, i] for i in range(2, n) for k in (1, 2)],
+    }
+    monkeypatch.setattr(checker, "memory_limit", lambda: 8 * 10**9)
+    with pytest.raises(NotReachedError, match="39996 contacts needs about 115 GB, and 8 GB"):
+        fd.check_packings(packings(tmp_path, change))
+
+
+SCENE = fd.Scene(
+    packing=fd.Packing(height=3, width=6),
+    disorder=fd.Disorder(kind="uniform", relative_std=0.01),
+    ask=fd.Ask(quantity="profile"),
+)
+
+
+def test_numbers_of_any_kind_say_how_exact_an_ensemble_is() -> None:
+    exact = fd.ensemble(SCENE, 50, until=Fraction(1, 2), confidence=Fraction(9, 10))  # type: ignore[arg-type]
+    assert exact.data() == fd.ensemble(SCENE, 50, until=0.5, confidence=0.9).data()
+
+
+@pytest.mark.parametrize("name", ["until", "confidence"])
+@pytest.mark.parametrize(
+    "value",
+    [Fraction(2), Fraction(10**400), 10**400, Fraction(1, 10**400)],
+    ids=["2", "fraction", "whole", "small"],
+)
+def test_numbers_outside_of_their_range_are_refused(name: str, value: Any) -> None:
+    with pytest.raises(ForceDiffusionError, match=name):
+        fd.ensemble(SCENE, 50, **{name: value})
+
+
+def test_a_share_that_no_ensemble_reaches_is_told_so(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        "packing = {height = 3, width = 6}\nask = {quantity = 'profile'}\n"
+        "disorder = {kind = 'uniform', relative_std = 0.01}"
+    )
+    words = ["--realisations", "5", "--workers", "1", "--until"]
+    assert main(["ensemble", str(path), *words, "1e-300"]) == 3
+    assert "more realisations are needed" in capsys.readouterr().err
+    assert main(["ensemble", str(path), *words, "1e-3"]) == 3
+    assert "realisations may do" in capsys.readouterr().err
