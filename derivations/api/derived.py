@@ -24,7 +24,7 @@ from force_diffusion.derivations.export.terminal import (
 )
 from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.loading import load, with_premises
-from force_diffusion.derivations.framework.own import assert_allowed
+from force_diffusion.derivations.framework.own import assert_allowed, assert_shown
 from force_diffusion.derivations.framework.record import Derivation, Outcome
 from force_diffusion.derivations.framework.runner import run_all
 from force_diffusion.numeric.arithmetic.processes import Start
@@ -147,6 +147,7 @@ def derivations_of(numbers: Iterable[Number | Derivation]) -> list[Derivation]:
     for one in numbers:
         if isinstance(one, Derivation):
             assert_allowed(one)
+            assert_shown(one)
         found.append(one if isinstance(one, Derivation) else load(equation(one).number))
     return found
 

@@ -49,10 +49,10 @@ def forces(loading: Loading) -> Chain:
 
 
 def mean_force(loading: Loading) -> sympy.Expr:
-    """⟨f⟩, the force of each contact above layer j in the ordered packing.
+    """⟨f⟩, the force of the contacts above a bead of layer j in the ordered packing.
 
-    >>> mean_force(SURFACE)
-    f_load/(2*n_y)
+    >>> mean_force(SURFACE), mean_force(BULK)
+    (f_load/(2*n_y), m_g*(M - j)/(2*n_y))
     """
     _assert_known(loading)
     return eq11.ORDERED if loading == SURFACE else eq14.ORDERED[eq14.MEAN_FORCE]

@@ -12,10 +12,18 @@ from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
 
+import sympy
 from force_diffusion.derivations.framework.catalogue import cases_of, modules
 from force_diffusion.derivations.framework.loading import load
-from force_diffusion.derivations.framework.record import Derivation
+from force_diffusion.derivations.framework.proving import Lines
+from force_diffusion.derivations.framework.record import Derivation, Witness
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.symbolic.printing.latex import RELATIONS
+
+_MISTAKES = (
+    ArithmeticError, AssertionError, AttributeError, LookupError, RuntimeError, TypeError,
+    ValueError,
+)  # fmt: skip
 
 _LABEL = re.compile(r"[A-Z][A-Za-z0-9]{0,11}", re.ASCII)
 
@@ -43,8 +51,49 @@ def assert_allowed(derivation: Derivation) -> None:
     if not isinstance(number, str) or not _LABEL.fullmatch(number):
         allowed = 'a capital letter, then at most 11 letters or digits, such as "S1"'
         raise OwnDerivationError(f"number = {number!r}: {allowed}")
+    for right, field, allowed in (
+        (_is_word(derivation.name), "name", 'a word for code, such as "sum_of_two_forces"'),
+        (_are(derivation.printed, sympy.Eq), "printed", "a tuple of equations, as (printed,)"),
+        (callable(derivation.steps), "steps", "a function that gives Lines"),
+        (_is_function(derivation.exact), "exact", "a function, as variance.exact, not called"),
+        (derivation.relation in RELATIONS, "relation", f"one of {' '.join(RELATIONS)}"),
+        (_are(derivation.premises, Derivation), "premises", "derivations, as (premise(11),)"),
+        (_are(derivation.witnesses, Witness), "witnesses", "a tuple of witnesses"),
+        (_are(derivation.symbols, tuple), "symbols", "pairs of a symbol and its meaning"),
+    ):
+        if not right:
+            raise OwnDerivationError(f"{field} of {number}: {allowed}")
     for premise in derivation.premises:
         assert_allowed(premise)
+
+
+def assert_shown(derivation: Derivation) -> None:
+    """Refuse a derivation none of whose lines is what it prints.
+
+    Raises:
+        OwnDerivationError: it is such a one.
+    """
+    lines = derivation.steps()
+    if not isinstance(lines, Lines):
+        raise OwnDerivationError(f"steps of {derivation.number}: a function that gives Lines")
+    shown = [one for line in lines for one in line.equations]
+    if is_own(derivation) and not all(one in shown for one in derivation.printed):
+        raise OwnDerivationError(
+            f"printed of {derivation.number}: no line of its steps shows it; add one, as "
+            "variance.show_leading(lines, reason, printed)"
+        )
+
+
+def _is_word(name: object) -> bool:
+    return isinstance(name, str) and name.isidentifier()
+
+
+def _is_function(exact: object) -> bool:
+    return exact is None or callable(exact)
+
+
+def _are(several: object, kind: type) -> bool:
+    return isinstance(several, tuple) and all(isinstance(one, kind) for one in several)
 
 
 def derivations_in(path: Path) -> list[Derivation]:
@@ -106,6 +155,10 @@ def blamed_on(*paths: Path) -> Iterator[None]:
         lines = {str(path): path.name for path in paths}
         frames = traceback.extract_tb(error.__traceback__)
         own = [frame for frame in frames if frame.filename in lines]
+        if not own and isinstance(error, _MISTAKES) and paths:
+            names = " or ".join(lines.values())
+            what = f"what {names} states can't be run: {type(error).__name__}: {error}"
+            raise OwnDerivationError(what) from error
         if not own:
             raise
         what = "it ends the program" if isinstance(error, SystemExit) else str(error)

@@ -84,7 +84,7 @@ _MEANINGS = {
 
 
 def usual(*symbols: sympy.Symbol) -> tuple[tuple[sympy.Symbol, str], ...]:
-    """Symbols that stand for the same wherever they are explained."""
+    """Symbols with their usual meaning in words: σ, r, M, z and φ."""
     return tuple((symbol, _MEANINGS[symbol]) for symbol in symbols)
 
 
@@ -103,6 +103,27 @@ class Derivation:
     ``steps`` is a function so that importing a derivation proves nothing and costs nothing. One
     of its lines is the printed equation: anything said in its place is proved by the same rule, or
     not.
+
+    Attributes:
+        number: of the paper; of your own a label such as "S1".
+        name: in code and JSON.
+        title: in words.
+        symbols: each with its meaning; ``usual`` gives the common ones.
+        assumptions: in words.
+        premises: the derivations that it rests on.
+        printed: the equations, each of which is the formula of a line.
+        steps: gives the lines.
+        claims: what else a procedure of its own decides.
+        witnesses: checks of another kind.
+        remarks: in words.
+        domain: relations of whole numbers, where the printed form holds at finite size.
+        where: the same for the kernel, with the load and the limit.
+        dimension: of the packing.
+        loads: in words, for Coq: "surface", "bulk" or "single".
+        relation: the printed sign.
+        exact: gives the forms at finite size, by case.
+        equivalent: mechanical changes that say the same, each with the reason why.
+        tries: gives the statements of known truth that the checker is tried on.
     """
 
     number: Number

@@ -32,7 +32,7 @@ _SECONDS, _SECONDS_OF_CONE = 2.5e-7, 5e-7
 def suits(scene: Scene, tolerance: Fraction | None) -> bool:
     """Say whether a scene's packing could be swept by segments, as far as is plain at once.
 
-    With a tolerance it is not: the error is that of a few columns, not of the answer.
+    With a tolerance it is not: segments are swept in float64 alone.
     """
     return (
         scene.ask.realisations == 1

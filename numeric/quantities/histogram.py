@@ -42,20 +42,16 @@ class Histogram(ContactQuantity, Listed):
         return 3 * (self.scene.ask.bins or 1) + realisations * (region.beads // 50)
 
     def left(self, solved: Solved) -> float | None:
-        """Give what rounding left of changes."""
-        return self.left_of_changes(solved)
+        """Give what rounding left of changes, where all are asked for."""
+        return self.left_of_changes(solved) if self.layers is None else None
 
     def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
         """Give the changes of contacts below the beads of some layers."""
         forces = solved.forces
         assert forces is not None
         rows = range(max(layers.start, 1), min(layers.stop, len(forces.rows)))
-        parts = [
-            np.asarray(g)
-            for j in filter(self.is_asked, rows)
-            for _, _, g in forces.below(j)
-            if g.size
-        ]
+        asked = filter(self.is_asked, rows)
+        parts = [np.asarray(g) for j in asked for _, _, g in forces.below(j) if g.size]
         return Table({}, {"change": joined(solved.system, parts)}, ("change",)) if parts else None
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:

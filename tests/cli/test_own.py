@@ -138,6 +138,33 @@ def test_a_file_that_can_not_be_read(folder: Path, name: str, says: str, capsys)
     assert says in told
 
 
+WRONG = [
+    ("printed=(printed,)", "printed=printed", "printed of S1: a tuple of equations"),
+    ("printed=(printed,)", "printed=(printed.rhs,)", "printed of S1: a tuple of equations"),
+    ("    steps=steps,", "    steps=3,", "steps of S1: a function that gives Lines"),
+    ("    steps=steps,", "    steps=lambda: 3,", "steps of S1: a function that gives Lines"),
+    ("    steps=steps,", "    steps=lambda: Lines(Where()),", "no line of its steps shows it"),
+    ("exact=variance.exact,", "exact=variance.exact(),", "exact of S1: a function"),
+    ('relation="∼"', 'relation="~"', "relation of S1: one of = "),
+    ("premises=()", "premises=(11,)", "premises of S1: derivations, as (premise(11),)"),
+    ('{"+": 1, "-": 1}),)', '{"+": 1, "-": 1}), 3)', "witnesses of S1: a tuple of witnesses"),
+    ('{"+": 1, "-": 1}', '{"p": 1}', "what mine.py states can't be run: ValueError: branch must"),
+    ("usual(sigma, r, M, z, phi)", "(M,)", "symbols of S1: pairs of a symbol and its meaning"),
+    ('name="sum_of_two_forces"', 'name="../x"', "name of S1: a word for code"),
+    ("forces(SURFACE)", "()", "NotProvedError: f⁻_ij is not given by the radii"),
+]
+
+
+@pytest.mark.parametrize(("good", "bad", "says"), WRONG)
+def test_what_is_wrong_with_a_derivation_is_named(folder, good, bad, says, capsys) -> None:
+    wrong = alone(EXAMPLE).replace(good, bad)
+    assert wrong != alone(EXAMPLE)
+    assert main(["derive", save(wrong)]) == 2
+    printed = capsys.readouterr().err
+    assert says in " ".join(printed.split())
+    assert "Traceback" not in printed
+
+
 def test_two_of_one_label(folder: Path, capsys) -> None:
     save(alone(EXAMPLE), "one.py")
     save(alone(EXAMPLE), "two.py")
