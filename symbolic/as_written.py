@@ -56,7 +56,7 @@ def formula(written: str, *symbols: sympy.Symbol) -> sympy.Expr:
 
     >>> from force_diffusion.symbolic.printing.text import text
     >>> text(formula("4j(1 − φ) − 8φM + φ²/2"))
-    '4 j (1 − φ) − 8 φ M + φ²/2'
+    '4 j (1 − φ) − 8 M φ + φ²/2'
     """
     reader = _Reader(written, symbols)
     found = reader.expression()

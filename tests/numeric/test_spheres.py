@@ -157,7 +157,7 @@ def test_studies_and_other_plots_refuse_three_dimensions() -> None:
     asked = scene("profile", height=2, width=6)
     with pytest.raises(fd.SceneError, match=r"packing.dimension = 3: must be 2"):
         fd.cost(asked)
-    with pytest.raises(fd.SceneError, match=r"packing.dimension = 3: contact_forces has"):
+    with pytest.raises(fd.SceneError, match='dimension = 3: has figures of "profile" and'):
         scene(height=2, width=6).run().plot()
 
 
