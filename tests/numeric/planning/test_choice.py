@@ -50,11 +50,12 @@ def reference(sections: dict[str, dict[str, Any]]) -> Outcome:
 
 
 def recounted(bins: list[dict[str, Any]], plan: Plan) -> list[int]:
-    """Count the true changes into the bins that were printed."""
+    """Count the true changes into the printed bins; of realisations that are alike, all of them."""
     table = ways.answer(plan, plan.system, range(plan.problem.realisations))
     values = [midpoint(value) for value in table.numbers["change"]]
     edges = [(Fraction(row["low"]), Fraction(row["high"])) for row in bins]
-    return [sum(low <= value < high for value in values) for low, high in edges]
+    alike = (plan.scene.ask.realisations or 1) // plan.problem.realisations
+    return [alike * sum(low <= value < high for value in values) for low, high in edges]
 
 
 def assert_kept(outcome: Outcome, true: Outcome, tolerance: Fraction) -> None:
