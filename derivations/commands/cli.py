@@ -151,7 +151,7 @@ def run(arguments: list[str] | None = None) -> int:
     except SystemExit as done:
         if isinstance(done.__context__, OSError):  # a broken pipe, which typer calls status 1
             raise done.__context__ from None
-        if done.code and given[0].endswith("-completion"):
+        if done.code and given and given[0].endswith("-completion"):
             print("Completion is for bash, zsh or fish: call it from one of them.", file=sys.stderr)
             return WRONG_INPUT
         return done.code if isinstance(done.code, int) else 1

@@ -70,6 +70,10 @@ def test_help_and_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
         assert word in shown
     assert main(["derive", "--help"]) == 0
     assert "--json" in capsys.readouterr().out
+    assert main([]) == 2
+    shown = "".join(capsys.readouterr())
+    assert "Usage: force-diffusion" in shown
+    assert "Traceback" not in shown
 
 
 @pytest.mark.parametrize("name", COMMANDS)
