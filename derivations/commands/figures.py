@@ -14,7 +14,7 @@ from force_diffusion.derivations.commands.guard import about, say
 from force_diffusion.derivations.commands.output import Overwrite, out_option, output
 from force_diffusion.derivations.commands.shared import images, noticing, sourced, warn
 from force_diffusion.numeric.arithmetic import processes
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
+from force_diffusion.numeric.arithmetic.errors import printable
 
 import force_diffusion as fd
 
@@ -241,15 +241,10 @@ def _begun(name: str, command: str, options: dict[str, Any]) -> "Callable[[], Pa
     from force_diffusion.numeric.figures import catalogue
 
     with about(Path(name).name if name.endswith(".toml") else f"figure {name}"):
-        try:
-            if name.endswith(".toml"):
-                own = _own(Path(name), command, options["notice"])
-                return lambda: own
-            return catalogue.begun(name, command=command, **options)
-        except ForceDiffusionError as error:
-            if name != "3":
-                raise
-            raise ForceDiffusionError(f"{error}; ask for lower heights") from error
+        if name.endswith(".toml"):
+            own = _own(Path(name), command, options["notice"])
+            return lambda: own
+        return catalogue.begun(name, command=command, **options)
 
 
 def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":

@@ -338,10 +338,12 @@ def _check_radii(rho: Any, layer: Layer, region: Region, system: NumberSystem) -
 
 
 # What is wrong where one of the measures of ``local.rest`` is not positive.
-APART = "its supports are too far apart to hold it, or too close to hold it up"
+REMEDY = "; less disorder or fewer layers would help"
+APART = f"its supports are too far apart to hold it, or too close to hold it up{REMEDY}"
 STEEP = {
-    2: "the line through its supports is steeper than n⁺ or n⁻",
-    3: "the plane through its supports is steeper than a base vector, or they lie crosswise",
+    2: f"the line through its supports is steeper than n⁺ or n⁻{REMEDY}",
+    3: "the plane through its supports is steeper than a base vector, or they lie crosswise"
+    + REMEDY,
 }
 
 

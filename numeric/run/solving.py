@@ -237,11 +237,13 @@ def solve(
         raise SceneError(given.name, None, f"shape {shape}: a packing has at least 2 layers")
     if shape[-1] < layers and not allow_images:
         beads = " × ".join(map(str, shape[1 - dimension :]))
+        turned = "swapaxes(-1, -2)" if batch else "T"
+        remedy = f"transposed? then give {given.name}.{turned}; " if dimension == 2 else ""
         raise SceneError(
             given.name,
             None,
             f"shape {shape}: {layers} layers of {beads} beads bear on their own periodic "
-            "images; layers come before columns: if that is what it is, say allow_images=True",
+            f"images; {remedy}if that is what it is, say allow_images=True",
         )
     if radius is None:
         radius = Fraction(float(given.values.mean())) if delta_r is None else 1

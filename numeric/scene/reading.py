@@ -1,6 +1,8 @@
 """Scenes from TOML files, checked before anything is computed."""
 
+import json
 import re
+import shlex
 import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -52,8 +54,17 @@ def _value(name: str, written: str) -> object:
             raise ValueError
         found: object = tomllib.loads(f"value = {written}", parse_float=Written)["value"]
     except (ValueError, ArithmeticError, RecursionError):
-        raise SceneError(name, written, "is no value of TOML, such as 8, 1e-4 or normal") from None
+        why = f"is no value of TOML, such as 8, 1e-4 or [0, 10]{_quoted(name, written)}"
+        raise SceneError(name, written, why) from None
     return found
+
+
+def _quoted(name: str, written: str) -> str:
+    """Say how text, such as the name of a file, is set: in quotes, which shells take away."""
+    if len(written) > LONGEST_VALUE or not re.match(r"[A-Za-z_./~]", written):
+        return ""
+    text = json.dumps(written, ensure_ascii=False)
+    return f"; text goes in quotes: say --set {shlex.quote(f'{name}={text}')}"
 
 
 def _lines_with_keys(text: str) -> Iterator[str]:

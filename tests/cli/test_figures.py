@@ -169,8 +169,24 @@ def test_heights_that_cannot_be_built(
     status, printed, err = call(capsys, 3, "--heights", "40", "--realisations", 16, "--out", out)
     assert (status, printed) == (2, "")
     assert "figure 3: bead" in err
-    assert "lower heights" in err
+    assert "less disorder or fewer layers" in err
     assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "ends"),
+    [
+        ("--relative-std", -0.01, "must not be negative"),
+        ("--relative-std", 0.9, "would reach a radius ≤ 0"),
+        ("--spacing", 5, "or beads of the ordered packing overlap"),
+    ],
+)
+def test_of_a_wrong_value_no_height_is_blamed(
+    option: str, value: float, ends: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    status, printed, err = call(capsys, 3, f"{option}={value}", "--out", tmp_path / "out")
+    assert (status, printed) == (2, "")
+    assert err.endswith(f"{ends}\n")
 
 
 def test_a_folder_of_others_is_left_alone(

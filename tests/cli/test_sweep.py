@@ -82,6 +82,8 @@ def test_json_of_a_sweep_is_one_list(scene: Path, capsys: pytest.CaptureFixture[
         (["--set", "a.b.c=3"], "no key of a section"),
         (["--set", "packing.hieght=3"], 'did you mean "height"'),
         (["--set", "packing.height=3]"], "is no value of TOML"),
+        (["--set", "disorder.file=other.csv"], """say --set 'disorder.file="other.csv"'"""),
+        (["--set", "disorder.file=a\\b.csv"], r"""say --set 'disorder.file="a\\b.csv"'"""),
         (["--set", "packing.height="], "is no value of TOML"),
         (["--set", f"packing.height=9{'9' * 5000}"], "is no value of TOML"),
         (["--set", "packing.height=2,0"], "greater than or equal to 1"),

@@ -154,10 +154,18 @@ def test_a_bead_that_cannot_rest_is_named() -> None:
         fd.solve(radii, radius=1, spacing=3)
 
 
-@pytest.mark.parametrize("shape", [(13, 4), (13, 12), (2, 13, 4)])
-def test_an_array_that_may_be_transposed_is_refused(shape: tuple[int, ...]) -> None:
-    with pytest.raises(fd.SceneError, match=r"13 layers of \d+ beads.*allow_images=True"):
+@pytest.mark.parametrize(
+    ("shape", "remedy"),
+    [
+        ((13, 4), "radii.T"),
+        ((13, 12), "radii.T"),
+        ((2, 13, 4), "radii.swapaxes(-1, -2)"),
+    ],
+)
+def test_an_array_that_may_be_transposed_is_refused(shape: tuple[int, ...], remedy: str) -> None:
+    with pytest.raises(fd.SceneError, match=r"13 layers of \d+ beads.*allow_images=True") as told:
         fd.solve(np.ones(shape))
+    assert f"transposed? then give {remedy};" in str(told.value)
     assert fd.solve(np.ones(shape), allow_images=True).force.shape[-2:] == (12, shape[-1])
 
 
@@ -221,7 +229,7 @@ def test_four_axes_can_only_be_spheres() -> None:
         ((2, 3, 4, 5), None, r"shape \(2, 3, 4, 5\): spheres take \(layers, W, W\)"),
         ((2, 3, 4, 4), 2, r"shape \(2, 3, 4, 4\): discs take \(layers, W\)"),
         ((1, 4, 4), 3, "at least 2 layers"),
-        ((5, 4, 4), 3, r"5 layers of 4 × 4 beads.*allow_images=True"),
+        ((5, 4, 4), 3, r"5 layers of 4 × 4 beads.*images; if that is.*allow_images=True"),
         ((3, 4), 4, "^dimension = 4: must be 2, of discs, or 3, of spheres"),
         ((3, 4), "3", '^dimension = "3": must be 2'),
         ((3, 4), True, "^dimension = true: must be 2"),
