@@ -214,12 +214,40 @@ base+1 or surface.
                 "exact",
             )
         wanted = self.cases[0] if case is None else case
-        if wanted not in self._exact:
-            raise NoSuchFormError(
-                f"Eq. {self.number} has no exact form for '{wanted}'. Use {either(self.cases)}.",
-                "case",
-            )
+        if wanted not in self.cases:
+            told = f"Eq. {self.number} has no exact form for '{wanted}'. Use {either(self.cases)}."
+            if covering := self._covering(wanted):
+                told = (
+                    f"Eq. {self.number} has its exact forms by case, not by layer: j = {wanted} "
+                    f"is in {either(covering)}. Use one of these names."
+                )
+            raise NoSuchFormError(told, "case")
         return ExactForm(self._derivation, wanted, self._exact[wanted])
+
+    def _covering(self, wanted: object) -> list[str]:
+        """The forms by layer that a layer given in place of a case has, and where they hold."""
+        word = str(wanted)
+        if isinstance(wanted, bool) or not (word.isascii() and word.isdigit() and len(word) < 8):
+            return []
+
+        def has(form: ExactCase, at: dict[sympy.Symbol, sympy.Integer]) -> bool:
+            missed = (one.when for one in form.missed)
+            within = sympy.And(*form.domain)
+            return (
+                within.has(sy.j)
+                and within.subs(at) == sympy.true
+                and not any(sympy.And(*when).subs(at) == sympy.true for when in missed)
+            )
+
+        layer = int(word)
+        packings = [  # so high that the layer is at the surface, next to it, and deeper
+            {sy.j: sympy.Integer(layer), sy.M: sympy.Integer(layer + above)} for above in (1, 2, 3)
+        ]
+        return [
+            f"{name} ({form.validity})"
+            for name, form in self._exact.items()
+            if any(has(form, at) for at in packings)
+        ]
 
     def at(self, **arguments: Any) -> Any:
         """The right-hand side for given numbers: exact for exact ones, else a float.

@@ -31,7 +31,16 @@ WRONG = [
     (["show", "13", "--as", "pdf"], "'pdf' is not one of 'text', 'latex', 'sympy'"),
     (["show", "13", "--at-j", "base"], "--exact"),
     (["show", "13", "--exact", "--at-j", "top"], "Use interior, base, base+1 or surface"),
-    (["show", "13", "--exact", "--at-j", "3"], "no exact form for '3'"),
+    (
+        ["show", "13", "--exact", "--at-j", "3"],
+        "forms by case, not by layer: j = 3 is in interior (2 ≤ j ≤ M − 2) or "
+        "surface (j = M − 1 and M ≥ 3)",
+    ),
+    (
+        ["show", "13", "--exact", "--at-j", "0"],
+        "forms by case, not by layer: j = 0 is in base (j = 0 and M ≥ 2)",
+    ),
+    (["show", "15", "--exact", "--case", "3"], "no exact form for '3'. Use surface-load or bulk"),
     (["show", "T4", "--exact"], "several equations; name one: B4, B5, B6, B15, B16"),
     (["show", "T3"], "'T3' is not an equation"),
     (["show", "12", "--exact"], "13, 14, 15, 16, B2"),
