@@ -6,6 +6,7 @@ prints or writes the answer (``output``); errors it raises, and never catches: `
 tells them.
 """
 
+import difflib
 import shlex
 import sys
 from collections.abc import Sequence
@@ -115,11 +116,27 @@ class _Commands(TyperGroup):
         """Find the command, or say which ones exist."""
         unknown = args and not args[0].startswith("-") and args[0] not in COMMANDS
         if unknown and not ctx.resilient_parsing:  # as a shell completes a line
-            ctx.fail(f"There is no command '{printable(args[0])}'. Use {either(list(COMMANDS))}.")
+            close = difflib.get_close_matches(args[0][:99], COMMANDS, n=1)
+            hint = f"; did you mean {close[0]}?" if close else "."
+            ctx.fail(
+                f"There is no command '{printable(args[0])}'{hint} Use {either(list(COMMANDS))}."
+            )
         return super().resolve_command(ctx, args)
 
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command; of a wrong value say what typer says, without pydantic's first words."""
+        try:
+            return super().invoke(ctx)
+        except typer.BadParameter as error:
+            error.message = error.message.removeprefix("Value error, ")
+            raise
 
-app = _application(cls=_Commands, no_args_is_help=True)
+
+app = _application(
+    cls=_Commands,
+    no_args_is_help=True,
+    context_settings={"help_option_names": ["--help", "-h"]},
+)
 
 
 def _print_version(wanted: bool) -> None:

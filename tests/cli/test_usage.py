@@ -28,7 +28,7 @@ WRONG = [
     (["show"], "N"),
     (["show", "17"], "'17' is not an equation"),
     (["show", "13", "14"], "14"),
-    (["show", "13", "--as", "pdf"], "'pdf' is not one of 'text', 'latex', 'sympy'"),
+    (["show", "13", "--as", "pdf"], "'--as': 'pdf' is not one of 'text', 'latex', 'sympy'"),
     (["show", "13", "--at-j", "base"], "--exact"),
     (["show", "13", "--exact", "--at-j", "top"], "Use interior, base, base+1 or surface"),
     (
@@ -49,6 +49,8 @@ WRONG = [
     (["show", "13", "--exact", "--case", "leg"], "Use interior, base, base+1 or surface"),
     (["show", "13", "--exact", "--as", "steps"], "steps"),
     (["list", "13"], "13"),
+    (["run", "scene.toml", "--format", "xlsx"], "'--format': 'xlsx' is not one of 'csv', 'npz'"),
+    (["dervie", "13"], "no command 'dervie'; did you mean derive? Use derive, certify"),
     (
         ["prove", "13"],
         "no command 'prove'. Use derive, certify, show, list, examples, run, explain, "
@@ -79,6 +81,11 @@ def test_help_and_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
         assert word in shown
     assert main(["derive", "--help"]) == 0
     assert "--json" in capsys.readouterr().out
+    for name in ([], ["derive"], ["run"]):
+        assert main([*name, "--help"]) == 0
+        long = capsys.readouterr().out
+        assert main([*name, "-h"]) == 0
+        assert capsys.readouterr().out == long
     assert main([]) == 2
     shown = "".join(capsys.readouterr())
     assert "Usage: force-diffusion" in shown
