@@ -130,8 +130,8 @@ def derive(
         OwnDerivationError: a derivation's label is not allowed.
         TypeError: ``numbers`` is a single one.
     """
-    if isinstance(numbers, int | str | Derivation):
-        one = numbers.number if isinstance(numbers, Derivation) else numbers
+    if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
+        one = getattr(numbers, "number", numbers)
         raise TypeError(f"derive takes several, in a list: derive([{one}])")
     return derive_with(None, numbers, notice, finished)
 

@@ -62,6 +62,8 @@ class Equation(Formula):
     """
 
     def __init__(self, derivation: Derivation) -> None:
+        if not isinstance(derivation, Derivation):
+            raise TypeError(f"Equation takes a derivation; fd.equation({derivation!r}) gives one")
         heading = f"Eq. {derivation.number}"
         super().__init__(derivation.name, heading, derivation.printed, derivation.relation)
         self._derivation = derivation

@@ -11,6 +11,7 @@ from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
+from force_diffusion.derivations.api.equation import equation
 from force_diffusion.derivations.api.evaluation import holds
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.grounds import Chain, OfBoth
@@ -33,8 +34,11 @@ def premise(number: Number) -> Derivation:
 
     >>> premise(11).title
     'Contact force under a surface load'
+
+    Raises:
+        NoSuchFormError: there is no such equation.
     """
-    return load(number)
+    return load(equation(number).number)
 
 
 def forces(loading: Loading) -> Chain:

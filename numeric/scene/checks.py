@@ -149,8 +149,6 @@ def _check_disorder(d: Disorder, ask: Ask) -> None:
         raise SceneError("disorder.file", d.file, 'needs kind = "file"')
     if d.relative_std is None:
         raise SceneError("disorder.relative_std", None, f'is required with kind = "{d.kind}"')
-    if d.relative_std < 0:
-        raise SceneError("disorder.relative_std", d.relative_std, "must not be negative")
     if d.relative_std > 10**100:
         raise SceneError("disorder.relative_std", d.relative_std, "must be at most 1e100")
     reach = {"uniform": 3 * d.relative_std**2, "two-point": d.relative_std**2}.get(d.kind)

@@ -164,6 +164,12 @@ class Disorder(Section):
     seed: Whole = Field(default=0, ge=0, lt=2**64)
     file: str | None = None
 
+    def __init__(self, /, **values: Any) -> None:
+        """Check also the sign of the deviation."""
+        super().__init__(**values)
+        if self.relative_std is not None and self.relative_std < 0:
+            raise SceneError("disorder.relative_std", self.relative_std, "must not be negative")
+
 
 def radii_array(value: object) -> Array:
     """Hold a copy of an array of finite numbers."""
@@ -306,6 +312,8 @@ def unknown(key: str, model: type[Section]) -> str:
     return f"is unknown; {hint}allowed are {', '.join(known)}"
 
 
+# What others call what a key may be.
+_OTHERWISE = {"gaussian": "normal", "gauss": "normal", "bidisperse": "two-point"}
 # Forms of lists, whose elements say nothing when they are named alone.
 _LISTS = {
     "load.at": "must be a bead, at = [k, l], of whole numbers; in three dimensions [p, q, l]",
@@ -331,7 +339,8 @@ def explained(error: ValidationError, model: type[Section], values: dict[str, An
         return SceneError(key, None, f"{what} is required")
     if kind == "literal_error":
         allowed = [f'"{choice}"' for choice in get_args(model.model_fields[name].annotation)]
-        close = difflib.get_close_matches(_shown(value), allowed, n=1)
+        meant = _OTHERWISE.get(value.lower(), value) if isinstance(value, str) else value
+        close = difflib.get_close_matches(_shown(meant), allowed, n=1)
         hint = f"; did you mean {close[0]}?" if close else ""
         return SceneError(key, value, f"must be one of {', '.join(allowed)}{hint}")
     if key in _LISTS:

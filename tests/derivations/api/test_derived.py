@@ -9,6 +9,7 @@ from force_diffusion.numeric.figures.catalogue import NoSuchFigureError
 
 import force_diffusion as fd
 from force_diffusion.__main__ import main
+from force_diffusion.derivation import premise
 
 
 @pytest.mark.long
@@ -32,6 +33,23 @@ def test_premises_come_first_and_callbacks_are_told() -> None:
 def test_a_number_that_is_no_equation(number: object) -> None:
     with pytest.raises(NoSuchFormError, match="give a number from 1 to 16"):
         fd.derive([number])  # type: ignore[list-item]
+
+
+def test_one_number_in_place_of_several_is_told_in_words() -> None:
+    for one in (13, 13.5, "B1", object()):
+        with pytest.raises(TypeError, match=r"^derive takes several, in a list: derive\(\["):
+            fd.derive(one)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match=r"derive\(\[13\]\)$"):
+        fd.derive(fd.equation(13))  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match=r"fd\.equation\(13\) gives one"):
+        fd.Equation(13)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("number", [0, 17, 11.5, "eleven", [11]])
+def test_a_premise_that_is_no_equation(number: object) -> None:
+    with pytest.raises(NoSuchFormError, match="give a number from 1 to 16"):
+        premise(number)  # type: ignore[arg-type]
+    assert premise("11") is premise(11)
 
 
 @pytest.mark.long

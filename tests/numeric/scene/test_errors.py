@@ -13,7 +13,7 @@ from force_diffusion.numeric.disorder.radii import RadiusError
 from force_diffusion.numeric.mechanics.sweep import NotStandingError, UnbuildableError
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run import read_scene, run
-from force_diffusion.numeric.scene.sections import SceneError
+from force_diffusion.numeric.scene.sections import Disorder, SceneError
 from force_diffusion.numeric.scene.tables import TableError
 from hypothesis import given
 from hypothesis import strategies as st
@@ -36,6 +36,7 @@ WRONG: list[tuple[str, str, Any, str]] = [
     ("packing", "radius", "=1e999999", "exponent"),
     ("packing", "hieght", 4, 'did you mean "height"'),
     ("disorder", "kind", "unifrom", 'did you mean "uniform"'),
+    ("disorder", "kind", "gaussian", 'did you mean "normal"'),
     ("disorder", "relative_std", "=-1e-3", "negative"),
     ("disorder", "relative_std", "=0.58", "radius ≤ 0"),
     ("disorder", "seed", -1, "greater than or equal to 0"),
@@ -97,6 +98,11 @@ def test_values_are_shown_as_they_were_written(
         scene(sections)
     assert str(caught.value).startswith(f"{section}.{key} = {written}: ")
     assert says in str(caught.value)
+
+
+def test_a_negative_spread_is_refused_at_once() -> None:
+    with pytest.raises(SceneError, match=r"^disorder.relative_std = -1: must not be negative$"):
+        Disorder(kind="normal", relative_std=-1)
 
 
 def test_columns_of_a_slab_may_be_negative() -> None:
