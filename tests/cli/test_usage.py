@@ -18,6 +18,7 @@ WRONG = [
     (["derive", ""], "'' is not an equation"),
     (["derive", "1_3"], "'1_3' is not an equation"),
     (["derive", "١٣"], "is not an equation"),
+    (["derive", "13,14"], "several have spaces between them, as derive 13 14"),
     (["derive", "9" * 5000], "is not an equation"),
     (["derive", "13", "fourteen"], "'fourteen' is not an equation"),
     (["derive", "__import__('os').abort()"], "is not an equation"),
