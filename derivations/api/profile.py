@@ -141,8 +141,9 @@ def _forms(
         for name, form in exact.items()
         if form.quantity == quantity
     }
-    for line in derivation.printed:
-        if derivation.relation == "=" and derivation.domain and line.lhs == quantity:
+    for part, line in enumerate(derivation.printed):
+        is_exact = derivation.relation == "=" and derivation.domain
+        if is_exact and line.lhs == quantity and not derivation.unlike(part):
             found[PRINTED] = Evaluation(
                 about=f"Eq. {derivation.number}",
                 sides=(line.rhs,),

@@ -59,6 +59,8 @@ def rule_on_exact(derivation: Derivation, case: ExactCase, candidate: sympy.Eq) 
     if case.line:
         usual = usual_form(candidate, (printed,))
         place = case.line.equations.index(printed)
+        if reason := case.line.unlike("=", place, f"the exact form of {derivation.words}"):
+            return undecided(reason)
         return proved_by_line(derivation, case.line, place, printed, usual)
     return _compared(derivation, case, own, usual_form(given, (own,)), sums)
 

@@ -68,7 +68,7 @@ def assert_allowed(derivation: Derivation) -> None:
 
 
 def assert_shown(derivation: Derivation) -> None:
-    """Refuse a derivation none of whose lines is what it prints.
+    """Refuse a derivation none of whose lines is what it prints, or proves it with its sign.
 
     Raises:
         OwnDerivationError: it is such a one.
@@ -82,6 +82,9 @@ def assert_shown(derivation: Derivation) -> None:
             f"printed of {derivation.number}: no line of its steps shows it; add one, as "
             "variance.show_leading(lines, reason, printed)"
         )
+    for part in range(len(derivation.printed)) if is_own(derivation) else ():
+        if reason := derivation.unlike(part):
+            raise OwnDerivationError(reason)
 
 
 def _is_word(name: object) -> bool:

@@ -34,6 +34,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     subject,
 )
 from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.counterexample import counterexample
 from force_diffusion.symbolic.search.values import WithoutValue
@@ -108,8 +109,7 @@ class Line:
     @property
     def relation(self) -> str:
         """How it relates its sides: "=", or as in the limit that it is about."""
-        where: Where = _at(0, self.where)
-        return where.limit.relation.split()[0] if where.limit else "="
+        return _sign(self.domain(0))
 
     @property
     def words(self) -> str:
@@ -135,6 +135,25 @@ class Line:
         """Where one of its equations holds."""
         where: Where = _at(part, self.where)
         return where
+
+    def unlike(self, sign: str, part: int, name: str) -> str:
+        """Why the sign that is printed is not that of what is proved; "" when it is.
+
+        Args:
+            sign: "=", "≈", "∼" or "∝".
+            part: the place of the equation.
+            name: what prints it, such as "Eq. 13".
+        """
+        where = self.domain(part)
+        meant = _sign(where)
+        # "=" of a limit is of what both sides go to, which a printed "=" does not say
+        if sign == meant and (sign != "=" or not where.limit):
+            return ""
+        how = _PROVED.get(meant if where.limit else "", "in a limit only")
+        ways = [f'write relation="{meant}"'] if sign != meant and meant in RELATIONS else []
+        ways += ["print the exact form"] if sign == "=" else []
+        said = f"the printed sign of {name} is {sign}, but its line is proved {how}"
+        return f"{said}: {', or '.join(ways)}" if ways else said
 
     def prove(self, part: int, candidate: sympy.Eq) -> Theorem:
         """The theorem that a candidate for one of its equations is.
@@ -211,6 +230,19 @@ class Line:
     def decide(self) -> Ruling:
         """The same as ``ruling``, for what asks a function."""
         return self.ruling
+
+
+_PROVED = {
+    "": "exactly",
+    "∼": "to leading order only",
+    "≈": "but for terms of lower order",
+    "∝": "but for a factor",
+}
+"""How far a line is proved, by the relation of its limit."""
+
+
+def _sign(where: Where) -> str:
+    return where.limit.relation.split()[0] if where.limit else "="
 
 
 def _at(part: int, one: Any) -> Any:
@@ -338,9 +370,18 @@ class Lines(list[Line]):
         by: By | tuple[By, ...] | None = None,
         **options: Any,
     ) -> Line:
-        """Add a line and return it; ``options`` are further attributes of it."""
-        self.append(self._line(reason, formula, by, number=len(self) + 1, **options))
-        return self[-1]
+        """Add a line and return it; ``options`` are further attributes of it.
+
+        Raises:
+            ValueError: its equations do not have one sign, in which it could be shown.
+        """
+        line = self._line(reason, formula, by, number=len(self) + 1, **options)
+        signs = dict.fromkeys(_sign(line.domain(part)) for part in range(len(line.equations)))
+        if len(signs) > 1:
+            related = f"its equations are related by {' and '.join(signs)}"
+            raise ValueError(f"{related}: show them in lines of their own")
+        self.append(line)
+        return line
 
 
 def no_statement(formula: sympy.Eq, where: Where) -> str:

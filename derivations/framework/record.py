@@ -120,7 +120,11 @@ class Derivation:
         where: the same for the kernel, with the load and the limit.
         dimension: of the packing.
         loads: in words, for Coq: "surface", "bulk" or "single".
-        relation: the printed sign.
+        relation: the printed sign, as the line of ``printed`` has to prove it: "=", at every size
+            in its domain; "∼", left over right goes to 1 in its limit (``asymptotic``); "≈",
+            what is dropped varies less, by an order, than the force it is about (``negligible``);
+            "∝", left over right goes to a positive function of φ alone. With another sign nothing
+            is decided of it.
         exact: gives the forms at finite size, by case.
         equivalent: mechanical changes that say the same, each with the reason why.
         tries: gives the statements of known truth that the checker is tried on.
@@ -175,11 +179,24 @@ class Derivation:
         Raises:
             KernelError: it was proved, and explicit values refute it.
         """
+        if reason := self.unlike(part):
+            return undecided(reason)
         named = [symbol for symbol, _ in self.symbols]
         if refusal := unreadable(candidate, self.printed, named, self.dimension):
             return refusal
         candidate = usual_form(candidate, self.printed)
         return self._by_the_kernel(part, candidate, where)
+
+    def unlike(self, part: int) -> str:
+        """Why the printed sign of a part is not that of what is proved; "" when it is.
+
+        What holds to leading order would be taken for exact otherwise, or the reverse.
+        """
+        printed = self.printed[part]
+        for line in self.steps():
+            if printed in line.equations:
+                return line.unlike(self.relation, line.equations.index(printed), self.words)
+        return f"no line of {self.words} shows what is printed"
 
     @property
     def words(self) -> str:

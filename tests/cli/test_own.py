@@ -2,11 +2,15 @@
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 from force_diffusion.derivations.framework.own import OwnDerivationError, derivations_in
+from force_diffusion.derivations.framework.record import ExactCase
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.symbolic import symbols as sy
 
 import force_diffusion as fd
 from force_diffusion.__main__ import main
@@ -146,6 +150,20 @@ WRONG = [
     ("    steps=steps,", "    steps=lambda: Lines(Where()),", "no line of its steps shows it"),
     ("exact=variance.exact,", "exact=variance.exact(),", "exact of S1: a function"),
     ('relation="∼"', 'relation="~"', "relation of S1: one of = "),
+    ('relation="∼"', 'relation="="', 'leading order only: write relation="∼", or print the exact'),
+    (
+        '    relation="∼",\n',
+        "",
+        "the printed sign of Eq. S1 is =, but its line is proved",
+    ),
+    ('relation="∼"', 'relation="≈"', 'proved to leading order only: write relation="∼"'),
+    ('relation="∼"', 'relation="∝"', 'proved to leading order only: write relation="∼"'),
+    (
+        'variance.show_leading(lines, "At fixed z the terms of order M³ are left.", printed)',
+        "import sympy; from force_diffusion.derivation import asymptotic; lines.show('f', "
+        "sympy.Tuple(printed, printed), where=(Where(), variance.in_the_limit), by=asymptotic())",
+        "its equations are related by = and ∼: show them in lines of their own",
+    ),
     ("premises=()", "premises=(11,)", "premises of S1: derivations, as (premise(11),)"),
     ('{"+": 1, "-": 1}),)', '{"+": 1, "-": 1}), 3)', "witnesses of S1: a tuple of witnesses"),
     ('{"+": 1, "-": 1}', '{"p": 1}', "what mine.py states can't be run: ValueError: branch must"),
@@ -163,6 +181,43 @@ def test_what_is_wrong_with_a_derivation_is_named(folder, good, bad, says, capsy
     printed = capsys.readouterr().err
     assert says in " ".join(printed.split())
     assert "Traceback" not in printed
+
+
+@pytest.mark.parametrize("sign", ["=", "≈", "∝"])
+def test_what_holds_to_leading_order_is_not_proved_of_another_sign(folder, sign) -> None:
+    """Not by any way to ask: every one of them would read the sign that is printed."""
+    (right,) = derivations_in(Path(save(alone(EXAMPLE))))
+    assert fd.equation(right).decide(fd.equation(right).rhs).verdict.is_proved
+    eq = fd.equation(replace(right, relation=sign))
+    for candidate in (eq.rhs, eq.rhs + 1, eq.expr):
+        ruling = eq.decide(candidate)
+        assert str(ruling.verdict) == "undecided"
+        assert f"sign of Eq. S1 is {sign}, but its line is proved to leading order" in ruling.note
+    assert str(eq.prove(premises=False).verdict) == "undecided"
+
+
+def test_what_holds_exactly_is_not_printed_as_a_leading_order() -> None:
+    eq = fd.equation(replace(fd.equation(9)._derivation, number="S9", relation="∼"))
+    assert 'its line is proved exactly: write relation="="' in eq.decide(eq.expr).note
+
+
+def test_what_holds_to_leading_order_is_no_exact_form(folder) -> None:
+    (right,) = derivations_in(Path(save(alone(EXAMPLE))))
+    last, eq = right.steps()[-1], fd.equation(right)
+    case = ExactCase(right.printed[0].lhs, "j ≥ 3", eq.rhs, line=last)
+    form = fd.equation(replace(right, exact=lambda: {"interior": case})).exact()
+    assert "its line is proved to leading order only" in form.decide(eq.rhs + 1).note
+    assert not form.decide(eq.rhs).verdict.is_proved
+
+
+def test_no_profile_takes_a_leading_order_for_exact(folder) -> None:
+    (right,) = derivations_in(Path(save(alone(EXAMPLE))))
+    wrong = replace(right, relation="=", domain=(sy.j <= sy.M - 1, sy.j >= 0))
+    profile = fd.equation(wrong).profile(layers=[4], M=10, phi=0, sigma=0.01, r=1)
+    assert profile.cases == ("interior",)
+    none = replace(wrong, exact=lambda: {"base": right.exact()["base"]})
+    with pytest.raises(ForceDiffusionError, match="no exact form"):
+        fd.equation(none).profile(layers=[4], M=10, phi=0, sigma=0.01, r=1)
 
 
 def test_two_of_one_label(folder: Path, capsys) -> None:
