@@ -165,7 +165,7 @@ DERIVATION = Derivation(
     remarks=(
         "The limit is taken at fixed z. A fixed number of layers below the surface the "
         "printed form does not apply: at j = M − 1 the exact variance grows as 2(1+φ²) M, "
-        "not 6 M.",
+        "not 6 M, in units of (σ/r)²/(1 − φ²)².",
     ),
 )
 

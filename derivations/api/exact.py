@@ -8,6 +8,7 @@ from force_diffusion.derivations.api.arrays import evaluate
 from force_diffusion.derivations.api.deciding import decided
 from force_diffusion.derivations.api.evaluation import Evaluation
 from force_diffusion.derivations.api.formula import Formula
+from force_diffusion.derivations.export.prose import phrase_latex, pieces
 from force_diffusion.derivations.framework.exactly import rule_on_exact
 from force_diffusion.derivations.framework.record import Derivation, ExactCase
 from force_diffusion.symbolic.kernel.decisions import Ruling
@@ -68,6 +69,14 @@ class ExactForm(Formula):
         '2 ≤ j ≤ M − 2'
         """
         return self._form.validity
+
+    @property
+    def _below(self) -> list[str]:
+        """Where it holds, and what z is, as the right-hand side is written in j."""
+        symbol = next(pieces(self.validity))[1]
+        told = f"for {self.validity}" if symbol else self.validity
+        height = ", where z = j/M" if "(z)" in text(self._lines[0].lhs) else ""
+        return phrase_latex(told + height)
 
     @property
     def missed(self) -> dict[str, Expr]:

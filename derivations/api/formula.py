@@ -83,7 +83,13 @@ class Formula(ABC):
         M^{*} &\propto \left( \frac{\sigma_{\delta r}}{r} \right)^{-2/3}
         \end{aligned}
         """
-        return latex_body(self._lines, RELATIONS[self._relation], column_width(columns))
+        relation, room = RELATIONS[self._relation], column_width(columns)
+        return latex_body(self._lines, relation, room, self._below)
+
+    @property
+    def _below(self) -> Iterable[str]:
+        """Pieces of LaTeX that stand below the lines."""
+        return ()
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex()}$"

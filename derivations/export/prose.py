@@ -195,6 +195,21 @@ def prose_latex(words: str) -> str:
     return _with_brackets(" ".join(done))
 
 
+def phrase_latex(words: str) -> list[str]:
+    r"""A phrase as LaTeX for mathematics mode, piece by piece; lines may end between pieces.
+
+    >>> for piece in phrase_latex("for j ≥ 1, inside of the cone"):
+    ...     print(piece)
+    \text{for }
+    j \geq  1
+    \text{, inside of the cone}
+    """
+    found = re.split(r"(?<!\\)\$", prose_latex(words))
+    return [
+        piece if place % 2 else rf"\text{{{piece}}}" for place, piece in enumerate(found) if piece
+    ]
+
+
 def _with_brackets(source: str) -> str:
     """Take brackets into the formula that they belong to: pairs, and what else has one half."""
     if r"\$" in source:  # a dollar that begins no formula

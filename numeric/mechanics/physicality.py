@@ -20,10 +20,13 @@ PHYSICAL = "check that it is physical"
 
 @dataclass
 class Physicality:
-    """What was found, merged over layers and realisations."""
+    """What was found, merged over layers and realisations.
+
+    ``smallest_gap`` is that of two beads that do not touch, or of a bead and its own image. In an
+    answer's ``physical`` it is in the unit that radii are given in, here in units of r.
+    """
 
     smallest_gap: float | None = None
-    """Between beads that do not touch, in units of r (in ``data()``: the scene's unit)."""
     between: tuple[tuple[int, ...], tuple[int, ...]] | None = None
     overlaps: int = 0
     undecided_gaps: int = 0

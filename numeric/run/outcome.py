@@ -1,7 +1,7 @@
 """A finished run: the answer as arrays, rows and decimals, its error, and what was physical."""
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -60,10 +60,18 @@ class Outcome:
         """What was asked, as the scene calls it."""
         return self.plan.quantity.name
 
-    @property
+    @cached_property
     def physical(self) -> Physicality | None:
-        """Whether beads could make such a packing; None where nothing exact was solved."""
-        return self.answer.physical
+        """Whether beads could make such a packing; None where nothing exact was solved.
+
+        ``smallest_gap`` is in the unit that radii are given in, as a float: 0 or infinite where a
+        float can't hold it, of which ``data()`` has the decimals.
+        """
+        found = self.answer.physical
+        if found is None or found.smallest_gap is None:
+            return found
+        gap = _length(found.smallest_gap, self.plan.scene.packing.radius)
+        return replace(found, smallest_gap=float(gap))
 
     @cached_property
     def source(self) -> dict[str, Any]:
@@ -198,8 +206,8 @@ class Outcome:
         }
         if accuracy.note:
             data["accuracy"]["note"] = accuracy.note
-        if self.physical is not None:
-            data["physical"] = _physical_data(self.physical, self.plan)
+        if self.answer.physical is not None:
+            data["physical"] = _physical_data(self.answer.physical, self.plan)
         if self.answer.networks:
             data["networks"] = [_network_data(found) for found in self.answer.networks]
         if self.stopped is not None:
@@ -233,7 +241,7 @@ def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     """Say whether an exact packing is one that beads could make."""
     highest = critical_height(plan.problem.radii.relative_std())
     pulls = found.tensile + found.undecided_signs
-    problem = plan.problem
+    problem, gap = plan.problem, found.smallest_gap
     width, height = problem.width, problem.height
     whole = (
         width is not None
@@ -243,7 +251,7 @@ def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     data: dict[str, Any] = {
         "physical": found.sound,
         "whole": whole,
-        "smallest_gap": _length(found.smallest_gap, plan.scene.packing.radius),
+        "smallest_gap": None if gap is None else _length(gap, plan.scene.packing.radius),
         "smallest_gap_between": None if found.between is None else [list(s) for s in found.between],
         "smallest_gap_realisation": found.smallest_in if problem.realisations > 1 else None,
         "overlaps": found.overlaps,
@@ -266,9 +274,9 @@ def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     return data
 
 
-def _length(gap: float | None, radius: Fraction) -> float | str | None:
+def _length(gap: float, radius: Fraction) -> float | str:
     """Turn units of r into those of the scene: a decimal string where a float can't hold it."""
-    if gap is None or not math.isfinite(gap):
+    if not math.isfinite(gap):
         return gap
     length = Fraction(gap) * radius
     usual = not length or Fraction(1, 10**300) < abs(length) < 10**300

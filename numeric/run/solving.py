@@ -89,7 +89,10 @@ class Solution:
 
     @property
     def physical(self) -> Physicality | None:
-        """Overlaps and tensile contacts, over all packings; None where all radii are equal."""
+        """Overlaps and tensile contacts, over all packings; None where all radii are equal.
+
+        ``physical.smallest_gap`` is in the unit of the radii.
+        """
         return self.forces.physical
 
     @cached_property

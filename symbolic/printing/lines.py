@@ -306,12 +306,23 @@ def _single(formulas: Iterable[Basic]) -> Iterator[Basic]:
             yield formula
 
 
-def latex_body(equations: Sequence[Basic], relation: str = "=", room: float = LINE_WIDTH) -> str:
-    """One or more equations for one display, broken into lines where they are long."""
+def latex_body(
+    equations: Sequence[Basic],
+    relation: str = "=",
+    room: float = LINE_WIDTH,
+    below: Iterable[str] = (),
+) -> str:
+    """One or more equations for one display, broken into lines where they are long.
+
+    ``below``: pieces of LaTeX that stand in lines of their own, such as where the equations hold.
+    """
     found = [latex_lines(one, relation, room) for one in _single(equations)]
     if any(one[0].startswith("&") for one in found):  # one too wide to stand below another's sign
         found = [[f"&{one[0].replace('&', '', 1)}", *one[1:]] for one in found]
     lines = [line for one in found for line in one]
+    left_over = room - max(float(width(line.split("&")[0])) for line in lines) - 22
+    said = pack([(piece, float(width(piece))) for piece in below], left_over, left_over)
+    lines += [rf"&\quad {line}" for line in said]
     if len(lines) == 1:
         return re.sub(r"^&| &(?==|\\[a-z]+ )", lambda found: found[0][:-1], lines[0], count=1)
     return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"

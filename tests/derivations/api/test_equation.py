@@ -17,7 +17,9 @@ from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.printing.lines import column_width, width
 from force_diffusion.symbolic.printing.structure import rebuilt
+from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.mutants import mutants
 from hypothesis import given
 from hypothesis import strategies as st
@@ -76,7 +78,7 @@ STANDARD = {
     "frac", "left", "right", "sum", "delta", "sigma", "phi", "langle", "rangle", "hat", "bf", "rm",
     "cdot", "begin", "end", "approx", "sim", "propto", "Delta", "biggl", "biggr", "quad", "qquad",
     "leq", "overline", "int", "sqrt", "operatorname", "limits", "infty", "nu", "rho", "varepsilon",
-    "pm", "kappa", "mathrm", "mathbf", "times", "psi",
+    "pm", "kappa", "mathrm", "mathbf", "times", "psi", "geq", "text",
 }  # fmt: skip
 
 
@@ -88,6 +90,30 @@ def test_notebooks_can_set_it(formula: Any) -> None:
     assert shown.count("{") == shown.count("}")
     assert shown.count("$") == 2
     assert shown.isascii()
+
+
+@pytest.mark.parametrize("columns", [1, 2])
+@pytest.mark.parametrize("form", EXACT, ids=lambda form: form.case)
+def test_the_latex_of_exact_forms_says_where_they_hold(form: Any, columns: int) -> None:
+    """All words and signs of the validity stand below the formula, in lines that fit."""
+    lines = form.latex(columns).splitlines()
+    first = next(place for place, line in enumerate(lines) if r"\text{" in line)
+    below = lines[first:-1]
+    assert not any(r"\frac" in line or r"\sigma" in line for line in below)
+    assert all(width(line) <= column_width(columns) + 12 for line in below)  # 12: of &
+    told = re.sub(r"&|\\\\|\\quad|\\text|[{}]", " ", " ".join(below))
+    for sign, source in {"≤": r"\leq", "≥": r"\geq", "−": "-"}.items():
+        told = told.replace(source, sign)
+    found = re.findall(r"[A-Za-z]+|[^\sA-Za-z]", told)
+    expected = re.findall(r"[A-Za-z]+|[^\sA-Za-z]", form.validity)
+    assert found[found[0] == "for" :][: len(expected)] == expected
+    assert ("where z = j/M" in " ".join(told.split())) == ("(z)" in text(form.expr.lhs))
+
+
+def test_where_an_exact_form_holds_is_read_at_a_glance() -> None:
+    assert fd.equation(13).exact("surface").latex().splitlines()[-2] == (
+        r"&\quad \text{for } j = M - 1 \text{ and } M \geq  3 \text{, where } z = j/M"
+    )
 
 
 def fitting(eq: fd.Equation, **at: int) -> list[str]:
