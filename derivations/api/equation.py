@@ -317,11 +317,12 @@ base+1 or surface.
         ('base', 'base+1', 'interior', 'surface')
         >>> print(profile)
         Eq. 13, M = 4, φ = 0, σ_δr = 0.01, r = 1: σ_f²(z)/⟨f⟩²
-          j        value  exact form
-          3       0.0006  surface
-          2      0.00355  interior
-          1       0.0074  base+1
-          0      0.00995  base
+        To first order in δr, for M well below M* = 21.54.
+          j       z        value  exact form
+          3    0.75       0.0006  surface
+          2     0.5      0.00355  interior
+          1    0.25       0.0074  base+1
+          0       0      0.00995  base
 
         Args:
             case: one of :attr:`cases`, whose quantity is meant; by default the first.

@@ -1,7 +1,9 @@
 """The exact values in every layer of a packing, each from the form that its layer has."""
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -19,6 +21,7 @@ from force_diffusion.derivations.api.evaluation import (
 from force_diffusion.derivations.api.exact import evaluation_of
 from force_diffusion.derivations.export.prose import both
 from force_diffusion.derivations.framework.record import Derivation, ExactCase
+from force_diffusion.numeric.theory.critical_height import critical_height
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
 
@@ -31,7 +34,7 @@ class Profile:
     """Exact values by layer, as :meth:`Equation.profile` gives them; it prints as a table.
 
     Attributes:
-        heading: the equation, what was given, and the quantity.
+        heading: the equation, what was given, the quantity, and M* where the packing has a height.
         j: the layers, shape (layers,), from the base up unless others were asked for.
         height: M; None where the packing has no surface, below a load on one bead.
         values: shape (layers,); float64, or SymPy's exact numbers where only such were given.
@@ -56,13 +59,17 @@ class Profile:
         return self.j / self.height
 
     def __str__(self) -> str:
+        heights = [""] * len(self.j) if self.height is None else [f" {z:>7.4g}" for z in self.z]
         rows = [
-            (str(j), f"{value:.6g}" if isinstance(value, float) else str(value), case)
-            for j, value, case in zip(self.j, self.values, self.cases, strict=True)
+            (str(j), z, f"{value:.6g}" if isinstance(value, float) else str(value), case)
+            for j, z, value, case in zip(self.j, heights, self.values, self.cases, strict=True)
         ]
-        width = max(12, *(len(value) for _, value, _ in rows))
-        table = [("j", "value", "exact form"), *reversed(rows)]
-        return "\n".join([self.heading, *(f"{j:>3} {v:>{width}}  {case}" for j, v, case in table)])
+        width = max(12, *(len(value) for _, _, value, _ in rows))
+        z = "" if self.height is None else f" {'z':>7}"
+        table = [("j", z, "value", "exact form"), *reversed(rows)]
+        return "\n".join(
+            [self.heading, *(f"{j:>3}{z} {v:>{width}}  {case}" for j, z, v, case in table)]
+        )
 
     __repr__ = __str__
 
@@ -123,8 +130,14 @@ def profile(
         f"{text(symbol)} = {arguments[symbol.in_code]}"
         for symbol in sorted(packing, key=lambda one: in_order(arguments).index(one.in_code))
     )
+    heading = f"Eq. {derivation.number}, {given}: {text(exact[case].quantity)}"
+    if {sy.M, sy.sigma, sy.r} <= set(packing):
+        scatter = packing[sy.sigma] / packing[sy.r]
+        highest = critical_height(Fraction(int(scatter.p), int(scatter.q)))
+        if highest < math.inf:
+            heading += f"\nTo first order in δr, for M well below M* = {highest:.4g}."
     return Profile(
-        heading=f"Eq. {derivation.number}, {given}: {text(exact[case].quantity)}",
+        heading=heading,
         j=np.array(wanted, dtype=int),
         height=int(packing[sy.M]) if sy.M in packing else None,
         values=made,

@@ -155,6 +155,16 @@ def test_a_profile_says_which_form_each_layer_has() -> None:
     assert [line.split()[0] for line in lines[-5:]] == ["4", "3", "2", "1", "0"]
 
 
+@pytest.mark.parametrize(("sigma", "told"), [("0.008", "M* = 25."), (0, "σ_f²(z)/⟨f⟩²")])
+def test_a_profile_prints_heights_and_where_first_order_ends(sigma: Any, told: str) -> None:
+    """(0.008)^(−2/3) = 25; without scatter there is no such height."""
+    found = fd.equation(13).profile(M=4, phi=0, sigma=Decimal(sigma), r=1)
+    *heading, names, top, _, _, base = str(found).splitlines()
+    assert heading[-1].endswith(told)
+    assert names.split()[:3] == ["j", "z", "value"]
+    assert (top.split()[:2], base.split()[:2]) == (["3", "0.75"], ["0", "0"])
+
+
 def test_the_printed_equation_is_a_form_where_it_is_exact() -> None:
     """Eq. B7 is printed for the interior; its other layers have forms of their own."""
     found = fd.equation("B7").profile(M=9, N=3, layers=range(9), **EXACT)
