@@ -6,7 +6,7 @@ from typing import Any
 
 import sympy
 from force_diffusion.derivations.export.prose import either
-from force_diffusion.symbolic.as_printed import equation, too_large
+from force_diffusion.symbolic.as_printed import equation, nodes, too_large
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
@@ -16,6 +16,9 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.printing.text import text
+from sympy.logic.boolalg import BooleanAtom
+
+_HALF = sympy.Rational(1, 2)
 
 RuleOn = Callable[[int, sympy.Eq], Ruling]
 """Rules on a candidate for one of the lines, by its place."""
@@ -48,9 +51,13 @@ def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
         return next(ranked[one] for one in Verdict if one in ranked)
     if isinstance(candidate, sympy.Expr):
         return _on_a_side(candidate, lines, rule_on)
+    if isinstance(candidate, bool | BooleanAtom):
+        return not_a_statement(
+            f"a SymPy Eq or expression is needed, and this is {candidate}. Where SymPy made it of "
+            "an Eq: write Eq(left, right, evaluate=False)"
+        )
     return not_a_statement(
-        f"a SymPy Eq or expression is needed, and this is {type(candidate).__name__}; "
-        "Eq(…, evaluate=False) is not turned into true or false"
+        f"a SymPy Eq or expression is needed, and this is {type(candidate).__name__}"
     )
 
 
@@ -58,7 +65,11 @@ def _on_a_side(side: sympy.Expr, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> 
     """Rule on an expression: it is to be the right-hand side of one of the lines."""
     rulings = [rule_on(part, equation(line.lhs, side)) for part, line in enumerate(lines)]
     if len(rulings) == 1:
-        return rulings[0]
+        (ruling,) = rulings
+        if ruling.verdict is Verdict.UNDECIDED and _is_root(side):
+            about = f"the right-hand side is that of {text(lines[0].lhs)}"
+            return replace(ruling, note=f"{ruling.note}; {about}")
+        return ruling
     told = [_about(line, ruling) for line, ruling in zip(lines, rulings, strict=True)]
     if found := next((one for one in told if one.verdict.is_proved), None):
         return found
@@ -68,6 +79,13 @@ def _on_a_side(side: sympy.Expr, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> 
         return undecided(f"which line is meant? Give an Eq whose left-hand side is {sides}")
     notes = "; ".join(one.note for one in told)
     return refuted(notes) if Verdict.REFUTED in verdicts else not_a_statement(notes)
+
+
+def _is_root(side: sympy.Expr) -> bool:
+    """Whether it may be meant for the root of what the equation is about."""
+    return any(
+        isinstance(one, sympy.Abs) or (one.is_Pow and one.exp == _HALF) for one in nodes(side)
+    )
 
 
 def _on_all(candidates: tuple[Any, ...], lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:

@@ -154,9 +154,7 @@ class Derivation:
 
     def source(self, part: int) -> Source:
         """One of ``printed``, as other statements are made from it."""
-        printed = self.printed[part]
-        line = self._line(printed)
-        where = line.domain(line.equations.index(printed))
+        printed, where = self.printed[part], self.domain_of(part)
         cases = self.exact() if self.exact else {}
         forms = (
             Form(name, case.expression, any(isinstance(one, sympy.Eq) for one in case.domain))
@@ -170,6 +168,11 @@ class Derivation:
             )
         )
         return Source(printed, self.relation, tuple(forms), where, self.dimension)
+
+    def domain_of(self, part: int) -> Where:
+        """Where one of ``printed`` is proved."""
+        line = self._line(self.printed[part])
+        return line.domain(line.equations.index(self.printed[part]))
 
     def rule_on(self, part: int, candidate: sympy.Eq, where: Where | None = None) -> Ruling:
         """Rule on a candidate for one of ``printed``: decided, in the language, and searched.

@@ -213,7 +213,14 @@ def _sort(node: sympy.Basic) -> str:
         if any(_sort(part) == "number" for part in (*entries, vector)):
             raise NoMeaningError(f"{type(node).__name__} of a number")
         return "number" if isinstance(node, sy.Dot) else "vector"
+    _refuse_decimal(node)
     raise OutsideError(f"{type(node).__name__} has no place in what is decided here")
+
+
+def _refuse_decimal(node: sympy.Basic) -> None:
+    if isinstance(node, sympy.Float):
+        exact = "write exact numbers, such as Rational(3, 2) for 1.5"
+        raise OutsideError(f"it holds the decimal {float(node)!r}: {exact}")
 
 
 def _number(node: sympy.Basic) -> sympy.Basic:
@@ -230,6 +237,7 @@ def _one_sort(parts: Collection[sympy.Basic]) -> str:
 
 
 def _power(base: sympy.Basic, exponent: sympy.Basic) -> str:
+    _refuse_decimal(exponent)
     if not isinstance(exponent, sympy.Rational):
         raise OutsideError(f"{text(exponent)} is an exponent, and no number")
     if abs(exponent) > HIGHEST_POWER:

@@ -169,6 +169,11 @@ WRONG = [
     ('{"+": 1, "-": 1}', '{"p": 1}', "what mine.py states can't be run: ValueError: branch must"),
     ("usual(sigma, r, M, z, phi)", "(M,)", "symbols of S1: pairs of a symbol and its meaning"),
     ('name="sum_of_two_forces"', 'name="../x"', "name of S1: a word for code"),
+    (
+        r'r"\frac{\sigma^2(f^+ + f^-)}{\langle f\rangle^2}"',
+        r'"\frac{1}{2}"',
+        r"ValueError: '\x0crac{1}{2}' holds a control character: write r",
+    ),
     ("forces(SURFACE)", "()", "NotProvedError: f⁻_ij is not given by the radii"),
 ]
 

@@ -297,3 +297,43 @@ def test_assumptions_add_up() -> None:
     ):
         with pytest.raises(ValueError, match="assumptions"):
             Ruling(verdict, "", assuming)
+
+
+def test_what_can_not_be_read_is_told_with_what_to_write() -> None:
+    eq = fd.equation(13)
+    M = eq.symbols["M"]
+    for candidate, decimal in ((1.5 * M, 1.5), (M + 0.1, 0.1), (M**2.5, 2.5), (1e200 * M, 1e200)):
+        assert eq.decide(candidate).note == (
+            f"it holds the decimal {decimal!r}: write exact numbers, such as Rational(3, 2) for 1.5"
+        )
+    about = "the right-hand side is that of σ_f²(z)/⟨f⟩²"
+    assert about in eq.decide(sympy.sqrt(eq.rhs)).note
+    assert about not in eq.decide(1.5 * eq.rhs).note
+
+
+@pytest.mark.parametrize("given", ["1-z", None, 3, object(), b"1"])
+def test_what_is_no_expression_is_told_by_its_type(given: Any) -> None:
+    ruling = fd.equation(13).decide(given)
+    assert ruling.verdict is Verdict.NOT_A_STATEMENT
+    assert ruling.note == (
+        f"a SymPy Eq or expression is needed, and this is {type(given).__name__}"
+    )
+
+
+@pytest.mark.parametrize("given", [True, sympy.true, sympy.Eq(1, 2)])
+def test_an_equation_that_sympy_has_turned_into_a_truth_value(given: Any) -> None:
+    ruling = fd.equation(13).decide(given)
+    assert ruling.verdict is Verdict.NOT_A_STATEMENT
+    assert "is needed, and this is" in ruling.note
+    assert "SymPy made it of an Eq: write Eq(left, right, evaluate=False)" in ruling.note
+
+
+def test_what_a_proof_of_a_leading_order_leaves_open_is_said() -> None:
+    eq = fd.equation(13)
+    for side in (eq.rhs, eq.rhs + eq.symbols["M"] ** 2):
+        assert eq.decide(side).note == (
+            "by the rule: leading order, M → ∞ at fixed z = j/M, 0 < z < 1; lower orders are not "
+            "tested: exact(…).decide does that"
+        )
+    assert "lower orders" not in eq.decide(2 * eq.rhs).note
+    assert "lower orders" not in eq.exact().decide(eq.exact().rhs).note
