@@ -64,7 +64,7 @@ def ways(command: str, quantity: str) -> list[list[str]]:
 CELLS = list(product(COMMANDS, QUANTITIES, KINDS))
 
 
-@pytest.mark.long(sample=20)
+@pytest.mark.long(sample=8)
 @pytest.mark.parametrize(("command", "quantity", "kind"), CELLS)
 def test_a_cell_is_answered_or_refused_as_the_table_says(
     command: str,
@@ -128,6 +128,7 @@ def test_an_ensemble_of_a_load_on_the_base_is_refused_in_words(
     assert "bears on no contact that is asked for" in capsys.readouterr().err
 
 
+@pytest.mark.long(sample=3)
 @pytest.mark.parametrize("std", ["0", "1e-320", "1e-200", "1e-17", "1e-15"])
 @pytest.mark.parametrize("bins", [1, 20])
 def test_a_figure_of_changes_that_are_alike(

@@ -496,7 +496,7 @@ def is_whole(folder: Path, seed: int) -> bool:
     return said["source"]["seed"] == seed and {m.seed for m in manifest.files.values()} == {seed}
 
 
-@pytest.mark.long(sample=3)
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("earlier", [True, False])
 @pytest.mark.parametrize("rename", [1, 2, 3, 4])
 def test_killed_between_two_renames_the_same_command_repairs(

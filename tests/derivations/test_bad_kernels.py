@@ -69,7 +69,7 @@ def in_all_derivations(monkeypatch: Plant, name: str, planted: object) -> None:
             monkeypatch.setattr(module, name, planted)
 
 
-@pytest.mark.long(sample=14)
+@pytest.mark.long(sample=7)
 @pytest.mark.parametrize("number", modules())
 def test_it_proves_all(derive: Callable[..., Any], monkeypatch: Plant, number: Number) -> None:
     monkeypatch.setattr(runner, "attacked", lambda: None)  # they are not fooled

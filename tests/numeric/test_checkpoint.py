@@ -253,6 +253,7 @@ while True:
 """
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="SIGKILL")
 def test_killed_at_any_moment_it_is_whole_or_not_there(tmp_path: Path) -> None:
     plan, path, dice = small("histogram", layers=2), tmp_path / "kept", random.Random(1)

@@ -123,6 +123,7 @@ def test_segments_give_every_bit_of_the_sweep_in_memory(name: str, layers: int, 
     same(run(made), run(cut(made, layers)))
 
 
+@pytest.mark.long(sample=12)
 @pytest.mark.parametrize("every", [2, 3, 5])
 @pytest.mark.parametrize("name", CASES)
 def test_so_they_do_where_few_layers_are_kept(name: str, every: int) -> None:

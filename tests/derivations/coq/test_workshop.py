@@ -128,6 +128,7 @@ def put(folder: Path, name: str, script: str) -> None:
     (folder / name).chmod(0o755)
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize(
     ("script", "trouble"),
     [
