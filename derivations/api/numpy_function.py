@@ -2,7 +2,7 @@
 
 import inspect
 import numbers
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from decimal import Decimal
 from functools import partial
 from typing import Any
@@ -176,14 +176,20 @@ def _assert_allowed(evaluation: Evaluation, values: Arrays) -> None:
 
         array = values[symbol]
         _refuse(~np.isfinite(array), partial(told, words="finite numbers are allowed"))
-        words, allowed = range_of(symbol, evaluation.dimension)
-        if symbol == sy.phi:
-            _, allowed = range_of(symbol, dimension)
-            words = words if sy.d not in values else "−1/d < φ < 1/2"
-        good = allowed(array)
+        good = range_of(symbol, dimension)[1](array)
         if symbol.is_integer:
             good &= array == np.floor(array)
+        words = _range_in_words(evaluation, symbol, values)
         _refuse(np.logical_not(good), partial(told, words=f"{words} is allowed"))
+
+
+def _range_in_words(
+    evaluation: Evaluation, symbol: sympy.Symbol, arguments: Collection[sympy.Symbol]
+) -> str:
+    """What is allowed of a symbol; of φ in d dimensions, where d is an argument."""
+    if symbol == sy.phi and sy.d in arguments:
+        return "−1/d < φ < 1/2"
+    return range_of(symbol, evaluation.dimension)[0]
 
 
 def _assert_together(values: Arrays) -> None:
@@ -230,9 +236,7 @@ def _docstring(
     lines.append("Args:")
     for name, symbol in by_name.items():
         meaning = meanings.get(symbol) or _MEANINGS.get(symbol)
-        allowed = range_of(symbol, evaluation.dimension)[0]
-        if symbol == sy.phi and sy.d in by_name.values():
-            allowed = "−1/d < φ < 1/2"
+        allowed = _range_in_words(evaluation, symbol, by_name.values())
         lines.append(f"    {name}: {f'{meaning}; ' if meaning else ''}{allowed}.")
     lines += [
         "",

@@ -6,9 +6,9 @@ refuses is answered. Features are compared with ``==``; those that a row leaves 
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, get_args
 
-QUANTITIES = (
+QuantityName = Literal[
     "contact",
     "contact_forces",
     "positions",
@@ -16,7 +16,8 @@ QUANTITIES = (
     "histogram",
     "response",
     "base_reactions",
-)
+]
+QUANTITIES: tuple[str, ...] = get_args(QuantityName)
 COMMANDS = ("run", "ensemble", "figures", "cost")
 
 

@@ -18,6 +18,7 @@ from ..arithmetic.decimals import decimal_string, exact, short
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.foreign import finite
 from ..arithmetic.systems import Array
+from .combinations import QuantityName
 
 
 class SceneError(ForceDiffusionError, ValueError):
@@ -287,15 +288,7 @@ class Ask(Section):
     """
 
     section = "ask"
-    quantity: Literal[
-        "contact",
-        "contact_forces",
-        "positions",
-        "profile",
-        "histogram",
-        "response",
-        "base_reactions",
-    ]
+    quantity: QuantityName
     at: Place | None = None
     tolerance: Number | None = None
     certified: bool = False
