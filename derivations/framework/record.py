@@ -171,8 +171,8 @@ class Derivation:
 
     def domain_of(self, part: int) -> Where:
         """Where one of ``printed`` is proved."""
-        line = self._line(self.printed[part])
-        return line.domain(line.equations.index(self.printed[part]))
+        line, place = self._shown(self.printed[part])
+        return line.domain(place)
 
     def rule_on(self, part: int, candidate: sympy.Eq, where: Where | None = None) -> Ruling:
         """Rule on a candidate for one of ``printed``: decided, in the language, and searched.
@@ -195,11 +195,11 @@ class Derivation:
 
         What holds to leading order would be taken for exact otherwise, or the reverse.
         """
-        printed = self.printed[part]
-        for line in self.steps():
-            if printed in line.equations:
-                return line.unlike(self.relation, line.equations.index(printed), self.words)
-        return f"no line of {self.words} shows what is printed"
+        try:
+            line, place = self._shown(self.printed[part])
+        except LookupError as missing:
+            return str(missing)
+        return line.unlike(self.relation, place, self.words)
 
     @property
     def words(self) -> str:
@@ -209,10 +209,7 @@ class Derivation:
     @property
     def theorems(self) -> tuple[Theorem, ...]:
         """What the kernel proves of it, one theorem for each printed equation."""
-        return tuple(
-            line.theorems[line.equations.index(one)]
-            for one, line in ((one, self._line(one)) for one in self.printed)
-        )
+        return tuple(line.theorems[place] for line, place in map(self._shown, self.printed))
 
     @property
     def assumed(self) -> list[str]:
@@ -230,13 +227,20 @@ class Derivation:
         """The printed statements that are known not to hold; ``printed`` are those that do."""
         return tuple(self.steps().refuted)
 
-    def _line(self, printed: sympy.Eq) -> Line:
-        return next(line for line in self.steps() if printed in line.equations)
+    def _shown(self, printed: sympy.Eq) -> tuple[Line, int]:
+        """The line that shows a printed equation, and its place there.
+
+        Raises:
+            LookupError: there is none.
+        """
+        for line in self.steps():
+            if printed in line.equations:
+                return line, line.equations.index(printed)
+        raise LookupError(f"no line of {self.words} shows what is printed")
 
     def _by_the_kernel(self, part: int, candidate: sympy.Eq, where: Where | None) -> Ruling:
         printed = self.printed[part]
-        line = self._line(printed)
-        place = line.equations.index(printed)
+        line, place = self._shown(printed)
         line = line if where is None else replace(line, where=where)
         ruling = proved_by_line(self, line, place, printed, candidate)
         if not ruling.verdict.is_proved:
