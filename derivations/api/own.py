@@ -12,7 +12,6 @@ from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.api.equation import equation
-from force_diffusion.derivations.api.evaluation import holds
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.grounds import Chain, OfBoth
 from force_diffusion.derivations.framework.layered import Case, Layered
@@ -109,33 +108,15 @@ def _pairs(
     variance: Layered, shares: Mapping[str, int | Fraction], up_to: int, packing: SmallPacking
 ) -> Iterator[tuple[str, Fraction, Fraction]]:
     known = {**explicit.geometry(*packing.n, Fraction(1)), sigma: 1}
-    for height in range(1, up_to + 1):
-        of = {
-            branch: weights_of_forces(height, packing.n, _LOADS[variance.loading], branch=branch)
-            for branch in shares
-        }
-        for layer in range(height):
-            total: dict[tuple[int, int], Fraction] = {}
-            for branch, share in shares.items():
-                for site, weight in of[branch][layer].items():
-                    total[site] = total.get(site, Fraction(0)) + share * weight
-            squares = sum((weight**2 for weight in total.values()), Fraction(0))
-            yield (
-                f"M = {height}, j = {layer}",
-                explicit.number(_value_at(variance, height, layer), known),
-                squares,
-            )
-
-
-def _value_at(variance: Layered, height: int, layer: int) -> sympy.Expr:
-    at = {M: sympy.Integer(height), j: sympy.Integer(layer)}
-    for case in variance.exact().values():
-        for missed in case.missed:
-            if all(holds(one, at) for one in (*case.domain, *missed.when)):
-                return missed.expression
-        if all(holds(one, at) for one in case.domain):
-            return case.expression.xreplace(at)
-    raise ForceDiffusionError(f"no exact form is for M = {height}, j = {layer}")
+    load = _LOADS[variance.loading]
+    for height, layer, stated in variance.stated(up_to, known):
+        total: dict[tuple[int, int], Fraction] = {}
+        for branch, share in shares.items():
+            weights = weights_of_forces(height, packing.n, load, branch=branch)[layer]
+            for site, weight in weights.items():
+                total[site] = total.get(site, Fraction(0)) + share * weight
+        squares = sum((weight**2 for weight in total.values()), Fraction(0))
+        yield f"M = {height}, j = {layer}", stated, squares
 
 
 def _assert_known(loading: Loading) -> None:

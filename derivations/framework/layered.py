@@ -22,6 +22,7 @@ from force_diffusion.derivations.framework.grounds import (
 )
 from force_diffusion.derivations.framework.proving import Line, Lines, Meaning
 from force_diffusion.derivations.framework.record import Derivation, ExactCase, Missed
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms, times
@@ -30,7 +31,7 @@ from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import Loading, Where, at_fixed_height, in_a_layer
 from force_diffusion.symbolic.symbols import LargestShare, M, Moment, j, phi, r, sigma
 from force_diffusion.symbolic.variances.listed import listed, squares, weights
-from force_diffusion.symbolic.variances.variance import CASES, ClosedForm, packings, value_at
+from force_diffusion.symbolic.variances.variance import CASES, ClosedForm
 
 SCALE = r * (1 - phi**2)
 """What the change of a force over its mean is multiplied by when its weights are shown."""
@@ -142,9 +143,24 @@ class Layered:
 
     def stated(self, up_to: int, values: explicit.Values) -> Iterator[tuple[int, int, Fraction]]:
         """M, j and what is stated there, for every layer of all packings of M ≤ ``up_to``."""
-        for height, layer, case in packings(up_to):
-            form = value_at(self.forms, height, layer, case)
-            yield height, layer, explicit.number(form, values)
+        for height in range(1, up_to + 1):
+            for layer in range(height):
+                form = self._form_at(height, layer)
+                yield height, layer, explicit.number(form, {**values, M: height, j: layer})
+
+    def _form_at(self, height: int, layer: int) -> sympy.Expr:
+        """The form of a layer of one packing, by the domains of the cases.
+
+        Raises:
+            ForceDiffusionError: no case is for it.
+        """
+        for name, form in self.forms.items():
+            for size, at, value in form.exceptions:
+                if (size, at) == (height, layer):
+                    return value
+            if self.where(name).holds({M: height, j: layer}):
+                return form.expression
+        raise ForceDiffusionError(f"no exact form is for M = {height}, j = {layer}")
 
     def exact(self, to_order: str = "first order") -> dict[str, ExactCase]:
         """The closed forms as users get them."""
