@@ -360,20 +360,21 @@ def _claim_leading(
 def _claim_virial(lines: Lines, load: Load) -> None:
     """Claim that over all layers, weighted as the ordered stress is, both definitions agree."""
 
-    def weighed(change: sympy.Expr, size: sympy.Expr, layer: sympy.Expr | int) -> sympy.Expr:
-        return change * load.layers.xreplace({M: size, j: sympy.sympify(layer)})
+    def weighed(change: sympy.Expr, size: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
+        return change * load.layers.xreplace({M: size, j: layer})
 
     forms = load.forms[BY_FLUX]
     (_, _, alone), (_, _, upper) = forms["surface"].exceptions
     lower = forms["base"].expression.xreplace({M: TWO})
     inside = weighed(forms["interior"].expression, M, j).xreplace({j: n})
-    edges = (("base", 0), ("base+1", 1), ("surface", M - 1))
+    zero, one = sympy.S.Zero, sympy.S.One
+    edges = (("base", zero), ("base+1", one), ("surface", M - 1))
     every = sympy.Add(*(weighed(forms[case].expression, M, layer) for case, layer in edges))
     lines.claim(
         "over all layers, edges included, moments and flux agree",
         sympy.Tuple(
             equation(terms(every, sympy.Sum(sympy.cancel(inside), (n, 2, M - 2))), 0),
-            equation(weighed(lower, TWO, 0) + weighed(upper, TWO, 1), 0),
+            equation(weighed(lower, TWO, zero) + weighed(upper, TWO, one), 0),
             equation(alone, 0),
         ),
         rewrite(),

@@ -296,8 +296,9 @@ def in_cases(*choices: tuple[sympy.Symbol, Sequence[Iterable[sympy.Basic]]], by:
 def induct(over: sympy.Symbol, start: sympy.Expr | int, base: By, step: By, **how: Any) -> By:
     """From the first value of an index on; ``step`` may use what is SUPPOSED."""
 
+    first = sympy.Integer(start) if isinstance(start, int) else start
+
     def rule(supposed: tuple[Theorem, ...]) -> Rule:
-        first = sympy.sympify(start)
         return rules.induct(over, first, base.rule(supposed), step.rule, **how)
 
     return By(rule, (base, step))

@@ -19,7 +19,7 @@ from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
 from ..arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem, zeros
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
-from ..lattice.layers import Layer, LazyRows, Region
+from ..lattice.layers import Layer, Region
 from .local import balance, metric, rest
 from .work import Work
 
@@ -372,8 +372,3 @@ def check_standing(det: Any, layer: Layer, region: Region, system: NumberSystem)
 
 def _site(bad: Array, layer: Layer, region: Region) -> tuple[int, ...]:
     return region.bead(layer, int(np.argwhere(bad)[0][-1]))
-
-
-def lazily(rows: Sequence[Any], function: Callable[[Any], Any]) -> LazyRows[Any]:
-    """Give what a function makes of each row, when it is asked for."""
-    return LazyRows(len(rows), lambda j: function(rows[j]))
