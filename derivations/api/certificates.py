@@ -14,6 +14,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from force_diffusion.derivations.api.equation import equation
+from force_diffusion.derivations.coq.files import Statement, files_of, head_of, words_of
 from force_diffusion.derivations.coq.packings import packing_statement
 from force_diffusion.derivations.coq.record import (
     Certificate,
@@ -23,14 +24,7 @@ from force_diffusion.derivations.coq.record import (
     Verdict,
     theory_hash,
 )
-from force_diffusion.derivations.coq.statements import (
-    Statement,
-    files_of,
-    head_of,
-    statement,
-    statements,
-    words_of,
-)
+from force_diffusion.derivations.coq.statements import statement, statements
 from force_diffusion.derivations.coq.words import NotStatedError
 from force_diffusion.derivations.coq.workshop import (
     ALLOWED,

@@ -43,8 +43,8 @@ def certify(
 ) -> None:
     """Ask Coq, an independent proof assistant, whether it accepts the printed equations."""
     from force_diffusion.derivations.api.certificates import stated
+    from force_diffusion.derivations.coq.files import files_of, sha256
     from force_diffusion.derivations.coq.record import RECORD
-    from force_diffusion.derivations.coq.statements import files_of, sha256
     from force_diffusion.derivations.coq.workshop import theory
     from force_diffusion.derivations.framework.loading import load
 

@@ -9,7 +9,7 @@ load on one bead.
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
-from force_diffusion.derivations.coq.statements import Companion, Statement
+from force_diffusion.derivations.coq.files import Companion, Statement
 from force_diffusion.derivations.witnesses.draws import SmallPacking, draw
 from force_diffusion.numeric.mechanics import taylor
 

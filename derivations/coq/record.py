@@ -7,7 +7,8 @@ from enum import StrEnum
 from functools import cache
 from typing import Any
 
-from force_diffusion.derivations.coq.statements import sha256, statements
+from force_diffusion.derivations.coq.files import sha256
+from force_diffusion.derivations.coq.statements import statements
 from force_diffusion.derivations.coq.words import NotStatedError
 from force_diffusion.derivations.coq.workshop import PROOFS, theory
 from force_diffusion.derivations.framework.catalogue import Number

@@ -8,13 +8,10 @@ from pathlib import Path
 import pytest
 from force_diffusion.derivations.api import certificates
 from force_diffusion.derivations.api.certificates import answers, certificate, certify, tried
+from force_diffusion.derivations.coq.files import Statement, head_of
 from force_diffusion.derivations.coq.packings import packing_statement
 from force_diffusion.derivations.coq.record import Certificate, Verdict
-from force_diffusion.derivations.coq.statements import (
-    Statement,
-    head_of,
-    statement,
-)
+from force_diffusion.derivations.coq.statements import statement
 from force_diffusion.derivations.coq.words import NotStatedError
 from force_diffusion.derivations.coq.workshop import ALLOWED, Workshop, theory
 from force_diffusion.derivations.framework.catalogue import paper
