@@ -171,7 +171,7 @@ class Derivation:
 
     def domain_of(self, part: int) -> Where:
         """Where one of ``printed`` is proved."""
-        line, place = self._shown(self.printed[part])
+        line, place = self._line_of(self.printed[part])
         return line.domain(place)
 
     def rule_on(self, part: int, candidate: sympy.Eq, where: Where | None = None) -> Ruling:
@@ -196,7 +196,7 @@ class Derivation:
         What holds to leading order would be taken for exact otherwise, or the reverse.
         """
         try:
-            line, place = self._shown(self.printed[part])
+            line, place = self._line_of(self.printed[part])
         except LookupError as missing:
             return str(missing)
         return line.unlike(self.relation, place, self.words)
@@ -209,7 +209,7 @@ class Derivation:
     @property
     def theorems(self) -> tuple[Theorem, ...]:
         """What the kernel proves of it, one theorem for each printed equation."""
-        return tuple(line.theorems[place] for line, place in map(self._shown, self.printed))
+        return tuple(line.theorems[place] for line, place in map(self._line_of, self.printed))
 
     @property
     def assumed(self) -> list[str]:
@@ -227,7 +227,7 @@ class Derivation:
         """The printed statements that are known not to hold; ``printed`` are those that do."""
         return tuple(self.steps().refuted)
 
-    def _shown(self, printed: sympy.Eq) -> tuple[Line, int]:
+    def _line_of(self, printed: sympy.Eq) -> tuple[Line, int]:
         """The line that shows a printed equation, and its place there.
 
         Raises:
@@ -240,7 +240,7 @@ class Derivation:
 
     def _by_the_kernel(self, part: int, candidate: sympy.Eq, where: Where | None) -> Ruling:
         printed = self.printed[part]
-        line, place = self._shown(printed)
+        line, place = self._line_of(printed)
         line = line if where is None else replace(line, where=where)
         ruling = proved_by_line(self, line, place, printed, candidate)
         if not ruling.verdict.is_proved:

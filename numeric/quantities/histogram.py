@@ -38,8 +38,8 @@ class Histogram(ContactQuantity, Listed):
         return histogram(table.numbers["change"], self.bins, system)
 
     def answer_rows(self, region: Region, realisations: int) -> int:
-        """Three a bin, for its edges as decimals; a change counts for a little."""
-        return 3 * (self.scene.ask.bins or 1) + realisations * (region.beads // 50)
+        """Two a bin, for its edges as decimals; a change counts for a little."""
+        return 2 * (self.scene.ask.bins or 1) + realisations * (region.beads // 50)
 
     def left(self, solved: Solved) -> float | None:
         """Give what rounding left of changes, where all are asked for."""
@@ -85,8 +85,8 @@ class ContactHistogram(SingleContact, Histogram):
     """Changes of one contact force over many packings."""
 
     def answer_rows(self, region: Region, realisations: int) -> int:
-        """Three a bin, for its edges as decimals; a change counts for a little."""
-        return 3 * (self.scene.ask.bins or 1) + realisations
+        """Two a bin, for its edges as decimals; a change counts for a little."""
+        return 2 * (self.scene.ask.bins or 1) + realisations
 
     def rows_of(self, problem: Problem, solved: Solved) -> Table:
         """Give the change of one realisation, with its contact."""

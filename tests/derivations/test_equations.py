@@ -110,7 +110,7 @@ def test_a_factor_that_the_equation_does_not_have_is_refuted(
     derivation = ALL[number - 1]
     printed = derivation.printed[part]
     wrong = sympy.Eq(printed.lhs, factor * printed.rhs.doit(), evaluate=False)
-    by_line = derivation._line(printed).rule_on(0, wrong).verdict
+    by_line = derivation._line_of(printed)[0].rule_on(0, wrong).verdict
     assert by_line is (Verdict.REFUTED if factor in (-1, sy.z) else Verdict.NOT_A_STATEMENT)
     told = Verdict.REFUTED if factor == -1 else Verdict.NOT_A_STATEMENT
     assert derivation.rule_on(part, wrong).verdict is told
@@ -123,7 +123,7 @@ def test_a_term_that_stays_as_the_load_rises_but_is_not_of_the_cone_is_not_prove
     derivation = ALL[15]
     left, right = derivation.printed[0].args
     wrong = sympy.Eq(left, right.doit() + stranger * (sy.sigma / sy.r) ** 2, evaluate=False)
-    ruling = derivation._line(derivation.printed[0]).rule_on(0, wrong)
+    ruling = derivation._line_of(derivation.printed[0])[0].rule_on(0, wrong)
     assert not ruling.verdict.is_proved
     assert "neither grows nor is fixed" in ruling.note or "does not say what" in ruling.note
     assert derivation.rule_on(0, wrong).verdict is Verdict.NOT_A_STATEMENT
