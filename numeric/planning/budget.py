@@ -1,4 +1,4 @@
-"""The memory and the time that a scene takes, and what is refused as too much."""
+"""The memory that a scene takes, and what is refused as too much."""
 
 from ..arithmetic.carried import Pairs
 from ..arithmetic.systems import FLOAT64, NumberSystem
@@ -14,11 +14,10 @@ NAMES, FLOAT_NUMBER, TEXT, BALL_ROW = 100, 60, 150, 1300
 INTERPRETER = 85_000_000
 # The compiler that the extra ``fast`` brings, and what it leaves behind.
 COMPILED = 120_000_000
-LONGEST = 24 * 3600.0
 
 
 class TooLargeError(SceneError):
-    """A scene needs more memory or time than there is."""
+    """A scene needs more memory than there is."""
 
 
 def memory(
@@ -58,20 +57,6 @@ def refuse_memory(scene: Scene, needed: int, limit: int) -> None:
             packing.width if more else packing.height,
             f"{more}this scene would need about {size(needed)} of memory and {size(limit)} may be "
             f"used: ask for {less}, or for a smaller packing",
-        )
-
-
-def refuse_seconds(scene: Scene, realisations: int, seconds: float) -> None:
-    """Raise ``TooLargeError`` where a scene would take more than a day."""
-    if seconds > LONGEST:
-        key, value = ("packing.height", scene.packing.height)
-        if realisations > 1:
-            key, value = ("ask.realisations", realisations)
-        raise TooLargeError(
-            key,
-            value,
-            f"this scene would take about {seconds / 86400:.3g} days, and one is allowed: "
-            "ask for fewer realisations or a smaller packing",
         )
 
 

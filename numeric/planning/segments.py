@@ -25,8 +25,6 @@ _MANY, _FEWEST = 600_000_000, 16
 QUICKER = 5_000_000
 # Layers that are solved beside those of a segment.
 _BESIDE = 5
-# Seconds of a bead, all steps together, in whole layers and in others.
-_SECONDS, _SECONDS_OF_CONE = 2.5e-7, 5e-7
 
 
 def suits(scene: Scene, tolerance: Fraction | None) -> bool:
@@ -99,13 +97,6 @@ def memory(problem: Problem, quantity: Quantity, *, text: bool) -> int:
         + budget.INTERPRETER
         + budget.COMPILED
     )
-
-
-def seconds(problem: Problem, quantity: Quantity) -> float:
-    """Predict how long it takes."""
-    each = _SECONDS if problem.region.is_whole else _SECONDS_OF_CONE
-    passes = (5 / 3 if quantity.name == "histogram" else 1) + (problem.every > 1) / 4
-    return problem.region.beads * each * passes
 
 
 def steps(
