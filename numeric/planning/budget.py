@@ -5,10 +5,11 @@ from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
 
-# Bytes that a bead takes while it is solved, by dimension, a packing whose rows are listed, a line
-# of a file and a layer of the plan; measured, rounded up. The rest is the interpreter with its
-# libraries.
-FLOAT_BEADS, BALL_BEAD, LISTED, FILE_LINE, PLAN_LAYER = {2: 310, 3: 490}, 2200, 3500, 600, 900
+# Bytes that a bead takes while it is solved, by dimension, a packing whose rows are listed, and a
+# line of a file; measured, rounded up. The rest is the interpreter with its libraries.
+FLOAT_BEADS, BALL_BEAD, LISTED, FILE_LINE = {2: 310, 3: 490}, 2200, 3500, 600
+# Bytes of a layer: in the plan, and while it is solved in memory.
+PLAN_LAYER, SOLVED_LAYER = 150, 750
 # What a row of the answer takes: its names, a number, and that as text.
 NAMES, FLOAT_NUMBER, TEXT, BALL_ROW = 100, 60, 150, 1300
 INTERPRETER = 85_000_000
@@ -38,7 +39,7 @@ def memory(
         beads * (each + (FILE_LINE if file else 0))
         + rows * (BALL_ROW if system.dtype is object else row)
         + listed * LISTED
-        + layers * PLAN_LAYER
+        + layers * (PLAN_LAYER + SOLVED_LAYER)
         + INTERPRETER
     )
 

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import Monodisperse, Radii
-from ..lattice.layers import Region
+from ..lattice.layers import Region, Rows
 from ..mechanics.engine import chunk_size, worth_compiling
 from ..mechanics.images import sees_images
 from ..mechanics.problem import Problem, Route
@@ -147,7 +147,7 @@ def prepared(
     elif not scene.load.angle_deg and scene.load.kind != "file":
         skipped.append(Skipped("load at an angle", "the load points straight down"))
     single = closed and quantity.single
-    force_rows, region = ((), Region(load.width, ())) if single else quantity.beads(load)
+    force_rows, region = (Rows(), Region(load.width, Rows())) if single else quantity.beads(load)
     unloaded = not region.rows or (quantity.needs_forces and load.loaded == [])
     radii, route = _theory(
         scene, region, skipped, ordered=ordered, closed=closed, unloaded=unloaded
@@ -202,7 +202,7 @@ def _refuse_beads(
     if ordered and scene.packing.dimension == 2:
         beads = 0
     layers = 0 if quantity.single and not beads else scene.packing.height + 1
-    nothing = Region(scene.packing.width, ())
+    nothing = Region(scene.packing.width, Rows())
     needed = _memory(scene, quantity, nothing, beads, 1, FLOAT64, text)
     if segments.suits(scene, tolerance):
         height = scene.packing.height

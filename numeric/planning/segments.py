@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from typing import NamedTuple
 
 from ..arithmetic.systems import FLOAT64
-from ..lattice.layers import Region
+from ..lattice.layers import Region, Rows
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
@@ -87,7 +87,7 @@ def cut(
 def memory(problem: Problem, quantity: Quantity, *, text: bool) -> int:
     """Estimate the bytes at the peak."""
     counted = quantity.name == "histogram"  # one segment after the other
-    region = Region(problem.width, ()) if counted else problem.region
+    region = Region(problem.width, Rows()) if counted else problem.region
     rows = quantity.answer_rows(region, 1)
     found = _divided(problem, _MANY if problem.every == 1 else 0)
     return (

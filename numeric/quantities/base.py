@@ -18,8 +18,7 @@ from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
 from ..lattice.branch import Branch, Direction, PerAxis, PerBranch
-from ..lattice.layers import Layer, LazyRows, Region, pick, standing_on_base, whole
-from ..lattice.regions import Rows
+from ..lattice.layers import Layer, LazyRows, Region, Rows, pick, standing_on_base, whole
 from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Route, Solved
@@ -154,7 +153,7 @@ class Quantity(ABC):
     def region(self, force_rows: Rows) -> Region:
         """Give the beads that are to be deposited."""
         if not any(layer.count for layer in force_rows):
-            return Region(self.width, ())
+            return Region(self.width, Rows())
         return standing_on_base(force_rows, self.width)
 
     def line_beads(self, load: LoadSpec) -> int:

@@ -9,8 +9,7 @@ import numpy as np
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice import regions
 from ..lattice.branch import Contact
-from ..lattice.layers import Layer, Region
-from ..lattice.regions import Rows
+from ..lattice.layers import Layer, Region, Rows
 from ..mechanics import first_order
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved

@@ -7,7 +7,7 @@ from functools import lru_cache, partial
 import numpy as np
 
 from ..arithmetic.systems import Array
-from ..lattice.layers import Layer, Region, full_layer
+from ..lattice.layers import Layer, Region, full_layer, whole
 from ..mechanics.problem import Problem, Solved
 from .base import (
     Block,
@@ -43,10 +43,10 @@ class ContactForces(ContactQuantity, Listed):
         assert solved.forces is not None
         if self.at_once(problem, solved, range(1, self.height + 1)):
             return replace(self._at_once(solved), index=self.names)
-        rows = problem.force_rows[1:]
+        rows = problem.force_rows
         if self.width is not None:
-            rows = tuple(full_layer(j, self.width) for j in range(1, self.height + 1))
-        return self._below(rows, solved)
+            rows = whole(self.width, self.height).rows
+        return self._below(rows[1:], solved)
 
     def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
         """Give the contacts below the beads of some layers."""

@@ -7,8 +7,7 @@ import numpy as np
 
 from ..arithmetic.systems import Array, NumberSystem, array, zeros
 from ..lattice import regions
-from ..lattice.layers import Layer, Region, pick, whole
-from ..lattice.regions import Rows
+from ..lattice.layers import Layer, Region, Rows, pick, whole
 from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved
@@ -24,7 +23,7 @@ class Positions(Listed):
 
     def force_rows(self, load: LoadSpec) -> Rows:
         """No forces are needed."""
-        return ()
+        return Rows()
 
     def region(self, force_rows: Rows) -> Region:
         """Give the triangle below the bead, or the whole packing."""

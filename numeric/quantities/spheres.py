@@ -11,8 +11,7 @@ import numpy as np
 
 from ..arithmetic.systems import Array, NumberSystem, from_floats, zeros
 from ..lattice.branch import Axis
-from ..lattice.layers import Layer, Region, full_layer, lower_beads, whole
-from ..lattice.regions import Rows
+from ..lattice.layers import Layer, Region, Rows, full_layer, lower_beads, whole
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved
 from ..scene.scene import Scene
