@@ -7,7 +7,7 @@ import math
 from abc import ABC, abstractmethod
 from collections import UserDict
 from collections.abc import Callable, Mapping, MutableMapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache, cached_property
 from typing import Any, ClassVar, NamedTuple
@@ -94,12 +94,19 @@ class Gatherer(ABC):
     """Collects solved realisations; ``table`` gives what was found."""
 
     @abstractmethod
-    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
-        """Take in solved realisations (in a batch, the first axis of the arrays)."""
+    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
+        """Take in solved realisations (in a batch, the first axis of the arrays).
+
+        What is taken in belongs to the beads of some ``layers``, and to the contacts below them.
+        """
 
     @abstractmethod
     def table(self) -> Table:
-        """Give the answer."""
+        """Give the answer, or that part of it which follows from the layers taken in.
+
+        Parts of layers one above the other, put below each other, are the rows of the answer in
+        order. Where rows have no ``index``, theirs is ``Quantity.names``.
+        """
 
     def left(self) -> float | None:
         """Give how far numbers are, at the most, from those that their sweeps' errors belong to.
@@ -182,17 +189,14 @@ class Quantity(ABC):
 
     # How it is gathered
 
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> "Table | None":
-        """Give those rows of one packing that follow from the contacts below some layers' beads.
-
-        Of all layers one after the other, these are the rows of the answer, in order. None where
-        there are none. Rows without an ``index`` have that of ``names``.
-        """
-        raise NotImplementedError(f"{self.name} is not gathered by segments")
+    @property
+    def all_layers(self) -> range:
+        """All layers, whose contacts below decide the answer; and the base."""
+        return range(self.height + 1)
 
     @property
     def names(self) -> Columns:
-        """The columns that name all rows, where ``rows_within`` leaves them out."""
+        """The columns that name all rows of a packing, where tables leave them out."""
         return {}
 
     def left(self, solved: Solved) -> float | None:
@@ -249,16 +253,18 @@ class Listing(Gatherer):
         self.parts: list[Table] = []
         self._left: float | None = 0.0
 
-    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
+    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
         """Take in solved realisations."""
         left = self.quantity.left(solved)
         known = left is not None and self._left is not None
         self._left = max(self._left or 0.0, left or 0.0) if known else None
         for number, realisation in enumerate(realisations):
             one = solved if len(realisations) == 1 else solved.one(number)
-            part = self.quantity.rows_of(self.problem, one)
+            part = self.quantity.rows(self.problem, one, layers)
             if self.problem.realisations > 1:
-                part.index["realisation"] = np.full(part.rows, realisation)
+                index = part.index or self.quantity.names
+                index["realisation"] = np.full(part.rows, realisation)
+                part = replace(part, index=index)
             self.parts.append(part)
 
     def left(self) -> float | None:
@@ -285,8 +291,8 @@ class Listed(Quantity):
         return Listing(self, problem, system)
 
     @abstractmethod
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give the rows of one realisation."""
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
+        """Give the rows of one realisation that belong to some layers (see ``Gatherer``)."""
 
 
 class Block(NamedTuple):
@@ -321,9 +327,11 @@ class ContactQuantity(Quantity):
         one = self.scene.load.magnitude == 1
         return solved.forces.left if one and solved.forces is not None else None
 
-    def blocks(self, problem: Problem) -> list[Block]:
-        """Give the contacts, block by block, in the order of the groups."""
-        rows = (row for row in problem.force_rows[1:] if row.count and self.is_asked(row.j))
+    def blocks(self, problem: Problem, layers: range | None = None) -> list[Block]:
+        """Give the contacts below the beads of some layers, in the order of the groups."""
+        layers = self.all_layers if layers is None else layers
+        below = problem.force_rows[max(layers.start, 1) : layers.stop]
+        rows = (row for row in below if row.count and self.is_asked(row.j))
         return [Block(branch, row) for row in rows for branch in self.branches]
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:

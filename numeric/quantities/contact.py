@@ -71,15 +71,13 @@ class SingleContact(ContactQuantity):
         strength = problem.load.strength(problem.n_x, FLOAT64)
         return [Fraction(float(problem.load.ordered_force(self.contact, strength, FLOAT64)))]
 
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
-        """Give the one row where its upper bead lies in these layers."""
-        return self.row_of(solved) if self.contact.upper[1] in layers else None
-
-    def row_of(self, solved: Solved) -> Table:
-        """Give the contact of one realisation; nothing where a sweep stopped above it."""
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
+        """Give the contact, with the layer of its upper bead; not where a sweep stopped above."""
         _, j, branch = self.contact
         found: Sequence[tuple[Any, Any]] = []
-        if solved.single is not None:
+        if j + 1 not in layers:
+            pass
+        elif solved.single is not None:
             F, g = solved.single
             found = [(F + g, g)]
         elif solved.forces is not None and len(solved.forces.ordered[branch][j + 1]):
@@ -105,7 +103,3 @@ class ContactForce(SingleContact, Listed):
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a realisation."""
         return realisations
-
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give the one row."""
-        return self.row_of(solved)

@@ -47,8 +47,8 @@ class NetworkQuantity(Listed):
         """Two contacts a bead, at most."""
         return 2 * region.beads * realisations
 
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give the rows of one realisation."""
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
+        """Give the rows of one realisation; it is never cut into layers."""
         assert isinstance(solved, Relaxed)
         return self.listed(problem, solved.network, solved.system)
 
@@ -280,7 +280,7 @@ class _Layers(Gatherer):
         self.forces: list[list[Any]] = [[] for _ in range(quantity.height + 1)]
         self.sums: list[Array] = []  # of each packing: counts, sums and squares of every layer
 
-    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
+    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
         """Sort forces by the layer of the lower bead."""
         assert isinstance(solved, Relaxed)
         for pair, force in zip(solved.network.pairs, solved.network.forces, strict=True):

@@ -3,8 +3,6 @@
 from fractions import Fraction
 from functools import lru_cache
 
-import numpy as np
-
 from ..arithmetic.systems import Array, NumberSystem, array, zeros
 from ..lattice import regions
 from ..lattice.layers import Layer, Region, pick, whole
@@ -12,7 +10,7 @@ from ..lattice.regions import Rows
 from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved
-from .base import Listed, Table, column
+from .base import Listed, Table, column, joined
 
 
 class Positions(Listed):
@@ -51,14 +49,8 @@ class Positions(Listed):
         """One a bead."""
         return (1 if self.single else region.beads) * realisations
 
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give a row a bead, from the base up."""
-        found = self.rows_within(problem, solved, range(self.height + 1))
-        assert found is not None
-        return found
-
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
-        """Give a row a bead of some layers."""
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
+        """Give a row a bead of some layers, from the lowest up."""
         scene, system = self.scene, solved.system
         nx, ny = plain.axes(scene.n_x, system)
         r = system.number(scene.packing.radius)
@@ -66,8 +58,6 @@ class Positions(Listed):
         if scene.site is not None:
             i, j = scene.site
             rows = [Layer(j, i, 1)] if j in layers else []
-        if not rows:
-            return None
         columns: dict[str, list[Array]] = {"x": [], "y": [], "dx": [], "dy": []}
         for layer in rows:
             cp, cm = self._line_sums(solved, layer)
@@ -78,7 +68,7 @@ class Positions(Listed):
             columns["dy"].append(dy)
         return Table(
             self.sites_of(rows),
-            {name: np.concatenate(parts) for name, parts in columns.items()},
+            {name: joined(system, parts) for name, parts in columns.items()},
             ("dx", "dy"),
         )
 

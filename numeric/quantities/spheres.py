@@ -128,12 +128,11 @@ class SphereContact(SphereContacts, Listed):
         (forces,) = self.ordered_of(problem, [block])
         return [forces[column] if forces else Fraction(0)]
 
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
-        """Give the one row where its upper bead lies in these layers."""
-        return self.rows_of(problem, solved) if self.place[0].row.j in layers else None
-
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give the one row."""
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
+        """Give the one row, with the layer of its upper bead."""
+        if self.place[0].row.j not in layers:
+            none = zeros(solved.system, 0)
+            return Table({}, {"force": none, "change": none}, ("change",))
         F, g = self.changes(problem, solved, 1)
         index = {k: np.array(v) for k, v in self.labels(problem).items()}
         return Table(index, {"force": F[0] + g[0, 0], "change": g[0, 0].copy()}, ("change",))
@@ -152,31 +151,23 @@ class SpherePositions(SphereQuantity, Listed):
         """One a bead."""
         return (1 if self.scene.ask.at is not None else region.beads) * realisations
 
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give a row a bead, from the base up."""
-        found = self.rows_within(problem, solved, range(self.height + 1))
-        assert found is not None
-        return found
-
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
-        """Give a row a bead of some layers."""
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
+        """Give a row a bead of some layers, from the lowest up."""
         system, r = solved.system, solved.system.number(self.scene.packing.radius)
         rows = [row for row in problem.region.rows if row.j in layers]
         at = self.scene.ask.at
         if at is not None:
             rows = [row for row in rows if row.j == int(at[2])]
-        if not rows:
-            return None
         c = [zeros(system, 3, row.count) for row in rows]
         if solved.packing is not None:
             of = [values for _, values in solved.packing.c]
             c = [np.stack([values[row.j] for values in of]) for row in rows]
-        if at is not None:
+        if at is not None and rows:
             p, q, j = map(int, at)
             column = p * self.side + q
             rows, c = [Layer(j, 2 * column + j % 2, 1)], [c[0][:, column : column + 1]]
-        index = self.sites_of(rows)
-        moved = _cartesian(np.concatenate(c, axis=1), problem, system, raised=False)
+        index, all_c = self.sites_of(rows), np.concatenate([zeros(system, 3, 0), *c], axis=1)
+        moved = _cartesian(all_c, problem, system, raised=False)
         first, second, layer = index.values()
         home = np.stack([2 * first, 2 * second, 2 * (layer - first - second)])
         numbers = from_floats(system, home.astype(np.float64))
@@ -200,13 +191,11 @@ class SphereBase(SphereQuantity, Listed):
         """One a bead of the base."""
         return (self.width or 0) * realisations
 
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
-        """Give all rows where the layer above the base is there."""
-        return self.rows_of(problem, solved) if 1 in layers else None
-
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give a row a bead of the base."""
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
+        """Give a row a bead of the base, with the layer above it."""
         system, layer = solved.system, full_layer(0, self.width or 0)
+        if 1 not in layers:
+            layer = Layer(0, 0, 0)
         F, change = map(np.stack, on_base(problem, solved, layer))
         numbers = {}
         for name, value, moved in zip(
