@@ -146,7 +146,7 @@ def at_home(quantity: Quantity, contact: Contact | AxisContact) -> Contact | Axi
     """Name a contact by the column within the period, as rows do."""
     if isinstance(contact, AxisContact):
         return contact
-    return contact._replace(i=quantity.home(contact.i))
+    return contact._replace(i=quantity.naming.home(contact.i))
 
 
 def _which(

@@ -10,15 +10,16 @@ from collections.abc import Callable, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache, cached_property
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
-from ..lattice.branch import Branch, Direction, PerAxis, PerBranch
-from ..lattice.layers import Layer, LazyRows, Region, pick, standing_on_base, whole
+from ..lattice.branch import PerAxis, PerBranch
+from ..lattice.layers import LazyRows, Region, pick, standing_on_base, whole
+from ..lattice.naming import Block, Naming
 from ..lattice.regions import Rows
 from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
@@ -131,23 +132,39 @@ class Quantity(ABC):
     """Whether an ensemble has statistics of it."""
     numbers: ClassVar[int] = 4
     """How many numbers a row has, at the most."""
-    branches: ClassVar[tuple[Direction, ...]] = tuple(Branch)
-    """Along which contacts lead up."""
 
     def __init__(self, scene: Scene) -> None:
         """Ask a scene's question."""
-        self.scene = scene
-        self.width, self.height = scene.packing.width, scene.packing.height
+        self.scene, self.height = scene, scene.packing.height
+        self.naming = Naming(scene.packing.dimension, scene.packing.width)
+        self.width, self.branches = self.naming.row, self.naming.branches
 
     # What it needs
 
     @property
+    def by_layers(self) -> bool:
+        """Whether whole layers are solved, whatever is asked: in three dimensions."""
+        return self.naming.dimension > 2
+
+    @property
     def single(self) -> bool:
-        """Whether one contact or one bead is asked for, and not the whole packing."""
-        return self.scene.ask.at is not None
+        """Whether one contact or one bead is solved for, and not the whole packing."""
+        return self.scene.ask.at is not None and not self.by_layers
+
+    @property
+    def top(self) -> int:
+        """The highest layer that is solved where layers are whole: of the load, or as asked."""
+        load, at = self.scene.load, self.scene.ask.at
+        if self.needs_forces:
+            at = None if load.pressure else load.at
+        return self.height if at is None else int(at[self.naming.dimension - 1])
 
     def beads(self, load: LoadSpec) -> tuple[Rows, Region]:
         """Give the beads whose forces are to be balanced, and those that are to be deposited."""
+        if self.by_layers:
+            assert self.width is not None
+            region = whole(self.width, self.top, self.naming.dimension)
+            return region.rows if self.needs_forces else (), region
         rows = self.force_rows(load)
         return rows, self.region(rows)
 
@@ -172,6 +189,8 @@ class Quantity(ABC):
 
     def most_beads(self) -> int:
         """Bound the beads to be solved, before a single row of them is made."""
+        if self.by_layers:
+            return (self.top + 1) * (self.width or 0)
         layers = self.height + 1
         beads = layers * (self.width or layers)
         if self.scene.load.at is not None and not self.scene.load.pressure:
@@ -215,33 +234,6 @@ class Quantity(ABC):
     ) -> list[tuple[Fraction, Fraction, int]] | None:
         """Count an answer into bins (low, high, count); None unless the question is about that."""
         return None
-
-    def sites_of(self, rows: Sequence[Layer]) -> dict[str, Array]:
-        """Give the columns i and j of beads, row by row."""
-        return {
-            "i": np.concatenate([_NONE, *(self.home(_columns(row)) for row in rows)]),
-            "j": np.repeat([row.j for row in rows] or _NONE, [row.count for row in rows] or _NONE),
-        }
-
-    def contacts_of(self, blocks: "Sequence[Block]") -> dict[str, Array]:
-        """Give the columns i, j and branch of contacts, block by block, by their lower beads."""
-        lower = [Layer(row.j - 1, row.first - b.side, row.count) for b, row in blocks]
-        branches = np.array([b.value for b, _ in blocks], dtype="U1")
-        return {
-            **self.sites_of(lower),
-            "branch": np.repeat(branches, [row.count for row in lower] or _NONE),
-        }
-
-    def home(self, i: Any) -> Any:
-        """Give a column, or an array of them, within 0 … 2W − 1 of a periodic packing."""
-        return i if self.width is None else i % (2 * self.width)
-
-
-_NONE = np.empty(0, dtype=np.int64)
-
-
-def _columns(row: Layer) -> Array:
-    return row.first + 2 * np.arange(row.count)
 
 
 class Listing(Gatherer):
@@ -295,13 +287,6 @@ class Listed(Quantity):
         """Give the rows of one realisation that belong to some layers (see ``Gatherer``)."""
 
 
-class Block(NamedTuple):
-    """Contacts of one branch below a row of upper beads."""
-
-    branch: Direction
-    row: Layer
-
-
 class ContactQuantity(Quantity):
     """A question about contact forces, of which an ensemble has statistics.
 
@@ -336,7 +321,7 @@ class ContactQuantity(Quantity):
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Give columns that name the groups, one entry a group."""
-        contacts = self.contacts_of(self.blocks(problem))
+        contacts = self.naming.contacts(self.blocks(problem))
         return {name: column.tolist() for name, column in contacts.items()}
 
     def members(self, problem: Problem) -> int:
@@ -358,18 +343,13 @@ class ContactQuantity(Quantity):
         return [force for block in self.ordered_blocks(problem) for force in block]
 
     def ordered_blocks(self, problem: Problem) -> list[list[Fraction]]:
-        """Give the ordered forces, block by block; nothing above the highest load."""
-        return self.ordered_of(problem, self.blocks(problem))
-
-    def ordered_of(self, problem: Problem, blocks: "Sequence[Block]") -> list[list[Fraction]]:
-        """Give the ordered forces of some blocks."""
+        """Give the ordered forces, block by block."""
+        blocks = self.blocks(problem)
         load, rows = problem.load, problem.force_rows
         strength = load.strength(problem.n_x, FLOAT64)
         forces = load.ordered_forces(problem.region, rows, strength, FLOAT64)
-        return [
-            [Fraction(float(F)) for F in forces.ordered[branch][row.j]] if row.j < len(rows) else []
-            for branch, row in blocks
-        ]
+        found = contact_changes(Solved(FLOAT64, None, forces, None), blocks, 1)
+        return [[Fraction(float(one)) for one in F] for _, F, _ in found]
 
 
 def contact_changes(
@@ -435,6 +415,24 @@ def slope(problem: Problem, system: NumberSystem) -> Any:
     if problem.dimension == 3:
         return system.root(1 - Fraction(4, 3) * problem.n_x**2)
     return plain.axes(problem.n_x, system)[1]
+
+
+def cartesian(
+    components: Sequence[Array], problem: Problem, system: NumberSystem, *, raised: bool
+) -> tuple[Array, ...]:
+    """Give (x, y), or (x, y, z), of v = Σ v^a n^a; or of a vector with v_a = n^a·v.
+
+    The last is up; in three dimensions x is along n^1 − n^3.
+    """
+    nx, up = system.scalar(problem.n_x), slope(problem, system)
+    x, rise = components[0] - components[-1], components[0] + components[1]
+    if len(components) == 2:
+        return (x * nx, rise * up) if raised else (x / (2 * nx), rise / (2 * up))
+    a, b, c = components
+    y, rise = (2 * b - a - c) * system.root(Fraction(1, 3)), rise + c
+    if raised:
+        return x * nx, y * nx, rise * up
+    return x / (2 * nx), y / (2 * nx), rise / (3 * up)
 
 
 def first_order_std(problem: Problem) -> PerBranch[Sequence[Fraction]] | None:

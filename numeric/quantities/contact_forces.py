@@ -7,9 +7,9 @@ import numpy as np
 
 from ..arithmetic.systems import Array
 from ..lattice.layers import Layer, Region, full_layer
+from ..lattice.naming import Block
 from ..mechanics.problem import Problem, Solved
 from .base import (
-    Block,
     Columns,
     ContactQuantity,
     Later,
@@ -49,7 +49,7 @@ class ContactForces(ContactQuantity, Listed):
         blocks = above_stop([Block(b, row) for row in rows for b in self.branches], solved.forces)
         found = list(contact_changes(solved, blocks, 1))
         return Table(
-            self.contacts_of(blocks),
+            self.naming.contacts(blocks),
             {
                 "force": joined(solved.system, [F + g[0] for _, F, g in found]),
                 "change": joined(solved.system, [g[0] for _, _, g in found]),

@@ -100,7 +100,7 @@ class NetworkContact(NetworkQuantity):
         """There is one group."""
         assert self.scene.contact is not None
         i, j, branch = self.scene.contact
-        return {"i": [self.home(i)], "j": [j], "branch": [branch.value]}
+        return {"i": [self.naming.home(i)], "j": [j], "branch": [branch.value]}
 
     def samples(self, problem: Problem, network: Network) -> tuple[Array, Array]:
         """Give the one force."""
@@ -118,7 +118,8 @@ class NetworkContact(NetworkQuantity):
         assert self.scene.contact is not None
         i, j, branch = self.scene.contact
         for pair, value in zip(network.pairs, network.forces, strict=True):
-            if network.bead(pair[1]) == (self.home(i), j) and network.branch(pair) == branch.value:
+            here = network.bead(pair[1]) == (self.naming.home(i), j)
+            if here and network.branch(pair) == branch.value:
                 return value
         return system.number(Fraction(0))
 
@@ -173,9 +174,8 @@ class NetworkPositions(NetworkQuantity):
         beads = range(len(network.x))
         if self.scene.site is not None:
             i, j = self.scene.site
-            beads = range(
-                j * network.width + self.home(i) // 2, j * network.width + self.home(i) // 2 + 1
-            )
+            bead = j * network.width + self.naming.home(i) // 2
+            beads = range(bead, bead + 1)
         names = [network.bead(number) for number in beads]
         bearing = np.bincount(network.pairs.ravel(), minlength=len(network.x))
         nx, ny = plain.axes(problem.n_x, system)

@@ -10,11 +10,11 @@ from ..arithmetic.decimals import decimal_string
 from ..arithmetic.systems import Array, NumberSystem, as_floats
 from ..lattice.branch import Direction
 from ..lattice.layers import Region, full_layer
+from ..lattice.naming import Block
 from ..mechanics.problem import Problem, Solved
 from ..statistics.moments import Moments, Scatter, unit_near
 from .base import (
     RATIO,
-    Block,
     ContactQuantity,
     Gatherer,
     Table,

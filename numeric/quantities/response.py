@@ -97,7 +97,7 @@ class Response(ContactQuantity):
             tilt = self.tilt(solved, branch, row)
             f = F + (g if problem.route == Route.EXACT else 0)
             verticals.append((g + f * tilt.reshape(-1, row.count)) * ny)
-        contacts = self.contacts_of([block for block, _, _ in parts])
+        contacts = self.naming.contacts([block for block, _, _ in parts])
         nothing = zeros(system, realisations, 0)
         return (
             contacts,
