@@ -27,9 +27,10 @@ class Row:
     ``model_error`` is that of what is computed, ``rounding_error`` that of the arithmetic,
     ``sampling_error`` that of a finite ensemble. ``certified_bound`` is what the way itself
     certifies of its error (balls only). ``seconds``, of the processor, is the median of ``runs``
-    runs, a warm-up not counted. ``peak_bytes``: what Python and NumPy allocate, by tracemalloc, in a run of its own;
-    where ``peak_is_bound``, it is a lower bound: the limbs of big numbers, which flint and GMP
-    allocate, are not in it. ``pareto``: no other row has a smaller measured error and least time.
+    runs, a warm-up not counted. ``peak_bytes``: what Python and NumPy allocate, by tracemalloc, in
+    a run of its own; where ``peak_is_bound``, it is a lower bound: the limbs of big numbers, which
+    flint and GMP allocate, are not in it. ``pareto``: no other row has a smaller measured error and
+    least time.
     """
 
     way: str
@@ -103,7 +104,7 @@ def row(
 
 
 def marked(rows: Sequence[Row]) -> tuple[Row, ...]:
-    """Mark the rows on the Pareto front of error and least time, and sort all by error, the largest first."""
+    """Mark the Pareto front of error and least time; sort by error, the largest first."""
     front = pareto([(r.seconds_min, r.error) for r in rows])
     done = [replace(r, pareto=best) for r, best in zip(rows, front, strict=True)]
     return tuple(sorted(done, key=lambda r: -r.error))
