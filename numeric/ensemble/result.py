@@ -2,9 +2,8 @@
 
 import math
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from ..quantities.base import RATIO, SCATTER_OF
 from ..scene.source import source_of
 from ..tables import Row, html_table, rows_of
 from ..text import rows_of_text, significant, text_of
-from .estimates import Estimates, root
+from .estimates import Estimates
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,7 +31,7 @@ class Ensemble:
     ``half_width``, relative, holds for all σ_f together with confidence ``confidence``. ``reached``
     says whether the σ_f are known as well as ``until`` asked, and is None if nothing was asked;
     ``looks`` counts how often that was tested. ``solved`` packings were solved now, the others
-    were read from a store. ``estimates`` has exact rationals.
+    were read from a store. ``estimates`` has the numbers in units of the load.
     """
 
     estimates: Estimates
@@ -42,7 +41,8 @@ class Ensemble:
     reached: bool | None
     solved: int
 
-    left_out = "can't be built and are left out"
+    left_out: ClassVar[str] = "can't be built and are left out"
+    arithmetic: ClassVar[str] = "float64"
 
     @property
     def quantity(self) -> str:
@@ -90,25 +90,24 @@ class Ensemble:
     def mean(self) -> Array:
         """Mean force; of forces that differ to zeroth order already, their mean."""
         ordered = self.estimates.measurement.ordered()
-        pairs = zip(ordered, self.estimates.mean, strict=True)
-        return self._sorted([float(F + g) for F, g in pairs]) * self._unit
+        return self._sorted(ordered + self.estimates.mean) * self._unit
 
     @cached_property
     def mean_change(self) -> Array:
         """Mean of the change g = f − F from the ordered force F."""
-        return self._sorted([float(g) for g in self.estimates.mean]) * self._unit
+        return self._sorted(self.estimates.mean) * self._unit
 
     @property
     def mean_change_error(self) -> Array:
         """Standard error of ``mean_change``."""
-        return self._sorted(_floats(self.estimates.mean_error)) * self._unit
+        return self._sorted(self.estimates.mean_error) * self._unit
 
     @cached_property
     def mean_square(self) -> Array:
         """Mean of g², the variance about the ordered force: Eqs. 13 and 14 are its theory."""
-        return self._sorted([float(g) for g in self.estimates.mean_square]) * self._unit**2
+        return self._sorted(self.estimates.mean_square) * self._unit**2
 
-    @property
+    @cached_property
     def std(self) -> Array:
         """σ_f, the standard deviation of g about its mean."""
         return self._sorted(self.estimates.std) * self._unit
@@ -116,7 +115,7 @@ class Ensemble:
     @property
     def std_error(self) -> Array:
         """Standard error of ``std``; NaN where nothing varies."""
-        return self._sorted(_floats(self.estimates.std_error)) * self._unit
+        return self._sorted(self.estimates.std_error) * self._unit
 
     @property
     def std_over_mean(self) -> Array | None:
@@ -154,9 +153,8 @@ class Ensemble:
         """
         if not self.estimates.measurement.covariance:
             return None
-        of_squares = self.estimates.measurement.squares
         covariance = self.estimates.covariance()[np.ix_(self._order, self._order)]
-        return np.asarray(covariance * self._unit ** (4 if of_squares else 2))
+        return np.asarray(covariance * self._unit ** (2 + 2 * self.estimates.measurement.row))
 
     @cached_property
     def bins(self) -> dict[str, Array] | None:
@@ -165,21 +163,17 @@ class Ensemble:
         Columns of shape (B + 2,), first and last what lies outside: ``low``, ``high``, ``count``,
         ``share`` of all samples, and its standard error ``share_error``.
         """
-        m, N = self.estimates.measurement, self.realisations
+        m = self.estimates.measurement
         if not m.edges:
             return None
         edges = np.array([-math.inf, *m.edges, math.inf]) * self._unit
-        counts, squares = self.estimates.sums.bins.tolist()
-        scatter = [  # of the share of each packing, over all packings
-            Fraction(N * square - count * count, N * (N - 1))
-            for count, square in zip(counts, squares, strict=True)
-        ]
+        share, error = self.estimates.shares()
         return {
             "low": edges[:-1],
             "high": edges[1:],
-            "count": np.array(counts, dtype=np.int64),
-            "share": np.array([count / self.samples for count in counts]),
-            "share_error": np.array([float(root(s / N) / m.members) for s in scatter]),
+            "count": self.estimates.sums.bins[0],
+            "share": share,
+            "share_error": error,
         }
 
     @cached_property
@@ -257,11 +251,9 @@ class Ensemble:
                 "realisations": self.realisations,
                 "unbuildable": self.unbuildable,
                 "unbuildable_share": self.unbuildable / self.estimates.sums.tried,
-                "first_unbuildable": self.estimates.sums.first_unbuildable
-                if self.unbuildable
-                else None,
-                "contacts_in_a_group": m.members,
-                "arithmetic": "float64, summed exactly",
+                "first_unbuildable": self.estimates.sums.first_unbuildable,
+                **({"contacts_in_a_group": m.members} if m.members else {}),
+                "arithmetic": self.arithmetic,
             },
             "skipped": [{"effect": s.effect, "reason": s.reason} for s in m.plan.skipped],
             "results": {m.quantity: rows_of_text(self.text, self.whole_numbers) if rows else []},
@@ -280,7 +272,7 @@ class Ensemble:
             (data["statistics"],) = rows_of_text(self._text_of(self._groups), whole)
         if self.covariance is not None:
             data["covariance"] = {
-                "of": "mean square change of a packing" if m.squares else "change",
+                "of": "mean square change of a packing" if m.row else "change",
                 "labels": {name: column.tolist() for name, column in self.index.items()},
                 "matrix": self.covariance.tolist(),
             }
@@ -327,5 +319,37 @@ class Ensemble:
         return html_table(self.rows(), str(self).splitlines())
 
 
-def _floats(values: list[float | None]) -> Array:
-    return np.array([math.nan if value is None else value for value in values])
+class NetworkEnsemble(Ensemble):
+    """Statistics over packings whose contacts are unilateral; forces are those of the contacts.
+
+    A group is a layer of a profile, a contact of the lattice, a bead of a response (which has the
+    vertical force that the bead bears), or all contacts of a histogram. The number of contacts
+    differs from packing to packing: means are ratios of sums, and so are their errors. Eqs. 13 and
+    14 are of contacts that may pull, and groups without any sample are left out.
+    """
+
+    left_out = "did not come to rest, or could not be proved to, and are left out"
+    arithmetic = "each packing proved in balls, forces rounded to float64"
+
+    @cached_property
+    def _order(self) -> Array:
+        return np.flatnonzero(self.estimates.sums.samples)
+
+    @cached_property
+    def _groups(self) -> dict[str, Array]:
+        ratio = self.std_over_mean
+        return {
+            **self.index,
+            "samples": self._sorted(self.estimates.sums.samples),
+            "mean": self.mean,
+            "mean_error": self.mean_change_error,
+            "std": self.std,
+            "std_error": self.std_error,
+            **({} if ratio is None else {"std_over_mean": ratio}),
+        }
+
+    def plot(self) -> "Figure":
+        """Draw a profile or a histogram; needs matplotlib (the extra ``plots``)."""
+        from ..figures.answers import figure_of
+
+        return figure_of(self.estimates.measurement.plan, self.arrays, {})
