@@ -15,7 +15,11 @@ from .sums import Sums
 
 @dataclass(frozen=True)
 class Estimates:
-    """Statistics of G groups, in units of the load; arrays are float64 of shape (G,)."""
+    """Statistics over N packings of G groups, in the unit in which the load's magnitude is written.
+
+    Arrays are float64 of shape (G,), in the order of the rows: by j, i (or p, q), branch and
+    component; of unilateral contacts, groups without any sample are left out.
+    """
 
     measurement: Measurement
     sums: Sums
@@ -27,65 +31,94 @@ class Estimates:
 
     @property
     def samples(self) -> int:
-        """Contacts of a group in all packings; where these differ, of all groups."""
+        """Contacts of a group in all N packings; where these differ, of all groups.
+
+        Those of one packing are correlated.
+        """
         samples = self.sums.samples
         return int(samples.sum() if self.measurement.of_networks else samples[0])
 
     @cached_property
+    def _order(self) -> Array:
+        """Where the rows stand among the groups."""
+        if self.measurement.of_networks:
+            return np.flatnonzero(self.sums.samples)
+        labels = self.measurement.labels
+        names = ("component", "branch", "q", "p", "i", "j")
+        keys = [labels[name] for name in names if name in labels]
+        return np.lexsort(keys) if keys else np.arange(self.measurement.groups)
+
+    @property
+    def _unit(self) -> float:
+        """The load's magnitude."""
+        return float(self.measurement.plan.scene.load.magnitude)
+
+    @cached_property
     def _found(self) -> tuple[Array, Array, Array, Array]:
-        """Mean change, standard deviation, and their standard errors, in units of 2^unit."""
+        """Mean change, standard deviation, and their standard errors, as they were summed up."""
         means, products = self.sums.means, self.sums.products
         if len(means) == 2:  # all packings count as much
             ones, zeros = np.ones((1, means.shape[1])), np.zeros((3, means.shape[1]))
             means, products = np.concatenate([ones, means]), np.concatenate([zeros, products])
         return from_products(self.realisations, self.sums.held, means, products)
 
-    def _scaled(self, values: Array) -> Array:
-        return np.asarray(np.ldexp(values, self.measurement.unit))
+    def _rows(self, values: Array, power: int = 1) -> Array:
+        """Give what was summed up row by row, in the unit of force to that power."""
+        scaled = np.ldexp(values[self._order], power * self.measurement.unit)
+        return np.asarray(scaled * self._unit**power)
 
-    @property
+    @cached_property
     def mean(self) -> Array:
-        """Mean change; 0 where nothing was sampled."""
-        return np.nan_to_num(self._scaled(self._found[0]))
+        """Mean force; of forces that differ to zeroth order already, their mean."""
+        change = np.ldexp(self._found[0], self.measurement.unit)
+        return np.asarray((self.measurement.ordered() + change)[self._order] * self._unit)
 
-    @property
-    def mean_error(self) -> Array:
-        """Standard error of the mean change, from the scatter over packings."""
-        return self._scaled(self._found[2])
+    @cached_property
+    def mean_change(self) -> Array:
+        """Mean of the change g = f − F from the ordered force F."""
+        return self._rows(self._found[0])
 
-    @property
+    @cached_property
+    def mean_change_error(self) -> Array:
+        """Standard error of ``mean_change``."""
+        return self._rows(self._found[2])
+
+    @cached_property
     def mean_square(self) -> Array:
-        """Mean squared change: the variance about the ordered force."""
+        """Mean of g², the variance about the ordered force: Eqs. 13 and 14 are its theory."""
         means = self.sums.means
-        square = means[-1] if len(means) == 2 else np.nan_to_num(means[-1] / means[0])
-        return np.asarray(np.ldexp(square, 2 * self.measurement.unit))
+        return self._rows(means[1] if len(means) == 2 else means[2] / means[0], 2)
 
-    @property
+    @cached_property
     def std(self) -> Array:
-        """Root of the mean squared deviation from the mean; under a surface or bulk load σ_f."""
-        return np.nan_to_num(self._scaled(self._found[1]))
+        """σ_f, the standard deviation of g about its mean."""
+        return self._rows(self._found[1])
 
-    @property
+    @cached_property
     def std_error(self) -> Array:
-        """Standard error of ``std``; NaN where nothing varies, or N = 1."""
-        return self._scaled(self._found[3])
+        """Standard error of ``std``; NaN where nothing varies."""
+        return self._rows(self._found[3])
 
-    def half_width(self, confidence: float, look: int) -> float:
+    @cached_property
+    def covariance(self) -> Array | None:
+        """Covariance between groups from packing to packing, (G, G); None if not asked for.
+
+        Of a profile that of mean squares of g over a packing's contacts, else that of g. Divided by
+        N it is that of the means over all packings.
+        """
+        if not self.measurement.covariance:
+            return None
+        matrix = self.sums.pairs[:, self._order] / (self.realisations - 1)
+        return self._rows(matrix, 2 + 2 * self.measurement.row)
+
+    def width(self, confidence: float, look: int) -> float:
         """Give the half-width of all σ_f together, relative: see ``statistics.confidence``."""
         _, std, _, error = self._found
         known = np.isfinite(error)
         relative = (error[known] / std[known]).tolist() if self.realisations > 1 else [math.inf]
         return half_width(relative, self.realisations, confidence, look)
 
-    def covariance(self) -> Array:
-        """Covariance over packings: of the groups' mean squares in a profile, else of changes.
-
-        Shape (groups, groups); that of means over all N packings is this divided by N.
-        """
-        exponent = (2 + 2 * self.sums.row) * self.measurement.unit
-        return np.asarray(np.ldexp(self.sums.pairs / (self.realisations - 1), exponent))
-
-    def shares(self) -> tuple[Array, Array]:
+    def _shares(self) -> tuple[Array, Array]:
         """Give the share of all samples that each bin has, and its standard error."""
         N, (counts, squares, products) = self.realisations, self.sums.bins.tolist()
         S, square = sum(counts), sum(products)  # of what packings count, and of its square

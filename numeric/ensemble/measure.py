@@ -16,11 +16,12 @@ import numpy as np
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import PerBranch
+from ..lattice.naming import Block
 from ..mechanics.engine import compiles
 from ..mechanics.problem import Problem, Route, Solved
 from ..planning.plan import Plan
 from ..planning.planner import plan
-from ..quantities.base import Block, ContactQuantity, first_order_std
+from ..quantities.base import ContactQuantity, first_order_std
 from ..quantities.network import NetworkQuantity
 from ..scene.checks import refuse
 from ..scene.scene import Scene
@@ -157,7 +158,7 @@ class Measurement:
 
     def theory(self) -> PerBranch[Sequence[Fraction]] | None:
         """Give σ_f of layers j = 0 … M − 1, exact to first order; None where it does not apply."""
-        return first_order_std(self.problem)
+        return None if self.of_networks else first_order_std(self.problem)
 
 
 def measurement(
@@ -239,7 +240,7 @@ def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
 
 def _usual_reach(made: Measurement) -> float:
     """Give the outer edge that is taken where none is named."""
-    theory = None if made.of_networks else made.theory()
+    theory = made.theory()
     if made.of_networks and (mean := made.network.mean_force(made.problem)):
         return FORCES * mean
     if theory is None:

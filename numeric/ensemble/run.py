@@ -8,7 +8,7 @@ from ..statistics.confidence import Rule, looks
 from ..unilateral.network import UnfinishedError
 from .estimates import Estimates
 from .measure import Measurement
-from .result import Ensemble, NetworkEnsemble
+from .result import Ensemble
 from .store import Store, StoreError
 from .sums import Block, Sums, joined, nothing, ranges, total, why_left_out
 from .workers import Workers, solved
@@ -102,10 +102,9 @@ class _Run:
         if self.rule is not None:
             # the size itself is looked at last
             look = self.look + (self.sums.tried not in self.looks)
-            reached = estimates.half_width(self.confidence, look) <= self.rule.relative
-        width = estimates.half_width(self.confidence, look)
-        kind = NetworkEnsemble if self.m.of_networks else Ensemble
-        return kind(estimates, self.confidence, look, width, reached, self.solved)
+            reached = estimates.width(self.confidence, look) <= self.rule.relative
+        width = estimates.width(self.confidence, look)
+        return Ensemble(self.m, self.sums, self.confidence, look, width, reached, self.solved)
 
     def _done(self) -> int:
         return sum(min(block.stop, self.size) - block.first
@@ -147,7 +146,7 @@ class _Run:
             if size > done:
                 break
             self.look += 1
-            self.width = self._sum_up(size).half_width(self.confidence, self.look)
+            self.width = self._sum_up(size).width(self.confidence, self.look)
             if self.width <= self.rule.relative:
                 return True
         if done < self.size:

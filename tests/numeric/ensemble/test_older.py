@@ -80,7 +80,7 @@ def test_it_is_answered_from_and_gone_on_with(name: str, tmp_path: Path) -> None
 def test_of_single_packings_nothing_is_rounded(tmp_path: Path) -> None:
     asked, _, last, _ = STORES["unilateral"]
     found = fd.ensemble(asked, last, store=copied("unilateral", tmp_path))
-    assert found.estimates.sums.to_bytes() == fd.ensemble(asked, last).estimates.sums.to_bytes()
+    assert found.sums.to_bytes() == fd.ensemble(asked, last).sums.to_bytes()
 
 
 def test_what_is_refused_stays_in_its_layout(tmp_path: Path) -> None:

@@ -82,7 +82,7 @@ def on_file(path: Path, m: Measurement, size: int, solvers: Workers, **more: Any
 
 
 def bytes_of(result: Ensemble) -> bytes:
-    return result.estimates.sums.to_bytes()
+    return result.sums.to_bytes()
 
 
 @settings(max_examples=10)
@@ -228,7 +228,7 @@ def test_where_it_stops_depends_on_nothing_but_the_sums(seed: int, size: int) ->
         size_of_blocks(monkeypatch, size)
         found = run.run(M, 300, partial(shuffled, seed), rule=rule)
     assert usual.reached
-    assert 32 < usual.estimates.realisations < 300
+    assert 32 < usual.realisations < 300
     assert usual.half_width <= 0.12
     assert bytes_of(found) == bytes_of(usual)
     assert (found.looks, found.half_width) == (usual.looks, usual.half_width)
@@ -248,7 +248,7 @@ def test_a_rule_that_is_not_met() -> None:
     found = run.run(M, 40, here, rule=Rule(1e-6, 0.9))
     assert found.reached is False
     assert found.looks == 2  # at 32, and at the end
-    assert found.estimates.realisations == 40
+    assert found.realisations == 40
     fixed = run.run(M, 40, here, confidence=0.9)
     assert fixed.reached is None
     assert fixed.looks == 0
@@ -259,7 +259,7 @@ def test_packings_that_can_not_be_built_are_left_out_and_counted() -> None:
     wild = case("profile", kind="normal", relative_std="=0.16")
     bad = [k for k in range(60) if why_left_out(wild, k)]
     assert 5 < len(bad) < 55
-    usual = run.run(wild, 60, here).estimates
+    usual = run.run(wild, 60, here)
     sums = usual.sums
     assert (sums.realisations, sums.unbuildable, sums.tried) == (60 - len(bad), len(bad), 60)
     assert sums.first_unbuildable == bad[0]
@@ -278,7 +278,7 @@ def test_threads_that_sweep_compiled_give_the_same_bytes(
     """Of rough packings, too, of which some can't be built: blocks come in any order."""
     pytest.importorskip("numba")
     m = case("profile", kind="normal", relative_std=std, covariance=True)
-    alone = run.run(m, 300, here).estimates.sums.to_bytes()
+    alone = run.run(m, 300, here).sums.to_bytes()
     names = set()
 
     def noted(*arguments: Any) -> Any:
@@ -288,7 +288,7 @@ def test_threads_that_sweep_compiled_give_the_same_bytes(
     monkeypatch.setattr(engine, "COMPILED_FROM", 1)
     monkeypatch.setattr(workers, "measured", noted)
     assert m.compiled
-    assert run.run(m, 300, partial(threads, 3)).estimates.sums.to_bytes() == alone
+    assert run.run(m, 300, partial(threads, 3)).sums.to_bytes() == alone
     assert "MainThread" not in names
 
 
@@ -314,12 +314,12 @@ def test_where_hardly_a_packing_can_be_built_one_is_named() -> None:
 
 def test_a_store_remembers_what_could_not_be_built(tmp_path: Path) -> None:
     wild = case("profile", kind="normal", relative_std="=0.16")
-    whole = run.run(wild, 60, here).estimates.sums
+    whole = run.run(wild, 60, here).sums
     path = tmp_path / "ensemble.fd"
     for size in (20, 60):
         found = on_file(path, wild, size, here)
     assert found.solved == 40
-    assert found.estimates.sums.to_bytes() == whole.to_bytes()
+    assert found.sums.to_bytes() == whole.to_bytes()
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -65,7 +65,7 @@ def test_flipped_bytes_are_refused_or_do_no_harm(
     except StoreError:
         assert path.read_bytes() == bytes(wrong)
     else:  # in a part of the file that holds nothing
-        assert found.estimates.sums.to_bytes() == WHOLE
+        assert found.sums.to_bytes() == WHOLE
 
 
 def test_flipped_sums_are_refused(sound: bytes, tmp_path: Path) -> None:
@@ -348,7 +348,7 @@ def test_killed_at_every_kind_of_moment(tmp_path: Path) -> None:
     assert 0 < held[-1] < 40
     assert held == sorted(held)
     found = on_file(path, M, SIZE, here)
-    assert found.estimates.sums.to_bytes() == WHOLE
+    assert found.sums.to_bytes() == WHOLE
     assert found.solved == SIZE - held[-1]
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
 
@@ -378,7 +378,7 @@ def test_a_store_that_holds_nothing_serves_the_next_scene(tmp_path: Path) -> Non
     wild = case("profile", kind="normal", relative_std="=0.9")
     with pytest.raises(ForceDiffusionError):
         on_file(path, wild, SIZE, failing)
-    assert on_file(path, M, SIZE, here).estimates.sums.to_bytes() == WHOLE
+    assert on_file(path, M, SIZE, here).sums.to_bytes() == WHOLE
     assert read_store(path).ensemble == KEY
 
 

@@ -156,10 +156,13 @@ def test_estimates_are_those_of_the_changes_as_fractions(name: str) -> None:
         [[Fraction(float(v)) for v in group] for group in packing]
         for packing in changes(m, range(N))
     ]
+    names = [n for n in ("j", "i", "p", "q", "branch", "component") if n in m.labels]
+    rows = sorted(range(m.groups), key=lambda k: [m.labels[name][k] for name in names])
+    g = [[packing[k] for k in rows] for packing in g]
     std = [statistics.pstdev([v for packing in g for v in packing[k]]) for k in range(m.groups)]
     size = max(std)
     mean = [statistics.fmean([v for packing in g for v in packing[k]]) for k in range(m.groups)]
-    assert found.mean == pytest.approx(mean, rel=1e-13, abs=1e-15 * size)
+    assert found.mean_change == pytest.approx(mean, rel=1e-13, abs=1e-15 * size)
     assert found.std == pytest.approx(std, rel=1e-13)
     assert found.mean_square == pytest.approx([s**2 + a**2 for s, a in zip(std, mean, strict=True)])
     # scatter over packings
@@ -169,14 +172,15 @@ def test_estimates_are_those_of_the_changes_as_fractions(name: str) -> None:
     for k in range(m.groups):
         own, square = [p[k] for p in a], [p[k] for p in b]
         root = math.sqrt(N)
-        assert found.mean_error[k] == pytest.approx(statistics.stdev(own) / root, rel=1e-12)
+        assert found.mean_change_error[k] == pytest.approx(statistics.stdev(own) / root, rel=1e-12)
         linear = [s - 2 * statistics.mean(own) * v for v, s in zip(own, square, strict=True)]
         if std[k]:
             error = statistics.stdev(linear) / root / (2 * std[k])
             assert found.std_error[k] == pytest.approx(error, rel=1e-11)
         else:
             assert math.isnan(found.std_error[k])
-    covariance = found.covariance()
+    covariance = found.covariance
+    assert covariance is not None
     some = range(0, m.groups, 1 + m.groups // 6)
     for k, q in product(some, some):
         means = [statistics.mean([p[n] for p in x]) for n in (k, q)]
@@ -189,7 +193,7 @@ def test_a_profile_is_that_of_run() -> None:
     outcome = run(planned({**PROFILE, "ask": {"quantity": "profile", "realisations": 6}}))
     found = Estimates(m := case("profile"), first(case("profile"), 6))
     assert m.labels == {n: [row[n] for row in outcome.decimals()] for n in ("j", "branch")}
-    for name, values in (("std", found.std), ("mean_change", found.mean)):
+    for name, values in (("std", found.std), ("mean_change", found.mean_change)):
         meant = outcome.arrays[name].tolist()
         assert values == pytest.approx(meant, rel=1e-12, abs=1e-15 * max(found.std))
     assert m.ordered() == pytest.approx([1 / math.sqrt(7 / 4)] * 8)
