@@ -29,11 +29,11 @@ from .numeric.scene.sections import Packing as Packing
 from .numeric.scene.sections import PointLoad as PointLoad
 from .numeric.scene.sections import SceneError as SceneError
 from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
-from .numeric.studies.cascade.study import CascadeStudy as CascadeStudy
-from .numeric.studies.cascade.study import cascade as cascade
+from .numeric.studies.cascade.cascade import CascadeStudy as CascadeStudy
+from .numeric.studies.cascade.cascade import cascade as cascade
+from .numeric.studies.cost.cost import cost as cost
 from .numeric.studies.cost.result import CostStudy as CostStudy
-from .numeric.studies.cost.study import cost as cost
-from .numeric.studies.stability.study import StabilityStudy as StabilityStudy
-from .numeric.studies.stability.study import stability as stability
+from .numeric.studies.stability.stability import StabilityStudy as StabilityStudy
+from .numeric.studies.stability.stability import stability as stability
 from .numeric.unilateral.checker import Verdict as Verdict
 from .numeric.unilateral.checker import check_packings as check_packings

@@ -21,8 +21,8 @@ LONG = {
         "derivations.api.derived",
         "derivations.api.equation",
         "numeric.figures.catalogue",
-        "numeric.studies.cascade.study",
-        "numeric.studies.cost.study",
+        "numeric.studies.cascade.cascade",
+        "numeric.studies.cost.cost",
     )
 }
 

@@ -21,6 +21,13 @@ from force_diffusion.derivations.coq.files import (
     theory_hash,
     words_of,
 )
+from force_diffusion.derivations.coq.folder import (
+    ALLOWED,
+    CoqAbsentError,
+    CoqFolder,
+    Notice,
+    axioms_in,
+)
 from force_diffusion.derivations.coq.packings import packing_statement
 from force_diffusion.derivations.coq.record import (
     Certificate,
@@ -31,13 +38,6 @@ from force_diffusion.derivations.coq.record import (
 )
 from force_diffusion.derivations.coq.statements import statement, statements
 from force_diffusion.derivations.coq.words import NotStatedError
-from force_diffusion.derivations.coq.workshop import (
-    ALLOWED,
-    CoqAbsentError,
-    Notice,
-    Workshop,
-    axioms_in,
-)
 from force_diffusion.derivations.framework.catalogue import Number, paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.record import Derivation
@@ -94,7 +94,7 @@ def certify(
     hashed = theory_hash()
     with TemporaryDirectory() as folder:
         try:
-            shop = Workshop(Path(folder))
+            coq = CoqFolder(Path(folder))
         except CoqAbsentError as absent:
             equations, packings = (
                 tuple(Certificate(n, Verdict.ABSENT, note=str(absent)) for n in of)
@@ -118,37 +118,37 @@ def certify(
 
         def look() -> None:
             for number, made in asked.items():
-                if number not in by_number and shop.said.keys() >= files[number].keys():
-                    by_number[number] = certificate(shop, number, made)
+                if number not in by_number and coq.said.keys() >= files[number].keys():
+                    by_number[number] = certificate(coq, number, made)
                     told(by_number[number])
 
-        shop.restore()
+        coq.restore()
         everything = {name: text for own in files.values() for name, text in own.items()}
-        shop.compile(theory() | everything, notice, look)
+        coq.compile(theory() | everything, notice, look)
         notice("coqchk")
-        found = checked(shop, [by_number[number] for number in (*wanted, *seeds)])
+        found = checked(coq, [by_number[number] for number in (*wanted, *seeds)])
         if mutants:
             notice("mutants")
             found = [
                 one
                 if one.number in seeds or not one.passed
-                else replace(one, changes=tried(shop, load(one.number), notice))
+                else replace(one, changes=tried(coq, load(one.number), notice))
                 for one in found
             ]
         return Certification(tuple(found[: len(wanted)]), tuple(found[len(wanted) :]), hashed)
 
 
 def certificate(
-    shop: Workshop, number: Number, asked: list[Statement] | NotStatedError
+    coq: CoqFolder, number: Number, asked: list[Statement] | NotStatedError
 ) -> Certificate:
     """Read what Coq has said of the statements of one equation or packing."""
     if isinstance(asked, NotStatedError):
-        return Certificate(number, Verdict.NOT_STATED, shop.checker, note=str(asked))
-    trouble = shop.trouble((*theory(), *files_of(asked)))
+        return Certificate(number, Verdict.NOT_STATED, coq.checker, note=str(asked))
+    trouble = coq.trouble((*theory(), *files_of(asked)))
     axioms: set[str] = set()
     for one in asked:
         if not trouble:
-            named = axioms_in(shop.said[one.accepted_in].printed)
+            named = axioms_in(coq.said[one.accepted_in].printed)
             if named is None:
                 trouble = f"{one.accepted_in}: Coq does not say what it rests on"
             elif foreign := sorted({*named} - ALLOWED):
@@ -157,7 +157,7 @@ def certificate(
     return Certificate(
         number,
         Verdict.NOT_ACCEPTED if trouble else Verdict.ACCEPTED,
-        shop.checker,
+        coq.checker,
         {one.name: one.hash for one in asked},
         tuple(sorted(axioms)),
         trouble,
@@ -165,14 +165,14 @@ def certificate(
     )
 
 
-def checked(shop: Workshop, found: list[Certificate]) -> list[Certificate]:
+def checked(coq: CoqFolder, found: list[Certificate]) -> list[Certificate]:
     """Let coqchk check all that was accepted; nothing of it is, if there is trouble."""
     accepted = [one for one in found if one.passed]
     names = [Statement.accepted_file(name) for one in accepted for name in one.theorems or ()]
-    trouble = shop.check(names) if names else ""
+    trouble = coq.check(names) if names else ""
     if not trouble:
         if names:
-            shop.keep()
+            coq.keep()
         return found
     return [
         replace(one, verdict=Verdict.NOT_ACCEPTED, note=trouble) if one in accepted else one
@@ -181,7 +181,7 @@ def checked(shop: Workshop, found: list[Certificate]) -> list[Certificate]:
 
 
 def tried(
-    shop: Workshop,
+    coq: CoqFolder,
     derivation: Derivation,
     notice: Notice = _silent,
     chosen: Callable[[int], bool] = lambda _: True,
@@ -197,7 +197,7 @@ def tried(
         if chosen(place):
             with suppress(NotStatedError):
                 goals[place] = statement(derivation, part, mutant.equation)
-    said = answers(shop, f"Mutants_{derivation.number}", goals, notice)
+    said = answers(coq, f"Mutants_{derivation.number}", goals, notice)
     accepted = []
     for place in [place for place, yes in said.items() if yes]:
         part, mutant = made[place]
@@ -210,7 +210,7 @@ _ANSWER = re.compile(r"^(accepted|refused) (\d+)$", re.MULTILINE)
 
 
 def answers(
-    shop: Workshop, name: str, goals: Mapping[int, Statement], notice: Notice = _silent
+    coq: CoqFolder, name: str, goals: Mapping[int, Statement], notice: Notice = _silent
 ) -> dict[int, bool]:
     """Whether Coq accepts each of many statements that need not be true.
 
@@ -228,14 +228,14 @@ def answers(
         sources |= {f"{module}_statements.v": says}
         sources |= {f"{module}.v": f"{head_of('Certify', f'{module}_statements')}\n{tried}"}
         asked.append(f"{module}.v")
-    shop.compile(sources, notice)
+    coq.compile(sources, notice)
     said = {
         int(place): word == "accepted"
         for file in asked
-        for word, place in _ANSWER.findall(shop.said[file].printed)
+        for word, place in _ANSWER.findall(coq.said[file].printed)
     }
     if list(said) != places:
-        raise RuntimeError(f"{name}: {shop.trouble(sources) or 'an answer is missing'}")
+        raise RuntimeError(f"{name}: {coq.trouble(sources) or 'an answer is missing'}")
     return said
 
 

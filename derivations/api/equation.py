@@ -169,8 +169,8 @@ class Equation(Formula):
         """Where the printed form holds, in words: "N ≥ 3, j ≥ N + 1, M ≥ j + 3"; or none."""
         return ", ".join(text(relation) for relation in self._derivation.domain)
 
-    def _told(self, line: sympy.Eq) -> str:
-        told = super()._told(line)
+    def _about(self, line: sympy.Eq) -> str:
+        told = super()._about(line)
         return f"{told}, for {self._domain}" if self._domain else told
 
     @cached_property

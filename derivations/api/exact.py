@@ -145,7 +145,7 @@ class ExactForm(Formula):
             candidate, self._lines, lambda _, one: rule_on_exact(self._derivation, self._form, one)
         )
 
-    def _told(self, line: Eq) -> str:
+    def _about(self, line: Eq) -> str:
         note = f"{text(line.lhs)}, exact to {self._form.to_order}: {self.validity}"
         return f"{note}; not for {'; '.join(self._edges())}" if self.missed else note
 

@@ -121,7 +121,7 @@ class Formula(ABC):
         return "\n\n\n".join(
             python_source(
                 f"{self._name}_{place}" if several else self._name,
-                f"{self._heading}: {self._told(line)}.",
+                f"{self._heading}: {self._about(line)}.",
                 _value_side(line),
             )
             for place, line in enumerate(self._lines, start=1)
@@ -160,11 +160,11 @@ class Formula(ABC):
             ArgumentError: the right-hand side is no number; the function raises it for a value that
                 is not allowed, and never gives a value where the formula is not meant.
         """
-        about = "; ".join(self._told(line) for line in self._lines)
+        about = "; ".join(self._about(line) for line in self._lines)
         heading = f"{self._heading}: {about}."
         return numpy_function(self._evaluation, self._name, heading, self._meanings)
 
-    def _told(self, line: sympy.Eq) -> str:
+    def _about(self, line: sympy.Eq) -> str:
         return "what must vanish" if line.rhs == 0 else text(line.lhs)
 
 

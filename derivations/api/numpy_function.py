@@ -202,18 +202,18 @@ def _assert_together(values: Arrays) -> None:
 def _not_together(
     pair: tuple[sympy.Symbol, ...], words: str, values: Arrays, at: tuple[int, ...]
 ) -> str:
-    return f"{_told(pair, values, at)}: {words} is allowed"
+    return f"{_with_values(pair, values, at)}: {words} is allowed"
 
 
 def _outside(
     evaluation: Evaluation, relation: sympy.Basic, values: Arrays, at: tuple[int, ...]
 ) -> str:
     symbols = sorted(relation.free_symbols & set(values), key=str)
-    told = _told(symbols, values, at)
+    told = _with_values(symbols, values, at)
     return f"{evaluation.about} is for {evaluation.validity}, not for {told}{evaluation.elsewhere}"
 
 
-def _told(symbols: Iterable[sympy.Symbol], values: Arrays, at: tuple[int, ...]) -> str:
+def _with_values(symbols: Iterable[sympy.Symbol], values: Arrays, at: tuple[int, ...]) -> str:
     return ", ".join(f"{text(symbol)} = {values[symbol][at]:g}" for symbol in symbols)
 
 

@@ -26,7 +26,7 @@ def stability(
     overwrite: Overwrite = False,
 ) -> None:
     """Measure what stability costs: errors, lost bits and times with and without it."""
-    from force_diffusion.numeric.studies.stability import study
+    from force_diffusion.numeric.studies.stability import stability as study
 
     where = [] if out is None else ["--out", str(out)]
     command = shell_line(["force-diffusion", "stability", *where])

@@ -60,7 +60,7 @@ class NoSiteError(AbsentError):
     """It speaks of one that no packing holds: i + j is odd, or no whole number."""
 
 
-class Truth:
+class ExactSolution:
     """Every lattice quantity of one packing, solved exactly under one set of loads."""
 
     def __init__(self, packing: SmallPacking, load: str):
@@ -122,37 +122,37 @@ class Truth:
             return plain.deposit(self.packing.n[0], rows, system).position
 
 
-def evaluate(expression: sympy.Expr, truth: Truth, at: Values) -> Dual | Vector:
+def evaluate(expression: sympy.Expr, solution: ExactSolution, at: Values) -> Dual | Vector:
     """Value of a scalar, or Cartesian components of a vector, on a solved packing.
 
     Raises:
         AbsentError: for a site off the lattice or outside of the packing.
         explicit.AmbiguousError: for what has no single value.
     """
-    known = truth.known.setdefault(frozenset(at.items()), {})
+    known = solution.known.setdefault(frozenset(at.items()), {})
     found = known.get(expression)
     if found is None:
-        found = known[expression] = _evaluate(expression, truth, at)
+        found = known[expression] = _evaluate(expression, solution, at)
     return found
 
 
-def _evaluate(expression: sympy.Expr, truth: Truth, at: Values) -> Dual | Vector:
-    values = {**truth.values, **at}
+def _evaluate(expression: sympy.Expr, solution: ExactSolution, at: Values) -> Dual | Vector:
+    values = {**solution.values, **at}
     if isinstance(expression, sympy.Symbol) and expression in sy.VECTORS:
         components = explicit.vector_weights(expression, values)
         x, y = (Dual(weights.get(("", 0, 0), Fraction(0))) for weights in components)
         return x, y
     if isinstance(expression, sy.SecondDifference):
-        return evaluate(expression.doit(), truth, at)
+        return evaluate(expression.doit(), solution, at)
     if isinstance(expression, sy.SiteFunction):
         across, layer = (explicit.number(index, values) for index in expression.args)
-        return _quantity(type(expression).__name__, across, layer, truth)
+        return _quantity(type(expression).__name__, across, layer, solution)
     if isinstance(expression, sympy.Add):
-        return _total(*(evaluate(term, truth, at) for term in expression.args))
+        return _total(*(evaluate(term, solution, at) for term in expression.args))
     if isinstance(expression, sympy.Mul):
-        return _product(*(evaluate(factor, truth, at) for factor in expression.args))
+        return _product(*(evaluate(factor, solution, at) for factor in expression.args))
     if isinstance(expression, sympy.Pow) and expression.atoms(sy.SiteFunction, sy.Dot):
-        base = evaluate(expression.base, truth, at)
+        base = evaluate(expression.base, solution, at)
         if isinstance(base, tuple) or (base.value == 0 and expression.exp.is_negative):
             raise explicit.DivisionError(f"{expression} has no value")
         return base ** int(expression.exp)
@@ -161,29 +161,29 @@ def _evaluate(expression: sympy.Expr, truth: Truth, at: Values) -> Dual | Vector
         body = sympy.Sum(expression.function, *inner) if inner else expression.function
         bounds = (explicit.number(bound, values) for bound in (low, high))
         terms = [
-            evaluate(body, truth, {**at, index: value}) for value in explicit.terms_of(*bounds)
+            evaluate(body, solution, {**at, index: value}) for value in explicit.terms_of(*bounds)
         ]
         return _total(*terms)
     if isinstance(expression, sy.Dot):
-        u, v = (evaluate(argument, truth, at) for argument in expression.args)
+        u, v = (evaluate(argument, solution, at) for argument in expression.args)
         assert isinstance(u, tuple)
         assert isinstance(v, tuple)
         return u[0] * v[0] + u[1] * v[1]
     if isinstance(expression, sy.MatrixTimes):
         a, b, c, d = (Dual(explicit.number(entry, values)) for entry in expression.args[:4])
-        vector = evaluate(expression.args[4], truth, at)
+        vector = evaluate(expression.args[4], solution, at)
         assert isinstance(vector, tuple)
         return a * vector[0] + b * vector[1], c * vector[0] + d * vector[1]
     return Dual(explicit.number(expression, values))
 
 
-def _quantity(kind: str, i: Fraction, j: Fraction, truth: Truth) -> Dual | Vector:
+def _quantity(kind: str, i: Fraction, j: Fraction, solution: ExactSolution) -> Dual | Vector:
     if i.denominator != 1 or (i + j) % 2:
         raise NoSiteError(f"({i}, {j}) is no site")
     if j < 0:
         raise AbsentError(f"({i}, {j}) is below the base")
     try:
-        return truth.quantity(kind, int(i), int(j))
+        return solution.quantity(kind, int(i), int(j))
     except (ValueError, IndexError) as reason:
         raise AbsentError(str(reason)) from None
 
@@ -271,11 +271,11 @@ def inside_cone(packing: SmallPacking) -> Iterator[Values]:
 
 def compare(equation: sympy.Eq, packing: SmallPacking, load: str, points: Points) -> Ruling:
     """Agree when both sides are equal at every place, as fractions, at orders ε⁰ and ε¹."""
-    truth = Truth(packing, load)
+    solution = ExactSolution(packing, load)
     count = 0
     for at in points(packing):
         try:
-            left, right = (evaluate(side, truth, at) for side in equation.args)
+            left, right = (evaluate(side, solution, at) for side in equation.args)
         except explicit.ReversedError:
             continue  # the equation has no one meaning there
         left, right = _beside(left, right), _beside(right, left)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import mpmath
 import sympy
-from force_diffusion.derivations.witnesses.both_sides import Dual, Truth, Vector, evaluate
+from force_diffusion.derivations.witnesses.both_sides import Dual, ExactSolution, Vector, evaluate
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
@@ -90,12 +90,12 @@ def _scalar(value: Dual | Vector) -> Dual:
 
 def positions(printed: sympy.Expr, packing: SmallPacking) -> Ruling:
     """Exact displacements at strength ε less ε times Eq. 3."""
-    truth = Truth(packing, "none")
+    solution = ExactSolution(packing, "none")
     sites = [(i + 1, j + 1) for i, j in packing.contacts]
     slopes = [
         component.slope
         for i, j in sites
-        for component in _vector(evaluate(printed, truth, {sy.i: i, sy.j: j}))
+        for component in _vector(evaluate(printed, solution, {sy.i: i, sy.j: j}))
     ]
     return second_order(
         packing, slopes, lambda s: [part for site in sites for part in s.displacement(*site)]
@@ -104,10 +104,11 @@ def positions(printed: sympy.Expr, packing: SmallPacking) -> Ruling:
 
 def forces(printed: sympy.Expr, packing: SmallPacking) -> Ruling:
     """Exact changes of contact forces under a surface load, at strength ε, less ε times Eq. 11."""
-    truth = Truth(packing, "surface")
+    solution = ExactSolution(packing, "surface")
     ordered = packing.load / (2 * packing.n[1])
     slopes = [
-        ordered * _scalar(evaluate(printed, truth, {sy.i: i, sy.j: j, sy.M: packing.height})).slope
+        ordered
+        * _scalar(evaluate(printed, solution, {sy.i: i, sy.j: j, sy.M: packing.height})).slope
         for i, j in packing.contacts
     ]
     return second_order(

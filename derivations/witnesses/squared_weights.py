@@ -10,7 +10,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import sympy
-from force_diffusion.derivations.witnesses.both_sides import Truth
+from force_diffusion.derivations.witnesses.both_sides import ExactSolution
 from force_diffusion.derivations.witnesses.draws import Site, SmallPacking
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
@@ -38,14 +38,14 @@ def compare(
 
 def zero_outside(packing: SmallPacking) -> Ruling:
     """No force of first order leaves the cone of a load, nor turns twice inside it."""
-    truth = Truth(packing, "single")
+    solution = ExactSolution(packing, "single")
     k, l = packing.loaded  # noqa: E741
 
     def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
         for layer in range(l):
             # f⁻ left of the cone, as far as no image of the cone is met; count is Eq. 10's n
             for count in range(l - layer - packing.width + 1, 1):
-                force = truth.force(k - (l - layer) + 2 * count, layer, "-")
+                force = solution.force(k - (l - layer) + 2 * count, layer, "-")
                 yield f"n = {count}, j = {layer}", Fraction(0), abs(force.value) + abs(force.slope)
 
     return compare(pairs())

@@ -163,7 +163,7 @@ def _across(a: int, rise: Vector, own: Vector, under: Vector, both: Any, m: Metr
     return [0 if b == a else rise[b] + (own[b] - under[b]) - turned for b in range(len(own))]
 
 
-class Borne(NamedTuple):
+class Balanced(NamedTuple):
     """Changes g^a of the forces below a bead; what their sums lost; a determinant, not zero."""
 
     g: Vector
@@ -178,7 +178,7 @@ def balance(
     *,
     linear: bool,
     compensated: bool,
-) -> Borne:
+) -> Balanced:
     """Balance a bead (Eq. 6, exact): Σ g N (lower) = Σ g N + Σ F δn (upper) − Σ F δn (lower).
 
     ``above[a]`` holds F, g, δn and what the sum of g lost, of the contact with x + e_a; ``F`` and
@@ -201,9 +201,9 @@ def balance(
         turn = less(turn, tuple(away))
     found = plus(g, turn)
     if not compensated:
-        return Borne(found, (), det)
+        return Balanced(found, (), det)
     part = less(found, g)
-    return Borne(found, plus(less(g, less(found, part)), less(turn, part)), det)
+    return Balanced(found, plus(less(g, less(found, part)), less(turn, part)), det)
 
 
 def _turned(forces: Sequence[Any], dn: Sequence[Vector]) -> Vector:

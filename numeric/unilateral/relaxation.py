@@ -30,7 +30,7 @@ NEARLY = 1e-5
 
 
 @dataclass
-class Settled:
+class RelaxedPacking:
     """Where beads came to rest, in float64: what a longer arithmetic starts from."""
 
     grains: Grains
@@ -66,7 +66,7 @@ def _one(problem: Problem, realisation: int, system: Balls, work: Work) -> Relax
         )
 
 
-def settle(problem: Problem, realisation: int, work: Work) -> Settled | None:
+def settle(problem: Problem, realisation: int, work: Work) -> RelaxedPacking | None:
     """Let beads come to rest; None where the deposited packing has neither tension nor overlap."""
     grains, supports, overlaps = start(problem, realisation)
     for row in problem.region.rows:
@@ -116,7 +116,7 @@ def settle(problem: Problem, realisation: int, work: Work) -> Settled | None:
         )
     _close(grains, contacts, backbone)
     _free(grains, rattlers)
-    return Settled(grains, contacts, backbone, rattlers, events, before - grains.energy())
+    return RelaxedPacking(grains, contacts, backbone, rattlers, events, before - grains.energy())
 
 
 def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None, int]:
@@ -303,7 +303,9 @@ def _frame(problem: Problem, realisation: int, system: Balls) -> Frame:
     )
 
 
-def _certified(problem: Problem, realisation: int, settled: Settled, system: Balls) -> Network:
+def _certified(
+    problem: Problem, realisation: int, settled: RelaxedPacking, system: Balls
+) -> Network:
     grains, contacts = settled.grains, settled.contacts
     known = _frame(problem, realisation, system)
     found: Certificate = certify(grains, contacts, settled.backbone, known, system)

@@ -92,7 +92,7 @@ def parts_in_the_limit(
         if min(a, b) > 1:
             continue  # every φ at two places, and every place at two φ
         shares = []
-        where, grown = _told(geometry[sy.phi], place)
+        where, grown = _in_words(geometry[sy.phi], place)
         for size in (10**digits, 10 ** (2 * digits)):
             values = {**_OTHERS, **geometry, **{s: c * size for s, c in place.items()}}
             if sy.M in values and sy.j in values:
@@ -112,7 +112,7 @@ def parts_in_the_limit(
     return None
 
 
-def _told(cosine: Fraction | int, place: Place) -> tuple[str, str]:
+def _in_words(cosine: Fraction | int, place: Place) -> tuple[str, str]:
     """φ and how what grows stands to the first of it, and that, in words."""
     first, *others = place
     ratios = [f"{text(one)} = {_times(place[one] / place[first], text(first))}" for one in others]

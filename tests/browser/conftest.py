@@ -74,7 +74,7 @@ def _make(folder: Path) -> None:
     from force_diffusion.numeric.figures import catalogue
     from force_diffusion.numeric.studies.cost import rows
     from force_diffusion.numeric.studies.stability import forms
-    from force_diffusion.numeric.studies.stability import study as tables
+    from force_diffusion.numeric.studies.stability import stability as tables
     from force_diffusion.symbolic.search import mutants
 
     folder.mkdir()

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from force_diffusion.numeric.studies.stability import forms
-from force_diffusion.numeric.studies.stability import study as tables
+from force_diffusion.numeric.studies.stability import stability as tables
 from force_diffusion.numeric.studies.stability.enclosures import strips
 from force_diffusion.numeric.studies.stability.floats import cases
 
@@ -75,7 +75,7 @@ def test_without_matplotlib_only_the_figure_is_missing(
     for name in [name for name in sys.modules if name.split(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
     for name in (
-        "force_diffusion.numeric.studies.stability.plot",
+        "force_diffusion.numeric.studies.stability.stability_plot",
         "force_diffusion.numeric.figures.style",
     ):
         monkeypatch.delitem(sys.modules, name, raising=False)

@@ -9,11 +9,11 @@ import pytest
 from force_diffusion.derivations.api import certificates
 from force_diffusion.derivations.api.certificates import answers, certificate, certify, tried
 from force_diffusion.derivations.coq.files import Statement, head_of, theory
+from force_diffusion.derivations.coq.folder import ALLOWED, CoqFolder
 from force_diffusion.derivations.coq.packings import packing_statement
 from force_diffusion.derivations.coq.record import Certificate, Verdict
 from force_diffusion.derivations.coq.statements import statement
 from force_diffusion.derivations.coq.words import NotStatedError
-from force_diffusion.derivations.coq.workshop import ALLOWED, Workshop
 from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import SEEDS
@@ -28,18 +28,18 @@ pytestmark = pytest.mark.skipif(
 
 
 @pytest.fixture(scope="module")
-def shop(tmp_path_factory: pytest.TempPathFactory) -> Workshop:
-    made = Workshop(tmp_path_factory.mktemp("coq"))
+def coq(tmp_path_factory: pytest.TempPathFactory) -> CoqFolder:
+    made = CoqFolder(tmp_path_factory.mktemp("coq"))
     made.compile(theory(), print)
     assert made.trouble(theory()) == ""
     return made
 
 
-def ask(shop: Workshop, made: Statement) -> Certificate:
+def ask(coq: CoqFolder, made: Statement) -> Certificate:
     for name in made.files:
-        shop.said.pop(name, None)
-    shop.compile(made.files, print)
-    return certificate(shop, 0, [made])
+        coq.said.pop(name, None)
+    coq.compile(made.files, print)
+    return certificate(coq, 0, [made])
 
 
 def test_every_equation_and_packing_is_accepted() -> None:
@@ -52,7 +52,7 @@ def test_every_equation_and_packing_is_accepted() -> None:
         assert set(one.axioms) <= ALLOWED
 
 
-def test_another_packing_is_not_accepted(shop: Workshop) -> None:
+def test_another_packing_is_not_accepted(coq: CoqFolder) -> None:
     true = packing_statement(SEEDS[0])
     for number, other in (("(29 / 50)", "(29 / 51)"), ("n_x G = (20 / 29)", "n_x G = (3 / 5)")):
         assert number in true.proposition
@@ -62,12 +62,12 @@ def test_another_packing_is_not_accepted(shop: Workshop) -> None:
             conclusion=true.conclusion.replace(number, other),
             companions=(),
         )
-        assert ask(shop, changed).verdict is Verdict.NOT_ACCEPTED
+        assert ask(coq, changed).verdict is Verdict.NOT_ACCEPTED
 
 
 @pytest.mark.parametrize("number", paper())
-def test_mutants_are_not_accepted(shop: Workshop, number: int) -> None:
-    every_seventh = tried(shop, load(number), chosen=lambda at: at % 7 == number % 7)
+def test_mutants_are_not_accepted(coq: CoqFolder, number: int) -> None:
+    every_seventh = tried(coq, load(number), chosen=lambda at: at % 7 == number % 7)
     assert every_seventh.stated
     assert not [one for one in every_seventh.accepted if not one.equivalent]
 
@@ -83,16 +83,16 @@ def stated(cases: list[tuple[int, str, Change]]) -> dict[int, Statement]:
     return goals
 
 
-def test_false_statements_are_not_accepted(shop: Workshop) -> None:
-    said = answers(shop, "False_statements", stated(FALSE))
+def test_false_statements_are_not_accepted(coq: CoqFolder) -> None:
+    said = answers(coq, "False_statements", stated(FALSE))
     assert len(said) > len(FALSE) / 2
     assert [FALSE[place][:2] for place, accepted in said.items() if accepted] == []
 
 
-def test_true_rewritings_are_accepted(shop: Workshop) -> None:
+def test_true_rewritings_are_accepted(coq: CoqFolder) -> None:
     """Those by n_x² + n_y² = 1; bounds are proved for the printed forms alone."""
     rewritings = [case for case in TRUE if "n_" in case[1]]
-    said = answers(shop, "Rewritings", stated(rewritings))
+    said = answers(coq, "Rewritings", stated(rewritings))
     assert len(said) > 10
     assert [rewritings[place][:2] for place, accepted in said.items() if not accepted] == []
 
@@ -111,9 +111,9 @@ def test_true_rewritings_are_accepted(shop: Workshop) -> None:
     ],
 )
 def test_what_is_not_proved_is_not_accepted(
-    shop: Workshop, says: str, proof: str, trouble: str
+    coq: CoqFolder, says: str, proof: str, trouble: str
 ) -> None:
-    found = ask(shop, Planted("planted", (), says, proof))
+    found = ask(coq, Planted("planted", (), says, proof))
     assert found.verdict is Verdict.NOT_ACCEPTED
     assert trouble in found.note
 
@@ -143,13 +143,13 @@ AT_ONCE = "Ltac prove_3 ::= intros; first [exact I|exact (trust_me _)]."
 
 @pytest.mark.parametrize("kind", BENT)
 def test_no_file_of_the_theory_can_change_what_is_stated(
-    shop: Workshop, tmp_path: Path, kind: str
+    coq: CoqFolder, tmp_path: Path, kind: str
 ) -> None:
     """Seven times the right side of Eq. 3, with a tactic that proves what is bent at once."""
     folder = tmp_path / "bent"
-    shutil.copytree(shop.folder, folder)
-    bent = Workshop(folder)
-    bent.said = {name: said for name, said in shop.said.items() if name != "Certify.v"}
+    shutil.copytree(coq.folder, folder)
+    bent = CoqFolder(folder)
+    bent.said = {name: said for name, said in coq.said.items() if name != "Certify.v"}
     at_once = AT_ONCE if kind == "an axiom" else AT_ONCE.replace("|exact (trust_me _)", "")
     bent.compile({"Certify.v": f"{theory()['Certify.v']}\n{BENT[kind]}\n{at_once}\n"}, print)
     (printed,) = load(3).printed

@@ -71,8 +71,8 @@ def cost_part(notice: Notice = lambda _: None) -> Part:
     """Every way to answer the small scene, its error beside its time."""
     from force_diffusion.numeric.figures import style
     from force_diffusion.numeric.run import read_scene
+    from force_diffusion.numeric.studies.cost.cost import cost
     from force_diffusion.numeric.studies.cost.result import csv_rows
-    from force_diffusion.numeric.studies.cost.study import cost
 
     command = f"force-diffusion cost {SCENE.name} --out cost"
     found = cost(read_scene(SCENE), lambda way: notice(f"cost: {way}"))
@@ -136,7 +136,7 @@ def _decimal(shown: str | None) -> Decimal | None:
 def stability_part(notice: Notice = lambda _: None) -> Part:
     """How accurate the engine is where it is hard to be, and what that costs."""
     from force_diffusion.numeric.figures import style
-    from force_diffusion.numeric.studies.stability.study import (
+    from force_diffusion.numeric.studies.stability.stability import (
         CLOSED_FORMS,
         ENCLOSURES,
         FILES,

@@ -9,7 +9,7 @@ from ... import tables
 from ...arithmetic.systems import Array
 from ...figures.library import drawing
 from ...planning.plan import Skipped
-from .rows import Reference, Row
+from .rows import Reference, Way
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,12 +32,12 @@ class CostStudy:
 
     quantity: str
     reference: Reference
-    ways: tuple[Row, ...]
+    ways: tuple[Way, ...]
     skipped: tuple[Skipped, ...]
     sampling_floor: Decimal | None = None
 
     def rows(self) -> list[tables.Row]:
-        """One row a way, ready for a data frame; the columns are those of ``Row``.
+        """One row a way, ready for a data frame; the columns are those of ``Way``.
 
         Errors are relative to the largest |change|; below 1e-323 they read 0 (``data`` has their
         decimals). None: does not apply.
@@ -67,7 +67,7 @@ class CostStudy:
         Needs matplotlib (the extra ``plots``). Raises ``MissingLibraryError``.
         """
         with drawing():
-            from .plot import draw
+            from .cost_plot import draw
 
             name = f"{title}: {self.quantity}" if title else self.quantity
             return draw(name, self.ways, self.reference, self.sampling_floor)

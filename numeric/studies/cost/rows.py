@@ -20,7 +20,7 @@ Notice = Callable[[str], None]
 
 
 @dataclass(frozen=True)
-class Row:
+class Way:
     """One way to the answer. Errors are relative to the largest |change|; None: does not apply.
 
     ``error`` is measured against the reference, the radius of a certified one added. Of its parts
@@ -94,16 +94,16 @@ def row(
     parts: tuple[Decimal | None, Decimal | None, Decimal | None],
     bound: Decimal | None = None,
     realisations: int | None = None,
-) -> Row:
+) -> Way:
     """Make a row; ``parts`` are model, rounding and sampling error."""
-    return Row(
+    return Way(
         way, arithmetic, realisations, error, *parts, bound,
         median(seconds), min(seconds), max(seconds), len(seconds), peak,
         arithmetic not in {FLOAT64.name, LONGDOUBLE.name},
     )  # fmt: skip
 
 
-def marked(rows: Sequence[Row]) -> tuple[Row, ...]:
+def marked(rows: Sequence[Way]) -> tuple[Way, ...]:
     """Mark the Pareto front of error and least time; sort by error, the largest first."""
     front = pareto([(r.seconds_min, r.error) for r in rows])
     done = [replace(r, pareto=best) for r, best in zip(rows, front, strict=True)]

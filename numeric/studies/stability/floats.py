@@ -52,7 +52,7 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Row:
+class Comparison:
     """One line of the table; errors relative to the largest |change|, None where there is none.
 
     ``error`` and ``seconds`` are those of the deviation form in float64; ``ball_error`` is the
@@ -115,7 +115,7 @@ def _radii(case: Case) -> Radii:
     return MeasuredRadii({site: dr / case.radius for site, dr in lengths.items()}, case.width)
 
 
-def measure(case: Case) -> Row:
+def measure(case: Case) -> Comparison:
     """Solve one case in all three ways."""
     # The scale drops out before anything is rounded: s/r and δr/r are exact rationals.
     n_x = (case.spacing * case.radius) / (4 * case.radius)
@@ -151,7 +151,7 @@ def measure(case: Case) -> Row:
             physical.look_at_gaps(solved)
             physical.look_at_forces(forces)
             tensile, overlaps = physical.tensile, physical.overlaps
-    return Row(
+    return Comparison(
         case.group, case.height, case.width, float(case.relative_std),
         f"{float(case.spacing):.14g}",
         _short(error), _short(seconds), _short(plain_error), _short(plain_seconds),

@@ -11,10 +11,10 @@ from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.scene.sections import SceneError
 from force_diffusion.numeric.studies.cost import rows as measuring
+from force_diffusion.numeric.studies.cost.cost import cost
+from force_diffusion.numeric.studies.cost.reference import BEYOND, decimal
 from force_diffusion.numeric.studies.cost.result import CostStudy, csv_rows
-from force_diffusion.numeric.studies.cost.rows import Row, marked, pareto
-from force_diffusion.numeric.studies.cost.study import cost
-from force_diffusion.numeric.studies.cost.truth import BEYOND, decimal
+from force_diffusion.numeric.studies.cost.rows import Way, marked, pareto
 from force_diffusion.numeric.studies.cost.ways import answer, systems, why_not_plain
 from hypothesis import given
 from hypothesis import strategies as st
@@ -34,7 +34,7 @@ def profile(geometry: str = "exact", **ask: Any) -> dict[str, dict[str, Any]]:
     return sections
 
 
-def one(found: CostStudy, way: str, arithmetic: str = "float64") -> Row:
+def one(found: CostStudy, way: str, arithmetic: str = "float64") -> Way:
     (row,) = [r for r in found.ways if (r.way, r.arithmetic) == (way, arithmetic)]
     return row
 
@@ -231,7 +231,7 @@ def test_the_data_say_how_they_came_about() -> None:
     assert [row["error"] for row in data["rows"]] == sorted(
         (row["error"] for row in data["rows"]), key=Decimal, reverse=True
     )
-    assert set(data["rows"][0]) == {field.name for field in fields(Row)}
+    assert set(data["rows"][0]) == {field.name for field in fields(Way)}
     assert data["reference"]["kind"] == "certified"
     assert "tracemalloc" in data["peak_memory"]
     for row in csv_rows(data, "force-diffusion cost x.toml"):
@@ -263,12 +263,12 @@ def test_arrays_rows_and_decimals_say_the_same() -> None:
 
 def test_a_line_joins_ensembles_by_their_size() -> None:
     """Errors of ensembles scatter: by error, a line would go back and forth in time."""
-    plot = pytest.importorskip("force_diffusion.numeric.studies.cost.plot")
+    plot = pytest.importorskip("force_diffusion.numeric.studies.cost.cost_plot")
     nothing: dict[str, Any] = dict.fromkeys(
         ("model_error", "rounding_error", "sampling_error", "certified_bound")
     )
     rows = [
-        Row(
+        Way(
             "Monte Carlo", "float64", N, Decimal(error), **nothing,
             seconds=N / 100, seconds_min=0.1, seconds_max=9.0, runs=3,
             peak_bytes=1, peak_is_bound=False,

@@ -9,7 +9,8 @@ from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, Undec
 from force_diffusion.numeric.arithmetic.systems import Balls
 from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
 from force_diffusion.numeric.lattice.layers import whole
-from force_diffusion.numeric.studies.stability import enclosures, forms, study
+from force_diffusion.numeric.studies.stability import enclosures, forms
+from force_diffusion.numeric.studies.stability import stability as study
 from force_diffusion.numeric.studies.stability.closed import closed_form_rows
 from force_diffusion.numeric.studies.stability.enclosures import (
     LINE_SUMS,
@@ -19,14 +20,14 @@ from force_diffusion.numeric.studies.stability.enclosures import (
     enclose,
     strips,
 )
-from force_diffusion.numeric.studies.stability.floats import Case, Row, cases, measure
+from force_diffusion.numeric.studies.stability.floats import Case, Comparison, cases, measure
 from force_diffusion.numeric.studies.stability.forms import (
     changes,
     deviation_form,
     flat,
     plain_form,
 )
-from force_diffusion.numeric.studies.stability.study import stability
+from force_diffusion.numeric.studies.stability.stability import stability
 from force_diffusion.numeric.theory.critical_height import critical_height
 
 UNIT = 2.0**-53  # of float64: one unit in the last place is at most 2 of these
@@ -38,7 +39,7 @@ def _one_run(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @cache
-def rows(group: str) -> list[Row]:
+def rows(group: str) -> list[Comparison]:
     """Measure a group, once; the reference must be far better than what is measured by it."""
     found = [measure(case) for case in cases() if case.group == group]
     for row in found:

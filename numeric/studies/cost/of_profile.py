@@ -29,16 +29,16 @@ from ...planning import planner
 from ...planning.plan import Plan, Skipped
 from ...quantities.base import Table
 from ...scene.scene import Scene
+from .reference import decimal, exactly
 from .result import CostStudy
 from .rows import (
     Notice,
     Reference,
-    Row,
+    Way,
     marked,
     measured,
     row,
 )
-from .truth import decimal, exactly
 from .ways import answer, systems, with_geometry
 
 # Realisations that the correction and the scatter are estimated from: at least, at most.
@@ -49,9 +49,9 @@ EXACT = Balls(1200)
 
 def study_ensemble(scene: Scene, notice: Notice) -> CostStudy:
     """Measure every way to σ_f. Raises ``SceneError`` and what the sweeps raise."""
-    truth = _Truth(scene, notice)
+    truth = _EstimatedReference(scene, notice)
     linear = truth.plans["first-order"]
-    rows: list[Row] = []
+    rows: list[Way] = []
     for way, printed in (("printed asymptotic formula", True), ("exact finite-M formula", False)):
         meant = formula(linear, printed, EXACT)
         model = truth.off(meant, truth.best)
@@ -128,7 +128,7 @@ def _both_branches(table: Table, name: str) -> Array:
     return np.asarray(np.sqrt(squares.reshape(-1, 2).mean(axis=1)))
 
 
-class _Truth:
+class _EstimatedReference:
     """The estimated reference; arrays have shape (M,), in units of the load.
 
     ``mean`` holds what each Monte Carlo converges to, ``best`` what the scene asks for, ``floor``

@@ -20,7 +20,7 @@ from matplotlib.transforms import Bbox
 
 from ...arithmetic.errors import printable
 from ...figures import style
-from .rows import Reference, Row
+from .rows import Reference, Way
 
 WIDE = 60
 """Decades of error beyond which the axis is one of √digits."""
@@ -42,7 +42,7 @@ DASHES: Mapping[str, tuple[str, Any]] = {
 
 
 def draw(
-    title: str, ways: Sequence[Row], reference: Reference, sampling_floor: Decimal | None
+    title: str, ways: Sequence[Way], reference: Reference, sampling_floor: Decimal | None
 ) -> Figure:
     """Draw log10 of error against log10 of seconds; digits may lie beyond a float's range."""
     figure = style.figure(style.PAGE, 4.6)
@@ -94,7 +94,7 @@ def _stretch(axes: Axes, low: float, high: float) -> None:
     axes.yaxis.set_major_formatter(FuncFormatter(lambda power, _: f"$10^{{{power:.0f}}}$"))
 
 
-def _in_vain(row: Row, rows: Sequence[Row]) -> bool:
+def _in_vain(row: Way, rows: Sequence[Way]) -> bool:
     """Say whether more digits of one way bring nothing but a longer time: the table has them."""
     return any(
         r.way == row.way
@@ -105,21 +105,21 @@ def _in_vain(row: Row, rows: Sequence[Row]) -> bool:
     )
 
 
-def _x(row: Row) -> float:
+def _x(row: Way) -> float:
     return math.log10(row.seconds)
 
 
-def _y(row: Row) -> float:
+def _y(row: Way) -> float:
     return float(row.error.log10())
 
 
-def _family(row: Row) -> str:
+def _family(row: Way) -> str:
     return next((name for name in DASHES if row.arithmetic.startswith(name)), "hardware")
 
 
-def _lines(rows: list[Row]) -> dict[tuple[str, str], list[Row]]:
+def _lines(rows: list[Way]) -> dict[tuple[str, str], list[Way]]:
     """Collect the rows that a line joins: one way in one family of arithmetic, by size or error."""
-    found: dict[tuple[str, str], list[Row]] = {}
+    found: dict[tuple[str, str], list[Way]] = {}
     for row in rows:
         found.setdefault((row.way, _family(row)), []).append(row)
     for line in found.values():
@@ -127,7 +127,7 @@ def _lines(rows: list[Row]) -> dict[tuple[str, str], list[Row]]:
     return found
 
 
-def _keys(lines: Mapping[tuple[str, str], list[Row]], floor: bool) -> list[Line2D]:
+def _keys(lines: Mapping[tuple[str, str], list[Way]], floor: bool) -> list[Line2D]:
     """Explain markers, then lines, then what is filled."""
     ways = [way for way in WAYS if any(way == drawn for drawn, _ in lines)]
     keys = [
@@ -144,7 +144,7 @@ def _keys(lines: Mapping[tuple[str, str], list[Row]], floor: bool) -> list[Line2
     return keys
 
 
-def _name(axes: Axes, rows: list[Row]) -> None:
+def _name(axes: Axes, rows: list[Way]) -> None:
     """Name the points of the front, and the sizes of ensembles, beside or below them."""
     taken = [box for row in rows for box in _around(axes, row)]
     canvas: Any = axes.figure.canvas
@@ -168,7 +168,7 @@ def _name(axes: Axes, rows: list[Row]) -> None:
             note.remove()  # the table has it
 
 
-def _around(axes: Axes, row: Row) -> tuple[Bbox, Bbox]:
+def _around(axes: Axes, row: Way) -> tuple[Bbox, Bbox]:
     """Give what the marker takes, and the line of its times."""
     x, y = axes.transData.transform((_x(row), _y(row)))
     left, right = (
@@ -195,7 +195,7 @@ def _fits(
     )  # fmt: skip
 
 
-def _short(row: Row) -> str:
+def _short(row: Way) -> str:
     if row.realisations is not None:
         return f"$N={row.realisations}$"
     if row.arithmetic.startswith("arb balls"):

@@ -10,15 +10,15 @@ import time
 from pathlib import Path
 
 import pytest
-from force_diffusion.derivations.coq import workshop
+from force_diffusion.derivations.coq import folder
 from force_diffusion.derivations.coq.files import theory
-from force_diffusion.derivations.coq.record import Verdict
-from force_diffusion.derivations.coq.workshop import (
+from force_diffusion.derivations.coq.folder import (
     CoqAbsentError,
-    Workshop,
+    CoqFolder,
     axioms_in,
     unexpected,
 )
+from force_diffusion.derivations.coq.record import Verdict
 
 import force_diffusion as fd
 from force_diffusion.__main__ import main
@@ -172,9 +172,9 @@ def test_a_compiled_theory_is_kept_by_content_and_version(
 ) -> None:
     put(programs, "coqc", VERSION)
 
-    def shop(name: str) -> Workshop:
+    def shop(name: str) -> CoqFolder:
         (tmp_path / name).mkdir()
-        return Workshop(tmp_path / name)
+        return CoqFolder(tmp_path / name)
 
     first = shop("first")
     first.restore()
@@ -194,7 +194,7 @@ def test_a_compiled_theory_is_kept_by_content_and_version(
     assert not newer.kept
     put(programs, "coqc", VERSION)
     with monkeypatch.context() as changed:
-        changed.setattr(workshop, "theory_hash", lambda: "another")
+        changed.setattr(folder, "theory_hash", lambda: "another")
         other = shop("other")
         other.restore()
         assert not other.kept
@@ -235,7 +235,7 @@ def test_verdicts_are_told_as_they_come(programs: Path, capsys: pytest.CaptureFi
 def test_a_program_without_a_version_is_no_coq(programs: Path, tmp_path: Path, script: str) -> None:
     put(programs, "coqc", script)
     with pytest.raises(CoqAbsentError, match="apt-get install coq"):
-        Workshop(tmp_path)
+        CoqFolder(tmp_path)
     assert str(fd.certify([1]).equations[0]) == "Coq absent"
 
 
@@ -244,7 +244,7 @@ def test_a_program_that_does_not_answer_is_ended(
     programs: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     put(programs, "coqc", VERSION + "exec sleep 60")
-    monkeypatch.setattr(workshop, "LIMIT", 0.2)
+    monkeypatch.setattr(folder, "LIMIT", 0.2)
     started = time.monotonic()
     found = fd.certify([1]).equations[0]
     assert time.monotonic() - started < 30

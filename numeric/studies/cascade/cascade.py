@@ -101,7 +101,7 @@ class CascadeStudy:
     def plot(self) -> "Figure":
         """Draw the shares over the height. Needs matplotlib (the extra ``plots``)."""
         with drawing():
-            from .plot import draw
+            from .cascade_plot import draw
 
             return draw(self.summary())
 

@@ -21,17 +21,17 @@ from ...quantities.base import Table, first_order_std
 from ...scene.checks import refuse
 from ...scene.scene import Scene
 from ...scene.sections import SceneError
-from .ensemble import study_ensemble
+from .of_profile import study_ensemble
+from .reference import BEYOND, CertifiedReference, IncomparableError
 from .result import CostStudy
 from .rows import (
     Notice,
     Reference,
-    Row,
+    Way,
     marked,
     measured,
     row,
 )
-from .truth import BEYOND, IncomparableError, Truth
 from .ways import (
     answer,
     systems,
@@ -80,13 +80,13 @@ def _study_one(scene: Scene, notice: Notice) -> CostStudy:
     one = scene.model_copy(update={"ask": scene.ask.model_copy(update={"realisations": 1})})
     plan = planner.plan(one, BEYOND)
     notice("reference")
-    true = Truth(plan)
+    true = CertifiedReference(plan)
     nothing = Decimal(0)
-    rows: list[Row] = []
+    rows: list[Way] = []
     skipped = list(_never(scene))
 
     def measure(
-        way: str, system: NumberSystem, work: Callable[[], Table], model: Truth | None
+        way: str, system: NumberSystem, work: Callable[[], Table], model: CertifiedReference | None
     ) -> None:
         notice(f"{way}, {system.name}")
         try:
@@ -104,7 +104,7 @@ def _study_one(scene: Scene, notice: Notice) -> CostStudy:
             skipped.append(Skipped("first-order line sums", "they do not stop at tension"))
         else:
             linear = planner.plan(with_geometry(one, "first-order"), BEYOND)
-            model = Truth(linear)
+            model = CertifiedReference(linear)
             name = "first-order line sums"
             measure(name, FLOAT64, partial(answer, linear, FLOAT64, [0]), model)
     else:

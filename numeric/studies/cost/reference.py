@@ -27,7 +27,7 @@ class IncomparableError(ForceDiffusionError, ArithmeticError):
     exit_status = NOT_REACHED
 
 
-class Truth:
+class CertifiedReference:
     """A certified reference: balls so small that no error shown depends on them."""
 
     def __init__(self, plan: Plan) -> None:

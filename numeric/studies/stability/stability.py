@@ -11,12 +11,12 @@ from ...arithmetic.systems import Array
 from ...figures.library import drawing
 from .closed import ClosedFormRow, closed_form_rows
 from .enclosures import DIGITS, Enclosed, enclose, strips
-from .floats import Row, cases, measure
+from .floats import Comparison, cases, measure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Measured = Row | Enclosed | ClosedFormRow
+Measured = Comparison | Enclosed | ClosedFormRow
 FLOATS, ENCLOSURES, CLOSED_FORMS = "rows", "enclosures", "closed_forms"
 FILES = {
     FLOATS: "stability.csv",
@@ -48,7 +48,7 @@ HEADS = {
 class StabilityStudy:
     """Three tables of measurements, by name.
 
-    "rows": both forms in float64 against enclosures of all contact forces (``floats.Row``).
+    "rows": both forms in float64 against enclosures of all contact forces (``floats.Comparison``).
     "enclosures": bits that balls lose, in positions and in line sums (``enclosures.Enclosed``).
     "closed_forms": Eqs. 13 and 14 in float64 against exact rationals (``closed.ClosedFormRow``).
     Errors are relative to the largest |change| of a contact force.
@@ -79,7 +79,7 @@ class StabilityStudy:
         if not {FLOATS, ENCLOSURES} <= set(self.measured):
             raise ForceDiffusionError(f'the figure needs the tables "{FLOATS}" and "{ENCLOSURES}"')
         with drawing():
-            from .plot import draw
+            from .stability_plot import draw
 
             return draw(self.rows(FLOATS), self.rows(ENCLOSURES))
 

@@ -104,7 +104,7 @@ class _Running:
         return Said(printed + errors, (_error(errors) or f"status {status}") if status else "")
 
 
-class Workshop:
+class CoqFolder:
     """A folder in which Coq compiles files.
 
     Attributes:
