@@ -18,9 +18,8 @@ from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
 from ..lattice.branch import PerAxis, PerBranch
-from ..lattice.layers import LazyRows, Region, pick, standing_on_base, whole
+from ..lattice.layers import LazyRows, Region, Rows, pick, standing_on_base, whole
 from ..lattice.naming import Block, Naming
-from ..lattice.regions import Rows
 from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Route, Solved
@@ -164,7 +163,7 @@ class Quantity(ABC):
         if self.by_layers:
             assert self.width is not None
             region = whole(self.width, self.top, self.naming.dimension)
-            return region.rows if self.needs_forces else (), region
+            return region.rows if self.needs_forces else Rows(), region
         rows = self.force_rows(load)
         return rows, self.region(rows)
 
@@ -178,7 +177,7 @@ class Quantity(ABC):
     def region(self, force_rows: Rows) -> Region:
         """Give the beads that are to be deposited."""
         if not any(layer.count for layer in force_rows):
-            return Region(self.width, ())
+            return Region(self.width, Rows())
         return standing_on_base(force_rows, self.width)
 
     def line_beads(self, load: LoadSpec) -> int:

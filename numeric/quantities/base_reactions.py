@@ -1,7 +1,7 @@
 """What the base bears."""
 
 from ..arithmetic.systems import Array, zeros
-from ..lattice.layers import Layer, Region, full_layer
+from ..lattice.layers import Layer, Region, Rows, full_layer
 from ..mechanics.problem import Problem, Route, Solved
 from .base import Listed, Table, cartesian
 
@@ -41,7 +41,8 @@ def on_base(
 ) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
     """Give what contacts and loads press onto the base, as Σ v^a n^a: ordered, and change."""
     system, forces, region = solved.system, solved.forces, problem.region
-    own = problem.load.on((layer,), problem.load.strength(problem.n_x, system), system)
+    base, strength = Rows([layer.first], [layer.count]), problem.load.strength(problem.n_x, system)
+    own = problem.load.on(base, strength, system)
     nothing = zeros(system, layer.count)
     ordered = [nothing if load[0] is None else nothing + load[0] for _, load in own]
     change = [nothing] * len(ordered)

@@ -12,8 +12,7 @@ import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats
 from ..lattice.branch import Branch
-from ..lattice.layers import Region, whole
-from ..lattice.regions import Rows
+from ..lattice.layers import Region, Rows, whole
 from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved

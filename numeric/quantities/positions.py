@@ -6,8 +6,7 @@ from functools import lru_cache
 
 from ..arithmetic.systems import Array, NumberSystem, array, from_floats, zeros
 from ..lattice import regions
-from ..lattice.layers import Layer, Region, pick, whole
-from ..lattice.regions import Rows
+from ..lattice.layers import Layer, Region, Rows, pick, whole
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved
 from .base import Columns, Listed, Table, cartesian, column, joined, slope
@@ -25,7 +24,7 @@ class Positions(Listed):
 
     def force_rows(self, load: LoadSpec) -> Rows:
         """No forces are needed."""
-        return ()
+        return Rows()
 
     def region(self, force_rows: Rows) -> Region:
         """Give the triangle below the bead, or the whole packing."""
