@@ -93,7 +93,7 @@ class Physicality:
         self.forces_known = True
         if layers is not None and forces.hold:
             rows = forces.rows[max(layers.start, 1) : layers.stop]
-            self.contacts += forces.region.dimension * sum(row.count for row in rows)
+            self.contacts += forces.region.dimension * rows.beads
             return
         if layers is None and forces.F is not None and forces.g is not None:
             self.contacts += forces.g.size

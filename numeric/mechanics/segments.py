@@ -102,7 +102,7 @@ class Segments:
                 if solved.forces is not None and self.problem.needs_forces:
                     physical.look_at_forces(solved.forces, layers)
             rows = self.problem.region.rows[layers.start : layers.stop]
-            self.work.did_rows("checked", rows, sum(row.count for row in rows))
+            self.work.did_rows("checked", rows, rows.beads)
         yield solved, [self.realisation]
 
     def _down(self, number: int) -> tuple[Solved, SolvedPacking]:
@@ -231,7 +231,7 @@ class Segments:
         )
         none: PerBranch[Sequence[Array]] = per_direction([()] * problem.dimension)
         forces = forces or Forces(FLOAT64, problem.region, Rows(), none, none)
-        beads = sum(row.count for row in rows[own.start : own.stop])
+        beads = rows[own.start : own.stop].beads
         forces = replace(
             forces,
             region=problem.region,
