@@ -44,14 +44,14 @@ def second_order(packing: SmallPacking, slopes: list[Fraction], read: "Reading")
     For rational radii with one digit above and below, B/A stays far below the 1e12 allowed.
     """
     from force_diffusion.numeric.arithmetic.systems import BigFloat
-    from force_diffusion.numeric.mechanics.small_packing import plain_form
+    from force_diffusion.numeric.mechanics.small_packing import solve
 
     loads = packing.surface_load()
     worst, count = mpmath.mpf(0), 0
     with mpmath.workdps(DIGITS):
         for strength in STRENGTHS:
             solutions = [
-                plain_form(
+                solve(
                     packing.width,
                     packing.height,
                     n_x=packing.n[0],
@@ -59,6 +59,7 @@ def second_order(packing: SmallPacking, slopes: list[Fraction], read: "Reading")
                     loads=loads,
                     strength=value,
                     system=BigFloat(DIGITS),
+                    plainly=True,
                 )
                 for value in (Fraction(strength), Fraction(strength) / 2)
             ]

@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from ..arithmetic.systems import (
     as_ball,
     midpoint,
 )
+from ..mechanics.kept import Kept
 from ..mechanics.work import ESTIMATE, Work
 from ..planning.expected_error import (
     PRINTED,
@@ -31,13 +32,10 @@ from ..quantities.answer import Answer, answer
 from ..quantities.base import Table
 from .accuracy import Accuracy
 
-if TYPE_CHECKING:
-    from ..mechanics.segments import Kept
-
 CARRIED = "estimated, as the sweep carried it, not certified"
 
 
-def repeated(plan: Plan, work: Work, kept: "Kept | None" = None) -> tuple[Answer, Accuracy]:
+def repeated(plan: Plan, work: Work, kept: Kept | None = None) -> tuple[Answer, Accuracy]:
     """Answer, and say how large the error is: as sweeps carried it, or a repeat measured it.
 
     ``kept``: what an earlier run has kept of a sweep by segments.

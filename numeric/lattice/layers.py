@@ -152,6 +152,11 @@ class Rows(Sequence[Layer]):
         return cls(first, count)
 
     @property
+    def beads(self) -> int:
+        """How many there are."""
+        return int(self.counts.sum())
+
+    @property
     def lasts(self) -> Array:
         """The largest i of each row."""
         return np.asarray(self.firsts + 2 * (self.counts - 1))

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..arithmetic.systems import Array
 from ..lattice.branch import AxisContact, Contact
-from ..lattice.layers import Layer
+from ..lattice.layers import Rows
 from .gaps import gaps, named
 from .sweep import SIGNS, Forces, SolvedPacking, pulling
 
@@ -93,7 +93,7 @@ class Physicality:
         self.forces_known = True
         if layers is not None and forces.hold:
             rows = forces.rows[max(layers.start, 1) : layers.stop]
-            self.contacts += forces.region.dimension * sum(row.count for row in rows)
+            self.contacts += forces.region.dimension * rows.beads
             return
         if layers is None and forces.F is not None and forces.g is not None:
             self.contacts += forces.g.size
@@ -112,19 +112,20 @@ class Physicality:
         if pulling_rows and self.first_tensile is None:
             self._name(forces, pulling_rows[0])
 
-    def _count(self, rows: Sequence[Layer], F: Array, g: Array) -> Sequence[int]:
+    def _count(self, rows: Rows, F: Array, g: Array) -> Sequence[int]:
         """Count all contacts of compiled loops together; give the first row of which one pulls."""
-        f, changes = F + g, np.abs(g).max(axis=0, initial=0)
-        if not g.size or f.min() > SIGNS * changes.max():  # all surely hold
-            return []
-        ends = np.cumsum([row.count for row in reversed(rows)])
+        f, room = F + g, SIGNS * max(g.max(initial=0), -g.min(initial=0))
+        ends = np.cumsum(rows.counts[::-1])
         ends = ends[: int(np.searchsorted(ends, F.shape[1])) + 1]
         cuts = F.shape[1] - ends[::-1]
-        counts = np.diff(np.append(cuts, F.shape[1]))
-        room = SIGNS * np.maximum.reduceat(changes, cuts, axis=1).repeat(counts, axis=1)
+        if np.count_nonzero(f <= room) > np.count_nonzero(
+            f < -room
+        ):  # some are so small that their layer decides
+            counts, changes = np.diff(np.append(cuts, F.shape[1])), np.abs(g).max(axis=0, initial=0)
+            room = SIGNS * np.maximum.reduceat(changes, cuts, axis=1).repeat(counts, axis=1)
+            self.undecided_signs += int(np.count_nonzero((np.abs(f) <= room) & (f != 0)))
         pulls = f < -room
         self.tensile += int(np.count_nonzero(pulls))
-        self.undecided_signs += int(np.count_nonzero((np.abs(f) <= room) & (f != 0)))
         if not pulls.any():
             return []
         first = int(np.argmax(pulls.any(axis=(0, 1))))

@@ -65,6 +65,11 @@ class Problem:
         return self.region.dimension
 
     @property
+    def segments(self) -> int:
+        """In how many parts a packing is swept, one below the other; 1 for all in memory."""
+        return max(1, -(-self.region.top // self.segment)) if self.segment else 1
+
+    @property
     def side(self) -> int:
         """W, in three dimensions."""
         return isqrt(self.width or 0)

@@ -9,7 +9,7 @@ between are found once more on the way down, n segments at a time.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import PerBranch, per_direction
 from ..lattice.layers import Layer, LazyRows, Region, Rows
 from . import local
+from .kept import Kept
 from .kernels import Deposition, Descent
 from .loads import on_layers, on_rows
 from .physicality import PHYSICAL, Physicality
@@ -30,45 +31,6 @@ from .work import Work
 T = TypeVar("T", Drawing, Deposition)
 # Layers above a segment that are deposited, too: beads look for gaps so far up.
 OVER = 3
-
-
-class Kept(Protocol):
-    """What is kept on the way, by name; it may have been kept by an earlier run."""
-
-    def get(self, name: str) -> Array | None:
-        """Give what was kept, or None."""
-
-    def put(self, name: str, values: Array) -> None:
-        """Keep an array."""
-
-    def drop(self, name: str) -> None:
-        """Forget it."""
-
-    def save(self, *, now: bool = True) -> None:
-        """Make sure of it; if not ``now``, where that takes little of the time."""
-
-
-class InMemory:
-    """Keeps in memory."""
-
-    def __init__(self) -> None:
-        """Nothing is kept."""
-        self._kept: dict[str, Array] = {}
-
-    def get(self, name: str) -> Array | None:
-        """Give what was kept, or None."""
-        return self._kept.get(name)
-
-    def put(self, name: str, values: Array) -> None:
-        """Keep an array."""
-        self._kept[name] = values
-
-    def drop(self, name: str) -> None:
-        """Forget it."""
-        self._kept.pop(name, None)
-
-    def save(self, *, now: bool = True) -> None:
-        """There is nowhere else to keep it."""
 
 
 class Segments:
@@ -87,7 +49,6 @@ class Segments:
         self.problem, self.realisation, self.work, self.kept = problem, realisation, work, kept
         self.again = again
         self.layers, self.top, self.every = problem.segment, problem.region.top, problem.every
-        self.count = max(1, -(-self.top // self.layers))
         self._parts: dict[type, Any] = {}
         self._strength = problem.load.strength(problem.n_x, CARRYING)
 
@@ -116,7 +77,11 @@ class Segments:
 
         The highest layer of a segment is the lowest of the next one, whose own it is not.
         """
-        last = (number + 1) * self.layers if number + 1 < self.count else self.problem.height
+        last = (
+            (number + 1) * self.layers
+            if number + 1 < self.problem.segments
+            else self.problem.height
+        )
         return range(number * self.layers + bool(number), last + 1)
 
     def packings(
@@ -137,7 +102,7 @@ class Segments:
                 if solved.forces is not None and self.problem.needs_forces:
                     physical.look_at_forces(solved.forces, layers)
             rows = self.problem.region.rows[layers.start : layers.stop]
-            self.work.did_rows("checked", rows, sum(row.count for row in rows))
+            self.work.did_rows("checked", rows, rows.beads)
         yield solved, [self.realisation]
 
     def _down(self, number: int) -> tuple[Solved, SolvedPacking]:
@@ -266,7 +231,7 @@ class Segments:
         )
         none: PerBranch[Sequence[Array]] = per_direction([()] * problem.dimension)
         forces = forces or Forces(FLOAT64, problem.region, Rows(), none, none)
-        beads = sum(row.count for row in rows[own.start : own.stop])
+        beads = rows[own.start : own.stop].beads
         forces = replace(
             forces,
             region=problem.region,

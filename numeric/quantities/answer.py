@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import ArrayRadii, RadiusError
 from ..lattice.branch import AxisContact, Contact
 from ..mechanics.engine import chunk_size, packings
+from ..mechanics.kept import Kept
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.sweep import NotStandingError, UnbuildableError
@@ -21,9 +22,6 @@ from ..unilateral.network import Network, Relaxed, UnfinishedError
 from .base import RATIO, Quantity, Table
 from .histogram import Histogram
 from .parts import Part, joined
-
-if TYPE_CHECKING:
-    from ..mechanics.segments import Kept
 
 # What the sweeps raise for a packing that can't be built.
 UNBUILDABLE = (UnbuildableError, NotStandingError, RadiusError)
@@ -60,7 +58,7 @@ def answer(
     *,
     plainly: bool = False,
     longer: NumberSystem | None = None,
-    kept: "Kept | None" = None,
+    kept: Kept | None = None,
 ) -> Answer:
     """Answer a question for some realisations; ``plainly`` solves them in the plain form.
 
@@ -72,18 +70,23 @@ def answer(
     work = Work() if work is None else work
     work.uses(system.name)
     asked = _Asked(quantity, problem, realisations, system, work, longer)
+    counts = problem.segments > 1 and isinstance(quantity, Histogram) and not quantity.single
     networks: list[Network] = []
-    bins: Bins | None = None
+    store = Kept() if kept is None else kept
     with system.active(), asked.own.active():
+        sweep: Sweep = _Whole(asked, plainly, networks)
         if problem.segment:
-            part, bins = _by_segments(asked, kept)
-        else:
-            physical = asked.physical
-            solved_all = _whole(asked, plainly, physical, networks)
-            part = asked.gathered(solved_all, quantity.all_layers, physical)
+            from ..mechanics.segments import Segments
+
+            (realisation,) = realisations
+            sweep = Segments(problem, realisation, work, store, again=counts)
+        part = _swept(asked, sweep, kept, counts=counts)
         table = named(quantity, part.table)
         again = None if part.exact is None else named(quantity, part.exact)
-        if bins is None and not work.repeating:
+        bins: Bins | None = None
+        if counts:
+            bins = _counted(asked, sweep, store, table)
+        elif not work.repeating:
             bins = quantity.bins_of(table, system)
     if problem.route == Route.ORDERED:
         table, bins = _of_all(quantity.scene.ask.realisations, table, bins)
@@ -95,6 +98,22 @@ def answer(
 
 
 Packings = Iterator[tuple[Solved, Sequence[int]]]
+
+
+class Sweep(Protocol):
+    """Solves packings part by part, the highest first; a small one is a single part."""
+
+    def up(self, highest: int) -> None:
+        """Make ready for the parts up to the ``highest`` that is needed."""
+
+    def layers_of(self, number: int) -> range:
+        """Give the layers that a part answers for."""
+
+    def packings(self, number: int, physical: Physicality | None) -> Packings:
+        """Solve a part of each packing; ``physical`` looks at it."""
+
+    def leave(self, number: int) -> None:
+        """Forget what only that part needed."""
 
 
 @dataclass(frozen=True)
@@ -118,20 +137,17 @@ class _Asked:
         """The arithmetic of the sweep."""
         return FLOAT64 if self.carried else self.system
 
-    @property
-    def physical(self) -> Physicality | None:
-        """Where it is looked whether packings are physical, if it is."""
-        exact = self.problem.route == Route.EXACT
-        return Physicality() if exact and not self.work.repeating else None
-
-    def gathered(self, packings: Packings, layers: range, physical: Physicality | None) -> Part:
-        """Gather the rows that follow from some layers; ``physical`` looks at each packing."""
+    def gathered(self, sweep: Sweep, number: int, *, look: bool) -> Part:
+        """Gather the rows of a part, and ``look`` whether it is physical, if it is exact."""
         quantity, system, longer = self.quantity, self.system, self.longer
+        layers, physical = sweep.layers_of(number), None
+        if look and self.problem.route == Route.EXACT and not self.work.repeating:
+            physical = Physicality(looks_at=self.realisations)
         gatherer = quantity.gatherer(self.problem, system)
         beside = None if longer is None else quantity.gatherer(self.problem, longer)
         stopped: Contact | AxisContact | None = None
         sizes = NONE
-        for solved, chunk in packings:
+        for solved, chunk in sweep.packings(number, physical):
             if solved.forces is not None and stopped is None:
                 stopped = solved.forces.stopped
             pairs = isinstance(system, Pairs)
@@ -148,80 +164,89 @@ class _Asked:
         return Part(table, physical, exact, left, sizes, stopped)
 
 
-def _whole(
-    asked: _Asked, plainly: bool, physical: Physicality | None, networks: list[Network]
-) -> Packings:
-    """Solve whole packings, and collect their ``networks``; errors say which packing it was."""
-    problem, realisations, work, own = asked.problem, asked.realisations, asked.work, asked.own
-    if problem.route == Route.UNILATERAL:
-        from ..unilateral.relaxation import packings as relaxed  # SciPy's solvers take 35 MB
+class _Whole:
+    """Whole packings, in one part; ``networks`` are collected, errors say which packing it was."""
 
-        solved_all = relaxed(problem, realisations, asked.system, work)
-    else:
-        solved_all = packings(
-            problem, realisations, own, work, physical, plainly=plainly, carried=asked.carried,
-            copied=True,
-        )  # fmt: skip
-    done = 0
-    try:
-        for solved, chunk in solved_all:
-            if isinstance(solved, Relaxed):
-                networks.append(solved.network)
-            yield solved, chunk
-            done += len(chunk)
-    except (*UNBUILDABLE, UnfinishedError) as error:
-        if problem.route == Route.UNILATERAL and len(realisations) > 1:
-            error.add_note(f"realisation {realisations[done]}; an ensemble leaves such out")
-        elif len(realisations) > 1:
-            error.add_note(_which(problem, realisations[done:], own, plainly))
-        raise
+    def __init__(self, asked: _Asked, plainly: bool, networks: list[Network]) -> None:
+        self.asked, self.plainly, self.networks = asked, plainly, networks
+
+    def up(self, highest: int) -> None:
+        """There is nothing below the one part."""
+
+    def leave(self, number: int) -> None:
+        """Nothing is kept."""
+
+    def layers_of(self, number: int) -> range:
+        """All layers."""
+        return self.asked.quantity.all_layers
+
+    def packings(self, number: int, physical: Physicality | None) -> Packings:
+        """Solve them."""
+        asked, done = self.asked, 0
+        problem, realisations, work = asked.problem, asked.realisations, asked.work
+        if problem.route == Route.UNILATERAL:
+            from ..unilateral.relaxation import packings as relaxed  # SciPy's solvers take 35 MB
+
+            solved_all = relaxed(problem, realisations, asked.system, work)
+        else:
+            solved_all = packings(
+                problem, realisations, asked.own, work, physical, plainly=self.plainly,
+                carried=asked.carried, copied=True,
+            )  # fmt: skip
+        try:
+            for solved, chunk in solved_all:
+                if isinstance(solved, Relaxed):
+                    self.networks.append(solved.network)
+                yield solved, chunk
+                done += len(chunk)
+        except (*UNBUILDABLE, UnfinishedError) as error:
+            if problem.route == Route.UNILATERAL and len(realisations) > 1:
+                error.add_note(f"realisation {realisations[done]}; an ensemble leaves such out")
+            elif len(realisations) > 1:
+                error.add_note(_which(problem, realisations[done:], asked.own, self.plainly))
+            raise
 
 
-def _by_segments(asked: _Asked, kept: "Kept | None") -> tuple[Part, Bins | None]:
-    """Solve one packing segment by segment, from the top; all changes are counted on a second way.
-
-    Gives the answer, of which a histogram has the extremes alone, and its bins.
-    """
-    from ..mechanics.segments import InMemory, Segments
-
-    quantity, work = asked.quantity, asked.work
-    counts = isinstance(quantity, Histogram) and not quantity.single
-    store: Kept = InMemory() if kept is None else kept
-    (realisation,) = asked.realisations
-    way = Segments(asked.problem, realisation, work, store, again=counts)
-    numbers = range(way.count - 1, -1, -1)
-    missing = next((n for n in numbers if Part.of(store, n) is None), None)
-    if missing is not None:
-        way.up(missing)
+def _swept(asked: _Asked, sweep: Sweep, kept: Kept | None, *, counts: bool) -> Part:
+    """Gather all parts, from the top; what ``counts`` changes has the extremes alone."""
     parts: list[Part] = []
+    numbers = range(asked.problem.segments - 1, -1, -1)
+    known = {} if kept is None else {n: Part.of(kept, n) for n in numbers}
+    missing = [n for n in numbers if known.get(n) is None]
+    if missing:
+        sweep.up(missing[0])
     for number in numbers:
-        part = Part.of(store, number)
+        part = known.pop(number, None)
         if part is None:
-            physical = Physicality(looks_at=asked.realisations)
-            solved = way.packings(number, physical)
-            part = asked.gathered(solved, way.layers_of(number), physical).measured()
+            part = asked.gathered(sweep, number, look=True)
+            if kept is not None or len(numbers) > 1:
+                part = part.measured()
             part = part.extremes() if counts else part
             if kept is not None:
                 part.keep(kept, number)
-            way.leave(number)
+            sweep.leave(number)
         parts.insert(0, part)
     found = joined(parts)
-    if not counts or not found.table.rows:
-        return found, [] if counts else None
-    assert isinstance(quantity, Histogram)
-    found = found.extremes()
-    low, high = found.table.numbers["change"].tolist()
-    edges = edges_between(low, high, quantity.bins)
+    return found.extremes() if counts else found
+
+
+def _counted(asked: _Asked, sweep: Sweep, kept: Kept, table: Table) -> Bins:
+    """Count all changes, of which the ``table`` has the extremes, on a second way down."""
+    assert isinstance(asked.quantity, Histogram)
+    if not table.rows:
+        return []
+    low, high = table.numbers["change"].tolist()
+    edges = edges_between(low, high, asked.quantity.bins)
     count = np.zeros(len(edges) - 1)
-    for number in numbers:
-        own = store.get(f"counts{number}")
+    for number in reversed(range(asked.problem.segments)):
+        own = kept.get(f"counts{number}")
         if own is None:
-            part = asked.gathered(way.packings(number, None), way.layers_of(number), None)
+            part = asked.gathered(sweep, number, look=False)
             own = counted(part.table.numbers["change"], edges)
-            store.put(f"counts{number}", own)
-            way.leave(number)
+            kept.put(f"counts{number}", own)
+            sweep.leave(number)
         count += own
-    return found, list(zip(edges[:-1], edges[1:], map(int, count), strict=True))
+    return list(zip(edges[:-1], edges[1:], map(int, count), strict=True))
 
 
 def _of_all(alike: int, table: Table, bins: Bins | None) -> tuple[Table, Bins | None]:

@@ -176,7 +176,7 @@ class Quantity(ABC):
 
     def region(self, force_rows: Rows) -> Region:
         """Give the beads that are to be deposited."""
-        if not any(layer.count for layer in force_rows):
+        if not force_rows.beads:
             return Region(self.width, Rows())
         return standing_on_base(force_rows, self.width)
 

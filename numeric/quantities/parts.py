@@ -6,18 +6,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, astuple, dataclass
 from functools import reduce
 from operator import or_
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..arithmetic.carried import NONE, Sizes
 from ..arithmetic.systems import Array
 from ..lattice.branch import AxisContact, Contact, direction
+from ..mechanics.kept import Kept
 from ..mechanics.physicality import Physicality
 from .base import Columns, Table
-
-if TYPE_CHECKING:
-    from ..mechanics.segments import Kept
 
 
 @dataclass
@@ -54,7 +52,7 @@ class Part:
         table = Table({}, {"change": change}, ("change",))
         return Part(table, self.physical, None, self.left, self.sizes)
 
-    def keep(self, kept: "Kept", number: int) -> None:
+    def keep(self, kept: Kept, number: int) -> None:
         """Keep it; what was measured first, so that it is whole once its words are there."""
         table, physical = self.table, self.physical
         assert physical is not None
@@ -73,7 +71,7 @@ class Part:
         kept.put(f"words{number}", np.frombuffer(json.dumps(words).encode(), np.uint8))
 
     @classmethod
-    def of(cls, kept: "Kept", number: int) -> "Part | None":
+    def of(cls, kept: Kept, number: int) -> "Part | None":
         """Read what was kept, if it was."""
         words = kept.get(f"words{number}")
         if words is None:

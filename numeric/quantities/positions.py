@@ -53,7 +53,7 @@ class Positions(Listed):
     def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
         """Give a row a bead of some layers, from the lowest up."""
         system, at = solved.system, self.scene.ask.at
-        rows = [row for row in problem.region.rows if row.j in layers]
+        rows: Sequence[Layer] = problem.region.rows[layers.start : layers.stop]
         if at is not None:
             i, j = self.naming.site(at)
             rows = [Layer(j, i, 1)] if j in layers else []

@@ -22,6 +22,7 @@ import numpy as np
 
 from ..arithmetic.errors import ForceDiffusionError, NotReachedError
 from ..arithmetic.systems import Array
+from ..mechanics.kept import Kept
 
 FIRST, FORMAT = "force-diffusion checkpoint.json", 3
 _OLD = b'{"is": "force-diffusion checkpoint'
@@ -35,7 +36,7 @@ class CheckpointError(ForceDiffusionError, ValueError):
     """A file can't serve as a checkpoint: the message says why, and what to do."""
 
 
-class Checkpoint:
+class Checkpoint(Kept):
     """Arrays by name, kept in a file, for a run that ``key`` describes.
 
     A context manager keeps what is there at its end, whatever ends it. Raises ``CheckpointError``
@@ -44,10 +45,10 @@ class Checkpoint:
 
     def __init__(self, path: Path, key: Mapping[str, Any]) -> None:
         """Open it, or make it."""
+        super().__init__()
         self.path, self._place = path, path.resolve()
         self._part = self._place.with_name(f"{self._place.name}.part")
         self._run = sha256(json.dumps(key).encode()).hexdigest()
-        self._kept: dict[str, Array] = {}
         self._saved, self._cost, self._changed = 0.0, 0.0, True
         self._file = opened(path)
         try:
@@ -90,17 +91,10 @@ class Checkpoint:
     def _said(self) -> dict[str, Any]:
         return {"format": FORMAT, "run": self._run}
 
-    def get(self, name: str) -> Array | None:
-        """Give what was kept under a name, or None."""
-        return self._kept.get(name)
-
     def put(self, name: str, values: Array) -> None:
         """Keep an array."""
-        self._kept[name], self._changed = values, True
-
-    def drop(self, name: str) -> None:
-        """Forget it."""
-        self._kept.pop(name, None)
+        super().put(name, values)
+        self._changed = True
 
     def save(self, *, now: bool = True) -> None:
         """Write the file; if it is not to be ``now``, only where that takes little of the time.

@@ -478,6 +478,9 @@ def test_the_sweep_stops_at_tension() -> None:
     )
     assert Fraction(named["force"]) < 0
     assert min(r["j"] for r in stopped.decimals()) == j
+    assert j > 0
+    sections["ask"] = {"quantity": "base_reactions", "tolerance": "=1e-12"}
+    assert not answer(sections).decimals()  # no force came down to the base
     assert everything.physical is not None
     assert everything.physical.tensile == len(pulling) > 0
 

@@ -181,6 +181,19 @@ def test_the_error_is_that_of_the_sweep_in_memory(name: str, layers: int) -> Non
         alike(run(cut(made, layers)), run(made))
 
 
+@pytest.mark.parametrize("name", ["profile", "histogram", "base", "spheres, response"])
+def test_one_segment_is_the_small_case(name: str) -> None:
+    """Nothing is done twice, and the error is as exact as in memory."""
+    made = planned(sections(name))
+    one = cut(made, 40)
+    assert made.problem.segments == one.problem.segments == 1
+    assert cut(made, 2).problem.segments == (made.problem.region.top + 1) // 2
+    usual, found = run(made), run(one)
+    same(usual, found)
+    assert found.accuracy == usual.accuracy
+    assert found.work.deposited == usual.work.deposited == made.problem.region.beads
+
+
 def alike(a: Outcome, b: Outcome) -> None:
     """The error of parts is kept as a float, rounded up."""
     assert a.accuracy.note == b.accuracy.note

@@ -49,31 +49,31 @@ EXACT = Balls(1200)
 
 def study_ensemble(scene: Scene, notice: Notice) -> CostStudy:
     """Measure every way to σ_f. Raises ``SceneError`` and what the sweeps raise."""
-    truth = _EstimatedReference(scene, notice)
-    linear = truth.plans["first-order"]
+    reference = _EstimatedReference(scene, notice)
+    linear = reference.plans["first-order"]
     rows: list[Way] = []
     for way, printed in (("printed asymptotic formula", True), ("exact finite-M formula", False)):
         meant = formula(linear, printed, EXACT)
-        model = truth.off(meant, truth.best)
+        model = reference.off(meant, reference.best)
         for system in systems():
             notice(f"{way}, {system.name}")
             found, seconds, peak = measured(partial(formula, linear, printed, system))
-            error, rounding = truth.off(found, truth.best), truth.off(found, meant)
+            error, rounding = reference.off(found, reference.best), reference.off(found, meant)
             rows.append(row(way, system.name, seconds, peak, error, (model, rounding, None)))
-    for name in truth.plans if scene.effects.geometry == "exact" else ["first-order"]:
-        rounding = truth.rounding(name)
-        model = truth.off(truth.mean[name], truth.best)
+    for name in reference.plans if scene.effects.geometry == "exact" else ["first-order"]:
+        rounding = reference.rounding(name)
+        model = reference.off(reference.mean[name], reference.best)
         for n in sizes(scene.ask.realisations):
             way = f"Monte Carlo, {name}"
             notice(f"{way}, {n} realisations")
-            plan = truth.plans[name]
+            plan = reference.plans[name]
             table, seconds, peak = measured(partial(answer, plan, FLOAT64, range(n)))
             std = _both_branches(table, "std")
-            parts = (model, rounding, truth.off(std, truth.mean[name]))
-            error = truth.off(std, truth.best)
+            parts = (model, rounding, reference.off(std, reference.mean[name]))
+            error = reference.off(std, reference.best)
             rows.append(row(way, FLOAT64.name, seconds, peak, error, parts, None, n))
     skipped = tuple(_skipped(scene))
-    return CostStudy("profile", truth.reference, marked(rows), skipped, truth.floor)
+    return CostStudy("profile", reference.reference, marked(rows), skipped, reference.floor)
 
 
 def sizes(realisations: int) -> list[int]:

@@ -24,7 +24,7 @@ from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.loads import LoadSpec
 from force_diffusion.numeric.mechanics.local import cosine
 from force_diffusion.numeric.mechanics.problem import Solved
-from force_diffusion.numeric.mechanics.small_packing import plain_form
+from force_diffusion.numeric.mechanics.small_packing import solve as solve_small
 from force_diffusion.numeric.mechanics.sweep import Forces, sweep_down
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.plan import Plan
@@ -187,9 +187,9 @@ def test_the_smallest_gap_is_that_of_the_positions(height: int, seed: int, spaci
         for i, u in zip(layer.sites(), drawn.deviates(layer, 0), strict=True):
             rho[i, layer.j] = Fraction(float(u)) * drawn.std
     n_x = plan.scene.n_x
-    p = plain_form(
+    p = solve_small(
         width, height, n_x=n_x, rho=rho, loads={(1, height): (0, -1)} if height % 2 else {},
-        strength=1, system=system,
+        strength=1, system=system, plainly=True,
     )  # fmt: skip
     mp = system.context
     nx = mp.mpf(n_x.numerator) / n_x.denominator

@@ -12,7 +12,7 @@ from force_diffusion.numeric.arithmetic.systems import (
     NumberSystem,
 )
 from force_diffusion.numeric.mechanics import taylor
-from force_diffusion.numeric.mechanics.small_packing import Solution, deviation_form, plain_form
+from force_diffusion.numeric.mechanics.small_packing import Solution, solve
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -23,7 +23,7 @@ mp = BigFloat(60).context
 
 
 def solved(case: Case, system: NumberSystem, strength: Fraction = STRENGTH) -> Solution:
-    return deviation_form(
+    return solve(
         case.width, case.height, n_x=case.n[0], rho=case.rho, loads=case.loads,
         strength=strength, system=system,
     )  # fmt: skip
@@ -73,9 +73,9 @@ def test_plain_form_agrees_at_sixty_digits(case: Case) -> None:
     """Positions of order 10 carry 60 digits; 1e-52 leaves room for ~1e6 roundings of them."""
     system = BigFloat(60)
     one = solved(case, system)
-    other = plain_form(
+    other = solve(
         case.width, case.height, n_x=case.n[0], rho=case.rho, loads=case.loads,
-        strength=STRENGTH, system=system,
+        strength=STRENGTH, system=system, plainly=True,
     )  # fmt: skip
     for i, j in sites(case.width, case.height):
         for a, b in zip(one.displacement(i, j), other.displacement(i, j), strict=True):
