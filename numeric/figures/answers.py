@@ -34,7 +34,7 @@ def figure_of(
     answer of no rows, or for numbers beyond what floats can draw.
     """
     quantity = plan.quantity.name
-    refuse("figures", plan.scene.packing, plan.scene.effects, plan.scene.ask)
+    refuse("figures", plan.scene)
     with drawing():
         from . import networks_drawing
         from .answers_drawing import DRAWN
