@@ -268,8 +268,8 @@ PLAIN: dict[str, Any] = {
 
 def plain(quantity: str) -> dict[str, Any]:
     """Give the features of the plainest scene with a question."""
-    own = {"response": {"load": "point"}, "contact": {"at": True}}.get(quantity, {})
-    return PLAIN | {"quantity": quantity} | own
+    own: dict[str, Any] = {"load": "point"} if quantity == "response" else {}
+    return PLAIN | {"quantity": quantity, "at": quantity == "contact"} | own
 
 
 def refusal(**features: Any) -> Refusal | None:

@@ -202,7 +202,7 @@ def test_the_help_says_what_the_table_does(
 
 
 @pytest.mark.long(sample=4)
-@pytest.mark.parametrize(("quantity", "kind"), product(QUANTITIES, KINDS))
+@pytest.mark.parametrize(("quantity", "kind"), list(product(QUANTITIES, KINDS)))
 def test_an_ensemble_of_any_kind_is_asked_until(
     quantity: str, kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
