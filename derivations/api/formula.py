@@ -1,5 +1,6 @@
 """What an equation and its exact forms have in common: SymPy objects, names, numbers, code."""
 
+import inspect
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
 from functools import cached_property
@@ -160,6 +161,9 @@ class Formula(ABC):
             ArgumentError: the right-hand side is no number; the function raises it for a value that
                 is not allowed, and never gives a value where the formula is not meant.
         """
+        return _Function(self)
+
+    def _numpy(self) -> Callable[..., Any]:
         about = "; ".join(self._about(line) for line in self._lines)
         heading = f"{self._heading}: {about}."
         return numpy_function(self._evaluation, self._name, heading, self._meanings)
@@ -188,3 +192,22 @@ def vocabulary(expressions: Iterable[sympy.Basic]) -> dict[str, Any]:
             elif isinstance(node, sy.SiteFunction | sy.Dot | sy.MatrixTimes | sy.Braces):
                 found.setdefault(type(node).__name__, type(node))
     return found
+
+
+class _Function:
+    """The function of a formula, which can be pickled: then the formula is, for processes."""
+
+    def __init__(self, formula: Formula) -> None:
+        self._formula, self._call = formula, formula._numpy()
+        self.__signature__ = inspect.signature(self._call)
+        self.__name__ = self.__qualname__ = self._call.__name__
+        self.__doc__ = self._call.__doc__
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        return self._call(*args, **kwargs)
+
+    def __reduce__(self) -> tuple[type["_Function"], tuple[Formula]]:
+        return _Function, (self._formula,)
+
+    def __repr__(self) -> str:
+        return f"{self.__name__}{self.__signature__}"

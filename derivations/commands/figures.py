@@ -15,6 +15,7 @@ from force_diffusion.derivations.commands.output import Overwrite, out_option, o
 from force_diffusion.derivations.commands.shared import images, noticing, sourced, warn
 from force_diffusion.numeric.arithmetic import processes
 from force_diffusion.numeric.arithmetic.errors import printable
+from force_diffusion.numeric.scene.combinations import answered, either
 
 import force_diffusion as fd
 
@@ -71,7 +72,8 @@ def figures(
         typer.Argument(
             metavar="WHICH",
             help=f"Figures: {', '.join(NAMES)}; by default all. A scene of your own, FILE.toml, is "
-            "answered and drawn.",
+            f"answered and drawn; it asks for {either(answered('figures'))}, or of spheres for "
+            f"{either(answered('figures', dimension=3))}.",
         ),
     ] = None,
     out: Annotated[Path, out_option("PNG, SVG, PDF and CSV")] = Path("figures"),
@@ -257,7 +259,7 @@ def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":
     from force_diffusion.numeric.text import csv_bytes
 
     scene, name = fd.read_scene(path), path.stem
-    refuse("figures", scene.packing, scene.effects, scene.ask)
+    refuse("figures", scene)
     notice(f"{name}: solving")
     found = scene.run()
     warn(path, found.plan)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager, ExitStack, nullcontext
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from force_diffusion.derivations.commands.cli import command_line, shell_line
@@ -29,6 +29,7 @@ from force_diffusion.derivations.commands.sweep import Seed, Settings, name_of, 
 from force_diffusion.derivations.export.answers import Format
 from force_diffusion.derivations.export.tables import csv_text
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
+from force_diffusion.numeric.scene.combinations import KINDS, answered, either
 
 import force_diffusion as fd
 
@@ -44,7 +45,15 @@ STATUSES = (
 )
 
 
-_Scene = Annotated[Path, typer.Argument(metavar="SCENE", help="A scene file, in TOML.")]
+def _scene(command: str) -> Any:
+    """Name the argument of a command, and what it answers."""
+    words = f"A scene file, in TOML, that asks for {either(answered(command))}"
+    kinds = [name for name, own in KINDS.items() if not answered(command, **own)]
+    none = f"; not of {' or '.join(kinds).replace('`', '')}" if kinds else ""
+    return typer.Argument(metavar="SCENE", help=f"{words}{none}.")
+
+
+_Scene = Annotated[Path, _scene("run")]
 _Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
 _Tolerance = Annotated[
     str | None,
@@ -178,7 +187,7 @@ def _answer(
 
 
 def cost(
-    scene: _Scene,
+    scene: Annotated[Path, _scene("cost")],
     out: Annotated[Path | None, out_option("the study as CSV, JSON and a plot")] = None,
     as_json: _Json = False,
     overwrite: Overwrite = False,

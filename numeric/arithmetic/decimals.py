@@ -2,8 +2,9 @@
 
 import math
 import re
-from decimal import Decimal
+from decimal import MAX_EMAX, MIN_EMIN, ROUND_DOWN, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
+from functools import cache
 
 LARGEST_EXPONENT = 5000
 MOST_DIGITS = 5000
@@ -90,14 +91,17 @@ def _exponent(value: Fraction) -> int:
     >>> _exponent(Fraction(1, 1000)), _exponent(Fraction(999)), _exponent(Fraction(1000))
     (-3, 2, 3)
     """
-    value = abs(value)
-    bits = value.numerator.bit_length() - value.denominator.bit_length()
-    guess = (bits * 30103) // 100000 - 1  # log10(2); at most two too small
-    while value >= Fraction(10) ** (guess + 1):
-        guess += 1
-    while value < Fraction(10) ** guess:
-        guess -= 1
-    return guess
+    return _divided(abs(value), _context(1, ROUND_DOWN)).adjusted()
+
+
+@cache
+def _context(digits: int, rounding: str = ROUND_HALF_EVEN) -> Context:
+    return Context(prec=digits, rounding=rounding, Emin=MIN_EMIN, Emax=MAX_EMAX)
+
+
+def _divided(value: Fraction, context: Context) -> Decimal:
+    """Round a fraction, once."""
+    return context.divide(Decimal(value.numerator), Decimal(value.denominator))
 
 
 def bound_string(value: Fraction) -> str:
@@ -112,12 +116,9 @@ def bound_string(value: Fraction) -> str:
 
 
 def _figures(value: Fraction, digits: int) -> tuple[str, str, int]:
-    exponent = _exponent(value)
-    scaled = round(abs(value) * Fraction(10) ** (digits - 1 - exponent))
-    if scaled == 10**digits:
-        scaled //= 10
-        exponent += 1
-    return "-" if value < 0 else "", str(scaled), exponent
+    rounded = _divided(abs(value), _context(digits))
+    mantissa, _, exponent = f"{rounded:.{digits - 1}e}".partition("e")
+    return "-" if value < 0 else "", mantissa.replace(".", ""), int(exponent)
 
 
 def _rounded(value: Fraction, digits: int) -> str:

@@ -170,13 +170,7 @@ def measurement(
     theoretical σ_f. Raises ``SceneError`` for what has no statistics over an ensemble.
     """
     ask = scene.ask
-    refuse("ensemble", scene.packing, scene.effects, ask, covariance=covariance)
-    if ask.tolerance is not None:
-        raise SceneError(
-            "ask.tolerance", ask.tolerance, "an ensemble is solved in float64: leave it out"
-        )
-    if scene.disorder is None or scene.disorder.kind in {"file", "given"}:
-        raise SceneError("disorder", None, "an ensemble needs radii that are drawn")
+    refuse("ensemble", scene, covariance=covariance, reach=reach is not None)
     one = scene.model_copy(update={"ask": ask.model_copy(update={"realisations": 1})})
     planned = plan(one)
     if planned.problem.route == Route.ORDERED:
@@ -190,8 +184,6 @@ def measurement(
         raise SceneError("load.kind", scene.load.kind, allowed)
     if ask.quantity == "histogram":
         made = replace(made, edges=_edges(made, reach))
-    elif reach is not None:
-        raise SceneError("ask.quantity", ask.quantity, 'only a "histogram" has bins that reach')
     magnitude = scene.load.magnitude
     if covariance and not 1 <= magnitude * MOST_MAGNITUDE <= MOST_MAGNITUDE**2:
         raise SceneError(

@@ -3,7 +3,9 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from ..arithmetic.systems import Array
+import numpy as np
+
+from ..arithmetic.systems import Array, as_floats
 from ..mechanics.problem import Route
 from ..planning.plan import Plan
 from ..scene.checks import refuse
@@ -13,6 +15,9 @@ from .library import drawing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+# Numbers that are drawn: floats hold their sums, and the shares that they have of each other.
+LEAST, MOST = 1e-300, 1e280
 
 
 def figure_of(
@@ -25,11 +30,11 @@ def figure_of(
 
     ``networks``: where beads came to rest under unilateral contacts.
 
-    Raises ``MissingLibraryError``, and ``SceneError`` for a quantity that has no figure, or for an
-    answer of no rows.
+    Raises ``MissingLibraryError``, and ``SceneError`` for a quantity that has no figure, for an
+    answer of no rows, or for numbers beyond what floats can draw.
     """
     quantity = plan.quantity.name
-    refuse("figures", plan.scene.packing, plan.scene.effects, plan.scene.ask)
+    refuse("figures", plan.scene)
     with drawing():
         from . import networks_drawing
         from .answers_drawing import DRAWN
@@ -40,4 +45,23 @@ def figure_of(
         assert drawn is not None
         if not len(next(iter(columns.values()), [])):
             raise SceneError("ask.quantity", quantity, "the answer has no rows to be drawn")
+        _check_sizes(plan, columns)
         return drawn(plan, columns, errors)
+
+
+def _check_sizes(plan: Plan, columns: Mapping[str, Array]) -> None:
+    """Raise ``SceneError`` for numbers beyond what floats can draw."""
+    for name, values in columns.items():
+        if values.dtype.kind not in "fO":
+            continue
+        sizes, exact = np.abs(as_floats(values)), values.dtype == object
+        if not exact:  # NaN says that something is not known
+            sizes = sizes[np.isfinite(sizes)]
+        largest = sizes.max(initial=0)
+        vanished = not largest and (name == "high" or (exact and any(v != 0 for v in values)))
+        if vanished or 0 < largest < LEAST or not largest <= MOST:
+            unit, key = plan.scene.load.magnitude, "load.magnitude"
+            if plan.quantity.name == "positions":
+                unit, key = plan.scene.packing.radius, "packing.radius"
+            allowed = f"what is drawn must lie between {LEAST:g} and {MOST:g}: choose another unit"
+            raise SceneError(key, unit, allowed)

@@ -25,7 +25,7 @@ def force_chains(axes: Axes, ends: Array, forces: Array) -> None:
 
     ``ends``: (contacts, 2, 2), both ends as (x, y); ``forces``: (contacts,).
     """
-    widths = WIDEST * np.abs(forces) / (np.abs(forces).max() or 1)
+    widths = WIDEST * (np.abs(forces) / (np.abs(forces).max() or 1))
     for pulls, colour, order in ((False, PRESSING, 1), (True, PULLING, 2)):
         own = (forces < 0) == pulls
         lines = LineCollection(
@@ -40,7 +40,7 @@ def chain_keys(forces: Array, shown: Sequence[tuple[float, str]]) -> list[Line2D
     handles = []
     for force, name in shown:
         handles.append(style.line(PULLING if force < 0 else PRESSING, "-", name))
-        handles[-1].set_linewidth(WIDEST / (np.abs(forces).max() or 1) * abs(force))
+        handles[-1].set_linewidth(WIDEST * (abs(force) / (np.abs(forces).max() or 1)))
     return handles
 
 

@@ -144,7 +144,7 @@ class ProfileMoments(Gatherer):
 
 
 def _printed(value: Fraction) -> str:
-    """Print twelve digits, also of what a float would round to zero."""
-    if value > Fraction(1, 10**290):
+    """Print twelve digits, also of what a float can't hold."""
+    if Fraction(1, 10**290) < value < 10**290:
         return f"{float(value):.12g}"
     return decimal_string(value, value / 10**12)

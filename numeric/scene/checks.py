@@ -1,51 +1,59 @@
 """What the keys of a scene say about each other."""
 
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..arithmetic.decimals import decimal_string, short
 from .combinations import refusal
 from .sections import Ask, Disorder, Effects, GivenRadii, Load, Packing, SceneError
 
+if TYPE_CHECKING:
+    from .scene import Scene
 
-def check(
-    packing: Packing, disorder: Disorder | None, load: Load, effects: Effects, ask: Ask
-) -> None:
+
+def check(scene: "Scene") -> None:
     """Check what keys say about each other. Raises ``SceneError``."""
+    packing, disorder, ask = scene.packing, scene.disorder, scene.ask
     _check_packing(packing)
-    if packing.dimension == 3:
-        _check_three(packing)
+    refuse("run", scene)
     if isinstance(disorder, GivenRadii):
         _check_given(disorder, packing, ask)
     elif disorder is not None:
         _check_disorder(disorder, ask)
-    _check_load(load, packing)
-    refuse("run", packing, effects, ask)
-    _check_ask(ask, packing, load)
-    _check_layers(ask, load, packing.height)
-    _check_effects(effects, packing)
+    _check_load(scene.load, packing)
+    _check_ask(ask, packing)
+    _check_layers(ask, scene.load, packing.height)
+    _check_effects(scene.effects, packing)
 
 
-def refuse(
-    command: str, packing: Packing, effects: Effects, ask: Ask, *, covariance: bool = False
-) -> None:
+def refuse(command: str, scene: "Scene", *, covariance: bool = False, reach: bool = False) -> None:
     """Raise ``SceneError`` where a command does not answer what is combined here."""
+    packing, load, effects, ask = scene.packing, scene.load, scene.effects, scene.ask
     found = refusal(
         command=command,
         quantity=ask.quantity,
         dimension=packing.dimension,
+        slab=packing.width is None,
+        drawn=scene.disorder is not None and scene.disorder.kind not in {"file", "given"},
+        load=load.kind,
+        based=load.at is not None and load.at[-1:] == [0],
+        leaning=bool(load.angle_deg),
+        pressure=bool(load.pressure),
         contacts=effects.contacts,
         geometry=effects.geometry,
         stop=effects.stop_at_tension,
         at=ask.at is not None,
         layers=ask.layers is not None,
+        bins=ask.bins is not None,
         several=ask.realisations > 1,
+        tolerance=ask.tolerance is not None,
         covariance=covariance,
+        reach=reach,
     )
     if found is not None:
         section, _, key = found.key.partition(".")
-        sections = {"packing": packing, "effects": effects, "ask": ask}
-        raise SceneError(found.key, getattr(sections[section], key), found.why)
+        value = getattr(getattr(scene, section), key, None)
+        raise SceneError(found.key, value, found.why)
 
 
 def _check_effects(effects: Effects, packing: Packing) -> None:
@@ -57,7 +65,7 @@ def _check_effects(effects: Effects, packing: Packing) -> None:
         return
     if effects.most_seconds is not None and effects.most_seconds <= 0:
         raise SceneError("effects.most_seconds", effects.most_seconds, "must be greater than 0")
-    if packing.width is None or packing.width < 3:
+    if packing.width is not None and packing.width < 3:
         raise SceneError(
             "packing.width",
             packing.width,
@@ -87,12 +95,6 @@ def _check_packing(p: Packing) -> None:
             "say allow_images = true if a narrow periodic strip is meant"
             + (", or leave width out for the infinite slab" if flat else ""),
         )
-
-
-def _check_three(packing: Packing) -> None:
-    if packing.width is None:
-        allowed = "is required: W × W beads in a layer in three dimensions (packing.dimension = 3)"
-        raise SceneError("packing.width", None, allowed)
 
 
 def _check_bead(packing: Packing, key: str, at: Any, highest: int) -> None:
@@ -169,8 +171,6 @@ def _check_load(load: Load, packing: Packing) -> None:
     if load.kind == "file":
         if load.file is None:
             raise SceneError("load.file", None, 'is required with kind = "file"')
-        if load.angle_deg:
-            raise SceneError("load.angle_deg", load.angle_deg, 'has no meaning with kind = "file"')
     elif load.file is not None:
         raise SceneError("load.file", load.file, 'needs kind = "file"')
     if load.kind == "point":
@@ -183,27 +183,14 @@ def _check_load(load: Load, packing: Packing) -> None:
         _check_load_site(packing, load.at)
     elif load.at is not None:
         raise SceneError("load.at", load.at, 'needs kind = "point"')
-    if load.pressure:
-        _check_pressure(load, packing)
+    if load.pressure < 0:
+        raise SceneError("load.pressure", load.pressure, "must not be negative")
 
 
 def _check_load_site(packing: Packing, at: Any) -> None:
     if not 0 <= at[-1] <= packing.height:  # above all, as a bead there would be
         raise SceneError("load.at", at, f"j must be from 0 to {packing.height}, the surface")
     (_check_site if packing.dimension == 2 else _check_bead)(packing, "load.at", at, packing.height)
-
-
-def _check_pressure(load: Load, packing: Packing) -> None:
-    if load.kind != "point":
-        raise SceneError("load.pressure", load.pressure, 'comes beside kind = "point"')
-    if load.pressure < 0:
-        raise SceneError("load.pressure", load.pressure, "must not be negative")
-    if load.angle_deg:
-        allowed = "comes beside a point load straight down: give a file of loads for others"
-        raise SceneError("load.pressure", load.pressure, allowed)
-    if packing.width is None:
-        allowed = "needs packing.width: the surface of a slab has no end"
-        raise SceneError("load.pressure", load.pressure, allowed)
 
 
 def _check_site(packing: Packing, key: str, site: Any, highest: int) -> None:
@@ -219,36 +206,16 @@ def _check_site(packing: Packing, key: str, site: Any, highest: int) -> None:
         raise SceneError(key, site, f"i must be from 0 to {2 * width - 1}")
 
 
-def _check_ask(ask: Ask, packing: Packing, load: Load) -> None:
+def _check_ask(ask: Ask, packing: Packing) -> None:
     if ask.tolerance is not None and not 0 < ask.tolerance < 1:
         raise SceneError("ask.tolerance", ask.tolerance, "must lie between 0 and 1")
-    if (ask.bins is not None) and ask.quantity != "histogram":
-        raise SceneError("ask.bins", ask.bins, 'needs quantity = "histogram"')
     _check_at(ask, packing)
-    if ask.quantity == "response" and load.kind != "point":
-        raise SceneError("load.kind", load.kind, 'must be "point" for quantity = "response"')
-    if ask.quantity == "response" and load.pressure:
-        allowed = 'must be 0 for quantity = "response", which is that to the point load alone: ask '
-        raise SceneError("load.pressure", load.pressure, f'{allowed}for "contact_forces"')
-    wide = ask.quantity in {"contact_forces", "base_reactions"} and load.kind in {
-        "surface",
-        "bulk",
-    }
-    all_beads = ask.quantity in {"positions", "profile", "histogram"} and ask.at is None
-    if packing.width is None and (wide or all_beads):
-        raise SceneError(
-            "packing.width",
-            None,
-            f'is required: an infinite slab has infinitely many answers to "{ask.quantity}"',
-        )
 
 
 def _check_layers(ask: Ask, load: Load, height: int) -> None:
     """Check the layers that a response or a histogram is asked of."""
     if ask.layers is None:
         return
-    if ask.at is not None:
-        raise SceneError("ask.layers", ask.layers, "one contact lies in one layer: leave at out")
     top = height if load.at is None or load.pressure else int(load.at[-1])
     if not ask.layers or len(set(ask.layers)) < len(ask.layers):
         raise SceneError("ask.layers", ask.layers, "must be one layer or several, each once")
@@ -265,8 +232,6 @@ def _check_at(ask: Ask, packing: Packing) -> None:
                 "ask.at", None, 'is required with quantity = "contact", as at = [i, j, "+"]'
             )
         return
-    if ask.quantity not in forms:
-        raise SceneError("ask.at", ask.at, f'has no meaning with quantity = "{ask.quantity}"')
     if packing.dimension == 3:
         _check_at_three(ask, packing)
         return

@@ -19,6 +19,7 @@ QuantityName = Literal[
 ]
 QUANTITIES: tuple[str, ...] = get_args(QuantityName)
 COMMANDS = ("run", "ensemble", "figures", "cost")
+LOADS = ("surface", "bulk", "point", "file")
 
 
 @dataclass(frozen=True)
@@ -41,67 +42,137 @@ def _but(*quantities: str) -> tuple[str, ...]:
     return tuple(one for one in QUANTITIES if one not in quantities)
 
 
+def _load_but(*kinds: str) -> tuple[str, ...]:
+    return tuple(one for one in LOADS if one not in kinds)
+
+
 def either(words: tuple[str, ...]) -> str:
     """Say that one of several words is allowed."""
     quoted = [f'"{word}"' for word in words]
     return ", ".join(quoted[:-1]) + f" or {quoted[-1]}"
 
 
-_OPEN, _SPHERES, _STOPS = ("unilateral",), (3,), (True,)
+_OPEN, _SPHERES, _YES, _NO = ("unilateral",), (3,), (True,), (False,)
+_PLACES = ("contact", "histogram", "positions")
 _GATHERED = ("profile", "contact", "contact_forces", "response", "histogram")
 _OF_NETWORKS = ("contact", "histogram", "profile", "response")
 _IN_THREE = "in three dimensions (packing.dimension = 3)"
+_ENDLESS = "is required: an infinite slab has infinitely many of these"
 _IN_OPEN = 'has no meaning with contacts = "unilateral": beads move, exactly, until none pulls'
 
+_ON_BASE = {"based": _YES, "pressure": _NO}
+_FORCES = ("contact", "contact_forces", "histogram", "response")
+_UNMOVED = "bears on no contact that is asked for: there is nothing to gather"
+
 TABLE = (
+    Refusal(
+        {"dimension": _SPHERES, "slab": _YES},
+        "packing.width",
+        f"is required: W × W beads in a layer {_IN_THREE}",
+    ),
+    Refusal(
+        {"contacts": _OPEN, "slab": _YES},
+        "packing.width",
+        'is required with contacts = "unilateral": beads move in a periodic strip',
+    ),
+    Refusal(
+        {"load": _load_but("point"), "pressure": _YES},
+        "load.pressure",
+        'comes beside kind = "point"',
+    ),
+    Refusal(
+        {"leaning": _YES, "pressure": _YES},
+        "load.pressure",
+        "comes beside a point load straight down: give a file of loads for others",
+    ),
+    Refusal(
+        {"pressure": _YES, "slab": _YES},
+        "load.pressure",
+        "needs packing.width: the surface of a slab has no end",
+    ),
+    Refusal(
+        {"leaning": _YES, "load": ("file",)}, "load.angle_deg", 'has no meaning with kind = "file"'
+    ),
     Refusal(
         {"dimension": _SPHERES, "contacts": _OPEN},
         "effects.contacts",
         f"must stay closed {_IN_THREE}",
     ),
     Refusal(
-        {"dimension": _SPHERES, "stop": _STOPS},
+        {"dimension": _SPHERES, "stop": _YES},
         "effects.stop_at_tension",
         f"must be false {_IN_THREE}",
     ),
     Refusal(
-        {"dimension": _SPHERES, "at": (True,), "quantity": _but("contact", "positions")},
+        {"dimension": _SPHERES, "at": _YES, "quantity": _but("contact", "positions")},
         "ask.at",
         f'is for "contact" and "positions" {_IN_THREE}',
     ),
     Refusal(
         {"contacts": _OPEN, "geometry": ("ordered", "first-order")}, "effects.geometry", _IN_OPEN
     ),
-    Refusal({"contacts": _OPEN, "stop": _STOPS}, "effects.stop_at_tension", _IN_OPEN),
+    Refusal({"contacts": _OPEN, "stop": _YES}, "effects.stop_at_tension", _IN_OPEN),
     Refusal(
-        {"contacts": _OPEN, "quantity": ("histogram",), "at": (True,)},
+        {"contacts": _OPEN, "quantity": ("histogram",), "at": _YES},
         "ask.at",
         'can\'t be said with contacts = "unilateral": P(f) is of all contacts',
     ),
     Refusal(
-        {"quantity": _but("response", "histogram"), "layers": (True,)},
+        {"quantity": _but("response", "histogram"), "layers": _YES},
         "ask.layers",
         'needs quantity = "response" or "histogram"',
     ),
     Refusal(
-        {"contacts": _OPEN, "layers": (True,)},
+        {"contacts": _OPEN, "layers": _YES},
         "ask.layers",
         'can\'t be said with contacts = "unilateral": beads leave their layers',
     ),
     Refusal(
-        {"stop": _STOPS, "layers": (True,)},
+        {"stop": _YES, "layers": _YES},
         "ask.layers",
         "can't be said with stop_at_tension: the sweep may not come so far",
     ),
     Refusal(
-        {"stop": _STOPS, "geometry": ("ordered", "first-order")},
+        {"stop": _YES, "geometry": ("ordered", "first-order")},
         "effects.stop_at_tension",
         'only has a meaning with geometry = "exact"',
     ),
     Refusal(
-        {"stop": _STOPS, "quantity": ("response",), "several": (True,)},
+        {"stop": _YES, "quantity": ("response",), "several": _YES},
         "effects.stop_at_tension",
         "can't be averaged: each realisation of a response would stop elsewhere",
+    ),
+    Refusal(
+        {"bins": _YES, "quantity": _but("histogram")}, "ask.bins", 'needs quantity = "histogram"'
+    ),
+    Refusal({"at": _YES, "quantity": _but(*_PLACES)}, "ask.at", f"is for {either(_PLACES)}"),
+    Refusal(
+        {"at": _YES, "layers": _YES}, "ask.layers", "one contact lies in one layer: leave at out"
+    ),
+    Refusal(
+        {"load": _load_but("point"), "quantity": ("response",)},
+        "load.kind",
+        'must be "point" for quantity = "response"',
+    ),
+    Refusal(
+        {"pressure": _YES, "quantity": ("response",)},
+        "load.pressure",
+        'must be 0 for quantity = "response", which is that to the point load alone: ask for '
+        '"contact_forces"',
+    ),
+    Refusal(
+        {
+            "load": ("surface", "bulk"),
+            "quantity": ("contact_forces", "base_reactions"),
+            "slab": _YES,
+        },
+        "packing.width",
+        _ENDLESS,
+    ),
+    Refusal(
+        {"at": _NO, "quantity": ("positions", "profile", "histogram"), "slab": _YES},
+        "packing.width",
+        _ENDLESS,
     ),
     Refusal(
         {"command": ("ensemble",), "quantity": _but(*_GATHERED)},
@@ -115,15 +186,40 @@ TABLE = (
         f"{either(_OF_NETWORKS)}",
     ),
     Refusal(
-        {"command": ("ensemble",), "contacts": _OPEN, "covariance": (True,)},
+        {"command": ("ensemble",), "contacts": _OPEN, "covariance": _YES},
         "effects.contacts",
         "a covariance is known on the lattice only, in which no contact opens",
     ),
     Refusal(
-        {"command": ("ensemble",), "stop": _STOPS},
+        {"command": ("ensemble",), "stop": _YES},
         "effects.stop_at_tension",
         "an ensemble needs whole packings",
     ),
+    Refusal(
+        {"command": ("ensemble",), "tolerance": _YES},
+        "ask.tolerance",
+        "an ensemble is solved in float64: leave it out",
+    ),
+    Refusal(
+        {"command": ("ensemble",), "drawn": _NO},
+        "disorder.kind",
+        "an ensemble needs radii that are drawn",
+    ),
+    Refusal(
+        {"command": ("ensemble",), "quantity": _but("histogram"), "reach": _YES},
+        "ask.quantity",
+        'only a "histogram" has bins that reach',
+    ),
+    Refusal({**_ON_BASE, "layers": _YES}, "ask.layers", "no layer lies below a load on the base"),
+    Refusal(
+        {**_ON_BASE, "command": ("ensemble", "figures"), "quantity": _FORCES}, "load.at", _UNMOVED
+    ),
+    Refusal(
+        {**_ON_BASE, "command": ("figures",), "contacts": _OPEN, "quantity": ("profile",)},
+        "load.at",
+        _UNMOVED,
+    ),
+    Refusal({**_ON_BASE, "command": ("cost",), "quantity": _but("positions")}, "load.at", _UNMOVED),
     Refusal(
         {"command": ("figures",), "quantity": ("contact",)},
         "ask.quantity",
@@ -146,19 +242,34 @@ TABLE = (
     ),
 )
 
-# What a scene is where it does not say otherwise.
-PLAIN = {
+# What a scene is where it does not say otherwise, and what is asked of it by the command.
+PLAIN: dict[str, Any] = {
     "command": "run",
     "quantity": "profile",
     "dimension": 2,
+    "slab": False,
+    "drawn": True,
+    "load": "surface",
+    "based": False,
+    "leaning": False,
+    "pressure": False,
     "contacts": "bilateral",
     "geometry": "exact",
     "stop": False,
     "at": False,
     "layers": False,
+    "bins": False,
     "several": False,
+    "tolerance": False,
     "covariance": False,
+    "reach": False,
 }
+
+
+def plain(quantity: str) -> dict[str, Any]:
+    """Give the features of the plainest scene with a question."""
+    own: dict[str, Any] = {"load": "point"} if quantity == "response" else {}
+    return PLAIN | {"quantity": quantity, "at": quantity == "contact"} | own
 
 
 def refusal(**features: Any) -> Refusal | None:
@@ -169,7 +280,7 @@ def refusal(**features: Any) -> Refusal | None:
     >>> refusal(command="ensemble", dimension=3) is None
     True
     """
-    found = PLAIN | features
+    found = plain(features.get("quantity", PLAIN["quantity"])) | features
     return next((row for row in TABLE if row.holds(found)), None)
 
 
@@ -199,4 +310,42 @@ def guide() -> str:
             kinds = [name for name, own in KINDS.items() if quantity in answered(command, **own)]
             cells.append(", ".join(kinds) or "–")
         rows.append([f"`{quantity}`", *cells])
+    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+
+
+# What is said where a feature is not plain; of others the words are the values.
+_SAID = {
+    "slab": "no `packing.width`",
+    "drawn": "radii of a file",
+    "based": "a load on the base",
+    "leaning": "`load.angle_deg`",
+    "pressure": "`load.pressure`",
+    "stop": "`stop_at_tension`",
+    "at": "`ask.at`",
+    "layers": "`ask.layers`",
+    "bins": "`ask.bins`",
+    "several": "realisations",
+    "tolerance": "a tolerance",
+    "covariance": "`--covariance`",
+    "reach": "`--reach`",
+}
+
+
+def limits() -> str:
+    """Write the rows of the table as the guide to scenes has them."""
+    rows = [["asked together", "refused"], ["---"] * 2]
+    for row in TABLE:
+        words = []
+        for name, values in row.when.items():
+            if name in _SAID and values == (PLAIN[name],):
+                words += [f"no {_SAID[name]}"] * (name == "at")
+            elif name in _SAID:
+                words.append(_SAID[name])
+            elif name == "dimension":
+                words.append("spheres")
+            elif len(values) > len(_but(*values)):
+                words.append("all but " + " and ".join(f"`{one}`" for one in _but(*values)))
+            else:
+                words.append(" or ".join(f"`{value}`" for value in values))
+        rows.append([", ".join(words), f"`{row.key}` {row.why}"])
     return "\n".join(f"| {' | '.join(row)} |" for row in rows)

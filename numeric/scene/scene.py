@@ -22,7 +22,7 @@ class Scene(Section):
     def __init__(self, /, **values: Any) -> None:
         """Check the sections, and what they say about each other."""
         super().__init__(**values)
-        check(self.packing, self.disorder, self.load, self.effects, self.ask)
+        check(self)
 
     @property
     def spacing(self) -> Fraction:

@@ -1,5 +1,6 @@
 """Counting changes of forces into bins whose edges are exact decimals."""
 
+import math
 from fractions import Fraction
 from typing import Any
 
@@ -42,8 +43,11 @@ def edges_between(least: float, most: float, bins: int) -> list[Fraction]:
     if not span:
         return [Fraction(float(np.nextafter(least, to))) for to in (-np.inf, np.inf)]
     low, high = float(Fraction(least) - span / 1009), float(Fraction(most) + span / 2003)
-    step = (Fraction(high) - Fraction(low)) / bins
-    return [Fraction(low) + step * k for k in range(bins + 1)]
+    first, step = Fraction(low) * bins, Fraction(high) - Fraction(low)
+    # over one denominator, since a million sums of fractions take seconds
+    below = math.lcm(first.denominator, step.denominator)
+    start, each = int(first * below), int(step * below)
+    return [Fraction(start + each * k, below * bins) for k in range(bins + 1)]
 
 
 def counted(values: Array, edges: list[Fraction]) -> Array:

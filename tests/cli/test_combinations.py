@@ -4,7 +4,7 @@ import json
 import warnings
 from itertools import product
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 import pytest
 from force_diffusion.numeric.scene.combinations import (
@@ -15,77 +15,154 @@ from force_diffusion.numeric.scene.combinations import (
     TABLE,
     answered,
     guide,
+    limits,
     refusal,
 )
 
 import force_diffusion as fd
 from force_diffusion.__main__ import main
+from tests.numeric.scenes import toml
 
 ROOT = Path(__file__).parents[2]
 FORMATS = ("csv", "npz", "parquet")
 
 
-def scene(quantity: str, kind: str, load: str = "") -> str:
+OTHER_LOADS: dict[str, dict[str, Any]] = {
+    "bulk": {"kind": "bulk"},
+    "leaning": {"kind": "surface", "angle_deg": 7},
+    "point": {"kind": "point", "at": "top"},
+    "leaning point": {"kind": "point", "at": "top", "angle_deg": -9},
+    "on the base": {"kind": "point", "at": "base"},
+    "beside a pressure": {"kind": "point", "at": "top", "pressure": "=0.5"},
+    "on the base beside a pressure": {"kind": "point", "at": "base", "pressure": "=0.5"},
+    "of a file": {"kind": "file", "file": "loads.csv"},
+}
+# What else a scene may say, as a section and its keys, and the features that these are.
+SAID: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
+    "bins": ("ask", {"bins": 3}, {"bins": True}),
+    "layers": ("ask", {"layers": [0]}, {"layers": True}),
+    "realisations": ("ask", {"realisations": 3}, {"several": True}),
+    "a tolerance": ("ask", {"tolerance": "=1e-20"}, {"tolerance": True}),
+    "one place": ("ask", {"at": "place"}, {"at": True}),
+    "an infinite slab": ("packing", {"width": None}, {"slab": True}),
+    "to first order": ("effects", {"geometry": "first-order"}, {"geometry": "first-order"}),
+    "radii of a file": ("disorder", {"kind": "file", "file": "radii.csv"}, {"drawn": False}),
+}
+
+
+def scene(quantity: str, kind: str, load: str = "", said: str = "") -> str:
     """A tiny packing, of which this is asked."""
     own = KINDS[kind]
     spheres = own.get("dimension") == 3
-    bead, contact = ("[0, 0, 2]", '[0, 0, 0, "1"]') if spheres else ("[0, 2]", '[0, 0, "+"]')
-    if not load and quantity == "response":
-        load = f'load = {{kind = "point", at = {bead}}}'
-    at = f"at = {contact}" if quantity == "contact" else ""
-    return f"""
-packing = {{height = 2, width = 4, dimension = {3 if spheres else 2}}}
-disorder = {{kind = "uniform", relative_std = 0.02, seed = 3}}
-{load}
-[effects]
-contacts = "{own.get("contacts", "bilateral")}"
-stop_at_tension = {str(own.get("stop", False)).lower()}
-[ask]
-quantity = "{quantity}"
-{at}
-"""
+    top, base = ([0, 0, 2], [0, 0, 0]) if spheres else ([0, 2], [0, 0])
+    contact = [0, 0, 0, "1"] if spheres else [0, 0, "+"]
+    usual = {"kind": "point", "at": "top"} if quantity == "response" else {"kind": "surface"}
+    sections: dict[str, dict[str, Any]] = {
+        "packing": {"height": 2, "width": 4, "dimension": 3 if spheres else 2},
+        "disorder": {"kind": "uniform", "relative_std": "=0.02", "seed": 3},
+        "load": dict(OTHER_LOADS.get(load, usual)),
+        "effects": {
+            "contacts": own.get("contacts", "bilateral"),
+            "stop_at_tension": own.get("stop", False),
+        },
+        "ask": {"quantity": quantity, "at": "place" if quantity == "contact" else None},
+    }
+    if said:
+        section, keys, _ = SAID[said]
+        sections[section] = dict(keys) if section == "disorder" else sections[section] | keys
+    places = {"top": top, "base": base, "place": top if quantity == "positions" else contact}
+    return toml(
+        {
+            section: {
+                name: places[value] if name == "at" else value
+                for name, value in keys.items()
+                if value is not None
+            }
+            for section, keys in sections.items()
+        }
+    )
+
+
+def tables(folder: Path, kind: str) -> None:
+    """Write radii and loads."""
+    spheres = KINDS[kind].get("dimension") == 3
+    beads: list[tuple[int, ...]] = [(i, j) for j in range(3) for i in range(j % 2, 8, 2)]
+    if spheres:
+        beads = list(product(range(4), range(4), range(3)))
+    names, force = ("p,q,j", "0,0.1,-1") if spheres else ("i,j", "0.1,-1")
+    radii = [f"{','.join(map(str, bead))},{k % 5}e-3" for k, bead in enumerate(beads)]
+    (folder / "radii.csv").write_text("\n".join([f"{names},delta_r", *radii]))
+    loads = [f"{','.join(map(str, bead))},{force}" for bead in beads if bead[-1] == 2]
+    (folder / "loads.csv").write_text("\n".join([f"{names},fx,fy{',fz' * spheres}", *loads]))
 
 
 def ways(command: str, quantity: str) -> list[list[str]]:
     """Give the options of all outputs of a command."""
     files = ["--out", "out", "--overwrite"]
-    if command == "figures":
-        return [files, [*files, "--json"]]
-    if command == "cost":
+    if command in {"figures", "cost"}:
         return [[*files, "--json"]]
     every = [["--json"], ["--quiet"], *([*files, "--format", one] for one in FORMATS)]
     if command == "ensemble":
-        bins = ["--reach", "0.9"] if quantity == "histogram" else []
-        every = [["--realisations", "3", "--workers", "1", *bins, *way] for way in every]
-        every += [[*way, "--covariance"] for way in every]
+        few = ["--realisations", "3", "--workers", "1"]
+        few += ["--reach", "0.9"] if quantity == "histogram" else []
+        every = [[*few, *way, *more] for way in every for more in ([], ["--covariance"])]
     return every
 
 
-CELLS = list(product(COMMANDS, QUANTITIES, KINDS))
+def features(quantity: str, kind: str, load: str, said: str) -> dict[str, Any]:
+    """What the scene of a cell is, as the table has it."""
+    found = {"quantity": quantity, **KINDS[kind]}
+    if load:
+        keys = OTHER_LOADS[load]
+        found |= {
+            "load": keys["kind"],
+            "based": keys.get("at") == "base",
+            "leaning": "angle_deg" in keys,
+            "pressure": "pressure" in keys,
+        }
+    return found | (SAID[said][2] if said else {})
 
 
-@pytest.mark.long(sample=8)
-@pytest.mark.parametrize(("command", "quantity", "kind"), CELLS)
+def crossed(command: str, quantity: str, kind: str) -> bool:
+    """Whether a cell is tried with other loads and all that is said: some take a second."""
+    if command == "cost":
+        return kind == "discs" and quantity in {"contact", "profile", "histogram"}
+    return command != "figures" or kind != "`stop_at_tension`"
+
+
+PAIRS = [("", ""), *product(OTHER_LOADS, [""]), *product([""], SAID)]
+CELLS = [
+    (*cell, *pair)
+    for cell in product(COMMANDS, QUANTITIES, KINDS)
+    for pair in (PAIRS if crossed(*cell) else PAIRS[:1])
+]
+
+
+@pytest.mark.long(sample=12)
+@pytest.mark.parametrize(("command", "quantity", "kind", "load", "said"), CELLS)
 def test_a_cell_is_answered_or_refused_as_the_table_says(
     command: str,
     quantity: str,
     kind: str,
+    load: str,
+    said: str,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
     path = tmp_path / "scene.toml"
-    path.write_text(scene(quantity, kind))
+    path.write_text(scene(quantity, kind, load, said))
+    tables(tmp_path, kind)
     for way in ways(command, quantity):
-        own = KINDS[kind] | {"covariance": "--covariance" in way}
-        said = refusal(command=command, quantity=quantity, at=quantity == "contact", **own)
+        own = features(quantity, kind, load, said) | {"covariance": "--covariance" in way}
+        refused = refusal(command=command, **own)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             status = main([command, path.name, *way])
         shown = capsys.readouterr()
-        if said is not None:
-            assert (status, said.why in shown.err) == (2, True), (way, shown.err)
+        if refused is not None:
+            assert (status, refused.why in shown.err) == (2, True), (way, shown.err)
             continue
         assert status == 0, (way, shown.err)
         if "--json" in way:
@@ -97,19 +174,47 @@ def test_a_cell_is_answered_or_refused_as_the_table_says(
 def test_the_table_has_all_quantities_and_each_row_refuses_something() -> None:
     assert set(QUANTITIES) == set(get_args(fd.Ask.model_fields["quantity"].annotation))
     for number, row in enumerate(TABLE):
-        own = PLAIN | {name: values[0] for name, values in row.when.items()}
+        own = {name: values[0] for name, values in row.when.items()}
         assert refusal(**own) in TABLE[: number + 1]
         assert set(row.when) <= set(PLAIN)
 
 
-def test_the_guide_and_the_help_say_what_the_table_does(
-    capsys: pytest.CaptureFixture[str],
+def test_the_guide_says_what_the_table_does() -> None:
+    written = (ROOT / "scenes" / "README.md").read_text(encoding="utf-8")
+    assert guide() in written
+    assert limits() in written
+    assert limits().count("\n") == len(TABLE) + 1
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_help_says_what_the_table_does(
+    command: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert guide() in (ROOT / "scenes" / "README.md").read_text(encoding="utf-8")
-    assert main(["ensemble", "--help"]) == 0
+    assert main([command, "--help"]) == 0
     shown = " ".join(capsys.readouterr().out.split())
     for quantity in QUANTITIES:
-        assert (f'"{quantity}"' in shown) == (quantity in answered("ensemble"))
+        assert (f'"{quantity}"' in shown) == (quantity in answered(command))
+    limit = {
+        "cost": "not of spheres or contacts that open",
+        "figures": 'of spheres for "profile" or "histogram"',
+    }
+    assert limit.get(command, "") in shown
+
+
+@pytest.mark.long(sample=4)
+@pytest.mark.parametrize(("quantity", "kind"), list(product(QUANTITIES, KINDS)))
+def test_an_ensemble_of_any_kind_is_asked_until(
+    quantity: str, kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(scene(quantity, kind))
+    few = ["--realisations", "40", "--workers", "1"]
+    few += ["--reach", "0.9"] if quantity == "histogram" else []
+    status = main(["ensemble", str(path), *few, "--until", "0.9"])
+    if quantity not in answered("ensemble", **KINDS[kind]):
+        assert status == 2
+    else:
+        assert status == 0 or (status, "is known to" in capsys.readouterr().err) == (3, True)
 
 
 @pytest.mark.parametrize("quantity", ["response", "contact_forces", "histogram"])
@@ -117,9 +222,8 @@ def test_the_guide_and_the_help_say_what_the_table_does(
 def test_an_ensemble_of_a_load_on_the_base_is_refused_in_words(
     quantity: str, kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    bead = "[0, 0, 0]" if kind == "spheres" else "[0, 0]"
     path = tmp_path / "scene.toml"
-    path.write_text(scene(quantity, kind, f'load = {{kind = "point", at = {bead}}}'))
+    path.write_text(scene(quantity, kind, "on the base"))
     assert main(["run", str(path)]) == 0
     words = ["--realisations", "3", "--workers", "1"]
     reach = ["--reach", "1"] if quantity == "histogram" else []

@@ -642,3 +642,20 @@ def test_a_notebook_shows_the_first_rows_and_says_how_many_there_are() -> None:
     assert shown.count("<tr>") == 21
     assert "and 148 more rows" in shown
     assert "contact_forces: 168 rows" in shown
+
+
+@pytest.mark.parametrize("power", [-400, 400])
+def test_a_profile_in_units_beyond_floats_is_that_in_others(power: int) -> None:
+    usual, other = (
+        answer(
+            {
+                **basic(4, 10, quantity="profile", tolerance="=1e-20"),
+                "load": {"magnitude": f"=1e{k}"},
+            }
+        ).decimals()
+        for k in (0, power)
+    )
+    for one, two in zip(usual, other, strict=True):
+        for name in ("first_order_std", "std", "mean"):
+            shift = Fraction(one[name]) * Fraction(10) ** power / Fraction(two[name])
+            assert abs(shift - 1) < Fraction(1, 10**10), name

@@ -64,7 +64,7 @@ def cost(scene: Scene, notice: Notice = lambda _: None) -> CostStudy:
         raise TypeError(
             f"cost takes a scene, not {type(scene).__name__}: Scene(…) or read_scene(path)"
         )
-    refuse("cost", scene.packing, scene.effects, scene.ask)
+    refuse("cost", scene)
     plan = planner.plan(scene, Fraction(1, 10))
     if plan.problem.route == Route.ORDERED:
         why = "every change is exactly zero here: there is nothing that errors could be relative to"

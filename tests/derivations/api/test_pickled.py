@@ -1,9 +1,12 @@
 """Equations and what is found of them after a journey: the same, and no theorem comes of it."""
 
+import inspect
 import pickle
+import pydoc
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
@@ -41,3 +44,17 @@ def test_proofs_and_steps() -> None:
 def test_a_derivation_of_ones_own_is_refused_in_words() -> None:
     with pytest.raises(pickle.PicklingError, match="none of this program's derivations"):
         pickle.dumps(replace(load(13), title="Mine"))
+
+
+@pytest.mark.parametrize("case", [None, "base"])
+def test_a_function_goes_to_other_processes(case: str | None) -> None:
+    equation = fd.equation(13)
+    function = (equation.exact(case) if case else equation).function()
+    found = again(function)
+    given = {"M": np.array([3, 10]), "phi": 0.1, "sigma": 0.01, "r": 1}
+    given |= {} if case else {"z": 0.5}
+    assert np.array_equal(found(**given), function(**given))
+    assert inspect.signature(found) == inspect.signature(function)
+    assert inspect.getdoc(found) == inspect.getdoc(function)
+    assert repr(found) == repr(function)
+    assert "0 ≤ z ≤ 1" in pydoc.render_doc(equation.function())

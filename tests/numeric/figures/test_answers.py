@@ -1,6 +1,8 @@
 """Figures of one answer: what is drawn are the numbers of its table."""
 
 import sys
+from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -46,6 +48,38 @@ def points(figure: Figure) -> list[tuple[np.ndarray[Any, Any], np.ndarray[Any, A
         data = container.lines[0].get_data()
         found.append((np.asarray(data[0]), np.asarray(data[1])))
     return found
+
+
+def of_one_load(size: str, folder: Path, quantity: str = "contact_forces") -> fd.Outcome:
+    """An ordered packing, or to a tolerance: balls, which have no limits."""
+    table = folder / "loads.csv"
+    table.write_text(f"i,j,fx,fy\n0,6,0,-{size}\n4,6,0,-{size}\n", encoding="utf-8")
+    load = fd.Load(kind="file", file=str(table))
+    return scene(quantity, disorder=None, load=load).run()
+
+
+@pytest.mark.parametrize("size", ["1e-299", "1e279"])
+def test_chains_of_forces_at_the_ends_of_the_range(size: str, tmp_path: Path) -> None:
+    usual, other = (of_one_load(one, tmp_path).plot() for one in ("1", size))
+    assert lines(other)[0].get_linewidths() == pytest.approx(lines(usual)[0].get_linewidths())
+
+
+@pytest.mark.parametrize("size", ["1e308", "1.7e308", "1e400", "1e-320", "1e-400"])
+def test_no_forces_are_drawn_beyond_what_floats_hold(size: str, tmp_path: Path) -> None:
+    with pytest.raises(fd.SceneError, match="choose another unit"):
+        of_one_load(size, tmp_path).plot()
+
+
+@pytest.mark.parametrize("power", [300, 400, -400])
+@pytest.mark.parametrize(
+    "quantity", ["contact_forces", "profile", "histogram", "base_reactions", "positions"]
+)
+def test_no_unit_is_drawn_beyond_what_floats_hold(quantity: str, power: int) -> None:
+    size = Fraction(10) ** power
+    load = fd.SurfaceLoad(magnitude=size)
+    packing = fd.Packing(height=M, width=W, radius=size)
+    with pytest.raises(fd.SceneError, match=r"(packing.radius|load.magnitude) = .*another unit"):
+        scene(quantity, packing=packing, load=load).run("1e-20").plot()
 
 
 def test_chains_are_as_thick_as_forces_and_tension_has_its_colour() -> None:

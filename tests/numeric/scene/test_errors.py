@@ -55,7 +55,7 @@ WRONG: list[tuple[str, str, Any, str]] = [
     ("ask", "bins", 5, 'needs quantity = "histogram"'),
     ("ask", "layers", [0], 'needs quantity = "response"'),
     ("ask", "layers", [0.5], "a list of layers"),
-    ("ask", "at", [0, 0, "+"], "no meaning"),
+    ("ask", "at", [0, 0, "+"], 'is for "contact", "histogram" or "positions"'),
 ]
 
 

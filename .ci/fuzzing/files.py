@@ -1,0 +1,161 @@
+"""Files that a case reads: stores, arrays, tables and packings in which something is odd."""
+
+import io
+import json
+import shutil
+import sqlite3
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import numpy as np
+
+SCENE_OF_A_STORE = """
+packing = {height = 4, width = 6}
+disorder = {kind = "uniform", relative_std = 0.01, seed = 3}
+ask = {quantity = "profile"}
+"""
+
+
+def store(random: Random, folder: Path, whole: Path) -> list[str]:
+    """Damage a store, its bytes or what it says, and look at it or go on from it."""
+    path = folder / "store"
+    shutil.copy(whole, path)
+    shutil.copy(whole.with_name("scene.toml"), folder)
+    kind = random.randrange(4)
+    if kind == 0:
+        content = bytearray(path.read_bytes())
+        for _ in range(random.choice([1, 1, 2, 20])):
+            content[random.randrange(len(content))] ^= 1 << random.randrange(8)
+        path.write_bytes(content)
+    elif kind == 1:
+        content = bytearray(path.read_bytes())
+        path.write_bytes(content[: random.randrange(len(content))] + random.randbytes(9) * 9)
+    else:
+        _forge(random, path)
+    if random.random() < 0.5:
+        return ["ensemble-status", "store", *random.choice([[], ["--json"]])]
+    return ["ensemble", "scene.toml", "--store", "store", "--workers", "1"]
+
+
+def _forge(random: Random, path: Path) -> None:
+    database = sqlite3.connect(path, isolation_level=None)
+    tables = {"about": ["name", "content", "checksum"], "sums": ["first", "stop", "content"]}
+    values = [
+        None, 0, -1, 2**63 - 1, 1.5, "", "[", "null", "[" * 50_000, '{"a": 1}', "\x1b[2J",
+        "nan", b"", b"\xff\xfe", random.randbytes(64), "9" * 5000, "x" * 10**6,
+    ]  # fmt: skip
+    statements: list[tuple[str, tuple[object, ...]]] = []
+    for _ in range(random.choice([1, 1, 3])):
+        table = random.choice(list(tables))
+        column = random.choice(tables[table])
+        statements.append(
+            random.choice(
+                [
+                    (f"UPDATE {table} SET {column} = ?", (random.choice(values),)),
+                    (f"DELETE FROM {table} WHERE rowid = ?", (random.randrange(4),)),
+                    (f"DROP TABLE {table}", ()),
+                    (f"ALTER TABLE {table} ADD COLUMN x CHECK (abs(x) > randomblob(9))", ()),
+                    ("INSERT INTO sums VALUES (?, ?, ?, ?)", (5, 3, b"", "")),
+                    (f"PRAGMA user_version = {random.randrange(-5, 5)}", ()),
+                    ("CREATE VIEW v AS SELECT * FROM v", ()),
+                ]
+            )
+        )
+    for statement, arguments in statements:
+        try:
+            database.execute(statement, arguments)
+        except (sqlite3.Error, OverflowError):
+            continue
+    database.close()
+
+
+def _damaged(random: Random, content: bytes) -> bytes:
+    """Change some bytes, most near the front, where headers are; or cut the end off."""
+    changed = bytearray(content)
+    for _ in range(random.choice([0, 1, 1, 2, 8])):
+        at = random.randrange(min(len(changed), random.choice([12, 128, len(changed)])))
+        changed[at] = random.choice([random.randrange(256), *b"(){}',0123456789<>|fiuOc"])
+    return bytes(changed[: random.randrange(len(changed))] if random.random() < 0.1 else changed)
+
+
+def _number(random: Random) -> str:
+    usual = ["1", "1", "1.001", "0.99"]
+    return random.choice(
+        [*usual, "0", "-1", "1e400", "1e308", "-1e-400", "1e999", "2", "x", str(2**70)]
+    )
+
+
+def array(random: Random, folder: Path) -> list[str]:
+    """Give radii in a NumPy file that is damaged, or whose numbers are odd."""
+    values = np.full((4, 5), 1.0)
+    odd = [1.0, 1.0, 1.0, 1.0, 1.0, np.nan, np.inf, 1.7e308, 1e-320, -1.0, 1e200]
+    values += np.array([0, random.choice([0, 1e-3, 0.01])] * 10).reshape(4, 5)
+    values[random.randrange(4), random.randrange(5)] = random.choice(odd)
+    kinds = ["<f8"] * 9 + [">f8", "<f4", "<i8", "|b1", "<c16", "<U3"]
+    with np.errstate(all="ignore"):
+        kept: Any = values.astype(random.choice(kinds))
+    buffer = io.BytesIO()
+    random.choice([np.save] * 8 + [np.savez])(buffer, kept)
+    content = buffer.getvalue()
+    content = content if random.random() < 0.3 else _damaged(random, content)
+    (folder / "radii.npy").write_bytes(content)
+    return _of_file(folder, "radii.npy", random)
+
+
+def table(random: Random, folder: Path) -> list[str]:
+    """Give radii in a table of which one place or number is odd."""
+    step, beads = 7**0.5 / 2, [(i, j) for j in range(4) for i in range(j % 2, 10, 2)]
+    header = random.choice(["x,y,r", "i,j,r", "i,j,delta_r"])
+    rows = [[str(i), str(j), "1" if header[-2] == "," else "0"] for i, j in beads]
+    if header[0] == "x":
+        rows = [[str(1.5 * i), str(step * j), "1"] for i, j in beads]
+    for _ in range(random.choice([0, 1, 1, 1, 2])):
+        rows[random.randrange(len(rows))][random.choice([0, 1, 2, 2, 2])] = _number(random)
+    if random.random() < 0.2:
+        header, rows = "i,j,fx,fy", [["0", "2", _number(random), "-1"], ["4", "2", "0", "-1"]]
+    text = "\n".join([header, *(",".join(row) for row in rows)])
+    (folder / "radii.csv").write_text(text, encoding="utf-8")
+    return _of_file(folder, "radii.csv", random)
+
+
+def _of_file(folder: Path, name: str, random: Random) -> list[str]:
+    quantity = random.choice(["profile", "contact_forces", "histogram"])
+    unit = random.choice([""] * 6 + [", radius = 1e-100", ", radius = 1e300"])
+    lines = [f"packing = {{height = 3, width = 5{unit}}}", f"ask = {{quantity = '{quantity}'}}"]
+    loads = (folder / name).read_bytes().startswith(b"i,j,fx")
+    lines.append(f"{'load' if loads else 'disorder'} = {{kind = 'file', file = '{name}'}}")
+    (folder / "scene.toml").write_text("\n".join(lines), encoding="utf-8")
+    return [*random.choice([["run"], ["explain"], ["figures", "--out", "out"]]), "scene.toml"]
+
+
+PACKING: dict[str, Any] = {
+    "period": "12",
+    "fixed": 2,
+    "radii": ["1"] * 3,
+    "loads": [["0", "0"], ["0", "0"], ["0", "-1"]],
+    "centres": [["0", "0"], ["3", "0"], ["1.5", "1.32287565553229529525080787681963021285513"]],
+    "contacts": [[2, 0], [2, 1]],
+}
+
+
+def packings(random: Random, folder: Path) -> list[str]:
+    """Give a file of packings in which something is odd."""
+    packing = json.loads(json.dumps(PACKING))
+    for _ in range(random.choice([0, 1, 1, 1, 1, 2])):
+        key = random.choice(list(PACKING))
+        odd: Any = random.choice(
+            [_number(random), 2**70, -1, [], None, 1.5, [[_number(random)] * 2]]
+        )
+        if isinstance(packing[key], list) and packing[key] and random.random() < 0.8:
+            at = random.randrange(len(packing[key]))
+            if isinstance(packing[key][at], list) and packing[key][at]:
+                packing[key][at][random.randrange(len(packing[key][at]))] = odd
+            else:
+                packing[key][at] = odd
+        else:
+            packing[key] = odd
+    text = json.dumps({"format": "force-diffusion packings 1", "packings": [packing]}).encode()
+    damaged = _damaged(random, text) if random.random() < 0.2 else text
+    (folder / "packings.json").write_bytes(damaged)
+    return ["check-packings", "packings.json", *random.choice([[], ["--json"]])]
