@@ -42,7 +42,8 @@ def figure_of(
         drawn = DRAWN.get(quantity)
         if plan.problem.route == Route.UNILATERAL:
             drawn = networks_drawing.drawn(quantity, networks)
-        assert drawn is not None
+        if drawn is None:
+            raise SceneError("ask.quantity", quantity, "there is no figure of it")
         if not len(next(iter(columns.values()), [])):
             raise SceneError("ask.quantity", quantity, "the answer has no rows to be drawn")
         _check_sizes(plan, columns)
