@@ -391,7 +391,7 @@ base+1 or surface.
         >>> print(eq.decide(2 * M**3 * (1 - 3 * z**2 + 2 * z**3) * unit))  # doctest: +ELLIPSIS
         proved: by the rule: leading order, M → ∞ at fixed z = j/M, 0 < z < 1; lower orders ...
         >>> print(eq.decide(2 * M**3 * (1 - z) ** 2 * unit))  # doctest: +ELLIPSIS
-        refuted: at φ = 0, j = M/2, as M → ∞, it stays off by 0.5 of the true value (seen at ...)
+        refuted: at φ = 0, j = M/2, as M → ∞, it stays off by 0.5 of the true value (evaluated ...)
         >>> print(eq.decide(2 * M**3 * unit / (2 * z - 1)))
         not a statement: the divisor 2 z − 1 is not shown to differ from zero
         >>> print(fd.equation(7).decide(fd.equation(7).expr).verdict)

@@ -257,6 +257,8 @@ def _with_all_indices(where: Where, free: set[sympy.Symbol]) -> Where:
 
 def _unequal(left: Dual | Vector, right: Dual | Vector) -> str:
     shown = [_shown(side) for side in (left, right)]
+    if any("." in words for words in shown):  # both, or they can't be compared at a glance
+        shown = [_shown(side, fractions=False) for side in (left, right)]
     words = f"{shown[0]} on the left and {shown[1]} on the right"
     return (
         words if shown[0] != shown[1] else f"{words}, apart by {_shown(_difference(left, right))}"
@@ -271,17 +273,24 @@ def _difference(left: Dual | Vector, right: Dual | Vector) -> Dual | Vector:
     return left - right
 
 
-def _shown(value: Dual | Vector) -> str:
+def _shown(value: Dual | Vector, *, fractions: bool = True) -> str:
     if isinstance(value, Vector):
-        return f"({_shown(value.x)}, {_shown(value.y)})"
+        parts = (_shown(one, fractions=fractions) for one in (value.x, value.y))
+        return f"({', '.join(parts)})"
+
+    def number(exact: Number) -> str:
+        if fractions or exact.denominator == 1:
+            return _exact(exact)
+        return f"{float(exact):.6g}".replace("-", "−")
+
     if not value.slope:
-        return _exact(value.value)
+        return number(value.value)
     assert not isinstance(value.slope, Weights)  # these stay within a moment
-    size = _exact(-value.slope if value.slope < 0 else value.slope)
+    size = number(-value.slope if value.slope < 0 else value.slope)
     part = f"{'' if size == '1' else f'({size})' if '/' in size else size}ε"
     sign = "−" if value.slope < 0 else "+"
     if value.value:
-        return f"{_exact(value.value)} {sign} {part}"
+        return f"{number(value.value)} {sign} {part}"
     return f"−{part}" if value.slope < 0 else part
 
 

@@ -107,7 +107,7 @@ def parts_in_the_limit(
             shares.append(abs((found - true) / true))
         if shares[1] > _SHARE and shares[1] * 10 > shares[0]:
             share = _shown(shares[1])
-            at = f"seen at {grown} of order 10^{2 * digits}"
+            at = f"evaluated exactly at {grown} = 10^{2 * digits}"
             return f"at {where}, as {grown} → ∞, it stays off by {share} of the true value ({at})"
     return None
 

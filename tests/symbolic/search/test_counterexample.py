@@ -274,6 +274,14 @@ def test_what_is_not_there_and_what_has_no_value(quantity: sympy.Expr, words: st
     assert words in counterexample(equal(quantity, quantity), where)
 
 
+def test_sides_are_both_in_decimals_or_none() -> None:
+    long, short = Rational(10**9 + 7, 7 * 10**8), Rational(5, 2)
+    found = counterexample(equal(long, short), Where())
+    assert found.endswith(": 1.42857 on the left and 2.5 on the right")
+    found = counterexample(equal(long + Rational(1, 3), j), DOMAINS[1])
+    assert found.endswith(": 1.7619 on the left and 4 on the right")
+
+
 def test_sides_that_look_the_same_are_told_apart() -> None:
     found = counterexample(equal(1 + Rational(1, 10**9), 1 - Rational(1, 10**9)), Where())
     assert found.endswith(": 1 on the left and 1 on the right, apart by 1/500000000")
