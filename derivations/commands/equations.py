@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from force_diffusion.derivations.commands.cli import STATUSES
+from force_diffusion.derivations.commands.guard import tell
 from force_diffusion.derivations.commands.output import Overwrite, out_option
 from force_diffusion.derivations.framework.catalogue import (
     Number,
@@ -106,6 +107,14 @@ def derive(
     with blamed(numbers or ()):
         wanted = wanted_of(numbers or ()) or list(modules())
         status = deriving.derive(wanted, out, as_json, overwrite, columns)
+        for own in (one for one in wanted if not isinstance(one, int | str)):
+            from force_diffusion.derivations.framework.own import premises_unnamed
+
+            if unnamed := [f"premise({number!r})" for number in premises_unnamed(own)]:
+                tell(
+                    f"{own.number}: its steps rest on more than its premises name, taken as proved "
+                    f"here: add {', '.join(unnamed)}"
+                )
     raise typer.Exit(status)
 
 

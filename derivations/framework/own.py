@@ -13,11 +13,12 @@ from pathlib import Path
 from types import ModuleType
 
 import sympy
-from force_diffusion.derivations.framework.catalogue import cases_of, modules
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.catalogue import Number, cases_of, modules
+from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.derivations.framework.proving import Lines
 from force_diffusion.derivations.framework.record import Derivation, Witness
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.printing.latex import RELATIONS
 
 _MISTAKES = (
@@ -85,6 +86,29 @@ def assert_shown(derivation: Derivation) -> None:
     for part in range(len(derivation.printed)) if is_own(derivation) else ():
         if reason := derivation.unlike(part):
             raise OwnDerivationError(reason)
+
+
+def premises_unnamed(derivation: Derivation) -> list[Number]:
+    """Printed equations whose theorems its own rest on, and that it does not name as premises.
+
+    Of one that rests on another the last alone.
+    """
+    known: dict[int, Theorem] = {}
+    ahead = [theorem for line in derivation.steps() for theorem in line.theorems]
+    while ahead:
+        theorem = ahead.pop()
+        if id(theorem) not in known:
+            known[id(theorem)] = theorem
+            ahead += theorem.premises
+    named = {one.number for one in with_premises([derivation])}
+    found = [
+        load(number)
+        for number, module in modules().items()
+        if number not in named and f"force_diffusion.derivations.{module}" in sys.modules
+    ]  # what is not loaded was not used
+    used = [one for one in found if any(id(theorem) in known for theorem in one.theorems)]
+    below = {one.number for used_one in used for one in with_premises(used_one.premises)}
+    return [one.number for one in used if one.number not in below]
 
 
 def _is_word(name: object) -> bool:

@@ -7,7 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.derivations.framework.own import OwnDerivationError, derivations_in
+from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.own import (
+    OwnDerivationError,
+    derivations_in,
+    premises_unnamed,
+)
 from force_diffusion.derivations.framework.record import ExactCase
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
@@ -58,6 +63,23 @@ def test_the_guide_s_example_is_proved_attacked_and_exported(folder: Path, capsy
     manifest = json.loads((folder / "own" / "manifest.json").read_text(encoding="utf-8"))
     assert manifest["equations"][-1]["number"] == "S1"
     assert manifest["equations"][-1]["premises"] == [4, 5, 11]
+
+
+def test_premises_that_are_not_named_are_told(folder: Path, capsys) -> None:
+    assert main(["derive", save(alone(EXAMPLE))]) == 0
+    said = " ".join(capsys.readouterr().err.split())
+    assert "S1: its steps rest on more than its premises name" in said
+    assert "add premise(11)" in said
+    assert main(["derive", save(EXAMPLE)]) == 0
+    assert "premises" not in capsys.readouterr().err
+
+
+@pytest.mark.long
+def test_the_premises_that_the_guide_names_are_all(folder: Path) -> None:
+    (own,) = derivations_in(Path(save(EXAMPLE)))
+    assert premises_unnamed(own) == []
+    for number in (5, 11, 13, 14, 16, "B3"):
+        assert premises_unnamed(load(number)) == []
 
 
 def test_a_wrong_guess_is_refuted(folder: Path, capsys) -> None:

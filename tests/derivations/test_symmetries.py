@@ -6,7 +6,7 @@ from itertools import combinations
 import pytest
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.witnesses.both_sides import Truth, evaluate
+from force_diffusion.derivations.witnesses.both_sides import ExactSolution, evaluate
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.numeric.arithmetic.systems import BigFloat, array
 from force_diffusion.numeric.mechanics import plain
@@ -63,7 +63,7 @@ def test_mirror_image(packing: SmallPacking) -> None:
         packing.loaded,
         packing.contacts,
     )
-    truth, image = Truth(packing, "surface"), Truth(mirrored, "surface")
+    truth, image = ExactSolution(packing, "surface"), ExactSolution(mirrored, "surface")
     for across, layer in packing.contacts:
         assert truth.force(across, layer, "+") == image.force(-across, layer, "-")
         at = {sy.M: packing.height, sy.j: layer}
@@ -85,7 +85,7 @@ def test_linearity_in_the_radii(one: SmallPacking, two: SmallPacking, factor: Fr
         packing = SmallPacking(
             one.width, one.height, one.n, rho, one.load, one.loaded, one.contacts
         )
-        truth = Truth(packing, "surface")
+        truth = ExactSolution(packing, "surface")
         return [truth.force(i, j, "+").slope for i, j in one.contacts]
 
     parts = zip(slopes(one.rho), slopes(sites), strict=True)
