@@ -23,8 +23,9 @@ from .workers import InProcess, Pool, WorkersError
 MOST, MOST_WORKERS = 10**9, 1024
 # Bytes of a batch of small packings, on top of those of one.
 BATCH = 200_000_000
-# Seconds of work from which on starting more processes repays.
-WORTH_WORKERS = 5
+# Visits to beads from which on starting more processes repays (some seconds), where each packing
+# takes as long as so many visits by itself.
+WORTH_WORKERS, OF_PACKING = 20_000_000, 1000
 LOCAL = "local"
 
 
@@ -159,7 +160,7 @@ def _executor(m: Measurement, size: int, workers: int | None, scheduler: str | N
         if workers is not None and workers > room:
             raise ArgumentError("workers", workers, f"the free memory is enough for {room}")
         if workers is None:
-            short = size * m.plan.estimated_seconds < WORTH_WORKERS
+            short = size * (m.plan.problem.region.beads + OF_PACKING) < WORTH_WORKERS
             alone = scheduler is None and (short or m.compiled)  # that takes all cores by itself
             workers = 1 if alone else min(cores(), room)
         if scheduler is None:

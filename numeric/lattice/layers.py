@@ -100,38 +100,107 @@ def full_layer(j: int, width: int) -> Layer:
     return Layer(j, lowest_column(j), width)
 
 
-def row(j: int, first: int, last: int, width: int | None) -> Layer:
-    """Give the row from ``first`` to ``last``; the whole layer where it would meet its image."""
-    count = (last - first) // 2 + 1
-    if width is not None and count >= width:
-        return full_layer(j, width)
-    return Layer(j, first, max(count, 0))
+class LazyRows(Sequence[T]):
+    """What there is of each row, looked up when it is asked for: views take time to make."""
+
+    def __init__(self, count: int, row: Callable[[int], T]) -> None:
+        """``row`` gives what there is of row 0 … count − 1."""
+        self._all, self._row = range(count), row
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def __iter__(self) -> Iterator[T]:
+        return map(self._row, self._all)
+
+    @overload
+    def __getitem__(self, which: int) -> T: ...
+    @overload
+    def __getitem__(self, which: slice) -> Sequence[T]: ...
+
+    def __getitem__(self, which: int | slice) -> T | Sequence[T]:
+        if isinstance(which, slice):
+            return tuple(map(self._row, self._all[which]))
+        return self._row(self._all[which])
 
 
-def hull(a: Layer, b: Layer, width: int | None) -> Layer:
-    """Give the shortest row that holds both rows of one layer."""
-    if not a.count or not b.count:
-        return a if a.count else b
-    if width is not None and width in (a.count, b.count):
-        return full_layer(a.j, width)
-    return row(a.j, min(a.first, b.first), max(a.last, b.last), width)
+class Rows(Sequence[Layer]):
+    """Rows of neighbouring beads, one a layer from layer ``lowest`` up.
 
+    They are held as two whole numbers a row, ``firsts`` and ``counts``: there may be millions.
 
-def supports(layer: Layer, width: int | None) -> Layer:
-    """Give the row of beads on which ``layer`` rests."""
-    if width is not None and layer.count == width:
-        return full_layer(layer.j - 1, width)
-    return row(layer.j - 1, layer.first - 1, layer.last + 1, width)
+    >>> Rows.between([0, -1], [0, 1], None)[1]
+    Layer(j=1, first=-1, count=2)
+    """
 
+    def __init__(self, first: Any = (), count: Any = (), lowest: int = 0) -> None:
+        """``first``, ``count``: shape (rows,)."""
+        self.firsts, self.counts = np.asarray(first, np.int64), np.asarray(count, np.int64)
+        self.lowest = lowest
 
-def table(rows: Sequence[Layer]) -> Array:
-    """Give ``first`` and ``count`` of each row, (rows, 2)."""
-    return np.array([(row.first, row.count) for row in rows], np.int64).reshape(-1, 2)
+    @classmethod
+    def between(cls, first: Any, last: Any, width: int | None) -> "Rows":
+        """Give rows of layers 0, 1, … from ``first`` to ``last``, each empty where that lies left.
 
+        Where a row would meet its image it is the whole layer.
+        """
+        first, last = np.asarray(first), np.asarray(last)
+        count = np.maximum((last - first) // 2 + 1, 0)
+        if width is not None:
+            first = np.where(count >= width, np.arange(len(first)) % 2, first)
+            count = np.minimum(count, width)
+        return cls(first, count)
 
-def starts(rows: Array) -> Array:
-    """Number beads row after row, of a table: give each first bead, and how many there are."""
-    return np.concatenate(([0], np.cumsum(rows[:, 1])))
+    @property
+    def lasts(self) -> Array:
+        """The largest i of each row."""
+        return np.asarray(self.firsts + 2 * (self.counts - 1))
+
+    @property
+    def layers(self) -> Array:
+        """The layer of each row."""
+        return np.arange(self.lowest, self.lowest + len(self))
+
+    def __len__(self) -> int:
+        return len(self.firsts)
+
+    def __iter__(self) -> Iterator[Layer]:
+        return map(Layer, range(self.lowest, self.lowest + len(self)), *self._numbers)
+
+    @property
+    def _numbers(self) -> tuple[list[int], list[int]]:
+        return self.firsts.tolist(), self.counts.tolist()
+
+    @overload
+    def __getitem__(self, which: int) -> Layer: ...
+    @overload
+    def __getitem__(self, which: slice) -> "Rows": ...
+
+    def __getitem__(self, which: int | slice) -> "Layer | Rows":
+        if isinstance(which, slice):
+            start, _, step = which.indices(len(self))
+            if step != 1:
+                raise ValueError("rows that are not neighbours are no rows")
+            return Rows(self.firsts[which], self.counts[which], self.lowest + start)
+        row = range(len(self))[which]
+        return Layer(self.lowest + row, int(self.firsts[row]), int(self.counts[row]))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Rows) and (
+            self is other
+            or (
+                self.lowest == other.lowest
+                and np.array_equal(self.firsts, other.firsts)
+                and np.array_equal(self.counts, other.counts)
+            )
+        )
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.lowest, self.firsts.tobytes(), self.counts.tobytes()))
 
 
 @dataclass(frozen=True)
@@ -143,16 +212,8 @@ class Region:
     """
 
     width: int | None
-    rows: tuple[Layer, ...]
+    rows: Rows
     dimension: int = 2
-
-    def __hash__(self) -> int:
-        """Look at all rows once."""
-        return self._hash
-
-    @cached_property
-    def _hash(self) -> int:
-        return hash((self.width, self.rows, self.dimension))
 
     @property
     def top(self) -> int:
@@ -219,30 +280,24 @@ class Region:
         return partial(_turned, side=self.side, steps=steps) if any(steps[:2]) else _itself
 
     @cached_property
-    def table(self) -> Array:
-        """The ``first`` and ``count`` of each row; shape (rows, 2)."""
-        return table(self.rows)
-
-    @cached_property
     def starts(self) -> Array:
         """The number of each row's first bead, and that of all beads; shape (rows + 1,)."""
-        return starts(self.table)
+        return np.concatenate(([0], np.cumsum(self.rows.counts)))
 
     @cached_property
     def widest(self) -> int:
         """The beads of the longest row."""
-        return int(self.table[:, 1].max(initial=0))
+        return int(self.rows.counts.max(initial=0))
 
-    def has_whole(self, rows: Sequence[Layer]) -> bool:
+    def has_whole(self, rows: Rows) -> bool:
         """Say whether ``rows`` are its lowest rows, and all of it a periodic packing."""
-        return self.is_whole and tuple(rows) == self.rows[: len(rows)]
+        return self.is_whole and rows == self.rows[: len(rows)]
 
     @cached_property
     def is_whole(self) -> bool:
         """Whether it is all of a periodic packing, up to its highest layer."""
-        first, count = self.table.T
-        j = np.array([row.j for row in self.rows])
-        return self.width is not None and bool(((count == self.width) & (first == j % 2)).all())
+        full = (self.rows.counts == self.width) & (self.rows.firsts == self.rows.layers % 2)
+        return self.width is not None and bool(full.all())
 
 
 def _itself(values: Array) -> Array:
@@ -259,41 +314,27 @@ def _turned(values: Array, side: int, steps: tuple[int, ...]) -> Array:
 @lru_cache(maxsize=4)
 def whole(width: int, height: int, dimension: int = 2) -> Region:
     """Give all beads of a periodic packing, (M + 1) rows of ``width``."""
-    return Region(width, tuple(full_layer(j, width) for j in range(height + 1)), dimension)
+    layers = np.arange(height + 1)
+    return Region(width, Rows(layers % 2, np.full(height + 1, width)), dimension)
 
 
-def standing_on_base(rows: Sequence[Layer], width: int | None) -> Region:
+def standing_on_base(rows: Rows, width: int | None) -> Region:
     """Close ``rows`` (one for each layer 0, 1, …) downwards: every bead's supports are added."""
-    if rows[-1].count == width and (made := whole(width, len(rows) - 1)).rows == rows:
-        return made
-    closed = [rows[-1]]
-    for layer in reversed(rows[:-1]):
-        closed.append(hull(layer, supports(closed[-1], width), width))
-    return Region(width, tuple(reversed(closed)))
+    if width is not None and rows[-1].count == width:
+        return whole(width, len(rows) - 1)
+    return Region(width, closed_below(rows.layers, rows.firsts, rows.lasts, width))
 
 
-class LazyRows(Sequence[T]):
-    """What there is of each row, looked up when it is asked for: views take time to make."""
+def closed_below(j: Array, first: Array, last: Array, width: int | None) -> Rows:
+    """Give the rows of all beads from ``first`` to ``last`` of each layer, with what supports them.
 
-    def __init__(self, count: int, row: Callable[[int], T]) -> None:
-        """``row`` gives what there is of row 0 … count − 1."""
-        self._all, self._row = range(count), row
-
-    def __len__(self) -> int:
-        return len(self._all)
-
-    def __iter__(self) -> Iterator[T]:
-        return map(self._row, self._all)
-
-    @overload
-    def __getitem__(self, which: int) -> T: ...
-    @overload
-    def __getitem__(self, which: slice) -> Sequence[T]: ...
-
-    def __getitem__(self, which: int | slice) -> T | Sequence[T]:
-        if isinstance(which, slice):
-            return tuple(map(self._row, self._all[which]))
-        return self._row(self._all[which])
+    In layers whose beads all follow from those above, ``last`` lies left of ``first``.
+    """
+    empty = last < first
+    far = np.iinfo(np.int64).max // 4
+    left, right = np.where(empty, far, first - j), np.where(empty, -far, last + j)
+    left, right = np.minimum.accumulate(left[::-1]), np.maximum.accumulate(right[::-1])
+    return Rows.between(left[::-1] + j, right[::-1] - j, width)
 
 
 class Stack(LazyRows[Array]):

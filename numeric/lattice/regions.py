@@ -11,10 +11,11 @@ through δn of the contact itself, on two diagonals of the other orientation.
 
 from collections.abc import Iterable
 
-from .layers import Layer, Region, hull, row, supports
+import numpy as np
+
+from .layers import Region, Rows, closed_below
 
 Site = tuple[int, int]
-Rows = tuple[Layer, ...]
 
 
 def upper_bead(i: int, j: int, branch: str) -> Site:
@@ -24,7 +25,8 @@ def upper_bead(i: int, j: int, branch: str) -> Site:
 
 def triangle(i: int, j: int, width: int | None) -> Region:
     """Give the beads on which the exact position of (i, j) depends: the triangle below it."""
-    return Region(width, tuple(row(m, i - (j - m), i + (j - m), width) for m in range(j + 1)))
+    depth = np.arange(j, -1, -1)
+    return Region(width, Rows.between(i - depth, i + depth, width))
 
 
 def triangle_beads(j: int) -> int:
@@ -41,62 +43,60 @@ def downward_cone(loaded: Iterable[Site], width: int | None) -> Rows:
 
     Loads far apart share a row that holds the beads between them too.
     """
-    own: dict[int, Layer] = {}
-    for i, j in loaded:
-        bead = Layer(j, i, 1)
-        own[j] = hull(own[j], bead, width) if j in own else bead
-    if not own:
-        return (Layer(0, 0, 0),)
-    top = max(own)
-    rows = [own[top]]
-    for m in range(top - 1, -1, -1):
-        below = supports(rows[-1], width)
-        rows.append(hull(below, own[m], width) if m in own else below)
-    return tuple(reversed(rows))
+    sites = np.array(list(loaded), np.int64).reshape(-1, 2)
+    if not len(sites):
+        return Rows([0], [0])
+    i, j = sites.T
+    layers = np.arange(j.max() + 1)
+    first, last = np.full(len(layers), i.max() + 1), np.full(len(layers), i.min() - 1)
+    np.minimum.at(first, j, i)
+    np.maximum.at(last, j, i)
+    return closed_below(layers, first, last, width)
 
 
 def upward_cone(x: Site, top: int, width: int | None) -> Rows:
     """Give the beads that stand on bead x, in rows 0 … top; rows below x are empty."""
     i, j = x
-    return tuple(
-        row(m, i - (m - j), i + (m - j), width) if m >= j else Layer(m, m % 2, 0)
-        for m in range(top + 1)
+    layers = np.arange(top + 1)
+    above = layers - j
+    below = above < 0
+    return Rows.between(
+        np.where(below, layers % 2, i - above), np.where(below, -2, i + above), width
     )
 
 
-def meet(a: Layer, b: Layer, width: int | None) -> Layer:
-    """Intersect two rows of one layer; where images would split the result, ``b`` is kept whole."""
-    if not a.count or not b.count:
-        return Layer(a.j, a.first, 0)
+def meet(a: Rows, b: Rows, width: int | None) -> Rows:
+    """Intersect rows of the same layers; where images would split one, ``b``'s is kept whole."""
+    shift = np.zeros_like(b.firsts)
     if width is not None:
-        if width in (a.count, b.count):
-            return b if a.count == width else a
         period = 2 * width
-        turn = round((a.first + a.last - b.first - b.last) / 2 / period) * period
-        b = Layer(b.j, b.first + turn, b.count)
-        if a.count + b.count > width:
-            return b
-    first, last = max(a.first, b.first), min(a.last, b.last)
-    return Layer(a.j, first, max((last - first) // 2 + 1, 0))
+        shift = np.rint((a.firsts + a.lasts - b.firsts - b.lasts) / 2 / period).astype(int) * period
+    first, last = np.maximum(a.firsts, b.firsts + shift), np.minimum(a.lasts, b.lasts + shift)
+    count = np.maximum((last - first) // 2 + 1, 0)
+    if width is not None:
+        split = a.counts + b.counts > width
+        first, count = np.where(split, b.firsts + shift, first), np.where(split, b.counts, count)
+        for full, other in ((b, a), (a, b)):
+            first = np.where(full.counts == width, other.firsts, first)
+            count = np.where(full.counts == width, other.counts, count)
+    empty = (a.counts == 0) | (b.counts == 0)
+    return Rows(np.where(empty, a.firsts, first), np.where(empty, 0, count), a.lowest)
 
 
 def contact_rows(contact: tuple[int, int, str], reach: Rows, width: int | None) -> Rows:
     """Give the beads whose force balance decides one contact force.
 
     ``reach`` are the beads that the loads reach (all of the packing for surface and bulk loads).
-    Every row is empty where no load reaches the contact: its force is then exactly zero.
+    There is none where no load reaches the contact: its force is then exactly zero.
     """
     x = upper_bead(*contact)
     top = len(reach) - 1
     if top < x[1]:
-        return ()
-    up = upward_cone(x, top, width)
-    rows = tuple(meet(a, b, width) for a, b in zip(up, reach, strict=True))
+        return Rows()
+    rows = meet(upward_cone(x, top, width), reach, width)
     if not rows[x[1]].count:
-        return ()
-    while not rows[-1].count:
-        rows = rows[:-1]
-    return rows
+        return Rows()
+    return rows[: int(np.flatnonzero(rows.counts)[-1]) + 1]
 
 
 def contact_beads(j: int, height: int) -> int:

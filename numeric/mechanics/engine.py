@@ -200,7 +200,7 @@ def _solved(
             descent = sweeps.descent(rows, loads)
             g = None if problem.stop_at_tension else descent(block)
         if g is not None:
-            work.did_rows("balanced", rows[:0:-1], descent.beads * n)
+            work.did_rows("balanced", rows[1:], descent.beads * n)
             return sweeps.told(rho, block, descent, g)
         packing = sweeps.swept(rho, block)
     forces = None

@@ -28,7 +28,7 @@ from ..arithmetic.recording import Code, module, positive_root
 from ..arithmetic.systems import FLOAT64, Array
 from ..disorder.radii import relative
 from ..lattice.branch import per_direction
-from ..lattice.layers import Layer, LazyRows, Region
+from ..lattice.layers import LazyRows, Region, Rows
 from . import local
 from .local import RESOLUTION
 from .sweep import SIGNS, Forces, Loads, Memory, SolvedPacking
@@ -246,9 +246,9 @@ def padded(quantities: int, size: int) -> tuple[int, int]:
     return quantities, end + (72 - end) % (512 if end > 512 else 64)
 
 
-def layers_of(region: Region, rows: Array, starts: Array) -> Array:
-    """Give each layer's first bead, beads, and beads in a row, of a ``layers.table``."""
-    counts = rows[:, 1]
+def layers_of(region: Region, rows: Rows, starts: Array) -> Array:
+    """Give each layer's first bead, beads, and beads in a row."""
+    counts = rows.counts
     own = np.maximum(counts, 1) if region.dimension == 2 else np.full_like(counts, region.side)
     return np.stack((starts[: len(rows)], counts, own), 1)
 
@@ -261,25 +261,24 @@ def turns_of(region: Region, steps: tuple[int, ...]) -> Array:
 
 
 def links_of(
-    region: Region, rows: Array, sources: Array, starts: Array, steps: tuple[int, ...]
+    region: Region, rows: Rows, sources: Rows, starts: Array, steps: tuple[int, ...]
 ) -> Array:
     """Say where the beads lie that are so many steps on from each row of beads, (layers, 4).
 
-    ``rows``, and ``sources`` in which they lie, are tables of layers; ``starts`` are the first
-    beads of the latter. See ``loops``. Where no row is there, its length is 0.
+    ``starts`` are the first beads of the ``sources`` in which they lie. See ``loops``.
+    Where no row is there, its length is 0.
     """
     on = np.arange(len(rows)) + sum(steps)
-    there = (on >= 0) & (on < len(sources)) & (rows[:, 1] > 0)
+    there = (on >= 0) & (on < len(sources)) & (rows.counts > 0)
     on = np.where(there, on, 0)
     if region.dimension == 2:
-        shift = (rows[:, 0] + steps[0] - steps[1] - sources[on, 0]) // 2
-        length, period = sources[on, 1], region.width or 0
+        shift = (rows.firsts + steps[0] - steps[1] - sources.firsts[on]) // 2
+        length, period = sources.counts[on], region.width or 0
     else:
-        shift, length, period = np.full(len(rows), steps[1]), region.side, region.side
-    found = np.empty((len(rows), 4), np.int64)
-    for column, values in enumerate((starts[on], length, shift, period)):
-        found[:, column] = values * there
-    return found
+        shift, period = np.full(len(rows), steps[1]), region.side
+        length = np.full(len(rows), period)
+    periods = np.full(len(rows), period)
+    return np.stack([starts[on], length, shift, periods], 1) * there[:, None]
 
 
 def runs_of(
@@ -309,7 +308,7 @@ def pairs_of(
     region: Region, steps: Sequence[tuple[int, ...]], most: int, *, carried: bool
 ) -> Array:
     """Give runs of beads and of those that lie so many steps on, where all of them are there."""
-    d, rows = region.dimension, region.table
+    d, rows = region.dimension, region.rows
     both = [(0,) * d, *steps]
     links = [links_of(region, rows, rows, region.starts, one) for one in both]
     turns = [turns_of(region, one) for one in both]
@@ -325,7 +324,7 @@ def _supports(region: Region, *, carried: bool) -> Array:
     found = pairs_of(region, steps, max(region.widest, 1), carried=carried)
     before = np.append(0, np.cumsum(found[:, -1]))
     held = np.diff(before[np.searchsorted(found[:, 0], region.starts[1:])])
-    lacking = held != region.table[1:, 1]
+    lacking = held != region.rows.counts[1:]
     if lacking.any():
         j = int(np.argmax(lacking)) + 1
         raise LookupError(f"layer {j - 1} lacks supports of layer {j}")
@@ -341,7 +340,7 @@ class Deposition:
         d = region.dimension
         self.constants = constants(d, phi, carried=carried)
         self.runs = _supports(region, carried=carried)
-        self.counts = region.table[:, 1]
+        self.counts = region.rows.counts
         self.quantities = d + d * d
         self.block, self.most = np.empty((0, 0, 0)), np.empty((0, 0))
 
@@ -386,7 +385,7 @@ def told(
 
     ``carried``: the loops that gave it carried errors, and ``most``.
     """
-    d, starts, counts = region.dimension, region.starts, region.table[:, 1]
+    d, starts, counts = region.dimension, region.starts, region.rows.counts
 
     def rows(values: Array, lowest: int = 0) -> LazyRows[Any]:
         return rows_of(values[0] if len(values) == 1 else values, starts, counts, lowest)
@@ -409,14 +408,14 @@ def told(
 @lru_cache(maxsize=4)
 def _loads(region: Region, own: Region, lowest: int, *, carried: bool) -> Array:
     """Give the runs of ``loops.sweep_down`` for the beads ``own`` of a region, above ``lowest``."""
-    rows, d, starts, wide = own.table, region.dimension, own.starts, own.widest
+    rows, d, starts, wide = own.rows, region.dimension, own.starts, own.widest
     turn = np.arange(len(rows)) % 2 * wide  # where a layer loses
     links, turns = [], []
     for one in [(0,) * d, *(region.step(a, 1) for a in range(d))]:
         forces = links_of(region, rows, rows, starts, one)
         lose = forces.copy()
         lose[:, 0] = (turn + sum(one) * wide) % (2 * max(wide, 1))
-        links += [forces, links_of(region, rows, region.table, region.starts, one), lose]
+        links += [forces, links_of(region, rows, region.rows, region.starts, one), lose]
         turns += [turns_of(region, one)] * 3
     ends = [padded(1, size)[1] - NONE for size in (own.beads, region.beads)]
     nothing, layers = [*ends, 2 * wide] * (1 + d), layers_of(region, rows, starts)
@@ -429,7 +428,7 @@ class Descent:
     """Carries loads down through packings of one region, in memory that is used again."""
 
     def __init__(
-        self, region: Region, rows: tuple[Layer, ...], loads: Loads, *, carried: bool = False,
+        self, region: Region, rows: Rows, loads: Loads, *, carried: bool = False,
         g: Array | None = None,
     ) -> None:  # fmt: skip
         """``rows``: those that are balanced, of these ``loads``; ``g``: memory of the last ones."""
@@ -437,7 +436,7 @@ class Descent:
         self.region, self.rows = region, rows
         own = Region(region.width, rows, d)
         own = region if own == region else own
-        self.counts, self.starts, self.widest = own.table[:, 1], own.starts, own.widest
+        self.counts, self.starts, self.widest = own.rows.counts, own.starts, own.widest
         empty = np.flatnonzero(self.counts[1:] == 0)
         self.lowest = int(empty[-1]) + 2 if len(empty) else 1
         self.beads = int(self.starts[-1] - self.starts[1])  # that pass forces on

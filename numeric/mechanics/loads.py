@@ -15,7 +15,7 @@ import flint
 from ..arithmetic.carried import Carrying
 from ..arithmetic.systems import Balls, NumberSystem, zeros
 from ..lattice.branch import Branch, Site, per_direction
-from ..lattice.layers import Layer, Region
+from ..lattice.layers import Region, Rows
 from . import plain
 from .sweep import Forces, Loads, straight_down
 
@@ -44,7 +44,7 @@ def components_of_spheres(fx: Any, fy: Any, fz: Any, n_x: Any, root: Any) -> Com
 
 def on_rows(
     loads: Mapping[tuple[int, int], Components],
-    rows: tuple[Layer, ...],
+    rows: Rows,
     width: int | None,
     system: NumberSystem,
     dimension: int = 2,
@@ -80,9 +80,7 @@ def placed(values: Mapping[int, Any], count: int, system: NumberSystem) -> Any:
     return row
 
 
-def on_layers(
-    load: Components, rows: tuple[Layer, ...], layers: range, system: NumberSystem
-) -> Loads:
+def on_layers(load: Components, rows: Rows, layers: range, system: NumberSystem) -> Loads:
     """Put the same load on every bead of some layers (surface: only M; bulk: all)."""
 
     def along(share: Any) -> tuple[Any, ...]:
@@ -163,7 +161,7 @@ class LoadSpec:
         sin, cos = flint.arb.sin_cos_pi_fmpq(angle)
         return sin, cos
 
-    def on(self, rows: tuple[Layer, ...], strength: Strength, system: NumberSystem) -> Loads:
+    def on(self, rows: Rows, strength: Strength, system: NumberSystem) -> Loads:
         """Put the load on the beads of ``rows`` (layers 0 … top)."""
         if self.kind == "file":
             return on_rows(strength.single, rows, self.width, system, self.dimension)
@@ -213,7 +211,7 @@ class LoadSpec:
         return total
 
     def ordered_forces(
-        self, region: Region, rows: tuple[Layer, ...], strength: Strength, system: NumberSystem
+        self, region: Region, rows: Rows, strength: Strength, system: NumberSystem
     ) -> Forces:
         """Give all ordered forces below the beads of ``rows``; changes are 0."""
         d = len(strength.unit)

@@ -13,8 +13,7 @@ from ..arithmetic.carried import NONE, Sizes
 from ..arithmetic.systems import FLOAT64, NumberSystem, from_floats
 from ..disorder.radii import Radii
 from ..lattice.branch import Contact, PerBranch, Site, per_direction
-from ..lattice.layers import LazyRows, Region
-from ..lattice.regions import Rows
+from ..lattice.layers import LazyRows, Region, Rows
 from .loads import LoadSpec
 from .local import cosine
 from .sweep import Forces, Memory, SolvedPacking

@@ -17,7 +17,7 @@ from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.errors import NotReachedError
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import PerBranch, per_direction
-from ..lattice.layers import Layer, LazyRows, Region
+from ..lattice.layers import Layer, LazyRows, Region, Rows
 from . import local
 from .kernels import Deposition, Descent
 from .loads import on_layers, on_rows
@@ -201,10 +201,10 @@ class Segments:
                 self.kept.put(f"g{number}", descent.row(1))
                 of = slice(descent.starts[1], descent.starts[2])
                 self.kept.put(f"F{number}", descent.F[:, of].copy())
-        self.work.did_rows("balanced", rows[:0:-1], descent.beads)
+        self.work.did_rows("balanced", rows[1:], descent.beads)
         return g
 
-    def _loads_on(self, rows: tuple[Layer, ...], number: int) -> Loads:
+    def _loads_on(self, rows: Rows, number: int) -> Loads:
         """Give the loads of a segment's rows; the highest bears all that lies above it."""
         load, d = self.problem.load, self.problem.dimension
         if load.kind in {"surface", "bulk"}:
@@ -262,7 +262,7 @@ class Segments:
             each(packing.dn, layers),
         )
         none: PerBranch[Sequence[Array]] = per_direction([()] * problem.dimension)
-        forces = forces or Forces(FLOAT64, problem.region, (), none, none)
+        forces = forces or Forces(FLOAT64, problem.region, Rows(), none, none)
         beads = sum(row.count for row in rows[own.start : own.stop])
         forces = replace(
             forces,

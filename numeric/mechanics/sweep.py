@@ -19,7 +19,7 @@ from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
 from ..arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem, zeros
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
-from ..lattice.layers import Layer, Region
+from ..lattice.layers import Layer, Region, Rows
 from .local import balance, metric, rest
 from .work import Work
 
@@ -97,7 +97,7 @@ class Forces:
 
     system: NumberSystem
     region: Region
-    rows: tuple[Layer, ...]
+    rows: Rows
     ordered: PerBranch[Sequence[Array]]
     change: PerBranch[Sequence[Array]]
     stopped: Contact | AxisContact | None = None
@@ -177,7 +177,7 @@ def deposit(
 
 def sweep_down(
     packing: SolvedPacking,
-    rows: tuple[Layer, ...],
+    rows: Rows,
     loads: Loads,
     *,
     linear: bool = False,

@@ -16,7 +16,7 @@ from ..arithmetic.systems import FLOAT64, Array
 from ..disorder import compiled as drawing
 from ..disorder.radii import ArrayRadii, DrawnRadii, Radii
 from ..lattice.branch import PerBranch, per_direction
-from ..lattice.layers import Layer, LazyRows, Region
+from ..lattice.layers import LazyRows, Region, Rows
 from .kernels import Deposition, Descent, kernels, numbers, told
 from .problem import Problem, Solved, rounded
 from .sweep import Loads, SolvedPacking
@@ -131,7 +131,7 @@ class Sweeps:
         """Deposit what was drawn last; None where not all rest."""
         return self._deposit(rho)
 
-    def descent(self, rows: tuple[Layer, ...], loads: Loads) -> Descent:
+    def descent(self, rows: Rows, loads: Loads) -> Descent:
         """Give what balances, the same for the same ``loads``."""
         if self._descent is None or self._descent[0] is not loads:
             made = Descent(self.region, rows, loads, carried=self.carried)

@@ -1,24 +1,24 @@
-"""The memory and the time that a scene takes, and what is refused as too much."""
+"""The memory that a scene takes, and what is refused as too much."""
 
 from ..arithmetic.carried import Pairs
 from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
 
-# Bytes that a bead takes while it is solved, by dimension, a packing whose rows are listed, a line
-# of a file and a layer of the plan; measured, rounded up. The rest is the interpreter with its
-# libraries.
-FLOAT_BEADS, BALL_BEAD, LISTED, FILE_LINE, PLAN_LAYER = {2: 310, 3: 490}, 2200, 3500, 600, 900
+# Bytes that a bead takes while it is solved, by dimension, a packing whose rows are listed, and a
+# line of a file; measured, rounded up. The rest is the interpreter with its libraries.
+FLOAT_BEADS, BALL_BEAD, LISTED, FILE_LINE = {2: 310, 3: 490}, 2200, 3500, 600
+# Bytes of a layer: in the plan, and while it is solved in memory.
+PLAN_LAYER, SOLVED_LAYER = 150, 750
 # What a row of the answer takes: its names, a number, and that as text.
 NAMES, FLOAT_NUMBER, TEXT, BALL_ROW = 100, 60, 150, 1300
 INTERPRETER = 85_000_000
 # The compiler that the extra ``fast`` brings, and what it leaves behind.
 COMPILED = 120_000_000
-LONGEST = 24 * 3600.0
 
 
 class TooLargeError(SceneError):
-    """A scene needs more memory or time than there is."""
+    """A scene needs more memory than there is."""
 
 
 def memory(
@@ -39,7 +39,7 @@ def memory(
         beads * (each + (FILE_LINE if file else 0))
         + rows * (BALL_ROW if system.dtype is object else row)
         + listed * LISTED
-        + layers * PLAN_LAYER
+        + layers * (PLAN_LAYER + SOLVED_LAYER)
         + INTERPRETER
     )
 
@@ -58,20 +58,6 @@ def refuse_memory(scene: Scene, needed: int, limit: int) -> None:
             packing.width if more else packing.height,
             f"{more}this scene would need about {size(needed)} of memory and {size(limit)} may be "
             f"used: ask for {less}, or for a smaller packing",
-        )
-
-
-def refuse_seconds(scene: Scene, realisations: int, seconds: float) -> None:
-    """Raise ``TooLargeError`` where a scene would take more than a day."""
-    if seconds > LONGEST:
-        key, value = ("packing.height", scene.packing.height)
-        if realisations > 1:
-            key, value = ("ask.realisations", realisations)
-        raise TooLargeError(
-            key,
-            value,
-            f"this scene would take about {seconds / 86400:.3g} days, and one is allowed: "
-            "ask for fewer realisations or a smaller packing",
         )
 
 

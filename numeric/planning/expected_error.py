@@ -31,18 +31,17 @@ def initial_bits(tolerance: Fraction, height: int) -> int:
     return digits + 4 * height.bit_length() + 48
 
 
-def expected(method: Method, height: int, realisations: int, lost: int = 0) -> Fraction:
+def expected(method: Method, height: int, realisations: int) -> Fraction:
     """Give the error that an answer is expected to be printed with, relative to its largest change.
 
-    For balls, what they should certify: they lose some bits for the depth of the packing, and those
-    that the plain form has ``lost``.
+    For balls, what they should certify: they lose some bits for the depth of the packing.
     """
     bits = method.system.bits
     if method.carries and method.repeated >= realisations:
         few = 4 if method.system is FLOAT64 else 8 * height
         return Fraction(PRINTED * few + merging(method, realisations), 2**bits)
     if method.certified:
-        return Fraction(max(height, 4) ** 2 * 2**12, 2 ** (bits - lost))
+        return Fraction(max(height, 4) ** 2 * 2**12, 2**bits)
     seen = method.repeated >= realisations
     units = usual_units(method.system, height) * (SAFETY if seen else UNSEEN)
     return (PRINTED * units + merging(method, realisations)) * Fraction(1, 2**bits)

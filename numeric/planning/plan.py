@@ -66,7 +66,7 @@ class Method:
 
 @dataclass(frozen=True)
 class Candidate:
-    """A method that was looked at: its expected cost and error, or why it is out.
+    """A method that was looked at: its expected error and memory, or why it is out.
 
     ``error``: relative to the largest change, expected (balls: bounded) before anything runs.
     """
@@ -76,7 +76,6 @@ class Candidate:
     certified: bool
     repeated: int
     error: Fraction
-    seconds: float | None
     out: str
     plan: "Plan | None"
 
@@ -88,7 +87,7 @@ class Candidate:
             "certified": self.certified,
             "repeated": self.repeated,
             "expected_error": bound_string(self.error),
-            "seconds": _rounded(self.seconds),
+            "memory_bytes": None if self.plan is None else self.plan.memory,
             "out": self.out,
         }
 
@@ -100,8 +99,6 @@ class Choice:
     tolerance: Fraction
     reason: str
     candidates: tuple[Candidate, ...]
-    digit_more: Candidate | None = None
-    digit_less: Candidate | None = None
 
     @property
     def tried(self) -> tuple[Candidate, ...]:
@@ -113,17 +110,11 @@ class Choice:
     def data(self) -> dict[str, Any]:
         """Give what JSON can hold of it; the chosen method is the first of the candidates."""
         looked_at = [candidate.data() for candidate in self.candidates]
-
-        def digit(one: Candidate | None, tolerance: Fraction) -> dict[str, Any] | None:
-            return None if one is None else {"tolerance": short(tolerance), **one.data()}
-
         return {
             "tolerance": short(self.tolerance),
             "reason": self.reason,
             "chosen": looked_at[0],
             "candidates": looked_at,
-            "digit_more": digit(self.digit_more, self.tolerance / 10),
-            "digit_less": digit(self.digit_less, self.tolerance * 10),
         }
 
 
@@ -139,7 +130,6 @@ class Plan:
     steps: tuple[Step, ...]
     skipped: tuple[Skipped, ...]
     memory: int
-    estimated_seconds: float
     sees_images: bool
     choice: Choice | None = None
 
@@ -208,7 +198,6 @@ class Plan:
             ],
             "skipped": [{"effect": s.effect, "reason": s.reason} for s in self.skipped],
             "memory_bytes": self.memory,
-            "estimated_seconds": _rounded(self.estimated_seconds),
             "sees_images": self.sees_images,
             "tension": None
             if tension is None
@@ -227,10 +216,6 @@ class Plan:
     __repr__ = __str__
 
 
-def _rounded(seconds: float | None) -> float | None:
-    return None if seconds is None else float(f"{seconds:.3g}")
-
-
 def plan_lines(data: dict[str, Any]) -> list[str]:
     """Say in lines of text what a plan holds, before it runs or afterwards."""
     lines = ["What is done"]
@@ -241,7 +226,7 @@ def plan_lines(data: dict[str, Any]) -> list[str]:
     lines.append("What is left out")
     lines += [f"  {s['effect']}: {s['reason']}" for s in data["skipped"]] or ["  nothing"]
     lines += _choice_lines(data["choice"]) if data["choice"] else []
-    lines.append(f"About {data['estimated_seconds']:.2g} s and {data['memory_bytes'] / 1e6:.3g} MB")
+    lines.append(f"Memory: about {data['memory_bytes'] / 1e6:.3g} MB")
     if data["tension"]:
         expected, one = data["tension"]["expected_contacts"], data["tension"]["height_of_one"]
         low = "at no height allowed" if one is None else f"from a height of about {one} on"
@@ -253,37 +238,24 @@ def plan_lines(data: dict[str, Any]) -> list[str]:
 
 
 def _choice_lines(choice: dict[str, Any]) -> list[str]:
-    """Say what was chosen, from what, and what a digit costs."""
+    """Say what was chosen, and from what."""
     chosen = choice["chosen"]
+    kind = "certified" if chosen["certified"] else "estimated"
     lines = [
-        f"How, for a tolerance of {choice['tolerance']}: {_named(chosen)}",
+        f"How, for a tolerance of {choice['tolerance']}: {chosen['algorithm']}, "
+        f"{chosen['arithmetic']}, {kind}",
         f"  {choice['reason']}",
-        f"  {'':2}{'method':<31}{'arithmetic':<22}{'repeated':>8} {'error':>9} {'seconds':>9}",
+        f"  {'':2}{'method':<31}{'arithmetic':<22}{'repeated':>8} {'error':>9} {'memory':>9}",
     ]
     for one in choice["candidates"]:
         mark = "*" if one == chosen else ""
-        seconds = "" if one["seconds"] is None else f"{one['seconds']:.2g}"
+        memory = "" if one["memory_bytes"] is None else f"{one['memory_bytes'] / 1e6:.3g} MB"
         lines.append(
             f"  {mark:2}{one['algorithm']:<31}{one['arithmetic']:<22}{one['repeated'] or '':>8} "
-            f"{one['expected_error']:>9} {seconds:>9}  {one['out']}".rstrip()
+            f"{one['expected_error']:>9} {memory:>9}  {one['out']}".rstrip()
         )
-    for name, words in (("digit_more", "One digit more"), ("digit_less", "One digit fewer")):
-        one = choice[name]
-        if one is None:
-            lines.append(f"{words}: there is no way to it")
-        else:
-            about = f"about {one['seconds']:.2g} s"
-            lines.append(f"{words}, {one['tolerance']}: {_named(one)}, {about}")
     for missed in choice.get("missed", []):
         lines.append(
             f"Tried before: {missed['algorithm']}, {missed['arithmetic']}: {missed['why']}"
         )
-    if "measured_seconds" in choice:
-        took = f"took {choice['measured_seconds']:.2g} s"
-        lines.append(f"Predicted {chosen['seconds']:.2g} s, {took}")
     return lines
-
-
-def _named(method: dict[str, Any]) -> str:
-    kind = "certified" if method["certified"] else "estimated"
-    return f"{method['algorithm']}, {method['arithmetic']}, {kind}"

@@ -4,7 +4,7 @@ One planner serves both explaining and running: ``run`` takes its problem and it
 and adds nothing but the measured cost.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
 from time import monotonic
@@ -20,8 +20,8 @@ from ..scene.sections import SceneError
 from . import budget
 from .choice import choose
 from .expected_error import initial_bits
-from .outline import Outline, outline
 from .plan import Method, Plan
+from .prepared import prepared
 
 # Realisations that are solved twice to estimate the error: four of packings that are small.
 FEW, SMALL = 4, 20_000
@@ -44,7 +44,7 @@ def plan(
     ``certified`` keeps the choice to balls. Without one ``system`` is the arithmetic. Room is left
     for rows as ``text``, as files and screens have them. Reads the
     scene's files. Raises ``SceneError`` for a scene that is too large for the memory
-    (``memory_limit`` bytes, by default most of what is free) or for a lifetime, and ``TableError``.
+    (``memory_limit`` bytes, by default most of what is free), and ``TableError``.
     """
     tolerance = tolerance or scene.ask.tolerance
     certified = certified or scene.ask.certified
@@ -60,7 +60,7 @@ def plan(
             free = _plan(scene, None, limit, system, certified=False, text=text)
         except ForceDiffusionError:
             raise refused from None
-        takes = f"about {free.estimated_seconds:.2g} s and {budget.size(free.memory)}"
+        takes = f"about {budget.size(free.memory)}"
         said = f"{refused.allowed}; without the tolerance it would take {takes}"
         raise budget.TooLargeError(refused.key, refused.value, said) from None
 
@@ -81,19 +81,19 @@ def _plan(
     text: bool,
 ) -> Plan:
     """Plan a scene with this very tolerance."""
-    outlines = _outlines(scene, limit, tolerance, text=text)
-    first = outlines[0].problem
+    found = prepared(scene, quantity_of(scene), limit, tolerance, text=text)
+    first = found.problem
     if first.route == Route.ORDERED:  # exactly known, whatever is asked
         bits = initial_bits(tolerance or Fraction(1, 2**60), first.height)
-        return outlines[0].plan(Method(Balls(bits)))
+        return found.plan(Method(Balls(bits)))
     if first.route == Route.UNILATERAL:  # found in float64, proved in balls
-        return outlines[0].plan(Method(Balls(initial_bits(tolerance or TOUCHING, 1))))
+        return found.plan(Method(Balls(initial_bits(tolerance or TOUCHING, 1))))
     if tolerance is None:
         few = FEW if first.region.beads < SMALL else 1
-        all_listed = _method(system, 1).carries and not outlines[0].quantity.merged
+        all_listed = _method(system, 1).carries and not found.quantity.merged
         few = first.realisations if all_listed else min(first.realisations, few)
-        return outlines[0].plan(_method(system, few))
-    return choose(outlines, tolerance, certified=certified)
+        return found.plan(_method(system, few))
+    return choose(found, tolerance, certified=certified)
 
 
 def _method(system: NumberSystem, repeated: int) -> Method:
@@ -103,23 +103,3 @@ def _method(system: NumberSystem, repeated: int) -> Method:
     if isinstance(system, Pairs):
         return Method(system, system, repeated)
     return Method(system, LONGER if system is FLOAT64 else Balls(system.bits + 128), repeated)
-
-
-def _outlines(
-    scene: Scene, limit: int, tolerance: Fraction | None, *, text: bool
-) -> Sequence[Outline]:
-    """Give the ways to the answer: line sums, or sweeps, which take many realisations at once."""
-    quantity = quantity_of(scene)
-    first = outline(scene, quantity, limit, tolerance, text=text)
-    if (
-        tolerance is None
-        or first.problem.route != Route.LINE_SUMS
-        or first.problem.realisations == 1
-    ):
-        return [first]
-    try:
-        sweep = outline(scene, quantity, limit, tolerance, line_sums=False, text=text)
-    except SceneError:  # the memory would not hold its region
-        return [first]
-    # not where no load comes near the contact
-    return [first, sweep] if sweep.problem.route == Route.FIRST_ORDER else [first]

@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from typing import NamedTuple
 
 from ..arithmetic.systems import FLOAT64
-from ..lattice.layers import Region
+from ..lattice.layers import Region, Rows
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
@@ -25,8 +25,6 @@ _MANY, _FEWEST = 600_000_000, 16
 QUICKER = 5_000_000
 # Layers that are solved beside those of a segment.
 _BESIDE = 5
-# Seconds of a bead, all steps together, in whole layers and in others.
-_SECONDS, _SECONDS_OF_CONE = 2.5e-7, 5e-7
 
 
 def suits(scene: Scene, tolerance: Fraction | None) -> bool:
@@ -89,7 +87,7 @@ def cut(
 def memory(problem: Problem, quantity: Quantity, *, text: bool) -> int:
     """Estimate the bytes at the peak."""
     counted = quantity.name == "histogram"  # one segment after the other
-    region = Region(problem.width, ()) if counted else problem.region
+    region = Region(problem.width, Rows()) if counted else problem.region
     rows = quantity.answer_rows(region, 1)
     found = _divided(problem, _MANY if problem.every == 1 else 0)
     return (
@@ -99,13 +97,6 @@ def memory(problem: Problem, quantity: Quantity, *, text: bool) -> int:
         + budget.INTERPRETER
         + budget.COMPILED
     )
-
-
-def seconds(problem: Problem, quantity: Quantity) -> float:
-    """Predict how long it takes."""
-    each = _SECONDS if problem.region.is_whole else _SECONDS_OF_CONE
-    passes = (5 / 3 if quantity.name == "histogram" else 1) + (problem.every > 1) / 4
-    return problem.region.beads * each * passes
 
 
 def steps(

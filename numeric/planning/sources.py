@@ -5,8 +5,7 @@ from fractions import Fraction
 from ..arithmetic.decimals import short
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii, Radii
 from ..lattice.branch import Site
-from ..lattice.layers import full_layer, site_of
-from ..lattice.regions import Rows
+from ..lattice.layers import Rows, full_layer, site_of
 from ..mechanics.loads import LoadSpec
 from ..scene.scene import Scene
 from ..scene.sections import GivenRadii

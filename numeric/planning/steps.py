@@ -1,14 +1,15 @@
 """The steps of a plan, each with its reason."""
 
 from dataclasses import replace
+from importlib.util import find_spec
 
 from ..disorder.radii import DrawnRadii
+from ..mechanics.engine import worth_compiling
 from ..mechanics.physicality import PHYSICAL
 from ..mechanics.problem import Problem, Route
 from ..mechanics.work import ESTIMATE
 from ..quantities.base import Quantity
 from .plan import CERTIFY, Method, Step
-from .times import compiles
 
 _WHOLE = "spheres are always swept in whole layers"
 
@@ -43,14 +44,14 @@ def _solving(quantity: Quantity, problem: Problem, method: Method) -> list[Step]
     beads, exact = problem.region.beads, problem.route == Route.EXACT
     steps = [Step(source, _why_region(problem), beads)]
     if exact:
-        quick = compiles(problem, method.system, problem.realisations)
+        quick = worth_compiling(problem, method.system) and find_spec("numba") is not None
         by = ", by compiled code" if quick else ""
         why = f"exact positions, as deviations in line-sum coordinates{by}"
         steps.append(Step("deposit", why, beads))
     else:
         steps.append(Step("line sums", "displacements to first order, layer by layer", beads))
     if problem.needs_forces:
-        visited = sum(layer.count for layer in problem.force_rows[1:])
+        visited = int(problem.force_rows.counts[1:].sum())
         steps.append(Step("balance forces", _why_forces(problem), visited))
     if exact:
         steps.append(Step(PHYSICAL, "gaps, overlaps and signs, always", beads))

@@ -12,7 +12,6 @@ from .network import NETWORK_QUANTITIES
 from .positions import Positions
 from .profile import Profile
 from .response import Response
-from .spheres import SPHERE_QUANTITIES
 
 QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
     "contact": ContactForce,
@@ -28,8 +27,6 @@ QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
 def quantity_of(scene: Scene) -> Quantity:
     """Give the question that a scene asks."""
     known: Mapping[str, Callable[[Scene], Quantity]] = QUANTITIES
-    if scene.packing.dimension == 3:
-        known = SPHERE_QUANTITIES
-    elif scene.effects.contacts == "unilateral":
+    if scene.effects.contacts == "unilateral":
         known = NETWORK_QUANTITIES
     return known[scene.ask.quantity](scene)

@@ -81,17 +81,17 @@ def answer(
                 problem, realisations, own, work, physical, plainly=plainly, carried=carried,
                 copied=True,
             )  # fmt: skip
-        done = 0
+        done, layers = 0, quantity.all_layers
         try:
             for solved, chunk in solved_all:
                 if solved.forces is not None and stopped is None:
                     stopped = solved.forces.stopped
                 if isinstance(solved, Relaxed):
                     networks.append(solved.network)
-                gatherer.add(solved.longer(system) if pairs else solved, chunk)
+                gatherer.add(solved.longer(system) if pairs else solved, chunk, layers)
                 if beside is not None and longer is not None and gatherer.left() is None:
                     with work.timed(ESTIMATE):
-                        beside.add(solved.longer(longer), chunk)
+                        beside.add(solved.longer(longer), chunk, layers)
                 sizes |= solved.sizes
                 done += len(chunk)
         except (*UNBUILDABLE, UnfinishedError) as error:
@@ -100,12 +100,12 @@ def answer(
             elif len(realisations) > 1:
                 error.add_note(_which(problem, realisations[done:], system, plainly))
             raise
-        table = in_units(quantity, gatherer.table().sorted(), system)
+        table = in_units(quantity, named(quantity, gatherer.table()).sorted(), system)
         again = None
         left = gatherer.left() if beside is not None else None
         if beside is not None and longer is not None and left is None:
             with work.timed(ESTIMATE):
-                again = in_units(quantity, beside.table().sorted(), longer)
+                again = in_units(quantity, named(quantity, beside.table()).sorted(), longer)
         bins = None if work.repeating else quantity.bins_of(table, system)
     if problem.route == Route.ORDERED:
         table, bins = _of_all(quantity.scene.ask.realisations, table, bins)
@@ -137,11 +137,16 @@ def in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:
     )
 
 
+def named(quantity: Quantity, table: Table) -> Table:
+    """Give the rows of a whole packing with the columns that name them."""
+    return table if table.index else replace(table, index=quantity.names)
+
+
 def at_home(quantity: Quantity, contact: Contact | AxisContact) -> Contact | AxisContact:
     """Name a contact by the column within the period, as rows do."""
     if isinstance(contact, AxisContact):
         return contact
-    return contact._replace(i=quantity.home(contact.i))
+    return contact._replace(i=quantity.naming.home(contact.i))
 
 
 def _which(

@@ -7,19 +7,19 @@ import math
 from abc import ABC, abstractmethod
 from collections import UserDict
 from collections.abc import Callable, Mapping, MutableMapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache, cached_property
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
-from ..lattice.branch import Branch, Direction, PerAxis, PerBranch
-from ..lattice.layers import Layer, LazyRows, Region, pick, standing_on_base, whole
-from ..lattice.regions import Rows
+from ..lattice.branch import PerAxis, PerBranch
+from ..lattice.layers import LazyRows, Region, Rows, pick, standing_on_base, whole
+from ..lattice.naming import Block, Naming
 from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Route, Solved
@@ -94,12 +94,19 @@ class Gatherer(ABC):
     """Collects solved realisations; ``table`` gives what was found."""
 
     @abstractmethod
-    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
-        """Take in solved realisations (in a batch, the first axis of the arrays)."""
+    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
+        """Take in solved realisations (in a batch, the first axis of the arrays).
+
+        What is taken in belongs to the beads of some ``layers``, and to the contacts below them.
+        """
 
     @abstractmethod
     def table(self) -> Table:
-        """Give the answer."""
+        """Give the answer, or that part of it which follows from the layers taken in.
+
+        Parts of layers one above the other, put below each other, are the rows of the answer in
+        order. Where rows have no ``index``, theirs is ``Quantity.names``.
+        """
 
     def left(self) -> float | None:
         """Give how far numbers are, at the most, from those that their sweeps' errors belong to.
@@ -124,23 +131,39 @@ class Quantity(ABC):
     """Whether an ensemble has statistics of it."""
     numbers: ClassVar[int] = 4
     """How many numbers a row has, at the most."""
-    branches: ClassVar[tuple[Direction, ...]] = tuple(Branch)
-    """Along which contacts lead up."""
 
     def __init__(self, scene: Scene) -> None:
         """Ask a scene's question."""
-        self.scene = scene
-        self.width, self.height = scene.packing.width, scene.packing.height
+        self.scene, self.height = scene, scene.packing.height
+        self.naming = Naming(scene.packing.dimension, scene.packing.width)
+        self.width, self.branches = self.naming.row, self.naming.branches
 
     # What it needs
 
     @property
+    def by_layers(self) -> bool:
+        """Whether whole layers are solved, whatever is asked: in three dimensions."""
+        return self.naming.dimension > 2
+
+    @property
     def single(self) -> bool:
-        """Whether one contact or one bead is asked for, and not the whole packing."""
-        return self.scene.ask.at is not None
+        """Whether one contact or one bead is solved for, and not the whole packing."""
+        return self.scene.ask.at is not None and not self.by_layers
+
+    @property
+    def top(self) -> int:
+        """The highest layer that is solved where layers are whole: of the load, or as asked."""
+        load, at = self.scene.load, self.scene.ask.at
+        if self.needs_forces:
+            at = None if load.pressure else load.at
+        return self.height if at is None else int(at[self.naming.dimension - 1])
 
     def beads(self, load: LoadSpec) -> tuple[Rows, Region]:
         """Give the beads whose forces are to be balanced, and those that are to be deposited."""
+        if self.by_layers:
+            assert self.width is not None
+            region = whole(self.width, self.top, self.naming.dimension)
+            return region.rows if self.needs_forces else Rows(), region
         rows = self.force_rows(load)
         return rows, self.region(rows)
 
@@ -154,7 +177,7 @@ class Quantity(ABC):
     def region(self, force_rows: Rows) -> Region:
         """Give the beads that are to be deposited."""
         if not any(layer.count for layer in force_rows):
-            return Region(self.width, ())
+            return Region(self.width, Rows())
         return standing_on_base(force_rows, self.width)
 
     def line_beads(self, load: LoadSpec) -> int:
@@ -165,6 +188,8 @@ class Quantity(ABC):
 
     def most_beads(self) -> int:
         """Bound the beads to be solved, before a single row of them is made."""
+        if self.by_layers:
+            return (self.top + 1) * (self.width or 0)
         layers = self.height + 1
         beads = layers * (self.width or layers)
         if self.scene.load.at is not None and not self.scene.load.pressure:
@@ -182,17 +207,14 @@ class Quantity(ABC):
 
     # How it is gathered
 
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> "Table | None":
-        """Give those rows of one packing that follow from the contacts below some layers' beads.
-
-        Of all layers one after the other, these are the rows of the answer, in order. None where
-        there are none. Rows without an ``index`` have that of ``names``.
-        """
-        raise NotImplementedError(f"{self.name} is not gathered by segments")
+    @property
+    def all_layers(self) -> range:
+        """All layers, whose contacts below decide the answer; and the base."""
+        return range(self.height + 1)
 
     @property
     def names(self) -> Columns:
-        """The columns that name all rows, where ``rows_within`` leaves them out."""
+        """The columns that name all rows of a packing, where tables leave them out."""
         return {}
 
     def left(self, solved: Solved) -> float | None:
@@ -212,33 +234,6 @@ class Quantity(ABC):
         """Count an answer into bins (low, high, count); None unless the question is about that."""
         return None
 
-    def sites_of(self, rows: Sequence[Layer]) -> dict[str, Array]:
-        """Give the columns i and j of beads, row by row."""
-        return {
-            "i": np.concatenate([_NONE, *(self.home(_columns(row)) for row in rows)]),
-            "j": np.repeat([row.j for row in rows] or _NONE, [row.count for row in rows] or _NONE),
-        }
-
-    def contacts_of(self, blocks: "Sequence[Block]") -> dict[str, Array]:
-        """Give the columns i, j and branch of contacts, block by block, by their lower beads."""
-        lower = [Layer(row.j - 1, row.first - b.side, row.count) for b, row in blocks]
-        branches = np.array([b.value for b, _ in blocks], dtype="U1")
-        return {
-            **self.sites_of(lower),
-            "branch": np.repeat(branches, [row.count for row in lower] or _NONE),
-        }
-
-    def home(self, i: Any) -> Any:
-        """Give a column, or an array of them, within 0 … 2W − 1 of a periodic packing."""
-        return i if self.width is None else i % (2 * self.width)
-
-
-_NONE = np.empty(0, dtype=np.int64)
-
-
-def _columns(row: Layer) -> Array:
-    return row.first + 2 * np.arange(row.count)
-
 
 class Listing(Gatherer):
     """Lists the rows of every realisation below each other."""
@@ -249,16 +244,18 @@ class Listing(Gatherer):
         self.parts: list[Table] = []
         self._left: float | None = 0.0
 
-    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
+    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
         """Take in solved realisations."""
         left = self.quantity.left(solved)
         known = left is not None and self._left is not None
         self._left = max(self._left or 0.0, left or 0.0) if known else None
         for number, realisation in enumerate(realisations):
             one = solved if len(realisations) == 1 else solved.one(number)
-            part = self.quantity.rows_of(self.problem, one)
+            part = self.quantity.rows(self.problem, one, layers)
             if self.problem.realisations > 1:
-                part.index["realisation"] = np.full(part.rows, realisation)
+                index = part.index or self.quantity.names
+                index["realisation"] = np.full(part.rows, realisation)
+                part = replace(part, index=index)
             self.parts.append(part)
 
     def left(self) -> float | None:
@@ -285,15 +282,8 @@ class Listed(Quantity):
         return Listing(self, problem, system)
 
     @abstractmethod
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give the rows of one realisation."""
-
-
-class Block(NamedTuple):
-    """Contacts of one branch below a row of upper beads."""
-
-    branch: Direction
-    row: Layer
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
+        """Give the rows of one realisation that belong to some layers (see ``Gatherer``)."""
 
 
 class ContactQuantity(Quantity):
@@ -321,14 +311,16 @@ class ContactQuantity(Quantity):
         one = self.scene.load.magnitude == 1
         return solved.forces.left if one and solved.forces is not None else None
 
-    def blocks(self, problem: Problem) -> list[Block]:
-        """Give the contacts, block by block, in the order of the groups."""
-        rows = (row for row in problem.force_rows[1:] if row.count and self.is_asked(row.j))
+    def blocks(self, problem: Problem, layers: range | None = None) -> list[Block]:
+        """Give the contacts below the beads of some layers, in the order of the groups."""
+        layers = self.all_layers if layers is None else layers
+        below = problem.force_rows[max(layers.start, 1) : layers.stop]
+        rows = (row for row in below if row.count and self.is_asked(row.j))
         return [Block(branch, row) for row in rows for branch in self.branches]
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Give columns that name the groups, one entry a group."""
-        contacts = self.contacts_of(self.blocks(problem))
+        contacts = self.naming.contacts(self.blocks(problem))
         return {name: column.tolist() for name, column in contacts.items()}
 
     def members(self, problem: Problem) -> int:
@@ -350,18 +342,13 @@ class ContactQuantity(Quantity):
         return [force for block in self.ordered_blocks(problem) for force in block]
 
     def ordered_blocks(self, problem: Problem) -> list[list[Fraction]]:
-        """Give the ordered forces, block by block; nothing above the highest load."""
-        return self.ordered_of(problem, self.blocks(problem))
-
-    def ordered_of(self, problem: Problem, blocks: "Sequence[Block]") -> list[list[Fraction]]:
-        """Give the ordered forces of some blocks."""
+        """Give the ordered forces, block by block."""
+        blocks = self.blocks(problem)
         load, rows = problem.load, problem.force_rows
         strength = load.strength(problem.n_x, FLOAT64)
         forces = load.ordered_forces(problem.region, rows, strength, FLOAT64)
-        return [
-            [Fraction(float(F)) for F in forces.ordered[branch][row.j]] if row.j < len(rows) else []
-            for branch, row in blocks
-        ]
+        found = contact_changes(Solved(FLOAT64, None, forces, None), blocks, 1)
+        return [[Fraction(float(one)) for one in F] for _, F, _ in found]
 
 
 def contact_changes(
@@ -427,6 +414,24 @@ def slope(problem: Problem, system: NumberSystem) -> Any:
     if problem.dimension == 3:
         return system.root(1 - Fraction(4, 3) * problem.n_x**2)
     return plain.axes(problem.n_x, system)[1]
+
+
+def cartesian(
+    components: Sequence[Array], problem: Problem, system: NumberSystem, *, raised: bool
+) -> tuple[Array, ...]:
+    """Give (x, y), or (x, y, z), of v = Σ v^a n^a; or of a vector with v_a = n^a·v.
+
+    The last is up; in three dimensions x is along n^1 − n^3.
+    """
+    nx, up = system.scalar(problem.n_x), slope(problem, system)
+    x, rise = components[0] - components[-1], components[0] + components[1]
+    if len(components) == 2:
+        return (x * nx, rise * up) if raised else (x / (2 * nx), rise / (2 * up))
+    a, b, c = components
+    y, rise = (2 * b - a - c) * system.root(Fraction(1, 3)), rise + c
+    if raised:
+        return x * nx, y * nx, rise * up
+    return x / (2 * nx), y / (2 * nx), rise / (3 * up)
 
 
 def first_order_std(problem: Problem) -> PerBranch[Sequence[Fraction]] | None:

@@ -1,10 +1,9 @@
 """What the base bears."""
 
 from ..arithmetic.systems import Array, zeros
-from ..lattice.layers import Layer, Region, full_layer
-from ..mechanics import plain
+from ..lattice.layers import Layer, Region, Rows, full_layer
 from ..mechanics.problem import Problem, Route, Solved
-from .base import Listed, Table
+from .base import Listed, Table, cartesian
 
 
 class BaseReactions(Listed):
@@ -19,30 +18,22 @@ class BaseReactions(Listed):
         on_base = self.width or (region.rows[0].count if region.rows else 1)
         return on_base * realisations
 
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
-        """Give all rows where the layer above the base is there."""
-        return self.rows_of(problem, solved) if 1 in layers else None
-
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give a row a bead of the base, from left to right."""
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
+        """Give a row a bead of the base, from left to right, with the layer above it."""
         forces = solved.forces
-        nx, ny = plain.axes(problem.n_x, solved.system)
         rows = problem.force_rows
         layer = rows[0] if self.width is None else full_layer(0, self.width)
-        if forces is not None and forces.stopped is not None and forces.stopped.j:
+        stopped = forces is not None and forces.stopped is not None and forces.stopped.j
+        if stopped or 1 not in layers:
             layer = Layer(0, 0, 0)  # the sweep did not come down to the base
-        (plus, minus), (change_plus, change_minus) = on_base(problem, solved, layer)
-        cx, cy = (change_plus - change_minus) * nx, (change_plus + change_minus) * ny
-        return Table(
-            self.sites_of([layer]),
-            {
-                "fx": (plus - minus) * nx + cx,
-                "fy": (plus + minus) * ny + cy,
-                "change_x": cx,
-                "change_y": cy,
-            },
-            ("change_x", "change_y"),
+        F, change = (
+            cartesian(of, problem, solved.system, raised=True)
+            for of in on_base(problem, solved, layer)
         )
+        axes = "xyz"[: len(F)]
+        changes = {f"change_{axis}": of for axis, of in zip(axes, change, strict=True)}
+        total = {f"f{axis}": a + b for axis, a, b in zip(axes, F, change, strict=True)}
+        return Table(self.naming.beads([layer]), total | changes, tuple(changes))
 
 
 def on_base(
@@ -50,7 +41,8 @@ def on_base(
 ) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
     """Give what contacts and loads press onto the base, as Σ v^a n^a: ordered, and change."""
     system, forces, region = solved.system, solved.forces, problem.region
-    own = problem.load.on((layer,), problem.load.strength(problem.n_x, system), system)
+    base, strength = Rows([layer.first], [layer.count]), problem.load.strength(problem.n_x, system)
+    own = problem.load.on(base, strength, system)
     nothing = zeros(system, layer.count)
     ordered = [nothing if load[0] is None else nothing + load[0] for _, load in own]
     change = [nothing] * len(ordered)

@@ -1,6 +1,5 @@
 """One contact force."""
 
-from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -9,8 +8,8 @@ import numpy as np
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice import regions
 from ..lattice.branch import Contact
-from ..lattice.layers import Layer, Region
-from ..lattice.regions import Rows
+from ..lattice.layers import Region, Rows
+from ..lattice.naming import Block
 from ..mechanics import first_order
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved
@@ -18,18 +17,27 @@ from .base import (
     ContactQuantity,
     Listed,
     Table,
+    above_stop,
     column,
+    contact_changes,
+    joined,
 )
 
 
 class SingleContact(ContactQuantity):
-    """A question about one contact, ``scene.contact``."""
+    """A question about one contact."""
 
     @property
     def contact(self) -> Contact:
-        """The contact that is asked for."""
+        """The contact that is asked for, in two dimensions."""
         assert self.scene.contact is not None
         return self.scene.contact
+
+    def blocks(self, problem: Problem, layers: range | None = None) -> list[Block]:
+        """Give the one contact, with the layer of its upper bead."""
+        assert self.scene.ask.at is not None
+        block = self.naming.contact(self.scene.ask.at)
+        return [block] if layers is None or block.row.j in layers else []
 
     def force_rows(self, load: LoadSpec) -> Rows:
         """Give the beads whose force balance decides the contact's force."""
@@ -46,54 +54,44 @@ class SingleContact(ContactQuantity):
 
     def most_beads(self) -> int:
         """Bound the beads to be solved."""
-        if self.scene.load.at is not None and not self.scene.load.pressure:
+        point = self.scene.load.at is not None and not self.scene.load.pressure
+        if point or self.by_layers:
             return super().most_beads()
         beads = regions.contact_beads(self.contact.j, self.height)
         return beads if self.width is None else min(beads, self.width * (self.height + 1))
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
-        """Name the one group."""
-        i, j, branch = self.contact
-        return {"i": [i], "j": [j], "branch": [branch.value]}
+        """Name the one group, as the scene does."""
+        assert self.scene.ask.at is not None
+        names = self.naming.contacts(self.blocks(problem))
+        return {name: [value] for name, value in zip(names, self.scene.ask.at, strict=True)}
 
     def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
         """Give F, shape (1, 1), and g, (1, realisations, 1)."""
         if solved.single is not None:  # line sums
             force, change = solved.single
             return np.array([[force]]), np.array([[[change]]])
-        assert solved.forces is not None
-        _, j, branch = self.contact
-        F, g = solved.forces.ordered[branch][j + 1], solved.forces.change[branch][j + 1]
-        return F[:1, None], g.reshape(realisations, -1)[None, :, :1]
+        return super().changes(problem, solved, realisations)
 
     def ordered(self, problem: Problem) -> list[Fraction]:
         """Give the ordered force."""
+        if self.by_layers:
+            return super().ordered(problem)
         strength = problem.load.strength(problem.n_x, FLOAT64)
         return [Fraction(float(problem.load.ordered_force(self.contact, strength, FLOAT64)))]
 
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
-        """Give the one row where its upper bead lies in these layers."""
-        return self.row_of(solved) if self.contact.upper[1] in layers else None
-
-    def row_of(self, solved: Solved) -> Table:
-        """Give the contact of one realisation; nothing where a sweep stopped above it."""
-        _, j, branch = self.contact
-        found: Sequence[tuple[Any, Any]] = []
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
+        """Give the contact, with the layer of its upper bead; not where a sweep stopped above."""
+        system, blocks = solved.system, self.blocks(problem, layers)
         if solved.single is not None:
-            F, g = solved.single
-            found = [(F + g, g)]
-        elif solved.forces is not None and len(solved.forces.ordered[branch][j + 1]):
-            g = solved.forces.change[branch][j + 1][0]
-            found = [(solved.forces.ordered[branch][j + 1][0] + g, g)]
-        lower = Layer(j, self.contact.i, len(found))
-        return Table(
-            {**self.sites_of([lower]), "branch": np.array([branch.value] * len(found), dtype="U1")},
-            {
-                "force": column([force for force, _ in found], solved.system),
-                "change": column([change for _, change in found], solved.system),
-            },
-            ("change",),
-        )
+            F, g = (column([one], system) for one in solved.single)
+        else:
+            assert solved.forces is not None
+            blocks = above_stop(blocks, solved.forces)
+            found = contact_changes(solved, blocks, 1)
+            F = joined(system, [F for _, F, _ in found])
+            g = joined(system, [g[0] for _, _, g in found])
+        return Table(self.naming.contacts(blocks), {"force": F + g, "change": g}, ("change",))
 
 
 class ContactForce(SingleContact, Listed):
@@ -105,7 +103,3 @@ class ContactForce(SingleContact, Listed):
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a realisation."""
         return realisations
-
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give the one row."""
-        return self.row_of(solved)

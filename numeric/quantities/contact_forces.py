@@ -1,16 +1,15 @@
 """All contact forces."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import lru_cache, partial
 
 import numpy as np
 
 from ..arithmetic.systems import Array
 from ..lattice.layers import Layer, Region, full_layer
+from ..lattice.naming import Block
 from ..mechanics.problem import Problem, Solved
 from .base import (
-    Block,
     Columns,
     ContactQuantity,
     Later,
@@ -38,35 +37,19 @@ class ContactForces(ContactQuantity, Listed):
         """Give what rounding left of changes."""
         return self.left_of_changes(solved)
 
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
         """Give a row a contact, layer by layer from the base, "+" before "-"."""
         assert solved.forces is not None
-        if self.at_once(problem, solved, range(1, self.height + 1)):
-            return replace(self._at_once(solved), index=self.names)
-        rows = problem.force_rows[1:]
-        if self.width is not None:
-            rows = tuple(full_layer(j, self.width) for j in range(1, self.height + 1))
-        return self._below(rows, solved)
-
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
-        """Give the contacts below the beads of some layers."""
-        width, own = self.width, problem.force_rows
         layers = range(max(layers.start, 1), min(layers.stop, self.height + 1))
         if self.at_once(problem, solved, layers):
             return self._at_once(solved)
-        rows = [
-            full_layer(j, width) if width is not None else own[j]
-            for j in layers
-            if width is not None or j < len(own)
-        ]
-        return self._below(rows, solved) if rows else None
-
-    def _below(self, rows: Sequence[Layer], solved: Solved) -> Table:
-        assert solved.forces is not None
+        rows: Sequence[Layer] = problem.force_rows[layers.start : layers.stop]
+        if self.width is not None:
+            rows = [full_layer(j, self.width) for j in layers]
         blocks = above_stop([Block(b, row) for row in rows for b in self.branches], solved.forces)
         found = list(contact_changes(solved, blocks, 1))
         return Table(
-            self.contacts_of(blocks),
+            self.naming.contacts(blocks),
             {
                 "force": joined(solved.system, [F + g[0] for _, F, g in found]),
                 "change": joined(solved.system, [g[0] for _, _, g in found]),

@@ -45,21 +45,12 @@ class Histogram(ContactQuantity, Listed):
         """Give what rounding left of changes, where all are asked for."""
         return self.left_of_changes(solved) if self.layers is None else None
 
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
         """Give the changes of contacts below the beads of some layers."""
         forces = solved.forces
         assert forces is not None
         rows = range(max(layers.start, 1), min(layers.stop, len(forces.rows)))
-        asked = filter(self.is_asked, rows)
-        parts = [np.asarray(g) for j in asked for _, _, g in forces.below(j) if g.size]
-        return Table({}, {"change": joined(solved.system, parts)}, ("change",)) if parts else None
-
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give all changes of one realisation."""
-        forces = solved.forces
-        assert forces is not None
-        asked = filter(self.is_asked, range(1, len(forces.rows)))
-        parts = [g for j in asked for _, _, g in forces.below(j)]
+        parts = [g for j in filter(self.is_asked, rows) for _, _, g in forces.below(j)]
         return Table({}, {"change": joined(solved.system, parts)}, ("change",))
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
@@ -87,10 +78,6 @@ class ContactHistogram(SingleContact, Histogram):
     def answer_rows(self, region: Region, realisations: int) -> int:
         """Two a bin, for its edges as decimals; a change counts for a little."""
         return 2 * (self.scene.ask.bins or 1) + realisations
-
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give the change of one realisation, with its contact."""
-        return self.row_of(solved)
 
     def members(self, problem: Problem) -> int:
         """The one contact."""

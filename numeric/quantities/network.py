@@ -12,8 +12,7 @@ import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats
 from ..lattice.branch import Branch
-from ..lattice.layers import Region, whole
-from ..lattice.regions import Rows
+from ..lattice.layers import Region, Rows, whole
 from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved
@@ -47,8 +46,8 @@ class NetworkQuantity(Listed):
         """Two contacts a bead, at most."""
         return 2 * region.beads * realisations
 
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give the rows of one realisation."""
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
+        """Give the rows of one realisation; it is never cut into layers."""
         assert isinstance(solved, Relaxed)
         return self.listed(problem, solved.network, solved.system)
 
@@ -100,7 +99,7 @@ class NetworkContact(NetworkQuantity):
         """There is one group."""
         assert self.scene.contact is not None
         i, j, branch = self.scene.contact
-        return {"i": [self.home(i)], "j": [j], "branch": [branch.value]}
+        return {"i": [self.naming.home(i)], "j": [j], "branch": [branch.value]}
 
     def samples(self, problem: Problem, network: Network) -> tuple[Array, Array]:
         """Give the one force."""
@@ -118,7 +117,8 @@ class NetworkContact(NetworkQuantity):
         assert self.scene.contact is not None
         i, j, branch = self.scene.contact
         for pair, value in zip(network.pairs, network.forces, strict=True):
-            if network.bead(pair[1]) == (self.home(i), j) and network.branch(pair) == branch.value:
+            here = network.bead(pair[1]) == (self.naming.home(i), j)
+            if here and network.branch(pair) == branch.value:
                 return value
         return system.number(Fraction(0))
 
@@ -173,9 +173,8 @@ class NetworkPositions(NetworkQuantity):
         beads = range(len(network.x))
         if self.scene.site is not None:
             i, j = self.scene.site
-            beads = range(
-                j * network.width + self.home(i) // 2, j * network.width + self.home(i) // 2 + 1
-            )
+            bead = j * network.width + self.naming.home(i) // 2
+            beads = range(bead, bead + 1)
         names = [network.bead(number) for number in beads]
         bearing = np.bincount(network.pairs.ravel(), minlength=len(network.x))
         nx, ny = plain.axes(problem.n_x, system)
@@ -280,7 +279,7 @@ class _Layers(Gatherer):
         self.forces: list[list[Any]] = [[] for _ in range(quantity.height + 1)]
         self.sums: list[Array] = []  # of each packing: counts, sums and squares of every layer
 
-    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
+    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
         """Sort forces by the layer of the lower bead."""
         assert isinstance(solved, Relaxed)
         for pair, force in zip(solved.network.pairs, solved.network.forces, strict=True):

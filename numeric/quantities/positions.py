@@ -1,22 +1,22 @@
 """Positions of beads."""
 
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 
-import numpy as np
-
-from ..arithmetic.systems import Array, NumberSystem, array, zeros
+from ..arithmetic.systems import Array, NumberSystem, array, from_floats, zeros
 from ..lattice import regions
-from ..lattice.layers import Layer, Region, pick, whole
-from ..lattice.regions import Rows
-from ..mechanics import plain
+from ..lattice.layers import Layer, Region, Rows, pick, whole
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved
-from .base import Listed, Table, column
+from .base import Columns, Listed, Table, cartesian, column, joined, slope
 
 
 class Positions(Listed):
-    """Positions of one bead or of all, in the scene's unit of length."""
+    """Positions of one bead or of all, in the scene's unit of length.
+
+    The first bead of the ordered base is at the origin, x is along the base, and the last axis up.
+    """
 
     name = "positions"
     needs_forces = False
@@ -24,7 +24,7 @@ class Positions(Listed):
 
     def force_rows(self, load: LoadSpec) -> Rows:
         """No forces are needed."""
-        return ()
+        return Rows()
 
     def region(self, force_rows: Rows) -> Region:
         """Give the triangle below the bead, or the whole packing."""
@@ -41,60 +41,56 @@ class Positions(Listed):
     def most_beads(self) -> int:
         """Bound the beads to be solved."""
         if self.scene.site is None:
-            assert self.width is not None
-            return self.width * (self.height + 1)
+            return (self.top + 1) * (self.width or 0)
         j = self.scene.site[1]
         beads = regions.triangle_beads(j)
         return beads if self.width is None else min(beads, self.width * (j + 1))
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a bead."""
-        return (1 if self.single else region.beads) * realisations
+        return (1 if self.scene.ask.at is not None else region.beads) * realisations
 
-    def rows_of(self, problem: Problem, solved: Solved) -> Table:
-        """Give a row a bead, from the base up."""
-        found = self.rows_within(problem, solved, range(self.height + 1))
-        assert found is not None
-        return found
-
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
-        """Give a row a bead of some layers."""
-        scene, system = self.scene, solved.system
-        nx, ny = plain.axes(scene.n_x, system)
-        r = system.number(scene.packing.radius)
+    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
+        """Give a row a bead of some layers, from the lowest up."""
+        system, at = solved.system, self.scene.ask.at
         rows = [row for row in problem.region.rows if row.j in layers]
-        if scene.site is not None:
-            i, j = scene.site
+        if at is not None:
+            i, j = self.naming.site(at)
             rows = [Layer(j, i, 1)] if j in layers else []
-        if not rows:
-            return None
-        columns: dict[str, list[Array]] = {"x": [], "y": [], "dx": [], "dy": []}
-        for layer in rows:
-            cp, cm = self._line_sums(solved, layer)
-            dx, dy = (cp - cm) / (2 * nx) * r, (cp + cm) / (2 * ny) * r
-            columns["x"].append(_ordered(layer.sites(), scene.spacing, system) + dx)
-            columns["y"].append(dy + 2 * layer.j * (ny * r))
-            columns["dx"].append(dx)
-            columns["dy"].append(dy)
-        return Table(
-            self.sites_of(rows),
-            {name: np.concatenate(parts) for name, parts in columns.items()},
-            ("dx", "dy"),
-        )
+        r, index = system.number(self.scene.packing.radius), self.naming.beads(rows)
+        moved = cartesian(self._line_sums(solved, rows), problem, system, raised=False)
+        axes = "xyz"[: len(moved)]
+        change = {f"d{axis}": of * r for axis, of in zip(axes, moved, strict=True)}
+        home = self._ordered(problem, rows, index, system)
+        place = zip(axes, home, change.values(), strict=True)
+        return Table(index, {axis: a + b for axis, a, b in place} | change, tuple(change))
 
-    def _line_sums(self, solved: Solved, layer: Layer) -> tuple[Array, Array]:
+    def _line_sums(self, solved: Solved, rows: Sequence[Layer]) -> list[Array]:
+        """Give c of each direction, row by row."""
+        system, packing = solved.system, solved.packing
         if solved.single is not None:
-            return column([solved.single[0]], solved.system), column(
-                [solved.single[1]], solved.system
-            )
-        if solved.packing is None:
-            nothing = zeros(solved.system, layer.count)
-            return nothing, nothing
-        source, c = solved.packing.region.rows[layer.j], solved.packing.c
-        return (
-            pick(c.plus[layer.j], source, layer, self.width),
-            pick(c.minus[layer.j], source, layer, self.width),
-        )
+            return [column([one], system) for one in solved.single]
+        if packing is None:
+            return [zeros(system, sum(row.count for row in rows))] * len(self.branches)
+        region = packing.region
+        return [
+            joined(system, [pick(c[row.j], region.rows[row.j], row, self.width) for row in rows])
+            for _, c in packing.c
+        ]
+
+    def _ordered(
+        self, problem: Problem, rows: Sequence[Layer], index: Columns, system: NumberSystem
+    ) -> Sequence[Array]:
+        """Give the positions of beads in the ordered packing."""
+        r = system.number(self.scene.packing.radius)
+        if self.by_layers:
+            p, q, j = index.values()
+            home = [from_floats(system, 2.0 * one) for one in (p, q, j - p - q)]
+            return [one * r for one in cartesian(home, problem, system, raised=True)]
+        x = [_ordered(row.sites(), self.scene.spacing, system) for row in rows]
+        step = slope(problem, system) * r
+        y = [zeros(system, row.count) + 2 * row.j * step for row in rows]
+        return joined(system, x), joined(system, y)
 
 
 @lru_cache(maxsize=4)

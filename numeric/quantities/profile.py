@@ -10,11 +10,11 @@ from ..arithmetic.decimals import decimal_string
 from ..arithmetic.systems import Array, NumberSystem, as_floats
 from ..lattice.branch import Direction
 from ..lattice.layers import Region, full_layer
+from ..lattice.naming import Block
 from ..mechanics.problem import Problem, Solved
 from ..statistics.moments import Moments, Scatter, unit_near
 from .base import (
     RATIO,
-    Block,
     ContactQuantity,
     Gatherer,
     Table,
@@ -49,22 +49,12 @@ class Profile(ContactQuantity):
         """Start to merge moments."""
         return ProfileMoments(self, problem, system)
 
-    def blocks(self, problem: Problem) -> list[Block]:
+    def blocks(self, problem: Problem, layers: range | None = None) -> list[Block]:
         """Give whole layers, those that no load reaches included."""
         assert self.width is not None
-        rows = (full_layer(j, self.width) for j in range(1, self.height + 1))
+        layers = self.all_layers if layers is None else layers
+        rows = [full_layer(j, self.width) for j in layers if j]
         return [Block(branch, row) for row in rows for branch in self.branches]
-
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
-        """Give the rows of some whole layers."""
-        assert self.width is not None
-        gatherer = self.gatherer(problem, solved.system)
-        whole = [full_layer(j, self.width) for j in layers if j]
-        blocks = [Block(branch, row) for row in whole for branch in self.branches]
-        gatherer.take(contact_changes(solved, blocks, 1))
-        none = np.zeros((1, len(gatherer.found)))
-        gatherer.scatter.add(none, none)  # of one packing there is no scatter
-        return gatherer.table()
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Name the layers, by the lower beads of their contacts."""
@@ -96,18 +86,12 @@ class ProfileMoments(Gatherer):
         self.found: dict[tuple[int, Direction], tuple[Any, Moments]] = {}
         self.scatter = Scatter()
 
-    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
+    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
         """Merge the changes of the contacts; ordered forces only enter the mean."""
         assert solved.forces is not None
-        blocks = above_stop(self.quantity.blocks(self.problem), solved.forces)
-        means, squares = self.take(contact_changes(solved, blocks, len(realisations)))
-        if not self.problem.stop_at_tension:
-            self.scatter.add(np.stack(means, axis=1), np.stack(squares, axis=1))
-
-    def take(self, parts: Sequence[tuple[Block, Array, Array]]) -> tuple[list[Array], list[Array]]:
-        """Merge changes of whole layers; give their means and mean squares of each packing."""
+        blocks = above_stop(self.quantity.blocks(self.problem, layers), solved.forces)
         means, squares = [], []
-        for (branch, row), F, g in parts:
+        for (branch, row), F, g in contact_changes(solved, blocks, len(realisations)):
             with np.errstate(all="ignore"):  # of balls beyond floats no standard error is known
                 scaled = as_floats(g / self.unit)
                 means.append(scaled.mean(axis=1))
@@ -118,7 +102,8 @@ class ProfileMoments(Gatherer):
                 one = self.problem.load.loaded is None
                 self.found[key] = (F[0] if one else F.sum() / len(F), Moments(self.unit))
             self.found[key][1].add(g.reshape(-1))
-        return means, squares
+        if not self.problem.stop_at_tension:
+            self.scatter.add(np.stack(means, axis=1), np.stack(squares, axis=1))
 
     def table(self) -> Table:
         """One row a layer and branch, base first."""

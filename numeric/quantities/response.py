@@ -12,7 +12,6 @@ from ..lattice.layers import Layer, Region, pick
 from ..mechanics.problem import Problem, Route, Solved
 from ..statistics.moments import Moments, Scatter, unit_near
 from .base import (
-    Block,
     ContactQuantity,
     Gatherer,
     Table,
@@ -58,24 +57,6 @@ class Response(ContactQuantity):
         F, g = np.concatenate([F, F * ny]), np.concatenate([g, vertical], axis=1)
         return F[:, None], g.T[:, :, None]
 
-    def both(
-        self, problem: Problem, solved: Solved, realisations: int
-    ) -> tuple[dict[str, Array], Array, Array, Array]:
-        """Give the contacts, F, g and the change of the vertical component f N_y.
-
-        Shapes: (contacts,), (realisations, contacts) and the same.
-        """
-        assert solved.forces is not None
-        blocks = above_stop(self.blocks(problem), solved.forces)
-        return self._both(problem, solved, realisations, blocks)
-
-    def rows_within(self, problem: Problem, solved: Solved, layers: range) -> Table | None:
-        """Give the rows of contacts whose upper beads lie in some layers."""
-        blocks = [block for block in self.blocks(problem) if block.row.j in layers]
-        if not blocks:
-            return None
-        return self.one(problem, solved.system, *self._both(problem, solved, 1, blocks))
-
     def one(
         self,
         problem: Problem,
@@ -98,9 +79,16 @@ class Response(ContactQuantity):
             ("change", "vertical_change"),
         )
 
-    def _both(
-        self, problem: Problem, solved: Solved, realisations: int, blocks: Sequence[Block]
+    def both(
+        self, problem: Problem, solved: Solved, realisations: int, layers: range | None = None
     ) -> tuple[dict[str, Array], Array, Array, Array]:
+        """Give the contacts, F, g and the change of the vertical component f N_y.
+
+        Of the upper beads' ``layers`` only, if some are given. Shapes: (contacts,), (realisations,
+        contacts) and the same.
+        """
+        assert solved.forces is not None
+        blocks = above_stop(self.blocks(problem, layers), solved.forces)
         system = solved.system
         ny = slope(problem, system)
         parts = contact_changes(solved, blocks, realisations)
@@ -109,7 +97,7 @@ class Response(ContactQuantity):
             tilt = self.tilt(solved, branch, row)
             f = F + (g if problem.route == Route.EXACT else 0)
             verticals.append((g + f * tilt.reshape(-1, row.count)) * ny)
-        contacts = self.contacts_of([block for block, _, _ in parts])
+        contacts = self.naming.contacts([block for block, _, _ in parts])
         nothing = zeros(system, realisations, 0)
         return (
             contacts,
@@ -140,11 +128,11 @@ class _Responses(Gatherer):
         self.scatter = Scatter()
         self.last: tuple[dict[str, Array], Array, Array, Array] | None = None
 
-    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
+    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
         """Take in realisations, one after the other."""
         for number in range(len(realisations)):
             one = solved if len(realisations) == 1 else solved.one(number)
-            self.last = self.quantity.both(self.problem, one, 1)
+            self.last = self.quantity.both(self.problem, one, 1, layers)
             if self.problem.realisations > 1:
                 both = np.concatenate(self.last[2:], axis=1)
                 self.moments.add(both)

@@ -22,7 +22,7 @@ from ..mechanics.physicality import PHYSICAL, Physicality
 from ..mechanics.problem import Solved
 from ..mechanics.work import Work
 from ..planning.plan import Plan
-from ..quantities.answer import Answer, at_home, in_units
+from ..quantities.answer import Answer, at_home, in_units, named
 from ..quantities.base import Columns, Table
 from ..quantities.histogram import Histogram
 from ..scene.source import program_version, source_of
@@ -42,13 +42,13 @@ class _Part:
     """
 
     physical: Physicality
-    table: Table | None
+    table: Table
     apart: float = 0.0
     sizes: Sizes = NONE
 
     def keep(self, kept: "Kept", number: int) -> None:
         """Keep it; what was measured first, so that it is whole once its words are there."""
-        table = self.table or Table({}, {}, ())
+        table = self.table
         parts: dict[str, Columns] = {
             "index": table.index,
             "numbers": table.numbers,
@@ -84,7 +84,7 @@ class _Part:
             return {name: column for name, column in columns.items() if column is not None}
 
         index, numbers, scatter = map(columns, ("index", "numbers", "errors"), parts)
-        table = Table(index, numbers, tuple(small), scatter) if numbers else None
+        table = Table(index, numbers, tuple(small), scatter)
         return cls(found, table, errors[0], Sizes(*errors[1:]))
 
 
@@ -132,7 +132,7 @@ def _counted(
     """Count all changes into bins, on a second way down; the table has their extremes alone."""
     quantity = plan.quantity
     assert isinstance(quantity, Histogram)
-    found = [part.table.numbers["change"] for part in parts if part.table is not None]
+    found = [part.table.numbers["change"] for part in parts if part.table.rows]
     if not found:
         return Table({}, {"change": np.empty(0)}, ("change",)), []
     change = np.array([min(low for low, _ in found), max(high for _, high in found)])
@@ -142,9 +142,8 @@ def _counted(
         own = way.kept.get(f"counts{number}")
         if own is None:
             segment = way.down(number)
-            table = _rows(plan, segment, segment.solved)
-            changes = np.empty(0) if table is None else table.numbers["change"]
-            own = counted(changes, edges)
+            table, _ = _rows(plan, segment, segment.solved)
+            own = counted(table.numbers["change"], edges)
             way.kept.put(f"counts{number}", own)
             way.leave(number)
         counts += own
@@ -162,7 +161,7 @@ def _key(plan: Plan) -> dict[str, Any]:
 
 
 def _part(plan: Plan, segment: "Segment", work: Work, *, counts: bool) -> _Part:
-    problem, quantity, solved = plan.problem, plan.quantity, segment.solved
+    problem, solved = plan.problem, segment.solved
     forces, packing = solved.forces, segment.packing
     assert forces is not None
     layers = range(segment.first, segment.last + 1)
@@ -176,22 +175,18 @@ def _part(plan: Plan, segment: "Segment", work: Work, *, counts: bool) -> _Part:
             physical.look_at_forces(forces, layers)
     rows = problem.region.rows[layers.start : layers.stop]
     work.did_rows("checked", rows, sum(row.count for row in rows))
-    table, longer, sizes = _rows(plan, segment, solved), plan.method.longer, solved.sizes
-    if table is None:
-        return _Part(physical, None, sizes=sizes)
-    apart = quantity.left(solved)
+    (table, apart), longer = _rows(plan, segment, solved), plan.method.longer
     if apart is None:
         assert longer is not None
-        exact = _rows(plan, segment, solved.longer(longer))
-        assert exact is not None
+        exact, _ = _rows(plan, segment, solved.longer(longer))
         apart = max(
             _above(np.abs(exact.numbers[name] - table.numbers[name]).max(initial=0))
             for name in table.small
         )
-    if counts:
+    if counts and table.rows:
         change = table.numbers["change"]
         table = Table({}, {"change": np.array([change.min(), change.max()])}, ("change",))
-    return _Part(physical, table, apart, sizes)
+    return _Part(physical, table, apart, solved.sizes)
 
 
 def _above(value: Any) -> float:
@@ -199,24 +194,26 @@ def _above(value: Any) -> float:
     return math.nextafter(float(value), math.inf) if value else 0.0
 
 
-def _rows(plan: Plan, segment: "Segment", solved: Solved) -> Table | None:
-    """Give the rows of the answer that a segment has, in its unit; None where it has none."""
+def _rows(plan: Plan, segment: "Segment", solved: Solved) -> tuple[Table, float | None]:
+    """Give the rows of the answer that a segment has, in its unit, and ``Gatherer.left``."""
     problem, quantity = plan.problem, plan.quantity
     highest = segment.last if segment.number + 1 < segment.of else problem.height
-    table = quantity.rows_within(problem, solved, range(segment.first, highest + 1))
-    return None if table is None else in_units(quantity, table.sorted(), solved.system)
+    gatherer = quantity.gatherer(problem, solved.system)
+    gatherer.add(solved, [0], range(segment.first, highest + 1))
+    return in_units(quantity, gatherer.table().sorted(), solved.system), gatherer.left()
 
 
 def _table(plan: Plan, parts: list[_Part]) -> Table:
     """Put the rows of all segments below each other; the parts are used up, column by column."""
-    tables = [part.table for part in parts if part.table is not None]
+    tables = [part.table for part in parts if part.table.rows] or [parts[0].table]
 
     def joined(columns: Sequence[Columns]) -> dict[str, Array]:
         return {n: np.concatenate([one.pop(n) for one in columns]) for n in list(columns[0])}
 
-    index: Columns = joined([table.index for table in tables]) or plan.quantity.names
+    index: Columns = joined([table.index for table in tables])
     numbers, small = joined([table.numbers for table in tables]), tables[0].small
-    return Table(index, numbers, small, joined([table.errors for table in tables]), in_order=True)
+    errors = joined([table.errors for table in tables])
+    return named(plan.quantity, Table(index, numbers, small, errors, in_order=True))
 
 
 def _physical(plan: Plan, parts: list[_Part]) -> Physicality:

@@ -215,7 +215,6 @@ class Outcome:
         data["seconds"] = round(self.seconds, 6)
         if data["choice"] is not None:
             data["choice"]["missed"] = [asdict(missed) for missed in self.missed]
-            data["choice"]["measured_seconds"] = round(self.seconds, 6)
         return data
 
     def packings(self) -> dict[str, Any]:

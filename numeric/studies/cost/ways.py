@@ -44,7 +44,7 @@ def answer(
     with system.active():
         gatherer = plan.quantity.gatherer(plan.problem, system)
         for solved, chunk in packings(plan.problem, realisations, system, plainly=plainly):
-            gatherer.add(solved, chunk)
+            gatherer.add(solved, chunk, plan.quantity.all_layers)
         return gatherer.table().sorted()
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 import pytest
-from force_diffusion.numeric.lattice.layers import Layer, whole
+from force_diffusion.numeric.lattice.layers import Layer, Rows, whole
 from force_diffusion.numeric.lattice.regions import (
     contact_beads,
     contact_rows,
@@ -147,6 +147,6 @@ def test_under_a_surface_load_a_contact_needs_what_stands_on_it(
 def test_rows_meet_at_their_common_sites(
     a: tuple[int, int], b: tuple[int, int], expected: tuple[int, int] | None
 ) -> None:
-    found = meet(Layer(4, *a), Layer(4, *b), 10)
+    (found,) = meet(Rows(*zip(a), 4), Rows(*zip(b), 4), 10)
     assert found.j == 4
     assert (found.first, found.last) == expected if expected else not found.count

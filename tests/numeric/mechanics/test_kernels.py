@@ -15,7 +15,7 @@ from force_diffusion.numeric.arithmetic.carried import CARRYING, Carried
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array
 from force_diffusion.numeric.disorder.radii import DrawnRadii, RadiusError, rows_of
 from force_diffusion.numeric.lattice.branch import Branch, Contact, per_direction
-from force_diffusion.numeric.lattice.layers import Layer, Region, standing_on_base, whole
+from force_diffusion.numeric.lattice.layers import Region, Rows, standing_on_base, whole
 from force_diffusion.numeric.lattice.regions import contact_rows, downward_cone, upward_cone
 from force_diffusion.numeric.mechanics import engine, gaps, sweep
 from force_diffusion.numeric.mechanics.problem import Solved
@@ -67,7 +67,7 @@ def outcome(function: Any, *arguments: Any) -> Any:
 
 
 @st.composite
-def regions(draw: st.DrawFn) -> tuple[Region, tuple[Layer, ...]]:
+def regions(draw: st.DrawFn) -> tuple[Region, Rows]:
     """A whole packing of discs or spheres, or beads that decide something of a slab or strip."""
     shape = draw(st.sampled_from(["discs", "spheres", "part"]))
     if shape != "part":
@@ -87,7 +87,7 @@ def regions(draw: st.DrawFn) -> tuple[Region, tuple[Layer, ...]]:
 def test_every_bit_is_that_of_the_same_source_on_numpy(
     data: st.DataObject,
     phi: Fraction,
-    case: tuple[Region, tuple[Layer, ...]],
+    case: tuple[Region, Rows],
     carried: bool,
     size: float,
 ) -> None:
@@ -153,9 +153,7 @@ def test_every_bit_is_that_of_the_same_source_on_numpy(
 
 
 @given(PHI, regions(), st.integers(0, 2**32))
-def test_gaps_are_those_of_numpy(
-    phi: Fraction, case: tuple[Region, tuple[Layer, ...]], seed: int
-) -> None:
+def test_gaps_are_those_of_numpy(phi: Fraction, case: tuple[Region, Rows], seed: int) -> None:
     region, _ = case
     rng = np.random.default_rng(seed)
     rho = rng.uniform(-1, 1, (2, 1, region.beads)) * 10.0 ** rng.uniform(-9, -1)
@@ -209,7 +207,7 @@ def test_every_bit_of_a_drawn_radius_is_that_of_the_numpy_draw(
     width: int | None,
 ) -> None:
     source = DrawnRadii(kind, Fraction(1, 10**6), seed, width)
-    layers = tuple(Layer(j, 2 * i + j % 2, n) for j, (i, n) in enumerate(rows))
+    layers = Rows([2 * i + j % 2 for j, (i, _) in enumerate(rows)], [n for _, n in rows])
     usual = np.concatenate(
         [
             source.row(layer, realisations, FLOAT64).reshape(len(realisations), layer.count)

@@ -1,7 +1,7 @@
 """A tolerance is kept, whatever method is taken to it; choices are sound."""
 
 import itertools
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -108,9 +108,9 @@ def grid() -> Iterator[Any]:
 @pytest.mark.long(sample=36)
 @pytest.mark.parametrize("sections", list(grid()))
 def test_every_way_that_may_answer_keeps_the_tolerance(
-    sections: dict[str, dict[str, Any]], record_property: Callable[[str, object], None]
+    sections: dict[str, dict[str, Any]],
 ) -> None:
-    """Not only the cheapest way: on another machine another one is."""
+    """Not only the first."""
     plan, true = planned(sections), reference(sections)
     assert plan.choice is not None
     tolerance = plan.choice.tolerance
@@ -120,9 +120,6 @@ def test_every_way_that_may_answer_keeps_the_tolerance(
         outcome = run(only(plan, way))
         assert_kept(outcome, true, tolerance)
         assert outcome.accuracy.certified == outcome.plan.method.certified
-        assert way.seconds is not None
-        ratio = way.seconds / outcome.seconds
-        record_property(f"predicted/measured, {way.arithmetic}", f"{ratio:.2g}")
 
 
 def test_changes_that_float64_can_not_hold_are_left_to_balls() -> None:
@@ -198,30 +195,17 @@ def test_what_only_balls_decide_is_left_to_them() -> None:
 def test_the_order_is_fixed() -> None:
     """What may answer comes first: float64, pairs, balls; the others are listed with why."""
     found = candidates(basic(tolerance="=1e-6", realisations=9))
-    possible = [way.arithmetic.partition(",")[0] for way in found if not way.out]
-    floats = ["float64"] * 2 + ["float64 pairs"]
-    assert possible == [*floats, "arb balls"]
-    out = {way.arithmetic.partition(",")[0]: way.out for way in found if way.out}
-    assert "balls of as many digits" in out["mpmath"]
-    assert "fewer bits" in out["arb balls"]
+    possible = [(way.arithmetic.partition(",")[0], way.repeated) for way in found if not way.out]
+    assert possible == [("float64", 4), ("float64", 9), ("float64 pairs", 9), ("arb balls", 0)]
+    found = candidates(basic(tolerance="=1e-20", realisations=9))
+    assert [bool(way.out) for way in found] == [False, False, True, True]
+    assert all("expected to err by" in way.out for way in found[2:])
 
 
 def test_an_effect_is_never_replaced() -> None:
     for geometry in ("exact", "first-order"):
         sections = {**basic(tolerance="=1e-3"), "effects": {"geometry": geometry}}
         assert {way.plan.problem.route for way in candidates(sections) if way.plan} == {geometry}
-
-
-def test_line_sums_and_a_sweep_are_both_weighed_for_an_ensemble() -> None:
-    sections = basic(quantity="contact", at=[0, 0, "+"], tolerance="=1e-6", realisations=20)
-    sections["effects"] = {"geometry": "first-order"}
-    found = {way.algorithm: way for way in candidates(sections) if not way.out}
-    assert set(found) == {"line sums", "first-order sweep"}
-    answers = {name: run(only(planned(sections), way)).decimals() for name, way in found.items()}
-    one, other = answers.values()
-    largest = max(abs(float(row["change"])) for row in one)
-    for a, b in zip(one, other, strict=True):
-        assert abs(float(a["change"]) - float(b["change"])) <= 2e-6 * largest
 
 
 def test_a_contact_that_no_load_comes_near_has_one_row_a_realisation() -> None:

@@ -10,7 +10,7 @@ import pytest
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the peak is in bytes of Linux")
 
 # Answers of so many rows that they, and not the libraries, take the memory.
-DRAWN = 'disorder = {kind = "uniform", relative_std = 1e-6}\n'
+DRAWN = 'disorder = {kind = "uniform", relative_std = 1e-9}\n'
 POINT = 'packing = {height = 260}\nload = {kind = "point", at = [0, 260]}\n'
 SCENES = {
     "contact forces": 'packing = {height = 100, width = 350}\nask = {quantity = "contact_forces"}',
@@ -23,6 +23,8 @@ SCENES = {
     'ask = {quantity = "contact", at = [0, 0, "+"], realisations = 50_000}',
     "histogram": "packing = {height = 10, width = 40}\n"
     'ask = {quantity = "histogram", bins = 100_000, realisations = 50}',
+    "histogram of many layers": "packing = {height = 100_000, width = 60, allow_images = true}\n"
+    'ask = {quantity = "histogram"}',
     "profile": 'packing = {height = 300, width = 1000}\nask = {quantity = "profile"}',
     "profile below a point": "packing = {height = 20, width = 60_000}\n"
     'load = {kind = "point", at = [0, 20]}\nask = {quantity = "profile"}',

@@ -1,5 +1,6 @@
 """Only what is called for: tests on the work that was executed, and on what it depends on."""
 
+import sys
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -289,9 +290,34 @@ def test_a_bead_drawn_alone_is_the_one_in_its_row(
     assert radii.at(sites, k, FLOAT64).tolist() == rows
 
 
-def test_estimates_know_what_is_printed_and_what_is_solved_together() -> None:
-    few, many = (planned(basic(quantity="histogram", bins=n)) for n in (10, 10**6))
-    # a bin with its edges as decimals takes some ten microseconds, and surely more than two
-    assert many.estimated_seconds > few.estimated_seconds + 2
+def test_memory_knows_what_is_solved_together() -> None:
     one, batch = (planned(basic(quantity="profile", realisations=n)) for n in (1, 1000))
     assert batch.memory > one.memory + 900 * one.problem.region.beads * FLOAT_BEADS[2]
+
+
+@pytest.mark.parametrize("quantity", ["contact", "histogram", "profile", "response"])
+def test_a_plan_takes_no_longer_the_more_layers_there_are(quantity: str) -> None:
+    def calls(height: int) -> int:
+        sections = basic(height, 7, quantity=quantity)
+        sections["packing"]["allow_images"] = True
+        sections["disorder"]["relative_std"] = "=1e-12"
+        if quantity == "response":
+            sections |= {"load": {"kind": "point", "at": [height % 2, height]}}
+            sections["ask"]["layers"] = [0]
+        if quantity == "contact":
+            sections["ask"]["at"] = [0, 0, "+"]
+        counted = 0
+
+        def count(frame: object, event: str, argument: object) -> None:
+            nonlocal counted
+            counted += event == "call"
+
+        sys.setprofile(count)
+        try:
+            made = planned(sections)
+        finally:
+            sys.setprofile(None)
+        assert made.problem.region.top == height
+        return counted
+
+    assert calls(200_001) <= 2 * calls(101)

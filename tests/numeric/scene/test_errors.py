@@ -212,8 +212,6 @@ def test_too_large_is_refused_with_its_size_before_anything_is_done() -> None:
             planned(sections)
     with pytest.raises(SceneError, match=r"of memory.*100 MB may be used"):
         plan(scene(basic(100, 201)), memory_limit=100_000_000)
-    with pytest.raises(SceneError, match="days"):
-        planned(basic(60, 122, quantity="profile", realisations=10**9))
 
 
 def test_what_float64_cannot_hold_needs_a_tolerance(tmp_path: Path) -> None:
@@ -379,7 +377,7 @@ def solved_or_refused(sections: dict[str, dict[str, Any]], folder: Path = Path()
     try:
         made = planned(sections, folder)
         made.data()
-        if made.estimated_seconds < 0.1 and made.system.bits <= 2000:
+        if sum(step.beads for step in made.steps) < 5000 and made.system.bits <= 2000:
             outcome = run(made)
             json.dumps(outcome.data(), allow_nan=False)
             accuracy = outcome.accuracy

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import Monodisperse, Radii
-from ..lattice.layers import Region
+from ..lattice.layers import Region, Rows
 from ..mechanics.engine import chunk_size, worth_compiling
 from ..mechanics.images import sees_images
 from ..mechanics.problem import Problem, Route
@@ -15,7 +15,6 @@ from . import budget, float_range, segments
 from .plan import Method, Plan, Skipped
 from .sources import load_of, radii_of
 from .steps import steps_of
-from .times import predicted
 
 # How plans call the way to the numbers.
 ALGORITHMS = {
@@ -28,7 +27,7 @@ ALGORITHMS = {
 
 
 @dataclass(frozen=True)
-class Outline:
+class PreparedScene:
     """A scene's question as a problem, of which any method makes a plan.
 
     ``limit``: bytes that may be used. ``closed``: whether closed forms or line sums answer it.
@@ -61,16 +60,14 @@ class Outline:
         steps = steps_of(self.quantity, problem, method)
         visited = max((step.beads for step in steps), default=0)
         memory = self._memory(method, together, visited)
-        seconds = predicted(self.quantity, problem, method, together)
         cut = None
         if memory > self.limit or problem.region.beads > segments.QUICKER:
             cut = segments.cut(problem, method, scene, self.tolerance, self.limit)
         if cut is not None:
             steps = segments.steps(steps, cut, self.quantity, memory, self.limit)
             memory = segments.memory(cut, self.quantity, text=self.text)
-            problem, seconds = cut, segments.seconds(cut, self.quantity)
+            problem = cut
         budget.refuse_memory(scene, memory, self.limit)
-        budget.refuse_seconds(scene, problem.realisations, seconds)
         return Plan(
             scene,
             self.quantity,
@@ -80,7 +77,6 @@ class Outline:
             steps,
             self.skipped,
             memory,
-            seconds,
             images,
         )
 
@@ -124,25 +120,24 @@ def _memory(
     )
 
 
-def outline(
+def prepared(
     scene: Scene,
     quantity: Quantity,
     limit: int,
     tolerance: Fraction | None,
     *,
-    line_sums: bool = True,
     text: bool = True,
-) -> Outline:
+) -> PreparedScene:
     """Say which beads are solved, by which theory, and what is left out.
 
-    ``line_sums`` may be forbidden; ``text``: rows become text. Raises ``SceneError`` for a scene
+    ``text``: rows become text. Raises ``SceneError`` for a scene
     that is too large, before a single row of beads is made, and ``TableError``.
     """
     unilateral = scene.effects.contacts == "unilateral"
     ordered = _ordered(scene) and not unilateral
     first_order = scene.effects.geometry == "first-order"
     has_line_sums = quantity.single and (scene.contact is not None or scene.site is not None)
-    closed = ordered or (line_sums and first_order and has_line_sums)
+    closed = ordered or (first_order and has_line_sums)
     _refuse_beads(scene, quantity, limit, tolerance, ordered=ordered, closed=closed, text=text)
     skipped: list[Skipped] = []
     load = load_of(scene)
@@ -152,7 +147,7 @@ def outline(
     elif not scene.load.angle_deg and scene.load.kind != "file":
         skipped.append(Skipped("load at an angle", "the load points straight down"))
     single = closed and quantity.single
-    force_rows, region = ((), Region(load.width, ())) if single else quantity.beads(load)
+    force_rows, region = (Rows(), Region(load.width, Rows())) if single else quantity.beads(load)
     unloaded = not region.rows or (quantity.needs_forces and load.loaded == [])
     radii, route = _theory(
         scene, region, skipped, ordered=ordered, closed=closed, unloaded=unloaded
@@ -178,7 +173,7 @@ def outline(
         scene.effects.most_events,
         scene.effects.most_seconds,
     )
-    return Outline(scene, quantity, problem, tuple(skipped), limit, closed, tolerance, text)
+    return PreparedScene(scene, quantity, problem, tuple(skipped), limit, closed, tolerance, text)
 
 
 def _ordered(scene: Scene) -> bool:
@@ -207,7 +202,7 @@ def _refuse_beads(
     if ordered and scene.packing.dimension == 2:
         beads = 0
     layers = 0 if quantity.single and not beads else scene.packing.height + 1
-    nothing = Region(scene.packing.width, ())
+    nothing = Region(scene.packing.width, Rows())
     needed = _memory(scene, quantity, nothing, beads, 1, FLOAT64, text)
     if segments.suits(scene, tolerance):
         height = scene.packing.height
