@@ -1,17 +1,24 @@
 """What the keys of a scene say about each other."""
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..arithmetic.decimals import decimal_string, short
 from .combinations import refusal
-from .sections import Ask, Disorder, Effects, GivenRadii, Load, Packing, SceneError
-
-if TYPE_CHECKING:
-    from .scene import Scene
+from .sections import Ask, Disorder, Effects, GivenRadii, Load, Packing, SceneError, Section
 
 
-def check(scene: "Scene") -> None:
+class Sections(Section):
+    """All sections of a scene."""
+
+    packing: Packing
+    disorder: Disorder | None = None
+    load: Load = Load()
+    effects: Effects = Effects()
+    ask: Ask
+
+
+def check(scene: Sections) -> None:
     """Check what keys say about each other. Raises ``SceneError``."""
     packing, disorder, ask = scene.packing, scene.disorder, scene.ask
     _check_packing(packing)
@@ -26,7 +33,7 @@ def check(scene: "Scene") -> None:
     _check_effects(scene.effects, packing)
 
 
-def refuse(command: str, scene: "Scene", *, covariance: bool = False, reach: bool = False) -> None:
+def refuse(command: str, scene: Sections, *, covariance: bool = False, reach: bool = False) -> None:
     """Raise ``SceneError`` where a command does not answer what is combined here."""
     packing, load, effects, ask = scene.packing, scene.load, scene.effects, scene.ask
     found = refusal(
