@@ -118,8 +118,7 @@ def differs(rough: fd.Outcome, sharp: fd.Outcome) -> str:
     if math.isinf(stated):  # and that is said
         return "" if rough.accuracy.note else "it tells no error, and not why"
     names = rough.answer.table.small
-    rows = [(one.answer.table.numbers[name] for name in names) for one in (rough, sharp)]
-    mine, true = ([[midpoint(as_ball(x)) for x in column] for column in one] for one in rows)
+    mine, true = _columns(rough, names), _columns(sharp, names)
     if [len(one) for one in mine] != [len(one) for one in true]:
         return f"{[len(one) for one in mine]} rows, in balls {[len(one) for one in true]}"
     largest = max((abs(x) for column in true for x in column), default=Fraction(0))
@@ -129,6 +128,12 @@ def differs(rough: fd.Outcome, sharp: fd.Outcome) -> str:
         if worst > error:
             return f"{name} is off by {float(worst):.3g}, and {float(error):.3g} is stated"
     return _miscounted(rough, true[0], error) if rough.answer.bins else ""
+
+
+def _columns(outcome: fd.Outcome, names: tuple[str, ...]) -> list[list[Fraction]]:
+    """Give the numbers of some columns, of balls their midpoints."""
+    numbers = outcome.answer.table.numbers
+    return [[midpoint(as_ball(x)) for x in numbers[name]] for name in names]
 
 
 def _miscounted(rough: fd.Outcome, changes: list[Fraction], error: Fraction) -> str:
