@@ -7,6 +7,8 @@ from ..arithmetic.decimals import decimal_string, short
 from .combinations import refusal
 from .sections import Ask, Disorder, Effects, GivenRadii, Load, Packing, SceneError, Section
 
+FARTHEST = 10**307  # units of length, in which float64 are given
+
 
 class Sections(Section):
     """All sections of a scene."""
@@ -126,6 +128,11 @@ def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
             f"an array of shape {shape}; the packing has {wanted[0]} layers, base included, of "
             f"{beads} beads: give {wanted}, or (packings, …) for several",
         )
+    if not 1 <= packing.radius * FARTHEST <= FARTHEST**2:
+        allowed = (
+            "must lie between 1e-307 and 1e307 beside an array of float64: choose another unit"
+        )
+        raise SceneError("packing.radius", packing.radius, allowed)
     mean = float(given.values.mean()) - (packing.radius if given.delta_r is None else 0)
     if abs(mean) > packing.radius / 2:
         raise SceneError(
