@@ -90,6 +90,7 @@ def work(root: Path, seed: int, numbers: range, pipe: int, keep: bool) -> None:
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGPROF, _interrupt)
     warnings.simplefilter("error")
+    warnings.simplefilter("ignore", ResourceWarning)  # of fonts, which matplotlib's library leaves
     drawn = kinds(root / "whole" / "store")
     for number in numbers:
         random, folder = Random(f"{seed} {number}"), root / str(number)

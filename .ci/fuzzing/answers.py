@@ -20,6 +20,7 @@ import commands
 import numpy as np
 import questions
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
+from force_diffusion.numeric.arithmetic.decimals import short
 from force_diffusion.numeric.arithmetic.errors import WRONG_INPUT
 from force_diffusion.numeric.arithmetic.systems import as_ball, midpoint
 from force_diffusion.numeric.planning import segments
@@ -118,17 +119,26 @@ def differs(rough: fd.Outcome, sharp: fd.Outcome) -> str:
     if math.isinf(stated):  # and that is said
         return "" if rough.accuracy.note else "it tells no error, and not why"
     names = rough.answer.table.small
-    rows = [(one.answer.table.numbers[name] for name in names) for one in (rough, sharp)]
-    mine, true = ([[midpoint(as_ball(x)) for x in column] for column in one] for one in rows)
+    mine, true = _columns(rough, names), _columns(sharp, names)
+    wide = [max((midpoint(x.rad()) for x in column), default=0) for column in _balls(sharp, names)]
     if [len(one) for one in mine] != [len(one) for one in true]:
         return f"{[len(one) for one in mine]} rows, in balls {[len(one) for one in true]}"
     largest = max((abs(x) for column in true for x in column), default=Fraction(0))
     error = Fraction(stated) * largest * SLACK + largest / 10**24
-    for name, a, b in zip(names, mine, true, strict=True):
+    for name, a, b, radius in zip(names, mine, true, wide, strict=True):
         worst = max((abs(x - y) for x, y in zip(a, b, strict=True)), default=Fraction(0))
-        if worst > error:
-            return f"{name} is off by {float(worst):.3g}, and {float(error):.3g} is stated"
+        if worst > error + radius:
+            return f"{name} is off by {short(worst)}, and {short(error)} is stated"
     return _miscounted(rough, true[0], error) if rough.answer.bins else ""
+
+
+def _columns(outcome: fd.Outcome, names: tuple[str, ...]) -> list[list[Fraction]]:
+    """Give the numbers of some columns, of balls their midpoints."""
+    return [[midpoint(x) for x in column] for column in _balls(outcome, names)]
+
+
+def _balls(outcome: fd.Outcome, names: tuple[str, ...]) -> list[list[Any]]:
+    return [[as_ball(x) for x in outcome.answer.table.numbers[name]] for name in names]
 
 
 def _miscounted(rough: fd.Outcome, changes: list[Fraction], error: Fraction) -> str:

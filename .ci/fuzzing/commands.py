@@ -75,7 +75,7 @@ def of_scene(random: Random, folder: Path, *, mildly: bool) -> list[str]:
     (folder / name).write_bytes(text)
     # one in a hundred is drawn or measured, which takes a second
     usual = ["explain"] + ["run"] * 4 + ["ensemble"] * 3
-    command = random.choice(usual if random.random() < 0.98 else ["figures", "cost"])
+    command = random.choice(usual if random.random() < 0.99 else ["figures", "cost"])
     return [command, name, *_options(random, command)]
 
 

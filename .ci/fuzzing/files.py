@@ -126,7 +126,8 @@ def _of_file(folder: Path, name: str, random: Random) -> list[str]:
     loads = (folder / name).read_bytes().startswith(b"i,j,fx")
     lines.append(f"{'load' if loads else 'disorder'} = {{kind = 'file', file = '{name}'}}")
     (folder / "scene.toml").write_text("\n".join(lines), encoding="utf-8")
-    return [*random.choice([["run"], ["explain"], ["figures", "--out", "out"]]), "scene.toml"]
+    command = random.choice([["run"]] * 12 + [["explain"]] * 7 + [["figures", "--out", "out"]])
+    return [*command, "scene.toml"]
 
 
 PACKING: dict[str, Any] = {

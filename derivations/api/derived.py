@@ -132,7 +132,7 @@ def derive(
     """
     if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
         one = getattr(numbers, "number", numbers)
-        raise TypeError(f"derive takes several, in a list: derive([{one}])")
+        raise TypeError(f"derive takes several, in a list: derive([{one!r}])")
     return derive_with(None, numbers, notice, finished)
 
 

@@ -36,6 +36,8 @@ FORCES = 8
 # Variables of a covariance matrix, whose numbers grow with their square.
 MOST_VARIABLES = 2048
 # Magnitude of a load up to which, and down to whose inverse, fourth powers of forces are float64.
+# Units of force: sums over a packing must stay below 1e308.
+MOST_UNIT = 10**280
 MOST_MAGNITUDE = 10**60
 
 
@@ -207,6 +209,10 @@ def _refuse_of_networks(made: Measurement) -> None:
     if made.problem.most_seconds is not None:
         why = "which packings come to rest in time depends on the machine: give most_events"
         raise SceneError("effects.most_seconds", made.problem.most_seconds, why)
+    unit = made.plan.scene.load.magnitude
+    if not 1 <= unit * MOST_UNIT <= MOST_UNIT**2:
+        why = "must lie between 1e-280 and 1e280, as sums are float64: choose another unit"
+        raise SceneError("load.magnitude", unit, why)
 
 
 def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:

@@ -20,6 +20,7 @@ that no ordered value, and none of first order, is ever subtracted.
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from functools import reduce
+from itertools import combinations
 from operator import add, mul, sub
 from typing import Any, NamedTuple
 
@@ -155,6 +156,21 @@ def rest(
         length = 2 + both[a]
         dn.append(tuple(x / length for x in m.raised(tuple(across))))
     return Rest(plus(own, rise), tuple(dn), (discriminant, det, *step))
+
+
+def nested(under: Sequence[Vector], rho_under: Vector, m: Metric) -> list[Any]:
+    """Give, of each two supports, what is positive where a bead that touches one misses the other.
+
+    The square of the difference of their radii, in units of r, less that of their distance.
+    """
+    found = []
+    for a, b in combinations(range(len(under)), 2):
+        turn = 2 * (1 - m.phi)
+        apart = list(less(under[a], under[b]))
+        apart[a], apart[b] = apart[a] - turn, apart[b] + turn
+        sizes = rho_under[a] - rho_under[b]
+        found.append(sizes * sizes - dot(m.raised(tuple(apart)), tuple(apart)))
+    return found
 
 
 def _across(a: int, rise: Vector, own: Vector, under: Vector, both: Any, m: Metric) -> list[Any]:

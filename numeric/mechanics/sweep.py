@@ -20,7 +20,7 @@ from ..arithmetic.errors import ForceDiffusionError, UndecidedError
 from ..arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem, zeros
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
 from ..lattice.layers import Layer, Region, Rows
-from .local import balance, metric, rest
+from .local import balance, metric, nested, rest
 from .work import Work
 
 
@@ -150,15 +150,10 @@ def deposit(
         if not j:
             continue
         looks = [region.look(region.rows[j - 1], layer, one) for one in down]
-        found = rest(
-            [tuple([_moved(look, v) for v in c[-1]]) for look in looks],
-            rho[j],
-            tuple([_moved(look, rho[j - 1]) for look in looks]),
-            m,
-            system.sqrt,
-            linear=linear,
-        )
-        _check_rest(found.holds, layer, region, system)
+        under = [tuple([_moved(look, v) for v in c[-1]]) for look in looks]
+        radii = tuple([_moved(look, rho[j - 1]) for look in looks])
+        found = rest(under, rho[j], radii, m, system.sqrt, linear=linear)
+        _check_rest(found.holds, layer, region, system, partial(nested, under, radii, m))
         c.append(found.c)
         dn.append(found.dn)
 
@@ -339,7 +334,14 @@ def _check_radii(rho: Any, layer: Layer, region: Region, system: NumberSystem) -
 
 # What is wrong where one of the measures of ``local.rest`` is not positive.
 REMEDY = "; less disorder or fewer layers would help"
-APART = f"its supports are too far apart to hold it, or too close to hold it up{REMEDY}"
+APART = (
+    "its supports are too far apart to hold it; less disorder, fewer layers or a smaller spacing "
+    "would help"
+)
+NESTED = (
+    "its supports are too close to hold it up, and one is much larger than the other; less "
+    "disorder or a larger spacing would help"
+)
 STEEP = {
     2: f"the line through its supports is steeper than n⁺ or n⁻{REMEDY}",
     3: "the plane through its supports is steeper than a base vector, or they lie crosswise"
@@ -347,13 +349,24 @@ STEEP = {
 }
 
 
-def _check_rest(holds: Sequence[Any], layer: Layer, region: Region, system: NumberSystem) -> None:
-    """Raise ``UnbuildableError`` or ``UndecidedError`` unless every bead surely rests."""
+def _check_rest(
+    holds: Sequence[Any],
+    layer: Layer,
+    region: Region,
+    system: NumberSystem,
+    close: Callable[[], Sequence[Any]],
+) -> None:
+    """Raise ``UnbuildableError`` or ``UndecidedError`` unless every bead surely rests.
+
+    ``close`` gives what is positive where two supports are too close.
+    """
     open_question = False
     for number, values in enumerate(holds):
         good, bad = system.signs(values)
         if bad.any():
-            why = STEEP[region.dimension] if number else APART
+            why, first = STEEP[region.dimension], tuple(np.argwhere(bad)[0])
+            if not number:
+                why = NESTED if any(system.signs(one)[0][first] for one in close()) else APART
             raise UnbuildableError(_site(bad, layer, region), why)
         open_question |= not good.all()
     if open_question:

@@ -167,6 +167,12 @@ class Plan:
                 f"of its {contacts} contacts pull; at "
                 f"this width one does from a height of about {self.tension.height_of_one} on"
             )
+        angle = self.scene.load.angle_deg
+        if abs(angle) > 90:
+            notes.append(
+                f"load.angle_deg = {short(angle)} is counted from straight down: beyond 90 the "
+                "load pulls upwards, and contacts bear tension"
+            )
         radii = problem.radii
         spread = radii.relative_std()
         if isinstance(radii, MeasuredRadii | ArrayRadii) and abs(radii.mean) > float(spread) / 2:

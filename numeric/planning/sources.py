@@ -2,7 +2,10 @@
 
 from fractions import Fraction
 
+import numpy as np
+
 from ..arithmetic.decimals import short
+from ..arithmetic.systems import Array
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii, Radii
 from ..lattice.branch import Site
 from ..lattice.layers import Rows, full_layer, site_of
@@ -10,6 +13,9 @@ from ..mechanics.loads import LoadSpec
 from ..scene.scene import Scene
 from ..scene.sections import GivenRadii
 from ..scene.tables import TableError, read_array, read_loads, read_radii
+
+# Powers of two by which a unit of length may differ from r.
+FARTHEST_UNIT = 100
 
 
 def load_of(scene: Scene) -> LoadSpec:
@@ -55,6 +61,23 @@ def _load_of_spheres(scene: Scene, single: dict[Site, tuple[Fraction, ...]]) -> 
     return LoadSpec("file", top, width**2, single=single, dimension=3)
 
 
+def _of_array(values: Array, origin: Fraction, radius: Fraction) -> ArrayRadii:
+    """Take an array in units of length near r, where it is far from 1.
+
+    The errors that float64 carries of δr/r would underflow beside a radius of 1e-300. A power of
+    two changes no digit.
+    """
+    power = radius.denominator.bit_length() - radius.numerator.bit_length()
+    if abs(power) > FARTHEST_UNIT:
+        with np.errstate(all="ignore"):
+            scaled = np.ldexp(values, power)
+            exact = np.array_equal(np.ldexp(scaled, -power), values)
+        if exact:
+            unit = Fraction(2) ** power
+            return ArrayRadii(scaled, origin * unit, radius * unit)
+    return ArrayRadii(values, origin, radius)
+
+
 def radii_of(scene: Scene, rows: Rows) -> Radii:
     """Give the radii of the beads of ``rows``; without rows, of all. Raises ``TableError``."""
     disorder, packing = scene.disorder, scene.packing
@@ -64,7 +87,7 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
         beads = packing.width ** (packing.dimension - 1)
         values = disorder.values.reshape(-1, packing.height + 1, beads)
         origin = packing.radius if disorder.delta_r is None else Fraction(0)
-        return ArrayRadii(values, origin, packing.radius)
+        return _of_array(values, origin, packing.radius)
     if disorder.file is None:
         assert disorder.relative_std is not None
         width = packing.width
@@ -81,7 +104,7 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
                 f"packing.radius is {short(packing.radius)}: is it in another unit?"
             )
         values = values.reshape(1, packing.height + 1, -1)
-        return ArrayRadii(values, packing.radius, packing.radius)
+        return _of_array(values, packing.radius, packing.radius)
 
     def needed(site: Site) -> bool:
         i, j = site

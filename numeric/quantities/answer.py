@@ -262,13 +262,11 @@ def in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:
     if not quantity.needs_forces or magnitude == 1:
         return table
     factor = system.scalar(magnitude)
-    errors = float(magnitude) if magnitude < 10**300 else np.inf
-    return Table(
-        table.index,
-        {k: v if k == RATIO else v * factor for k, v in table.numbers.items()},
-        table.small,
-        {k: v * errors for k, v in table.errors.items()},
-    )
+    unit = float(magnitude) if magnitude < 10**300 else np.inf
+    with np.errstate(all="ignore"):  # standard errors beyond floats are not known
+        errors = {k: v * unit for k, v in table.errors.items()}
+    numbers = {k: v if k == RATIO else v * factor for k, v in table.numbers.items()}
+    return Table(table.index, numbers, table.small, errors)
 
 
 def named(quantity: Quantity, table: Table) -> Table:

@@ -241,7 +241,9 @@ def solve(
     if shape[-1] < layers and not allow_images:
         beads = " × ".join(map(str, shape[1 - dimension :]))
         turned = "swapaxes(-1, -2)" if batch else "T"
-        remedy = f"transposed? then give {given.name}.{turned}; " if dimension == 2 else ""
+        remedy = (
+            f"transposed? then give {given.name}.{turned}; " if dimension == 2 <= shape[-1] else ""
+        )
         raise SceneError(
             given.name,
             None,

@@ -1,17 +1,26 @@
 """What the keys of a scene say about each other."""
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..arithmetic.decimals import decimal_string, short
 from .combinations import refusal
-from .sections import Ask, Disorder, Effects, GivenRadii, Load, Packing, SceneError
+from .sections import Ask, Disorder, Effects, GivenRadii, Load, Packing, SceneError, Section
 
-if TYPE_CHECKING:
-    from .scene import Scene
+FARTHEST = 10**307  # units of length, in which float64 are given
 
 
-def check(scene: "Scene") -> None:
+class Sections(Section):
+    """All sections of a scene."""
+
+    packing: Packing
+    disorder: Disorder | None = None
+    load: Load = Load()
+    effects: Effects = Effects()
+    ask: Ask
+
+
+def check(scene: Sections) -> None:
     """Check what keys say about each other. Raises ``SceneError``."""
     packing, disorder, ask = scene.packing, scene.disorder, scene.ask
     _check_packing(packing)
@@ -26,7 +35,7 @@ def check(scene: "Scene") -> None:
     _check_effects(scene.effects, packing)
 
 
-def refuse(command: str, scene: "Scene", *, covariance: bool = False, reach: bool = False) -> None:
+def refuse(command: str, scene: Sections, *, covariance: bool = False, reach: bool = False) -> None:
     """Raise ``SceneError`` where a command does not answer what is combined here."""
     packing, load, effects, ask = scene.packing, scene.load, scene.effects, scene.ask
     found = refusal(
@@ -119,6 +128,11 @@ def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
             f"an array of shape {shape}; the packing has {wanted[0]} layers, base included, of "
             f"{beads} beads: give {wanted}, or (packings, …) for several",
         )
+    if not 1 <= packing.radius * FARTHEST <= FARTHEST**2:
+        allowed = (
+            "must lie between 1e-307 and 1e307 beside an array of float64: choose another unit"
+        )
+        raise SceneError("packing.radius", packing.radius, allowed)
     mean = float(given.values.mean()) - (packing.radius if given.delta_r is None else 0)
     if abs(mean) > packing.radius / 2:
         raise SceneError(

@@ -5,18 +5,12 @@ from pathlib import Path
 from typing import Any
 
 from ..lattice.branch import Branch, Contact, Site
-from .checks import check
-from .sections import Ask, Disorder, Effects, Load, Packing, Section
+from .checks import Sections, check
 
 
-class Scene(Section):
+class Scene(Sections):
     """A whole scene; files are relative to ``folder``. Raises ``SceneError``."""
 
-    packing: Packing
-    disorder: Disorder | None = None
-    load: Load = Load()
-    effects: Effects = Effects()
-    ask: Ask
     folder: Path = Path()
 
     def __init__(self, /, **values: Any) -> None:

@@ -659,3 +659,13 @@ def test_a_profile_in_units_beyond_floats_is_that_in_others(power: int) -> None:
         for name in ("first_order_std", "std", "mean"):
             shift = Fraction(one[name]) * Fraction(10) ** power / Fraction(two[name])
             assert abs(shift - 1) < Fraction(1, 10**10), name
+
+
+def test_standard_errors_in_units_beyond_floats_are_not_known() -> None:
+    """Some of the errors are 0 before they get their unit, as with radii that are drawn alike."""
+    sections = basic(1, 4, quantity="response", realisations=3)
+    sections["packing"]["dimension"] = 3
+    sections["disorder"] |= {"kind": "two-point", "relative_std": "=0.06", "seed": 556}
+    load = {"kind": "point", "at": [3, 3, 1], "magnitude": "=1e400"}
+    found = scene({**sections, "load": load}).run("1e-20")
+    assert not any(np.isfinite(error).any() for error in found.standard_errors.values())

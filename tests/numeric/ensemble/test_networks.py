@@ -1,5 +1,6 @@
 """Ensembles of packings whose contacts are unilateral."""
 
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -167,3 +168,11 @@ def test_limits_of_ensembles() -> None:
 def test_covariances_are_refused() -> None:
     with pytest.raises(fd.ForceDiffusionError, match="covariance"):
         fd.ensemble(strip(), 2, covariance=True)
+
+
+@pytest.mark.parametrize("power", [-400, 300, 400])
+@pytest.mark.parametrize("quantity", ["profile", "histogram"])
+def test_units_beyond_floats_are_refused(quantity: str, power: int) -> None:
+    load = fd.SurfaceLoad(magnitude=Fraction(10) ** power)
+    with pytest.raises(fd.SceneError, match=r"^load.magnitude = .*choose another unit"):
+        fd.ensemble(strip(quantity, load=load), 2)
