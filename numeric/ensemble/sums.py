@@ -315,24 +315,17 @@ def _compiled(
     from ..statistics.tally import tally
 
     table, edges, step = np.array(runs), np.array(m.edges), engine.at_once(problem)
-    least = np.array([descent.F[branch, start:stop].min() for branch, start, stop in runs])
     for at in range(0, len(numbers), step):
         some = numbers[at : at + step]
         g = sweeps.changes(some, descent)
         if g is None:
             left += some
             continue
-        sums = np.empty((2, len(some), len(runs)))
+        sums, negative = np.empty((2, len(some), len(runs))), np.empty((len(some), len(runs)), int)
         counts = np.zeros((len(some), m.counted), np.int64)
-        tally(g, table, 2.0**-m.unit, edges, sums, counts)
-        tensile = np.zeros(sums.shape[1:], np.int64)
-        # no change is larger than the root of the sum of all squares; a little for its rounding
-        for k, p in np.argwhere(least < 1.001 * 2.0**m.unit * np.sqrt(sums[1])):
-            branch, start, stop = runs[p]
-            of = branch, slice(start, stop)
-            tensile[k, p] = np.count_nonzero(descent.F[of] + g[k][of] < 0)
+        tally(g, descent.F, table, 2.0**-m.unit, edges, sums, negative, counts)
         shape = len(some), m.groups, -1
         samples, means = _of(m, sums.reshape(2, *shape))
-        yield some, samples, means, tensile.reshape(shape).sum(axis=-1), counts
+        yield some, samples, means, negative.reshape(shape).sum(axis=-1), counts
     engine.keep(problem, sweeps, loads)
     return left

@@ -10,13 +10,23 @@ from ..arithmetic.systems import Array
 
 
 @compiled
-def tally(g: Array, blocks: Array, unit: float, edges: Array, sums: Array, counts: Array) -> None:
+def tally(
+    g: Array,
+    F: Array,
+    blocks: Array,
+    unit: float,
+    edges: Array,
+    sums: Array,
+    negative: Array,
+    counts: Array,
+) -> None:
     """Add up, and count, the numbers of ``blocks`` of some packings.
 
-    ``g`` is (packings, branches, numbers); a row of ``blocks`` says branch, first number, and the
-    one behind the last. Filled are ``sums`` (2, packings, blocks), those ``by_halves`` of g unit
-    and of (g unit)², and counted up ``counts`` (packings, bins and 2): how many are below, in and
-    above the bins between ``edges``.
+    ``g`` is (packings, branches, numbers), and ``F`` what is added to each of them; a row of
+    ``blocks`` says branch, first number, and the one behind the last. Filled are ``sums``
+    (2, packings, blocks), those ``by_halves`` of g unit and of (g unit)², and ``negative``
+    (packings, blocks): how many F + g are. ``counts`` (packings, bins and 2) are counted up: how
+    many g are below, in and above the bins between ``edges``.
     """
     g, most = borrowed(g), (blocks[:, 2] - blocks[:, 1]).max()
     first, second, guesses = np.empty(most), np.empty(most), np.empty(most, np.int32)
@@ -40,6 +50,10 @@ def tally(g: Array, blocks: Array, unit: float, edges: Array, sums: Array, count
                     first[0] += first[size - 1]
                     second[0] += second[size - 1]
             sums[0, k, p], sums[1, k, p] = first[0], second[0]
+            below, own = 0, F[blocks[p, 0], blocks[p, 1] : blocks[p, 2]]
+            for q in range(values.size):
+                below += own[q] + values[q] < 0
+            negative[k, p] = below
             if edges.size:
                 _count(values, edges, guesses, counts[k])
 
