@@ -28,8 +28,8 @@ from .measure import Measurement
 
 # What is raised for a packing that is left out.
 TROUBLE = (UnbuildableError, NotStandingError, RadiusError, UnfinishedError, UndecidedError)
-# Numbers of covariances that are joined at once.
-AT_ONCE = 200_000
+# Numbers that are joined at once: few enough for a cache.
+AT_ONCE = 20_000
 # Of no packing, where the lowest number of one is looked for.
 NEVER = 2**62
 
@@ -221,7 +221,7 @@ def blocks_of(packings: Sums, first: int) -> list[Block]:
 
 def _join(packings: Sums) -> Sums:
     count = len(packings.first)
-    if count > 1 and count * packings.pairs[0].size > AT_ONCE:
+    if count > 1 and count * (packings.means[0].size + packings.pairs[0].size) > AT_ONCE:
         return _join(packings[: count // 2]) + _join(packings[count // 2 :])
     while len(packings.first) > 1:
         packings = packings[0::2] + packings[1::2]
@@ -249,7 +249,7 @@ def _solve(m: Measurement, numbers: Sequence[int], first: int, found: Sums) -> N
 
 # Numbers of packings, their samples (packings, 1 or G), means (packings, K, G), contacts that pull
 # (packings, G), and counts of bins (packings, B + 2).
-_Solved = tuple[Sequence[int], Array, Array, Array, Array]
+_Solved = tuple[Sequence[int] | Array, Array, Array, Array, Array]
 
 
 def _each(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
@@ -272,15 +272,15 @@ def _each(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
         tensile = np.zeros((len(some), m.groups), np.int64)
         if F.min() + g.min() < 0:  # else no sum below can be negative
             tensile[:] = np.count_nonzero(F[:, None] + g < 0, axis=2).T
-        yield some, *_of(m, np.swapaxes(sums, 1, 2)), tensile, _counted(m, g)
+        yield some, *_of(m, np.moveaxis(np.array(sums), 2, 0)), tensile, _counted(m, g)
 
 
-def _of(m: Measurement, sums: Any) -> tuple[Array, Array]:
-    """Give samples and means from sums of g and of g² (2, packings, groups, blocks)."""
-    means = by_halves(np.asarray(sums)) / m.members
+def _of(m: Measurement, sums: Array) -> tuple[Array, Array]:
+    """Give samples and means from sums of g and of g², (packings, 2, groups, blocks)."""
+    means = by_halves(sums) / m.members
     if not np.isfinite(means).all():
         raise ArithmeticError("a change, or its square, is not finite")
-    return np.array([[m.members]]), np.moveaxis(means, 0, 1)
+    return np.array([[m.members]]), means
 
 
 def _counted(m: Measurement, changes: Array) -> Array:
@@ -304,7 +304,7 @@ def _compiled(
     sweeps, loads = engine.ready(problem, FLOAT64)
     assert sweeps is not None
     assert loads is not None
-    descent, left, runs = sweeps.descent(problem.force_rows, loads), list[int](), list[list[int]]()
+    descent, runs = sweeps.descent(problem.force_rows, loads), list[list[int]]()
     for branch, row in m.blocks:
         if descent.lowest <= row.j < len(descent.rows) and descent.rows[row.j] == row:
             start = int(descent.starts[row.j])
@@ -314,18 +314,20 @@ def _compiled(
         return numbers
     from ..statistics.tally import tally
 
-    table, edges, step = np.array(runs), np.array(m.edges), engine.at_once(problem)
-    for at in range(0, len(numbers), step):
-        some = numbers[at : at + step]
-        g = sweeps.changes(some, descent)
+    table, edges, count = np.array(runs), np.array(m.edges), len(numbers)
+    sums, negative = np.empty((count, 2, len(runs))), np.empty((count, len(runs)), np.int64)
+    counts, good = np.zeros((count, m.counted), np.int64), np.ones(count, bool)
+    step = engine.at_once(problem)
+    for some in (slice(at, at + step) for at in range(0, count, step)):
+        g = sweeps.changes(numbers[some], descent)
         if g is None:
-            left += some
-            continue
-        sums, negative = np.empty((2, len(some), len(runs))), np.empty((len(some), len(runs)), int)
-        counts = np.zeros((len(some), m.counted), np.int64)
-        tally(g, descent.F, table, 2.0**-m.unit, edges, sums, negative, counts)
-        shape = len(some), m.groups, -1
-        samples, means = _of(m, sums.reshape(2, *shape))
-        yield some, samples, means, negative.reshape(shape).sum(axis=-1), counts
+            good[some] = False
+        else:
+            own = sums[some], negative[some], counts[some]
+            tally(g, descent.F, table, 2.0**-m.unit, edges, *own)
     engine.keep(problem, sweeps, loads)
-    return left
+    shape = m.groups, len(runs) // m.groups
+    samples, means = _of(m, sums[good].reshape(good.sum(), 2, *shape))
+    tensile = negative[good].reshape(good.sum(), *shape).sum(axis=-1)
+    yield np.array(numbers)[good], samples, means, tensile, counts[good]
+    return [number for number, one in zip(numbers, good, strict=True) if not one]

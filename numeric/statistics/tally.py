@@ -24,7 +24,7 @@ def tally(
 
     ``g`` is (packings, branches, numbers), and ``F`` what is added to each of them; a row of
     ``blocks`` says branch, first number, and the one behind the last. Filled are ``sums``
-    (2, packings, blocks), those ``by_halves`` of g unit and of (g unit)², and ``negative``
+    (packings, 2, blocks), those ``by_halves`` of g unit and of (g unit)², and ``negative``
     (packings, blocks): how many F + g are. ``counts`` (packings, bins and 2) are counted up: how
     many g are below, in and above the bins between ``edges``.
     """
@@ -49,7 +49,7 @@ def tally(
                 if size % 2:
                     first[0] += first[size - 1]
                     second[0] += second[size - 1]
-            sums[0, k, p], sums[1, k, p] = first[0], second[0]
+            sums[k, 0, p], sums[k, 1, p] = first[0], second[0]
             below, own = 0, F[blocks[p, 0], blocks[p, 1] : blocks[p, 2]]
             for q in range(values.size):
                 below += own[q] + values[q] < 0
