@@ -266,13 +266,12 @@ def _each(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
         numbers = yield from _compiled(m, problem, numbers)
     for solved, some in engine.packings(problem, numbers, FLOAT64, any_number=True, copied=True):
         F, g = m.changes(solved, len(some))
-        scaled, cuts = g * 2.0**-m.unit, np.cumsum(m.sizes)[:-1]
-        parts = np.split(scaled, cuts, axis=2) if len(cuts) else [scaled]
-        sums = [np.stack([by_halves(part**k) for part in parts], axis=-1) for k in (1, 2)]
+        parts = np.split(g * 2.0**-m.unit, np.cumsum(m.sizes)[:-1], axis=2)
+        sums = np.stack([[by_halves(x) for x in (part, part * part)] for part in parts], axis=-1)
         tensile = np.zeros((len(some), m.groups), np.int64)
         if F.min() + g.min() < 0:  # else no sum below can be negative
             tensile[:] = np.count_nonzero(F[:, None] + g < 0, axis=2).T
-        yield some, *_of(m, np.moveaxis(np.array(sums), 2, 0)), tensile, _counted(m, g)
+        yield some, *_of(m, np.moveaxis(sums, 2, 0)), tensile, _counted(m, g)
 
 
 def _of(m: Measurement, sums: Array) -> tuple[Array, Array]:
