@@ -85,6 +85,7 @@ class Sums:
         """Give some of several."""
         return Sums(self.row, *(array[key] for array in self._arrays()))
 
+    @np.errstate(all="ignore")  # in a forged file numbers may be of any size
     def __add__(self, other: "Sums") -> "Sums":
         """Join with later packings (Chan, Golub and LeVeque)."""
         own, more = (one.packings[..., :1, None] for one in (self, other))
@@ -139,10 +140,11 @@ def from_bytes(content: bytes, m: Measurement) -> Sums:
 
 
 def nothing(m: Measurement, packings: int) -> Sums:
-    """Give the sums of no packing, so many times; only those of covariances can't be written to."""
-    arrays = [np.zeros((packings, *shape), kind) for kind, shape in _shapes(m)[:-1]]
+    """Give the sums of no packing, so many times; products and pairs can't be written to."""
+    *small, products, pairs = _shapes(m)
+    arrays = [np.zeros((packings, *shape), kind) for kind, shape in small]
     arrays[0] += NEVER
-    arrays.append(np.broadcast_to(np.zeros(_shapes(m)[-1][1]), (packings, *_shapes(m)[-1][1])))
+    arrays += [np.broadcast_to(np.zeros(s), (packings, *s)) for _, s in (products, pairs)]
     return Sums(m.row, *arrays)
 
 
