@@ -3,6 +3,8 @@
 Import it only for work that repays loading the compiler.
 """
 
+import math
+
 import numpy as np
 
 from ..arithmetic.compiling import borrowed, compiled
@@ -29,6 +31,7 @@ def tally(
     many g are below, in and above the bins between ``edges``.
     """
     g, most = borrowed(g), (blocks[:, 2] - blocks[:, 1]).max()
+    least = np.array([F[branch, start:stop].min() for branch, start, stop in blocks])
     first, second, guesses = np.empty(most), np.empty(most), np.empty(most, np.int32)
     for k in range(len(g)):
         for p in range(len(blocks)):
@@ -50,9 +53,12 @@ def tally(
                     first[0] += first[size - 1]
                     second[0] += second[size - 1]
             sums[k, 0, p], sums[k, 1, p] = first[0], second[0]
-            below, own = 0, F[blocks[p, 0], blocks[p, 1] : blocks[p, 2]]
-            for q in range(values.size):
-                below += own[q] + values[q] < 0
+            below = 0
+            # none is larger than the root of all squares; a little for rounding, and for underflow
+            if least[p] * unit < 1.001 * math.sqrt(second[0]) + 1e-150:
+                own = F[blocks[p, 0], blocks[p, 1] : blocks[p, 2]]
+                for q in range(values.size):
+                    below += own[q] + values[q] < 0
             negative[k, p] = below
             if edges.size:
                 _count(values, edges, guesses, counts[k])

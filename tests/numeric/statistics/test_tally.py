@@ -10,7 +10,7 @@ from force_diffusion.numeric.statistics.moments import by_halves
 from hypothesis import given
 from hypothesis import strategies as st
 
-FLOATS = st.floats(-1e3, 1e3)
+FLOATS = st.floats(-1e3, 1e3) | st.floats(-1e-150, 1e-150)
 UNIT = 2.0**-52
 
 
@@ -53,7 +53,7 @@ def test_compiled_sums_and_counts_are_those_of_numpy(
     edges = np.linspace(-100, 100, bins + 1) if data.draw(st.booleans()) else np.zeros(0)
     sums, negative = np.empty((packings, 2, len(blocks))), np.empty((packings, len(blocks)), int)
     counts = np.zeros((packings, len(edges) and bins + 2), int)
-    F = np.random.default_rng(size).choice([0.0, 1.0, 1e3], (2, size))
+    F = np.random.default_rng(size).choice([0.0, 1e-200, 1.0, 1e3], (2, size))
     tally(g, F, np.array(blocks), 2.0**unit, edges, sums, negative, counts)
     for p, (branch, start, stop) in enumerate(blocks):
         own = g[:, branch, start:stop]
