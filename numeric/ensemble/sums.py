@@ -305,18 +305,14 @@ def _compiled(
     sweeps, loads = engine.ready(problem, FLOAT64)
     assert sweeps is not None
     assert loads is not None
-    descent, runs = sweeps.descent(problem.force_rows, loads), list[list[int]]()
-    for branch, row in m.blocks:
-        if descent.lowest <= row.j < len(descent.rows) and descent.rows[row.j] == row:
-            start = int(descent.starts[row.j])
-            runs.append([branch.number, start, start + row.count])
-    if not runs or len(runs) < len(m.blocks):
+    if m.runs is None:
         engine.keep(problem, sweeps, loads)
         return numbers
     from ..statistics.tally import tally
 
-    table, edges, count = np.array(runs), np.array(m.edges), len(numbers)
-    sums, negative = np.empty((count, 2, len(runs))), np.empty((count, len(runs)), np.int64)
+    descent, edges = sweeps.descent(problem.force_rows, loads), np.array(m.edges)
+    count, runs = len(numbers), len(m.runs)
+    sums, negative = np.empty((count, 2, runs)), np.empty((count, runs), np.int64)
     counts, good = np.zeros((count, m.counted), np.int64), np.ones(count, bool)
     step = engine.at_once(problem)
     for some in (slice(at, at + step) for at in range(0, count, step)):
@@ -325,9 +321,9 @@ def _compiled(
             good[some] = False
         else:
             own = sums[some], negative[some], counts[some]
-            tally(g, descent.F, table, 2.0**-m.unit, edges, *own)
+            tally(g, descent.F, m.runs, 2.0**-m.unit, edges, *own)
     engine.keep(problem, sweeps, loads)
-    shape = m.groups, len(runs) // m.groups
+    shape = m.groups, runs // m.groups
     samples, means = _of(m, sums[good].reshape(good.sum(), 2, *shape))
     tensile = negative[good].reshape(good.sum(), *shape).sum(axis=-1)
     yield np.array(numbers)[good], samples, means, tensile, counts[good]
