@@ -16,6 +16,7 @@ import numpy as np
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import PerBranch
+from ..lattice.layers import Region
 from ..lattice.naming import Block
 from ..mechanics.engine import compiles
 from ..mechanics.problem import Problem, Route, Solved
@@ -146,6 +147,20 @@ class Measurement:
     def blocks(self) -> list[Block]:
         """Give the whole rows of contacts that groups are made of, in order; none of contacts."""
         return self._of.blocks(self.problem) if self.members > 1 else []
+
+    @cached_property
+    def runs(self) -> Array | None:
+        """Give the branch of each of these rows, its first contact, and the one behind its last.
+
+        None where rows are not those whose forces are balanced, from the base up.
+        """
+        rows, problem = self.problem.force_rows, self.problem
+        starts = Region(problem.width, rows, problem.dimension).starts
+        if not self.blocks or not all(row.count for row in rows[1:]):
+            return None
+        if any(row.j >= len(rows) or rows[row.j] != row for _, row in self.blocks):
+            return None
+        return np.array([(b.number, starts[r.j], starts[r.j + 1]) for b, r in self.blocks])
 
     @property
     def sizes(self) -> list[int]:

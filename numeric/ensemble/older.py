@@ -25,8 +25,8 @@ def blocks_of_layout_2(content: bytes, m: Measurement, first: int, stop: int) ->
         if m.of_networks:
             return blocks_of(_packings(content, m, first, stop), first)
         return [Block(first, stop, _rounded(content, m))]
-    except (struct.error, IndexError):
-        raise ValueError("sums end early") from None
+    except (struct.error, IndexError, OverflowError):
+        raise ValueError("sums end early, or are larger than any") from None
 
 
 def _packings(content: bytes, m: Measurement, first: int, stop: int) -> Sums:
@@ -37,6 +37,9 @@ def _packings(content: bytes, m: Measurement, first: int, stop: int) -> Sums:
     found = nothing(m, stop - first)
     if not np.array_equal(np.sort([*at, *out]), np.arange(first, stop)):
         raise ValueError("it holds other realisations than it says")
+    counted = np.array_equal(values[:, 0], np.clip(np.rint(values[:, 0]), 0, 2**53))
+    if (whole < 0).any() or not (counted and np.isfinite(values).all()):
+        raise ValueError("sums are no numbers, or count less than nothing")
     found.packings[at - first], found.packings[out - first] = (1, 0), (0, 1)
     found.first[out - first] = out
     found.means[at - first] = values
@@ -81,8 +84,7 @@ def _rounded(content: bytes, m: Measurement) -> Sums:
     found.tensile[:], bins = counts[:G], counts[G:].reshape(2, m.counted)
     found.bins[:] = *bins, bins[0] * m.members
     found.means[:] = np.array([float(one / N) for one in means]).reshape(2, G)
-    found.products[:] = scatter[: 3 * G].reshape(3, G)
     matrix, upper = np.zeros((V, V)), np.triu_indices(V)
     matrix[upper] = matrix.T[upper] = scatter[3 * G :]
     first = np.array(lowest if left_out else NEVER)
-    return replace(found, first=first, pairs=matrix)
+    return replace(found, first=first, products=scatter[: 3 * G].reshape(3, G), pairs=matrix)

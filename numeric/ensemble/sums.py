@@ -28,8 +28,8 @@ from .measure import Measurement
 
 # What is raised for a packing that is left out.
 TROUBLE = (UnbuildableError, NotStandingError, RadiusError, UnfinishedError, UndecidedError)
-# Numbers of covariances that are joined at once.
-AT_ONCE = 200_000
+# Numbers that are joined at once: few enough for a cache.
+AT_ONCE = 20_000
 # Of no packing, where the lowest number of one is looked for.
 NEVER = 2**62
 
@@ -85,6 +85,7 @@ class Sums:
         """Give some of several."""
         return Sums(self.row, *(array[key] for array in self._arrays()))
 
+    @np.errstate(all="ignore")  # in a forged file numbers may be of any size
     def __add__(self, other: "Sums") -> "Sums":
         """Join with later packings (Chan, Golub and LeVeque)."""
         own, more = (one.packings[..., :1, None] for one in (self, other))
@@ -139,10 +140,11 @@ def from_bytes(content: bytes, m: Measurement) -> Sums:
 
 
 def nothing(m: Measurement, packings: int) -> Sums:
-    """Give the sums of no packing, so many times; only those of covariances can't be written to."""
-    arrays = [np.zeros((packings, *shape), kind) for kind, shape in _shapes(m)[:-1]]
+    """Give the sums of no packing, so many times; products and pairs can't be written to."""
+    *small, products, pairs = _shapes(m)
+    arrays = [np.zeros((packings, *shape), kind) for kind, shape in small]
     arrays[0] += NEVER
-    arrays.append(np.broadcast_to(np.zeros(_shapes(m)[-1][1]), (packings, *_shapes(m)[-1][1])))
+    arrays += [np.broadcast_to(np.zeros(s), (packings, *s)) for _, s in (products, pairs)]
     return Sums(m.row, *arrays)
 
 
@@ -221,7 +223,7 @@ def blocks_of(packings: Sums, first: int) -> list[Block]:
 
 def _join(packings: Sums) -> Sums:
     count = len(packings.first)
-    if count > 1 and count * packings.pairs[0].size > AT_ONCE:
+    if count > 1 and count * (packings.means[0].size + packings.pairs[0].size) > AT_ONCE:
         return _join(packings[: count // 2]) + _join(packings[count // 2 :])
     while len(packings.first) > 1:
         packings = packings[0::2] + packings[1::2]
@@ -249,7 +251,7 @@ def _solve(m: Measurement, numbers: Sequence[int], first: int, found: Sums) -> N
 
 # Numbers of packings, their samples (packings, 1 or G), means (packings, K, G), contacts that pull
 # (packings, G), and counts of bins (packings, B + 2).
-_Solved = tuple[Sequence[int], Array, Array, Array, Array]
+_Solved = tuple[Sequence[int] | Array, Array, Array, Array, Array]
 
 
 def _each(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
@@ -266,21 +268,20 @@ def _each(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
         numbers = yield from _compiled(m, problem, numbers)
     for solved, some in engine.packings(problem, numbers, FLOAT64, any_number=True, copied=True):
         F, g = m.changes(solved, len(some))
-        scaled, cuts = g * 2.0**-m.unit, np.cumsum(m.sizes)[:-1]
-        parts = np.split(scaled, cuts, axis=2) if len(cuts) else [scaled]
-        sums = [np.stack([by_halves(part**k) for part in parts], axis=-1) for k in (1, 2)]
+        parts = np.split(g * 2.0**-m.unit, np.cumsum(m.sizes)[:-1], axis=2)
+        sums = np.stack([[by_halves(x) for x in (part, part * part)] for part in parts], axis=-1)
         tensile = np.zeros((len(some), m.groups), np.int64)
         if F.min() + g.min() < 0:  # else no sum below can be negative
             tensile[:] = np.count_nonzero(F[:, None] + g < 0, axis=2).T
-        yield some, *_of(m, np.swapaxes(sums, 1, 2)), tensile, _counted(m, g)
+        yield some, *_of(m, np.moveaxis(sums, 2, 0)), tensile, _counted(m, g)
 
 
-def _of(m: Measurement, sums: Any) -> tuple[Array, Array]:
-    """Give samples and means from sums of g and of g² (2, packings, groups, blocks)."""
-    means = by_halves(np.asarray(sums)) / m.members
+def _of(m: Measurement, sums: Array) -> tuple[Array, Array]:
+    """Give samples and means from sums of g and of g², (packings, 2, groups, blocks)."""
+    means = by_halves(sums) / m.members
     if not np.isfinite(means).all():
         raise ArithmeticError("a change, or its square, is not finite")
-    return np.array([[m.members]]), np.moveaxis(means, 0, 1)
+    return np.array([[m.members]]), means
 
 
 def _counted(m: Measurement, changes: Array) -> Array:
@@ -304,35 +305,26 @@ def _compiled(
     sweeps, loads = engine.ready(problem, FLOAT64)
     assert sweeps is not None
     assert loads is not None
-    descent, left, runs = sweeps.descent(problem.force_rows, loads), list[int](), list[list[int]]()
-    for branch, row in m.blocks:
-        if descent.lowest <= row.j < len(descent.rows) and descent.rows[row.j] == row:
-            start = int(descent.starts[row.j])
-            runs.append([branch.number, start, start + row.count])
-    if not runs or len(runs) < len(m.blocks):
+    if m.runs is None:
         engine.keep(problem, sweeps, loads)
         return numbers
     from ..statistics.tally import tally
 
-    table, edges, step = np.array(runs), np.array(m.edges), engine.at_once(problem)
-    least = np.array([descent.F[branch, start:stop].min() for branch, start, stop in runs])
-    for at in range(0, len(numbers), step):
-        some = numbers[at : at + step]
-        g = sweeps.changes(some, descent)
+    descent, edges = sweeps.descent(problem.force_rows, loads), np.array(m.edges)
+    count, runs = len(numbers), len(m.runs)
+    sums, negative = np.empty((count, 2, runs)), np.empty((count, runs), np.int64)
+    counts, good = np.zeros((count, m.counted), np.int64), np.ones(count, bool)
+    step = engine.at_once(problem)
+    for some in (slice(at, at + step) for at in range(0, count, step)):
+        g = sweeps.changes(numbers[some], descent)
         if g is None:
-            left += some
-            continue
-        sums = np.empty((2, len(some), len(runs)))
-        counts = np.zeros((len(some), m.counted), np.int64)
-        tally(g, table, 2.0**-m.unit, edges, sums, counts)
-        tensile = np.zeros(sums.shape[1:], np.int64)
-        # no change is larger than the root of the sum of all squares; a little for its rounding
-        for k, p in np.argwhere(least < 1.001 * 2.0**m.unit * np.sqrt(sums[1])):
-            branch, start, stop = runs[p]
-            of = branch, slice(start, stop)
-            tensile[k, p] = np.count_nonzero(descent.F[of] + g[k][of] < 0)
-        shape = len(some), m.groups, -1
-        samples, means = _of(m, sums.reshape(2, *shape))
-        yield some, samples, means, tensile.reshape(shape).sum(axis=-1), counts
+            good[some] = False
+        else:
+            own = sums[some], negative[some], counts[some]
+            tally(g, descent.F, m.runs, 2.0**-m.unit, edges, *own)
     engine.keep(problem, sweeps, loads)
-    return left
+    shape = m.groups, runs // m.groups
+    samples, means = _of(m, sums[good].reshape(good.sum(), 2, *shape))
+    tensile = negative[good].reshape(good.sum(), *shape).sum(axis=-1)
+    yield np.array(numbers)[good], samples, means, tensile, counts[good]
+    return [number for number, one in zip(numbers, good, strict=True) if not one]

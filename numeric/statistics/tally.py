@@ -3,6 +3,8 @@
 Import it only for work that repays loading the compiler.
 """
 
+import math
+
 import numpy as np
 
 from ..arithmetic.compiling import borrowed, compiled
@@ -10,15 +12,26 @@ from ..arithmetic.systems import Array
 
 
 @compiled
-def tally(g: Array, blocks: Array, unit: float, edges: Array, sums: Array, counts: Array) -> None:
+def tally(
+    g: Array,
+    F: Array,
+    blocks: Array,
+    unit: float,
+    edges: Array,
+    sums: Array,
+    negative: Array,
+    counts: Array,
+) -> None:
     """Add up, and count, the numbers of ``blocks`` of some packings.
 
-    ``g`` is (packings, branches, numbers); a row of ``blocks`` says branch, first number, and the
-    one behind the last. Filled are ``sums`` (2, packings, blocks), those ``by_halves`` of g unit
-    and of (g unit)², and counted up ``counts`` (packings, bins and 2): how many are below, in and
-    above the bins between ``edges``.
+    ``g`` is (packings, branches, numbers), and ``F`` what is added to each of them; a row of
+    ``blocks`` says branch, first number, and the one behind the last. Filled are ``sums``
+    (packings, 2, blocks), those ``by_halves`` of g unit and of (g unit)², and ``negative``
+    (packings, blocks): how many F + g are. ``counts`` (packings, bins and 2) are counted up: how
+    many g are below, in and above the bins between ``edges``.
     """
     g, most = borrowed(g), (blocks[:, 2] - blocks[:, 1]).max()
+    least = np.array([F[branch, start:stop].min() for branch, start, stop in blocks])
     first, second, guesses = np.empty(most), np.empty(most), np.empty(most, np.int32)
     for k in range(len(g)):
         for p in range(len(blocks)):
@@ -39,7 +52,14 @@ def tally(g: Array, blocks: Array, unit: float, edges: Array, sums: Array, count
                 if size % 2:
                     first[0] += first[size - 1]
                     second[0] += second[size - 1]
-            sums[0, k, p], sums[1, k, p] = first[0], second[0]
+            sums[k, 0, p], sums[k, 1, p] = first[0], second[0]
+            below = 0
+            # none is larger than the root of all squares; a little for rounding, and for underflow
+            if least[p] * unit < 1.001 * math.sqrt(second[0]) + 1e-150:
+                own = F[blocks[p, 0], blocks[p, 1] : blocks[p, 2]]
+                for q in range(values.size):
+                    below += own[q] + values[q] < 0
+            negative[k, p] = below
             if edges.size:
                 _count(values, edges, guesses, counts[k])
 
