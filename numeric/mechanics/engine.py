@@ -9,20 +9,18 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 from weakref import finalize
 
-import numpy as np
-
-from ..arithmetic.carried import CARRYING, Carried
+from ..arithmetic.carried import CARRYING
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.machine import cores
-from ..arithmetic.systems import FLOAT64, Array, NumberSystem
-from ..disorder.radii import RadiusError, rows_of
+from ..arithmetic.systems import FLOAT64, NumberSystem
+from ..disorder.radii import rows_of
 from ..lattice.branch import Branch
-from ..lattice.layers import Layer, Region, bead_of
+from ..lattice.layers import Layer, Region
 from . import first_order
 from .physicality import PHYSICAL, Physicality
 from .plain_form import solve_plainly
 from .problem import Problem, Route, Solved, rounded
-from .sweep import Loads, deposit, sweep_down
+from .sweep import Loads, deposit, radii_named, sweep_down
 from .work import Work
 
 if TYPE_CHECKING:
@@ -179,15 +177,19 @@ def _solved(
         return rounded(found) if carried else found
     region, rows, n = problem.region, problem.force_rows, len(realisations)
     linear = problem.route != Route.EXACT
-    with work.timed("radii"):
-        rho = _radii(problem, realisations, own, sweeps)
+    with work.timed("radii"), radii_named(region):
+        rho: Any = (
+            rows_of(problem.radii, region.rows, realisations, own)
+            if sweeps is None
+            else sweeps.radii(realisations)
+        )
     work.did_rows("radii", region.rows, region.beads * n)
     block = None
     with work.timed("line sums" if linear else "deposit"):
         if sweeps is not None:
             block = sweeps.deposit(rho)
         if block is None:
-            beads = rho if sweeps is None else _rows(problem, rho, carried=carried)
+            beads = rho if sweeps is None else sweeps.rows(rho)
             packing = deposit(problem.phi, region, beads, own, work, linear=linear)
             if system is FLOAT64 and not linear:
                 _by_numpy[problem.dimension, carried] += _work(region, n, 1, carried=carried)
@@ -212,29 +214,6 @@ def _solved(
             )  # fmt: skip
     found = Solved(own, packing, forces, None)
     return rounded(found) if carried else found
-
-
-def _radii(
-    problem: Problem, realisations: Sequence[int], system: NumberSystem, sweeps: "Sweeps | None"
-) -> Any:
-    """Give δr/r: row by row, or of compiled sweeps in one block."""
-    try:
-        if sweeps is not None:
-            return sweeps.radii(realisations)
-        return rows_of(problem.radii, problem.region.rows, realisations, system)
-    except RadiusError as error:
-        if problem.dimension == 2:
-            raise
-        i, j = error.site
-        raise RadiusError(bead_of((i, j), problem.side), error.reason) from None
-
-
-def _rows(problem: Problem, rho: Array, *, carried: bool) -> list[Any]:
-    """Give the rows of a block of δr/r."""
-    starts = problem.region.starts
-    values = rho[0] if len(rho) == 1 else rho.swapaxes(0, 1)
-    parts = [np.split(part, starts[1:-1], axis=-1) for part in values]
-    return [Carried(*pair) for pair in zip(*parts, strict=True)] if carried else parts[0]
 
 
 def keep(problem: Problem, sweeps: Any, loads: Any) -> None:

@@ -334,15 +334,19 @@ def _supports(region: Region, *, carried: bool) -> Array:
 class Deposition:
     """Deposits packings of one region, in memory that is used again for the next ones."""
 
-    def __init__(self, phi: Fraction, region: Region, *, carried: bool = False) -> None:
-        """``carried``: numbers carry their errors."""
+    def __init__(
+        self, phi: Fraction, region: Region, *, carried: bool = False, block: Array | None = None
+    ) -> None:
+        """``carried``: numbers carry their errors; ``block``: memory of the last ones."""
         self.region, self.carried = region, carried
         d = region.dimension
         self.constants = constants(d, phi, carried=carried)
         self.runs = _supports(region, carried=carried)
         self.counts = region.rows.counts
         self.quantities = d + d * d
-        self.block, self.most = np.empty((0, 0, 0)), np.empty((0, 0))
+        fits = block is not None and block.shape[1:] == self.shape
+        self.block = block if block is not None and fits else np.empty((0, 0, 0))
+        self.most = np.empty((0, 0))
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -9,7 +9,7 @@ between are found once more on the way down, n segments at a time.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -17,18 +17,15 @@ from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.errors import NotReachedError
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import PerBranch, per_direction
-from ..lattice.layers import Layer, LazyRows, Region, Rows
-from . import local
+from ..lattice.layers import LazyRows, Region, Rows
 from .kept import Kept
-from .kernels import Deposition, Descent
 from .loads import on_layers, on_rows
 from .physicality import PHYSICAL, Physicality
 from .problem import Problem, Solved
-from .sweep import Forces, Loads, NotStandingError, SolvedPacking, check_standing, deposit
-from .sweeps import Drawing, tell
+from .sweep import Forces, Loads, SolvedPacking, deposit, radii_named, sweep_down
+from .sweeps import Sweeps
 from .work import Work
 
-T = TypeVar("T", Drawing, Deposition)
 # Layers above a segment that are deposited, too: beads look for gaps so far up.
 OVER = 3
 
@@ -49,7 +46,7 @@ class Segments:
         self.problem, self.realisation, self.work, self.kept = problem, realisation, work, kept
         self.again = again
         self.layers, self.top, self.every = problem.segment, problem.region.top, problem.every
-        self._parts: dict[type, Any] = {}
+        self._last: Sweeps | None = None
         self._strength = problem.load.strength(problem.n_x, CARRYING)
 
     def up(self, highest: int) -> None:
@@ -65,7 +62,8 @@ class Segments:
         rows = [*range(d), *range(d + d * d, 2 * d + d * d)]
         known = (n for n in range(highest, 0, -1) if self.kept.get(f"c{n}") is not None)
         for number in range(next(known, 0) + 1, highest + 1):
-            region, _, block = self._deposited(number - 1)
+            sweeps, _, block = self._deposited(number - 1)
+            region = sweeps.region
             of = slice(region.starts[self.layers], region.starts[self.layers + 1])
             self.kept.put(f"c{number}", block[0, rows, of])
             if (number - 1) % every:
@@ -108,18 +106,25 @@ class Segments:
     def _down(self, number: int) -> tuple[Solved, SolvedPacking]:
         """Solve a segment; give also what there is of the packing alone."""
         self._climb(number, 1)
-        region, rho, block = self._deposited(number)
+        sweeps, rho, block = self._deposited(number)
         low = number * self.layers
         last = min(low + self.layers, self.top)
         descent, g = None, None
         rows = self.problem.force_rows[low : low + self.layers + 2]
         if self.problem.needs_forces and len(rows) > 1:  # else it lies above all loads
-            old = self._parts.get(Descent)
-            loads, g = self._loads_on(rows, number), None if old is None else old.g
-            descent = Descent(region, rows, loads, carried=True, g=g)
-            self._parts[Descent] = descent
-            g = self._balanced(number, descent, region, rho, block)
-        solved = tell(self.problem.phi, self._parts[Deposition], rho, descent, g)
+            loads = self._loads_on(rows, number)
+            descent = sweeps.descent(rows, loads)
+            with self.work.timed("balance forces"):
+                g = descent(block, self.kept.get(f"g{number + 1}"))
+                if g is None:  # then this names the bead
+                    sweep_down(sweeps.swept(rho, block), rows, loads, work=self.work)
+                    raise NotReachedError("a force is beyond the range of float64")
+                if number and rows[1].count:
+                    self.kept.put(f"g{number}", descent.row(1))
+                    of = slice(descent.starts[1], descent.starts[2])
+                    self.kept.put(f"F{number}", descent.F[:, of].copy())
+            self.work.did_rows("balanced", rows[1:], descent.beads)
+        solved = sweeps.told(rho, block, descent, g)
         assert solved.packing is not None
         return self._whole(solved, low, range(low + 1, last + 1)), solved.packing
 
@@ -131,46 +136,25 @@ class Segments:
             self.kept.drop(name)
         self.kept.save(now=False)
 
-    def _deposited(self, number: int) -> tuple[Region, Array, Array]:
+    def _deposited(self, number: int) -> tuple[Sweeps, Array, Array]:
         problem, work, low = self.problem, self.work, number * self.layers
         rows = problem.region.rows[low : low + self.layers + OVER + 1]
         region = Region(problem.width, rows, problem.dimension)
         with work.timed("radii"):
-            draw = self._ready(Drawing(problem.radii, region, carried=True), "rho")
-            rho = draw([self.realisation])
+            sweeps = self._last = Sweeps(problem, region, carried=True, last=self._last)
+            with radii_named(region):
+                rho = sweeps.radii([self.realisation])
         work.did_rows("radii", region.rows, region.beads)
         with work.timed("deposit"):
-            rest = self._ready(Deposition(problem.phi, region, carried=True), "block")
             base = self.kept.get(f"c{number}") if number else None
-            block = rest(rho, base)
+            block = sweeps.deposit(rho, base)
             if block is None:  # then this names the bead
                 d = problem.dimension
                 on = None if base is None else tuple(map(Carried, base[:d], base[d:]))
-                deposit(problem.phi, region, self._rows(region, rho), CARRYING, work, on=on)
+                deposit(problem.phi, region, sweeps.rows(rho), CARRYING, work, on=on)
                 raise NotReachedError("a position is beyond the range of float64")
         work.did_rows("deposited", region.rows, region.beads)
-        return region, rho, block
-
-    def _rows(self, region: Region, rho: Array) -> list[Carried]:
-        values, errors = (np.split(part, region.starts[1:-1]) for part in rho[0])
-        return [Carried(*pair) for pair in zip(values, errors, strict=True)]
-
-    def _balanced(
-        self, number: int, descent: Descent, region: Region, rho: Array, block: Array
-    ) -> Array:
-        rows = descent.rows
-        with self.work.timed("balance forces"):
-            g = descent(block, self.kept.get(f"g{number + 1}"))
-            if g is None:
-                packing = tell(self.problem.phi, self._parts[Deposition], rho).packing
-                assert packing is not None
-                raise _not_balanced(packing, rows)
-            if number and rows[1].count:
-                self.kept.put(f"g{number}", descent.row(1))
-                of = slice(descent.starts[1], descent.starts[2])
-                self.kept.put(f"F{number}", descent.F[:, of].copy())
-        self.work.did_rows("balanced", rows[1:], descent.beads)
-        return g
+        return sweeps, rho, block
 
     def _loads_on(self, rows: Rows, number: int) -> Loads:
         """Give the loads of a segment's rows; the highest bears all that lies above it."""
@@ -192,14 +176,6 @@ class Segments:
             return on
         shares: list[tuple[Any, ...]] = [of for _, of in on]
         return per_direction([(*shares[a][:-1], Carried(above[a], above[d + a])) for a in range(d)])
-
-    def _ready(self, part: T, memory: str) -> T:
-        """Give a part the memory of the last of its kind, if that fits."""
-        old = self._parts.get(type(part))
-        if old is not None and getattr(old, memory).shape[1:] == part.shape:
-            setattr(part, memory, getattr(old, memory))
-        self._parts[type(part)] = part
-        return part
 
     def _whole(self, solved: Solved, low: int, own: range) -> Solved:
         """Number rows as in the whole packing; those that are not there are empty.
@@ -243,19 +219,3 @@ class Segments:
         )
         rest = None if solved.rest is None else self._whole(solved.rest, low, own)
         return Solved(FLOAT64, packing, forces, None, rest, solved.sizes)
-
-
-def _not_balanced(packing: SolvedPacking, rows: Sequence[Layer]) -> Exception:
-    """Name the bead whose contacts are parallel, if that is why."""
-    region = packing.region
-    for j in range(len(rows) - 1, 0, -1):
-        row, own = rows[j], region.rows[j]
-        dn = [[region.here(v, own, row) for v in of[j]] for _, of in packing.dn]
-        d = len(dn)
-        turned = [[dn[a][b] for a in range(d)] for b in range(d)]
-        _, det = local.solved(turned, ([np.zeros(row.count)] * d,))
-        try:
-            check_standing(det, row, region, FLOAT64)
-        except NotStandingError as error:
-            return error
-    return NotReachedError("a force is beyond the range of float64")

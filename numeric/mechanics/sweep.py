@@ -8,6 +8,7 @@ f⁺_(i−1, j−1), ``minus`` is f⁻_(i+1, j−1).
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -18,8 +19,9 @@ import numpy as np
 from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
 from ..arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem, zeros
+from ..disorder.radii import RadiusError
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
-from ..lattice.layers import Layer, Region, Rows
+from ..lattice.layers import Layer, Region, Rows, bead_of
 from .local import balance, metric, nested, rest
 from .work import Work
 
@@ -43,6 +45,18 @@ class NotStandingError(ForceDiffusionError, ValueError):
             why = "the contacts below it lie in one plane"
         super().__init__(f"bead {site}: {why}")
         self.site = site
+
+
+@contextmanager
+def radii_named(region: Region) -> Iterator[None]:
+    """Let a ``RadiusError`` about a site of a row name the bead."""
+    try:
+        yield
+    except RadiusError as error:
+        if region.dimension == 2:
+            raise
+        i, j = error.site
+        raise RadiusError(bead_of((i, j), region.side), error.reason) from None
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,8 @@ class Drawing:
         """``radii`` are drawn here, if they are drawn at all; ``rho``: memory of the last ones."""
         self.radii, self.region, self.carried = radii, region, carried
         self.runs = drawing.runs_of(radii, region.rows) if isinstance(radii, DrawnRadii) else None
-        self.rho = np.empty((0, 0, 0)) if rho is None else rho
+        fits = rho is not None and rho.shape[1:] == self.shape
+        self.rho = rho if rho is not None and fits else np.empty((0, 0, 0))
         self._deviates = np.empty((0, 0, 0))
 
     def __call__(self, realisations: Sequence[int]) -> Array:
@@ -99,13 +100,30 @@ class Sweeps:
     What was given for the last is overwritten.
     """
 
-    def __init__(self, problem: Problem, *, carried: bool = False) -> None:
-        """``carried``: numbers carry their errors."""
+    def __init__(
+        self,
+        problem: Problem,
+        region: Region | None = None,
+        *,
+        carried: bool = False,
+        last: "Sweeps | None" = None,
+    ) -> None:
+        """``region``: of these beads alone; ``carried``: numbers carry their errors.
+
+        The memory of the ``last`` sweeps is taken over.
+        """
         self._shape, self.carried = _shape(problem), carried
-        self.phi, self.region = problem.phi, problem.region
-        self._draw = Drawing(problem.radii, problem.region, carried=carried)
-        self._deposit = Deposition(problem.phi, problem.region, carried=carried)
+        self.phi, self.region = problem.phi, problem.region if region is None else region
+        rho, block, g = (None, None, None) if last is None else last._memory
+        self._draw = Drawing(problem.radii, self.region, carried=carried, rho=rho)
+        self._deposit = Deposition(problem.phi, self.region, carried=carried, block=block)
+        self._g: Array | None = g
         self._descent: tuple[Loads, Descent] | None = None
+
+    @property
+    def _memory(self) -> tuple[Array, Array, Array | None]:
+        g = self._g if self._descent is None else self._descent[1].g
+        return self._draw.rho, self._deposit.block, g
 
     @property
     def bytes(self) -> int:
@@ -127,14 +145,20 @@ class Sweeps:
         """Give δr/r, (packings, parts, beads)."""
         return self._draw(realisations)
 
-    def deposit(self, rho: Array) -> Array | None:
-        """Deposit what was drawn last; None where not all rest."""
-        return self._deposit(rho)
+    def rows(self, rho: Array) -> list[Any]:
+        """Give the rows of a block of δr/r, as ``sweep`` takes them."""
+        values = rho[0] if len(rho) == 1 else rho.swapaxes(0, 1)
+        parts = [np.split(part, self.region.starts[1:-1], axis=-1) for part in values]
+        return [Carried(*one) for one in zip(*parts, strict=True)] if self.carried else parts[0]
+
+    def deposit(self, rho: Array, base: Array | None = None) -> Array | None:
+        """Deposit what was drawn last, on the ordered base or on c; None where not all rest."""
+        return self._deposit(rho, base)
 
     def descent(self, rows: Rows, loads: Loads) -> Descent:
         """Give what balances, the same for the same ``loads``."""
         if self._descent is None or self._descent[0] is not loads:
-            made = Descent(self.region, rows, loads, carried=self.carried)
+            made = Descent(self.region, rows, loads, carried=self.carried, g=self._memory[2])
             self._descent = loads, made
         return self._descent[1]
 

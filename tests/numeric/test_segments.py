@@ -9,7 +9,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from force_diffusion.numeric.arithmetic.errors import NotReachedError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, BigFloat, as_ball
+from force_diffusion.numeric.disorder.radii import RadiusError
 from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.physicality import Physicality
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError
@@ -358,6 +360,28 @@ def test_a_bead_that_cannot_rest_is_named_alike() -> None:
     with pytest.raises(UnbuildableError) as found:
         run(cut(made, 4))
     assert str(found.value) == str(usual.value)
+
+
+@pytest.mark.parametrize("name", ["profile", "spheres, profile"])
+def test_a_radius_that_is_not_positive_is_named_alike(name: str) -> None:
+    """Of spheres as (p, q, j), and not by the column in the row of W² beads."""
+    made = planned(sections(name, kind="normal", relative_std="=0.45"))
+    said = []
+    for one in (made, cut(made, 4)):
+        with pytest.raises(RadiusError) as found:
+            run(one)
+        said.append(str(found.value))
+    assert said[0] == said[1]
+    assert len(said[0].split(":")[0].split(",")) == made.problem.dimension
+
+
+def test_a_force_that_is_no_number_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    from force_diffusion.numeric.mechanics import kernels
+
+    made = planned(sections("profile"))
+    monkeypatch.setattr(kernels.Descent, "__call__", lambda *_: None)
+    with pytest.raises(NotReachedError, match="a force is beyond the range of float64"):
+        run(cut(made, 4))
 
 
 @pytest.mark.long(sample=12)
