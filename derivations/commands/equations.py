@@ -107,7 +107,8 @@ def derive(
     with blamed(numbers or ()):
         wanted = wanted_of(numbers or ()) or list(modules())
         status = deriving.derive(wanted, out, as_json, overwrite, columns)
-        for own in (one for one in wanted if not isinstance(one, int | str)):
+        own_ones = [one for one in wanted if not isinstance(one, int | str)]
+        for own in own_ones if not status else ():  # else there is no proof that rests on any
             from force_diffusion.derivations.framework.own import premises_unnamed
 
             if unnamed := [f"premise({number!r})" for number in premises_unnamed(own)]:
