@@ -111,7 +111,7 @@ def ensemble(
             confidence=confidence, workers=workers, scheduler=scheduler or cluster,
             covariance=covariance, reach=reach,
         )  # fmt: skip
-        warn(scene, found.estimates.measurement.plan)
+        warn(scene, found.measurement.plan)
         data = found.data(rows=False)
         data["source"] = sourced(data["source"], scene, None)  # the same, whoever solved it
         if folder:

@@ -1,1 +1,1 @@
-"""Ensembles of packings: exact sums that merge in any order, kept in a file, solved by many."""
+"""Ensembles of packings: sums joined in one fixed order, kept in a file, solved by many."""

@@ -2,7 +2,9 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from importlib import import_module
+from importlib.util import find_spec
 from numbers import Real
 from operator import index
 from pathlib import Path
@@ -15,10 +17,10 @@ from ..scene.sections import SceneError
 from ..statistics.confidence import Rule
 from .measure import ArgumentError, Measurement, measurement
 from .result import Ensemble
-from .run import Executor, run
+from .run import run
 from .scene_key import ensemble_key
 from .store import Store, StoreFailedError, open_store
-from .workers import InProcess, Pool, WorkersError
+from .workers import Workers, WorkersError, cluster, here, processes, threads
 
 MOST, MOST_WORKERS = 10**9, 1024
 # Bytes of a batch of small packings, on top of those of one.
@@ -86,7 +88,7 @@ def ensemble(
     # Loaded before the memory is shared out: in a full one its library waits for ever.
     import_module("scipy.special")
     m = replace(measurement(scene, covariance=covariance, reach=reach), expected=size)
-    executor = _executor(m, size, workers, scheduler)
+    solvers = _workers(m, size, workers, scheduler)
     rule = None if until is None else Rule(until, confidence)
     path = None if store is None else Path(store)
     opened: Store | None = None
@@ -94,7 +96,7 @@ def ensemble(
         if path is not None:
             opened = open_store(path, ensemble_key(m))
         found = run(
-            m, size, executor, store=opened, rule=rule, confidence=confidence, progress=progress
+            m, size, solvers, store=opened, rule=rule, confidence=confidence, progress=progress
         )
         if opened is not None:
             opened.check_it_is_there()
@@ -149,7 +151,7 @@ def _share(name: str, value: object, such_as: str) -> float:
     return number
 
 
-def _executor(m: Measurement, size: int, workers: int | None, scheduler: str | None) -> Executor:
+def _workers(m: Measurement, size: int, workers: int | None, scheduler: str | None) -> Workers:
     """Choose who solves: this process, others on this machine, or a cluster."""
     whole = workers is None or isinstance(workers, SupportsIndex)
     if not whole or (workers is not None and not 1 <= workers <= MOST_WORKERS):
@@ -163,15 +165,17 @@ def _executor(m: Measurement, size: int, workers: int | None, scheduler: str | N
             short = size * (m.plan.problem.region.beads + OF_PACKING) < WORTH_WORKERS
             alone = scheduler is None and (short or m.compiled)  # that takes all cores by itself
             workers = 1 if alone else min(cores(), room)
-        if scheduler is None:
-            return InProcess() if workers == 1 else Pool(workers)
-    try:
-        from .cluster import Cluster
-    except ImportError:
+        if scheduler is None and workers > 1:
+            return partial(processes, workers, m.plan.memory)
+    if scheduler is None:
+        room = memory_limit() // max(m.plan.memory, 1)
+        each = min(cores(), max(room, 1)) if m.compiled else 1
+        return here if each == 1 else partial(threads, each)
+    if find_spec("distributed") is None:
         raise ForceDiffusionError(
             "a cluster needs Dask, which is missing: pip install 'force-diffusion[cluster]'"
-        ) from None
-    return Cluster(None if scheduler == LOCAL else scheduler, workers or 1)
+        )
+    return partial(cluster, None if scheduler == LOCAL else scheduler, workers or 1)
 
 
 def _kept(store: Store | None) -> str:

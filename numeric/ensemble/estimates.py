@@ -1,149 +1,129 @@
-"""Means, variances and their errors from exact sums: rational throughout, each rounded once."""
+"""What sums over packings say: means, standard deviations, and how sure they are."""
 
 import math
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
 
 from ..arithmetic.systems import Array
 from ..statistics.confidence import half_width
+from ..statistics.ratios import from_products
 from .measure import Measurement
 from .sums import Sums
 
 
 @dataclass(frozen=True)
 class Estimates:
-    """What sums over N packings of n contacts a group say; arrays have shape (groups,)."""
+    """Statistics over N packings of G groups, in the unit in which the load's magnitude is written.
+
+    Arrays are float64 of shape (G,), in the order of the rows: by j, i (or p, q), branch and
+    component; of unilateral contacts, groups without any sample are left out.
+    """
 
     measurement: Measurement
     sums: Sums
 
     @property
     def realisations(self) -> int:
-        """N."""
+        """N packings."""
         return self.sums.realisations
 
     @property
     def samples(self) -> int:
-        """N n: contacts of a group in all packings."""
-        return self.realisations * self.measurement.members
+        """Contacts of a group in all N packings; where these differ, of all groups.
 
-    @cached_property
-    def mean(self) -> list[Fraction]:
-        """Mean change, exact."""
-        return [total / self.samples for total in self.sums.change.fractions()]
-
-    @cached_property
-    def mean_square(self) -> list[Fraction]:
-        """Mean squared change, exact: the variance about the ordered force."""
-        return [total / self.samples for total in self.sums.square.fractions()]
-
-    @cached_property
-    def variance(self) -> list[Fraction]:
-        """Mean squared deviation of the change from its mean, exact."""
-        pairs = zip(self.mean_square, self.mean, strict=True)
-        return [square - mean * mean for square, mean in pairs]
-
-    @cached_property
-    def std(self) -> list[float]:
-        """Root of the variance; under a surface or bulk load σ_f."""
-        return [float(root(v)) for v in self.variance]
-
-    @cached_property
-    def _scatter(self) -> list[tuple[Fraction, Fraction]]:
-        """Variances over packings of a, and of b − 2 ⟨a⟩ a (to first order that of a variance).
-
-        In units of 4^unit and 16^unit.
+        Those of one packing are correlated.
         """
-        N, G = self.realisations, self.measurement.groups
-        means, products = self.sums.means.fractions(), self.sums.products.fractions()
-        found = []
-        for g in range(G):
-            a, b = means[g], means[G + g]
-            of_a = products[g] - a * a / N
-            both = products[G + g] - a * b / N
-            of_b = products[2 * G + g] - b * b / N
-            slope = 2 * a / N
-            found.append(
-                (of_a / (N - 1), (of_b - 2 * slope * both + slope * slope * of_a) / (N - 1))
-            )
-        return found
+        samples = self.sums.samples
+        return int(samples.sum() if self.measurement.of_networks else samples[0])
 
     @cached_property
-    def mean_error(self) -> list[float | None]:
-        """Standard error of the mean change, from the scatter over packings."""
-        if self.realisations < 2:
-            return [None] * self.measurement.groups
-        unit = Fraction(2) ** self.measurement.unit
-        return [float(root(a / self.realisations) * unit) for a, _ in self._scatter]
-
-    @cached_property
-    def _std_error(self) -> list[tuple[Fraction, Fraction] | None]:
-        """(standard error, σ_f) of each group that varies, from the error of the variance."""
-        if self.realisations < 2:
-            return [None] * self.measurement.groups
-        unit = Fraction(4) ** self.measurement.unit
-        found: list[tuple[Fraction, Fraction] | None] = []
-        for (_, of_variance), variance in zip(self._scatter, self.variance, strict=True):
-            sigma = root(variance)
-            error = root(of_variance / self.realisations) * unit
-            found.append((error / (2 * sigma), sigma) if sigma else None)
-        return found
+    def _order(self) -> Array:
+        """Where the rows stand among the groups."""
+        if self.measurement.of_networks:
+            return np.flatnonzero(self.sums.samples)
+        labels = self.measurement.labels
+        names = ("component", "branch", "q", "p", "i", "j")
+        keys = [labels[name] for name in names if name in labels]
+        return np.lexsort(keys) if keys else np.arange(self.measurement.groups)
 
     @property
-    def std_error(self) -> list[float | None]:
-        """Standard error of the root of the variance; None where nothing varies, or N = 1."""
-        return [None if pair is None else float(pair[0]) for pair in self._std_error]
+    def _unit(self) -> float:
+        """The load's magnitude."""
+        return float(self.measurement.plan.scene.load.magnitude)
 
-    def relative_errors(self) -> list[float]:
-        """Standard errors of σ_f in units of it, of the groups that vary."""
-        if self.realisations < 2:
-            return [math.inf]
-        return [float(pair[0] / pair[1]) for pair in self._std_error if pair is not None]
+    @cached_property
+    def _found(self) -> tuple[Array, Array, Array, Array]:
+        """Mean change, standard deviation, and their standard errors, as they were summed up."""
+        means, products = self.sums.means, self.sums.products
+        if len(means) == 2:  # all packings count as much
+            ones, zeros = np.ones((1, means.shape[1])), np.zeros((3, means.shape[1]))
+            means, products = np.concatenate([ones, means]), np.concatenate([zeros, products])
+        return from_products(self.realisations, self.sums.held, means, products)
 
-    def half_width(self, confidence: float, look: int) -> float:
-        """Give the half-width of all σ_f together, relative: see ``statistics.confidence``."""
-        return half_width(self.relative_errors(), self.realisations, confidence, look)
+    def _rows(self, values: Array, power: int = 1) -> Array:
+        """Give what was summed up row by row, in the unit of force to that power."""
+        scaled = np.ldexp(values[self._order], power * self.measurement.unit)
+        return np.asarray(scaled * self._unit**power)
 
-    def covariance(self) -> Array:
-        """Covariance over packings: of the groups' mean squares in a profile, else of changes.
+    @cached_property
+    def mean(self) -> Array:
+        """Mean force; of forces that differ to zeroth order already, their mean."""
+        change = np.ldexp(self._found[0], self.measurement.unit)
+        return np.asarray((self.measurement.ordered() + change)[self._order] * self._unit)
 
-        Shape (groups, groups); that of means over all N packings is this divided by N.
+    @cached_property
+    def mean_change(self) -> Array:
+        """Mean of the change g = f − F from the ordered force F."""
+        return self._rows(self._found[0])
+
+    @cached_property
+    def mean_change_error(self) -> Array:
+        """Standard error of ``mean_change``."""
+        return self._rows(self._found[2])
+
+    @cached_property
+    def mean_square(self) -> Array:
+        """Mean of g², the variance about the ordered force: Eqs. 13 and 14 are its theory."""
+        means = self.sums.means
+        return self._rows(means[1] if len(means) == 2 else means[2] / means[0], 2)
+
+    @cached_property
+    def std(self) -> Array:
+        """σ_f, the standard deviation of g about its mean."""
+        return self._rows(self._found[1])
+
+    @cached_property
+    def std_error(self) -> Array:
+        """Standard error of ``std``; NaN where nothing varies."""
+        return self._rows(self._found[3])
+
+    @cached_property
+    def covariance(self) -> Array | None:
+        """Covariance between groups from packing to packing, (G, G); None if not asked for.
+
+        Of a profile that of mean squares of g over a packing's contacts, else that of g. Divided by
+        N it is that of the means over all packings.
         """
-        N, V = self.realisations, self.measurement.variables
-        squares = self.measurement.squares
-        pairs, low = self.sums.pairs.integers()
-        means, low_of_means = self.sums.means.integers()
-        x = means[1 if squares else 0]
-        upper = np.triu_indices(V)
-        crossed = x[upper[0]] * x[upper[1]]
-        common = min(low, 2 * low_of_means)
-        whole = N * (pairs << (low - common)) - (crossed << (2 * low_of_means - common))
-        exponent = common + (4 if squares else 2) * self.measurement.unit
-        matrix = np.zeros((V, V))
-        matrix[upper] = [_quotient(int(w), N * (N - 1), exponent) for w in whole]
-        matrix.T[upper] = matrix[upper]
-        return matrix
+        if not self.measurement.covariance:
+            return None
+        matrix = self.sums.pairs[:, self._order] / (self.realisations - 1)
+        return self._rows(matrix, 2 + 2 * self.measurement.row)
 
+    def width(self, confidence: float, look: int) -> float:
+        """Give the half-width of all σ_f together, relative: see ``statistics.confidence``."""
+        _, std, _, error = self._found
+        known = np.isfinite(error)
+        relative = (error[known] / std[known]).tolist() if self.realisations > 1 else [math.inf]
+        return half_width(relative, self.realisations, confidence, look)
 
-def _quotient(whole: int, count: int, exponent: int) -> float:
-    """whole/count × 2^exponent, rounded once."""
-    if exponent >= 0:
-        return (whole << exponent) / count
-    return whole / (count << -exponent)
-
-
-def root(value: Fraction) -> Fraction:
-    """Square root to 80 bits, so that it can be rounded to a float, however small.
-
-    >>> float(root(Fraction(2))), float(root(Fraction(1, 10**600)))
-    (1.4142135623730951, 1e-300)
-    """
-    if value <= 0:
-        return Fraction(0)
-    bits = value.numerator.bit_length() - value.denominator.bit_length()
-    shift = 82 - bits // 2
-    scaled = value * Fraction(4) ** shift
-    return Fraction(math.isqrt(scaled.numerator // scaled.denominator)) / Fraction(2) ** shift
+    def _shares(self) -> tuple[Array, Array]:
+        """Give the share of all samples that each bin has, and its standard error."""
+        N, (counts, squares, products) = self.realisations, self.sums.bins.tolist()
+        S, square = sum(counts), sum(products)  # of what packings count, and of its square
+        found = [
+            math.sqrt((a * S * S - 2 * c * p * S + c * c * square) * N / (N - 1)) / S**2
+            for c, a, p in zip(counts, squares, products, strict=True)
+        ]
+        return np.array(counts) / S, np.array(found)

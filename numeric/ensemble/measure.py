@@ -11,9 +11,12 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import FLOAT64, Array
-from ..lattice.branch import Direction, PerBranch
+from ..lattice.branch import PerBranch
+from ..lattice.naming import Block
 from ..mechanics.engine import compiles
 from ..mechanics.problem import Problem, Route, Solved
 from ..planning.plan import Plan
@@ -94,13 +97,20 @@ class Measurement:
         return self.plan.quantity.name
 
     @property
-    def squares(self) -> bool:
-        """Whether covariances are of mean squares of packings, and not of changes."""
-        return self._of.squares
+    def row(self) -> int:
+        """Whether covariances are of mean squares of packings, 1, or of changes, 0."""
+        return 0 if self.of_networks else int(self._of.squares)
+
+    @property
+    def counted(self) -> int:
+        """B + 2: bins, and what lies outside; 0 where none are asked for."""
+        return len(self.edges) + 1 if self.edges else 0
 
     @cached_property
     def unit(self) -> int:
-        """The power of two in which means of single packings are rounded (σ/r is near it)."""
+        """The power of two in whose units changes are summed up (σ/r is near it)."""
+        if self.of_networks:
+            return 0
         return math.frexp(unit_near(self.problem.radii.relative_std()))[1] - 1
 
     @cached_property
@@ -131,28 +141,24 @@ class Measurement:
         return self._of.changes(self.problem, solved, realisations)
 
     @cached_property
-    def pieces(self) -> list[tuple[int, Direction, int]] | None:
-        """Give (group, branch, layer of the upper beads) of all that a group of layers holds.
+    def blocks(self) -> list[Block]:
+        """Give the whole rows of contacts that groups are made of, in order; none of contacts."""
+        return self._of.blocks(self.problem) if self.members > 1 else []
 
-        None where groups are single contacts.
-        """
-        if self.members == 1:
-            return None
-        blocks = self._of.blocks(self.problem)
-        return [
-            (group if self.groups > 1 else 0, branch, row.j)
-            for group, (branch, row) in enumerate(blocks)
-        ]
+    @property
+    def sizes(self) -> list[int]:
+        """How many contacts of a group lie in each row."""
+        return [row.count for _, row in self.blocks] if self.groups == 1 else [self.members]
 
-    def ordered(self) -> list[Fraction]:
+    def ordered(self) -> Array:
         """Give the ordered force of each group (of a group whose forces differ, their mean)."""
         if self.of_networks:
-            return [Fraction(force) for force in self.network.ordered(self.problem).tolist()]
-        return self._of.ordered(self.problem)
+            return self.network.ordered(self.problem)
+        return np.array([float(force) for force in self._of.ordered(self.problem)])
 
     def theory(self) -> PerBranch[Sequence[Fraction]] | None:
         """Give σ_f of layers j = 0 … M − 1, exact to first order; None where it does not apply."""
-        return first_order_std(self.problem)
+        return None if self.of_networks else first_order_std(self.problem)
 
 
 def measurement(
@@ -234,7 +240,7 @@ def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
 
 def _usual_reach(made: Measurement) -> float:
     """Give the outer edge that is taken where none is named."""
-    theory = None if made.of_networks else made.theory()
+    theory = made.theory()
     if made.of_networks and (mean := made.network.mean_force(made.problem)):
         return FORCES * mean
     if theory is None:

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -15,14 +14,14 @@ from ..quantities.base import RATIO, SCATTER_OF
 from ..scene.source import source_of
 from ..tables import Row, html_table, rows_of
 from ..text import rows_of_text, significant, text_of
-from .estimates import Estimates, root
+from .estimates import Estimates
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
-class Ensemble:
+class Ensemble(Estimates):
     """Statistics over N packings of G groups of alike contacts.
 
     A group is a layer and branch of a profile, one contact, or all of a histogram. Forces are in
@@ -32,91 +31,35 @@ class Ensemble:
     ``half_width``, relative, holds for all σ_f together with confidence ``confidence``. ``reached``
     says whether the σ_f are known as well as ``until`` asked, and is None if nothing was asked;
     ``looks`` counts how often that was tested. ``solved`` packings were solved now, the others
-    were read from a store. ``estimates`` has exact rationals.
+    were read from a store.
+
+    Under unilateral contacts forces are those of the contacts that there are: a group is a layer of
+    a profile, a contact of the lattice, a bead of a response (which has the vertical force that the
+    bead bears), or all contacts of a histogram. Their number differs from packing to packing: means
+    are ratios of sums, and so are their errors. Eqs. 13 and 14 are of contacts that may pull.
     """
 
-    estimates: Estimates
     confidence: float
     looks: int
     half_width: float
     reached: bool | None
     solved: int
 
-    left_out = "can't be built and are left out"
-
     @property
     def quantity(self) -> str:
         """What was asked, as the scene calls it."""
-        return self.estimates.measurement.quantity
-
-    @property
-    def realisations(self) -> int:
-        """N packings."""
-        return self.estimates.realisations
+        return self.measurement.quantity
 
     @property
     def unbuildable(self) -> int:
         """Packings that were drawn and left out: a bead of them finds no rest."""
-        return self.estimates.sums.unbuildable
-
-    @property
-    def samples(self) -> int:
-        """Contacts of a group in all N packings; those of one packing are correlated."""
-        return self.estimates.samples
+        return self.sums.unbuildable
 
     @cached_property
     def index(self) -> dict[str, Array]:
         """Columns that name the groups: j, branch, i or p, q, component; none for a histogram."""
-        labels = self.estimates.measurement.labels
-        return {name: self._sorted(column) for name, column in labels.items()}
-
-    @cached_property
-    def _order(self) -> Array:
-        """Where the rows, by j, i (or p, q), branch and component, stand among the groups."""
-        labels = self.estimates.measurement.labels
-        names = ("component", "branch", "q", "p", "i", "j")
-        keys = [labels[name] for name in names if name in labels]
-        return np.lexsort(keys) if keys else np.arange(self.estimates.measurement.groups)
-
-    @property
-    def _unit(self) -> float:
-        """The load's magnitude: forces are in the unit in which it is written."""
-        return float(self.estimates.measurement.plan.scene.load.magnitude)
-
-    def _sorted(self, values: Any) -> Array:
-        return np.asarray(values)[self._order]
-
-    @cached_property
-    def mean(self) -> Array:
-        """Mean force; of forces that differ to zeroth order already, their mean."""
-        ordered = self.estimates.measurement.ordered()
-        pairs = zip(ordered, self.estimates.mean, strict=True)
-        return self._sorted([float(F + g) for F, g in pairs]) * self._unit
-
-    @cached_property
-    def mean_change(self) -> Array:
-        """Mean of the change g = f − F from the ordered force F."""
-        return self._sorted([float(g) for g in self.estimates.mean]) * self._unit
-
-    @property
-    def mean_change_error(self) -> Array:
-        """Standard error of ``mean_change``."""
-        return self._sorted(_floats(self.estimates.mean_error)) * self._unit
-
-    @cached_property
-    def mean_square(self) -> Array:
-        """Mean of g², the variance about the ordered force: Eqs. 13 and 14 are its theory."""
-        return self._sorted([float(g) for g in self.estimates.mean_square]) * self._unit**2
-
-    @property
-    def std(self) -> Array:
-        """σ_f, the standard deviation of g about its mean."""
-        return self._sorted(self.estimates.std) * self._unit
-
-    @property
-    def std_error(self) -> Array:
-        """Standard error of ``std``; NaN where nothing varies."""
-        return self._sorted(_floats(self.estimates.std_error)) * self._unit
+        labels = self.measurement.labels
+        return {name: np.array(column)[self._order] for name, column in labels.items()}
 
     @property
     def std_over_mean(self) -> Array | None:
@@ -124,7 +67,7 @@ class Ensemble:
 
         Its standard error is that of ``std`` over ⟨f⟩.
         """
-        load = self.estimates.measurement.problem.load
+        load = self.measurement.problem.load
         if load.loaded is not None or load.angle_deg or "component" in self.index:
             return None
         ratio: Array = self.std / self.mean
@@ -133,30 +76,16 @@ class Ensemble:
     @cached_property
     def first_order_std(self) -> Array | None:
         """σ_f to first order, exact at finite M (Eqs. 13, 14, B2, B3), where they apply."""
-        m = self.estimates.measurement
-        theory, labels = m.theory(), m.labels
-        if theory is None or "j" not in labels or "component" in labels:
+        theory = self.measurement.theory()
+        if theory is None or "j" not in self.index or "component" in self.index:
             return None
-        contacts = zip(labels["branch"], labels["j"], strict=True)
-        return self._sorted([float(theory[direction(b)][j]) for b, j in contacts]) * self._unit
+        contacts = zip(self.index["branch"], self.index["j"], strict=True)
+        return np.array([float(theory[direction(b)][j]) for b, j in contacts]) * self._unit
 
     @property
     def tensile(self) -> Array:
         """How many contacts pull; int64."""
-        return self._sorted(self.estimates.sums.tensile)
-
-    @cached_property
-    def covariance(self) -> Array | None:
-        """Covariance between groups from packing to packing, (G, G); None if not asked for.
-
-        Of a profile that of mean squares of g over a packing's contacts, else that of g. Divided by
-        N it is that of the means over all packings.
-        """
-        if not self.estimates.measurement.covariance:
-            return None
-        of_squares = self.estimates.measurement.squares
-        covariance = self.estimates.covariance()[np.ix_(self._order, self._order)]
-        return np.asarray(covariance * self._unit ** (4 if of_squares else 2))
+        return self.sums.tensile[self._order]
 
     @cached_property
     def bins(self) -> dict[str, Array] | None:
@@ -165,21 +94,17 @@ class Ensemble:
         Columns of shape (B + 2,), first and last what lies outside: ``low``, ``high``, ``count``,
         ``share`` of all samples, and its standard error ``share_error``.
         """
-        m, N = self.estimates.measurement, self.realisations
+        m = self.measurement
         if not m.edges:
             return None
         edges = np.array([-math.inf, *m.edges, math.inf]) * self._unit
-        counts, squares = self.estimates.sums.bins.tolist()
-        scatter = [  # of the share of each packing, over all packings
-            Fraction(N * square - count * count, N * (N - 1))
-            for count, square in zip(counts, squares, strict=True)
-        ]
+        share, error = self._shares()
         return {
             "low": edges[:-1],
             "high": edges[1:],
-            "count": np.array(counts, dtype=np.int64),
-            "share": np.array([count / self.samples for count in counts]),
-            "share_error": np.array([float(root(s / N) / m.members) for s in scatter]),
+            "count": self.sums.bins[0],
+            "share": share,
+            "share_error": error,
         }
 
     @cached_property
@@ -189,18 +114,19 @@ class Ensemble:
 
     @cached_property
     def _groups(self) -> dict[str, Array]:
-        theory, ratio = self.first_order_std, self.std_over_mean
+        theory, ratio, change = self.first_order_std, self.std_over_mean, self.mean_change_error
+        of_change = {"mean_change": self.mean_change, "mean_change_error": change}
+        networks = self.measurement.of_networks
         return {
             **self.index,
-            "samples": np.full(len(self.mean), self.samples),
+            "samples": self.sums.samples[self._order],
             "mean": self.mean,
-            "mean_change": self.mean_change,
-            "mean_change_error": self.mean_change_error,
+            **({"mean_error": change} if networks else of_change),
             "std": self.std,
             "std_error": self.std_error,
             **({} if ratio is None else {"std_over_mean": ratio}),
             **({} if theory is None else {"first_order_std": theory}),
-            "tensile": self.tensile,
+            **({} if networks else {"tensile": self.tensile}),
         }
 
     def rows(self) -> list[Row]:
@@ -241,7 +167,7 @@ class Ensemble:
     @cached_property
     def source(self) -> dict[str, Any]:
         """Where it came from: program, version, scene, seed and the SHA-256 of what was read."""
-        found = source_of(self.estimates.measurement.plan.scene)
+        found = source_of(self.measurement.plan.scene)
         del found["scene"]["ask"]["realisations"]  # of the plan of one packing
         return found
 
@@ -250,18 +176,18 @@ class Ensemble:
 
         Without ``rows`` the list of results is empty: there may be millions.
         """
-        m = self.estimates.measurement
+        m = self.measurement
         data: dict[str, Any] = {
             "source": self.source,
             "ensemble": {
                 "realisations": self.realisations,
                 "unbuildable": self.unbuildable,
-                "unbuildable_share": self.unbuildable / self.estimates.sums.tried,
-                "first_unbuildable": self.estimates.sums.first_unbuildable
-                if self.unbuildable
-                else None,
-                "contacts_in_a_group": m.members,
-                "arithmetic": "float64, summed exactly",
+                "unbuildable_share": self.unbuildable / self.sums.tried,
+                "first_unbuildable": self.sums.first_unbuildable,
+                **({"contacts_in_a_group": m.members} if m.members else {}),
+                "arithmetic": "each packing proved in balls, forces rounded to float64"
+                if m.of_networks
+                else "float64",
             },
             "skipped": [{"effect": s.effect, "reason": s.reason} for s in m.plan.skipped],
             "results": {m.quantity: rows_of_text(self.text, self.whole_numbers) if rows else []},
@@ -280,7 +206,7 @@ class Ensemble:
             (data["statistics"],) = rows_of_text(self._text_of(self._groups), whole)
         if self.covariance is not None:
             data["covariance"] = {
-                "of": "mean square change of a packing" if m.squares else "change",
+                "of": "mean square change of a packing" if m.row else "change",
                 "labels": {name: column.tolist() for name, column in self.index.items()},
                 "matrix": self.covariance.tolist(),
             }
@@ -295,12 +221,12 @@ class Ensemble:
         from ..figures.answers import figure_of
 
         columns, errors = self.arrays, {"std": self.std_error}
-        if self.quantity == "response":
+        if "component" in self.index:
             vertical = self.index["component"] == "vertical"
             columns = {name: column[~vertical] for name, column in self.index.items()}
             columns["vertical_mean"] = self.mean[vertical]
             columns["force_std"] = self.std[~vertical]
-        return figure_of(self.estimates.measurement.plan, columns, errors)
+        return figure_of(self.measurement.plan, columns, errors)
 
     def __str__(self) -> str:
         """Say how many rows and packings there are, and how sure they are."""
@@ -308,9 +234,12 @@ class Ensemble:
         lines = [f"{self.quantity}: {self.count} rows"]
         lines.append(f"{self.realisations} packings, {data['ensemble']['arithmetic']}")
         if self.unbuildable:
+            why = "can't be built"
+            if self.measurement.of_networks:
+                why = "did not come to rest, or could not be proved to,"
             lines.append(
                 f"{self.unbuildable} more, {data['ensemble']['unbuildable_share']:.2g} of all, "
-                f"{self.left_out}, the first of them realisation "
+                f"{why} and are left out, the first of them realisation "
                 f"{data['ensemble']['first_unbuildable']}: what is said holds for the others"
             )
         if math.isfinite(self.half_width):
@@ -325,7 +254,3 @@ class Ensemble:
     def _repr_html_(self) -> str:
         """Show the first rows as a table in a notebook."""
         return html_table(self.rows(), str(self).splitlines())
-
-
-def _floats(values: list[float | None]) -> Array:
-    return np.array([math.nan if value is None else value for value in values])

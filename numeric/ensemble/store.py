@@ -19,10 +19,11 @@ from pydantic import Field, JsonValue, TypeAdapter
 
 from ..arithmetic.errors import ForceDiffusionError, NotReachedError, printable
 from .measure import Measurement
+from .older import blocks_of_layout_2
 from .scene_key import differences
-from .sums import AnySums, from_bytes
+from .sums import Block, from_bytes
 
-APPLICATION, SCHEMA = 0x46444546, 2  # "FDEF"
+APPLICATION, SCHEMA, OLDER = 0x46444546, 3, 2  # "FDEF", layouts
 # Looks at a store that is being written to, and seconds between them.
 LOOKS, PAUSE = 20, 0.05
 _MAGIC = b"SQLite format 3\x00"
@@ -60,20 +61,12 @@ def _identity(path: Path) -> tuple[int, int] | None:
 
 
 @dataclass(frozen=True)
-class Block:
-    """AnySums over realisations first … stop − 1."""
-
-    first: int
-    stop: int
-    sums: AnySums
-
-
-@dataclass(frozen=True)
 class About:
     """What a store says of itself: ``key`` describes the ensemble, ``ends`` are sizes asked for."""
 
     key: dict[str, Any]
     ends: tuple[int, ...]
+    layout: int = SCHEMA
 
 
 class Store:
@@ -87,15 +80,18 @@ class Store:
 
     def blocks(self, m: Measurement) -> list[Block]:
         """Read and check all sums, in the order of their realisations. Raises ``StoreError``."""
-        found = []
+        found = list[Block]()
         for first, stop, content in self._rows():
             try:
-                sums = from_bytes(content, m)
-                if sums.tried != stop - first:
+                if self.about.layout == OLDER:
+                    blocks = blocks_of_layout_2(content, m, first, stop)
+                else:
+                    blocks = [Block(first, stop, from_bytes(content, m))]
+                if sum(block.sums.tried for block in blocks) != stop - first:
                     raise ValueError("it holds more or fewer realisations than it says")
             except ValueError as error:
                 raise _damaged(self.path, str(error)) from None
-            found.append(Block(first, stop, sums))
+            found += blocks
         return found
 
     def ranges(self) -> list[tuple[int, int]]:
@@ -117,24 +113,31 @@ class Store:
                 before = stop
                 yield first, stop, content
 
-    def add_end(self, end: int) -> None:
-        """Remember a size that was asked for: blocks on its two sides are never merged."""
-        if end not in self.about.ends:
+    def begin(self, end: int, blocks: Sequence[Block]) -> None:
+        """Remember a size that was asked for: blocks on its two sides are never joined.
+
+        ``blocks`` are those of the store; in an older layout they are written anew.
+        """
+        older = self.about.layout == OLDER
+        if older or end not in self.about.ends:
             self.about = About(self.about.key, tuple(sorted({*self.about.ends, end})))
             with self._transaction():
                 _write_about(self._database, self.about)
+                for block in blocks if older else ():
+                    self._write(block)
+                self._database.execute(f"PRAGMA user_version = {SCHEMA}")
 
-    def put(self, block: Block, merged: Sequence[Block] = ()) -> None:
-        """Write a block in one transaction; ``merged`` are those that it takes the place of."""
+    def put(self, block: Block) -> None:
+        """Write a block in one transaction, in place of its parts."""
+        with self._transaction():
+            self._write(block)
+
+    def _write(self, block: Block) -> None:
         content = block.sums.to_bytes()
         checksum = _checksum(self.about.key, block.first, block.stop, content)
-        with self._transaction():
-            for old in merged:
-                self._database.execute("DELETE FROM sums WHERE first = ?", (old.first,))
-            self._database.execute(
-                "INSERT INTO sums VALUES (?, ?, ?, ?)",
-                (block.first, block.stop, content, checksum),
-            )
+        own = block.first, block.stop
+        self._database.execute("DELETE FROM sums WHERE first >= ? AND first < ?", own)
+        self._database.execute("INSERT INTO sums VALUES (?, ?, ?, ?)", (*own, content, checksum))
 
     def check_it_is_there(self) -> None:
         """Raise ``OSError`` where the file was deleted or replaced since it was opened."""
@@ -329,10 +332,11 @@ def _checked(path: Path, database: sqlite3.Connection, key: dict[str, Any] | Non
     with _reading(path):
         database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST_TEXT)
         (schema,) = database.execute("PRAGMA user_version").fetchone()
-        if schema != SCHEMA:
+        if schema not in (OLDER, SCHEMA):
             raise StoreError(
                 f"{path} has the layout {schema} of another version of force-diffusion, and this "
-                f"one reads layout {SCHEMA}: finish it with that version, or give another name"
+                f"one reads layouts {OLDER} and {SCHEMA}: finish it with that version, or give "
+                "another name"
             )
         written = database.execute("SELECT sql FROM sqlite_master WHERE sql IS NOT NULL")
         if set(written.fetchmany(len(_TABLES) + 1)) != {(table,) for table in _TABLES}:
@@ -354,6 +358,7 @@ def _checked(path: Path, database: sqlite3.Connection, key: dict[str, Any] | Non
         about = About(
             _KEY.validate_json(found["ensemble"], strict=True),
             _ENDS.validate_json(found["ends"], strict=True),
+            schema,
         )
     except ValueError:
         raise _damaged(path, "what it says of itself is not understood") from None

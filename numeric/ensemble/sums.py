@@ -1,312 +1,338 @@
-"""Sums over realisations that merge exactly: in any order and grouping, the same to the bit.
+"""Sums over packings, joined in an order that nothing but the packings' numbers decides.
 
-Of every packing and group of n contacts with changes g: a = Σ g/n and b = Σ g²/n, each a float64
-that only the packing decides. Kept are Σ g and Σ g² over all contacts, exact; and Σ a, Σ b, Σ a²,
-Σ a b, Σ b² over packings, exact in a and b: their scatter from packing to packing gives standard
-errors, since the contacts of one packing are correlated.
+A packing says of each group of n contacts with changes g from the ordered force: a = Σ g/n and
+b = Σ g²/n. Where contacts differ from packing to packing, it says n, Σ g and Σ g². Of several
+packings the means of these are kept, and sums of products of deviations from the means. A block
+holds the packings k 2^l … (k + 1) 2^l − 1, and its sums are those of its two halves joined: who
+solved which, in which order and how many at a time, decides no bit.
 """
 
-import struct
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Generator, Iterable, Iterator, Sequence
+from dataclasses import dataclass, fields, replace
 from functools import reduce
 from operator import add
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any
 
 import numpy as np
 
+from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import FLOAT64, Array
+from ..disorder.radii import RadiusError
 from ..mechanics import engine
-from ..mechanics.engine import packings as solved_packings
 from ..mechanics.problem import Problem, Route
-from ..mechanics.work import Work
-from ..statistics.exact_sum import (
-    ExactSum,
-    digits,
-    rows_and_squares,
-    total,
-    total_matrix,
-    total_products,
-)
+from ..mechanics.sweep import NotStandingError, UnbuildableError
+from ..statistics.moments import by_halves
+from ..unilateral.network import UnfinishedError
 from . import networks
 from .measure import Measurement
 
-if TYPE_CHECKING:
-    from ..mechanics.kernels import Descent
-    from ..statistics.compiled import Tally
-
-# Packings whose a and b are cut into digits together.
-AT_ONCE = 1024
-_COUNTS = struct.Struct("<3q")
+# What is raised for a packing that is left out.
+TROUBLE = (UnbuildableError, NotStandingError, RadiusError, UnfinishedError, UndecidedError)
+# Numbers of covariances that are joined at once.
+AT_ONCE = 200_000
+# Of no packing, where the lowest number of one is looked for.
+NEVER = 2**62
 
 
 @dataclass(frozen=True, eq=False)
 class Sums:
-    """Sums over ``realisations`` packings, with G groups, V variables and B bins.
+    """Sums over packings, of G groups, V variables and B bins; a first axis may list several.
 
-    ``change`` and ``square`` (G,): Σ g, Σ g². ``means`` (2, G): Σ a, Σ b; ``products`` (3, G):
-    Σ a², Σ ab, Σ b²; ``pairs`` (V (V + 1)/2,): Σ x_s x_t for s ≤ t, where x are the b of a profile
-    and else the a. a is in units of 2^unit, b in 4^unit. ``tensile`` (G,): contacts that pull.
-    ``bins`` (2, B + 2): counts, and their squares, which lie below, in and above the bins.
-    ``unbuildable`` packings more were left out, since no forces can hold them or no bead rests;
-    ``first_unbuildable`` is the lowest number of one, −1 where there is none.
+    ``first`` is the lowest number of a packing that is left out; ``packings`` (2,) counts those
+    that are summed up, and left out. (G,): ``held`` packings have ``samples`` in the group, of
+    which so many are ``tensile``. ``bins`` (3, B + 2): counts below, in and above the bins, their
+    squares, and their products with all that a packing counts. ``means`` (K, G) are those of a, b,
+    or of n, Σ g, Σ g², over packings, ``products`` (K (K + 1)/2, G) the sums of products of
+    deviations from them, row by row; ``pairs`` (V, V) those of the variables, the ``row`` of means.
+    a and Σ g are in units of 2^unit of the measurement, b and Σ g² of its square.
     """
 
-    realisations: int
-    change: ExactSum
-    square: ExactSum
-    means: ExactSum
-    products: ExactSum
-    pairs: ExactSum
+    row: int
+    first: Array
+    packings: Array
+    held: Array
+    samples: Array
     tensile: Array
     bins: Array
-    unbuildable: int = 0
-    first_unbuildable: int = -1
-
-    @property
-    def tried(self) -> int:
-        """Packings that were summed up or left out."""
-        return self.realisations + self.unbuildable
-
-    def __add__(self, other: "Sums") -> "Sums":
-        """Merge the sums of other realisations."""
-        return Sums(
-            self.realisations + other.realisations,
-            self.change + other.change,
-            self.square + other.square,
-            self.means + other.means,
-            self.products + other.products,
-            self.pairs + other.pairs,
-            self.tensile + other.tensile,
-            self.bins + other.bins,
-            self.unbuildable + other.unbuildable,
-            min(filter(lambda k: k >= 0, (self.first_unbuildable, other.first_unbuildable)),
-                default=-1),
-        )  # fmt: skip
-
-    def to_bytes(self) -> bytes:
-        """Write as bytes; equal sums give equal bytes."""
-        counts = np.concatenate([self.tensile, self.bins.reshape(-1)]).astype("<i8")
-        exact = (self.change, self.square, self.means, self.products, self.pairs)
-        head = _COUNTS.pack(self.realisations, self.unbuildable, self.first_unbuildable)
-        return b"".join([head, counts.tobytes(), *(s.to_bytes() for s in exact)])
-
-
-def _shapes(m: Measurement) -> list[tuple[int, ...]]:
-    G, V = m.groups, m.variables
-    return [(G,), (G,), (2, G), (3, G), (V * (V + 1) // 2,)]
-
-
-def _bins(m: Measurement) -> int:
-    return len(m.edges) + 1 if m.edges else 0
-
-
-class AnySums(Protocol):
-    """What sums of all kinds can do."""
+    means: Array
+    products: Array
+    pairs: Array
 
     @property
     def realisations(self) -> int:
-        """Packings that were summed up."""
+        """N: packings that are summed up."""
+        return int(self.packings[0])
 
     @property
     def unbuildable(self) -> int:
-        """Packings that were left out."""
+        """Packings that are left out: no forces can hold them, or a bead of them finds no rest."""
+        return int(self.packings[1])
 
     @property
-    def first_unbuildable(self) -> int:
-        """The lowest number of one, −1 where there is none."""
+    def first_unbuildable(self) -> int | None:
+        """The lowest number of one that is left out."""
+        return int(self.first) if self.unbuildable else None
 
     @property
     def tried(self) -> int:
         """Packings that were summed up or left out."""
+        return int(self.packings.sum())
 
-    def __add__(self, other: Any) -> "AnySums":
-        """Merge the sums of other realisations."""
+    def _arrays(self) -> list[Array]:
+        return [getattr(self, field.name) for field in fields(self)[1:]]
+
+    def __getitem__(self, key: Any) -> "Sums":
+        """Give some of several."""
+        return Sums(self.row, *(array[key] for array in self._arrays()))
+
+    def __add__(self, other: "Sums") -> "Sums":
+        """Join with later packings (Chan, Golub and LeVeque)."""
+        own, more = (one.packings[..., :1, None] for one in (self, other))
+        share = more / np.maximum(own + more, 1)
+        step, weight = other.means - self.means, own * share
+        rows, columns = np.triu_indices(step.shape[-2])
+        x = step[..., self.row, : self.pairs.shape[-1]]
+        return Sums(
+            self.row,
+            np.minimum(self.first, other.first),
+            self.packings + other.packings,
+            self.held + other.held,
+            self.samples + other.samples,
+            self.tensile + other.tensile,
+            self.bins + other.bins,
+            self.means + step * share,
+            self.products + other.products + step[..., rows, :] * step[..., columns, :] * weight,
+            self.pairs + other.pairs + x[..., :, None] * (x[..., None, :] * weight),
+        )
 
     def to_bytes(self) -> bytes:
         """Write as bytes; equal sums give equal bytes."""
+        parts = [*self._arrays()[:-1], self.pairs[np.triu_indices(len(self.pairs))]]
+        return b"".join(part.astype(f"<{part.dtype.kind}8").tobytes() for part in parts)
 
 
-def of_none(m: Measurement) -> AnySums:
-    """Give the sums of no realisation."""
-    return networks.none(m) if m.of_networks else none(m)
+def _shapes(m: Measurement) -> list[tuple[str, tuple[int, ...]]]:
+    """Give kind and shape of each array."""
+    G, V, K = m.groups, m.variables, 3 if m.of_networks else 2
+    whole = [(), (2,), (G,), (G,), (G,), (3, m.counted)]
+    parts = [(K, G), (K * (K + 1) // 2, G), (V, V)]
+    return [("i8", shape) for shape in whole] + [("f8", shape) for shape in parts]
 
 
-def left_out(m: Measurement, number: int) -> AnySums:
-    """Give the sums of a realisation that can't be solved."""
-    if m.of_networks:
-        return networks.left_out(m, number)
-    return replace(none(m), unbuildable=1, first_unbuildable=number)
-
-
-def none(m: Measurement) -> Sums:
-    """Give the sums of no realisation of packings on the lattice."""
-    change, square, means, products, pairs = (ExactSum.zero(*shape) for shape in _shapes(m))
-    tensile, bins = np.zeros(m.groups, np.int64), np.zeros((2, _bins(m)), np.int64)
-    return Sums(0, change, square, means, products, pairs, tensile, bins)
-
-
-def from_bytes(content: bytes, m: Measurement) -> AnySums:
+def from_bytes(content: bytes, m: Measurement) -> Sums:
     """Read what ``to_bytes`` wrote. Raises ``ValueError`` where it is nothing of the kind."""
-    if m.of_networks:
-        return networks.from_bytes(content, m)
-    counts = m.groups + 2 * _bins(m)
-    at = _COUNTS.size + 8 * counts
-    if len(content) < at:
-        raise ValueError("sums end early")
-    realisations, unbuildable, first = _COUNTS.unpack_from(content)
-    whole = np.frombuffer(content[_COUNTS.size : at], "<i8").astype(np.int64)
-    if realisations < 0 or unbuildable < 0 or (first < 0) != (not unbuildable) or (whole < 0).any():
-        raise ValueError("sums count less than nothing")
-    exact = []
-    view = memoryview(content)
-    for shape in _shapes(m):
-        one, used = ExactSum.from_bytes(view[at:], shape)
-        exact.append(one)
-        at += used
-    if at != len(content):
-        raise ValueError("sums go on after their end")
-    change, square, means, products, pairs = exact
-    tensile, bins = whole[: m.groups], whole[m.groups :].reshape(2, -1)
-    return Sums(
-        realisations, change, square, means, products, pairs, tensile, bins, unbuildable, first
-    )
+    V, at, arrays = m.variables, 0, list[Array]()
+    shapes = [*_shapes(m)[:-1], ("f8", (V * (V + 1) // 2,))]
+    if len(content) != 8 * sum(int(np.prod(shape)) for _, shape in shapes):
+        raise ValueError("sums are shorter or longer than they should be")
+    for kind, shape in shapes:
+        count = int(np.prod(shape))
+        array = np.frombuffer(content, f"<{kind}", count, at).astype(kind).reshape(shape)
+        if not np.isfinite(array).all() or (kind == "i8" and (array < 0).any()):
+            raise ValueError("sums are no numbers, or count less than nothing")
+        arrays.append(array)
+        at += 8 * count
+    pairs, upper = np.zeros((V, V)), np.triu_indices(V)
+    pairs[upper] = pairs.T[upper] = arrays[-1]
+    arrays[-1] = pairs
+    return Sums(m.row, *arrays)
 
 
-def measured(m: Measurement, realisations: Sequence[int], work: Work | None = None) -> AnySums:
-    """Solve realisations and sum them up; what the sweeps raise is passed on.
+def nothing(m: Measurement, packings: int) -> Sums:
+    """Give the sums of no packing, so many times; only those of covariances can't be written to."""
+    arrays = [np.zeros((packings, *shape), kind) for kind, shape in _shapes(m)[:-1]]
+    arrays[0] += NEVER
+    arrays.append(np.broadcast_to(np.zeros(_shapes(m)[-1][1]), (packings, *_shapes(m)[-1][1])))
+    return Sums(m.row, *arrays)
 
-    Who sums up decides no bit: exact sums have but one value.
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """Sums over realisations first … stop − 1."""
+
+    first: int
+    stop: int
+    sums: Sums
+
+    def joins(self, other: "Block") -> bool:
+        """Whether this and the block behind it are the halves of one."""
+        size = self.stop - self.first
+        alike = self.stop == other.first and other.stop - other.first == size
+        return alike and size & (size - 1) == 0 and self.first % (2 * size) == 0
+
+
+def ranges(first: int, stop: int, most: int) -> Iterator[tuple[int, int]]:
+    """Cut realisations into the largest blocks of up to ``most``, a power of two.
+
+    >>> list(ranges(5, 16, 4))
+    [(5, 6), (6, 8), (8, 12), (12, 16)]
     """
-    if m.of_networks:
-        parts = [networks.measured(m, number) for number in realisations]
-        return reduce(add, parts, networks.none(m))
-    work = Work() if work is None else work
-    problem = m.many
-    if m.expected < len(realisations):
-        problem = replace(problem, realisations=len(realisations))
-    over_contacts, packings, left = [none(m)], list[Array](), realisations
+    while first < stop:
+        size = min(most, first & -first or most)
+        while first + size > stop:
+            size //= 2
+        yield first, first + size
+        first += size
+
+
+def joined(blocks: Iterable[Block], apart: Sequence[int] = ()) -> list[Block]:
+    """Join halves to blocks, and these again, but not where a range has to begin or end."""
+    found: list[Block] = []
+    for block in blocks:
+        found.append(block)
+        while len(found) > 1 and found[-2].joins(found[-1]) and found[-1].first not in apart:
+            first, second = found[-2:]
+            found[-2:] = [Block(first.first, second.stop, first.sums + second.sums)]
+    return found
+
+
+def total(m: Measurement, blocks: Iterable[Block]) -> Sums:
+    """Join blocks in their order, the largest that there are."""
+    return reduce(add, (block.sums for block in joined(blocks)), nothing(m, 1)[0])
+
+
+def measured(m: Measurement, first: int, stop: int) -> list[Block]:
+    """Solve realisations first … stop − 1, and sum them up block by block.
+
+    Those that can't be built are left out, and counted.
+    """
+    found = nothing(m, stop - first)
     with FLOAT64.active():
-        if problem.route == Route.EXACT and m.pieces is not None:
-            summed, packings, left = _compiled(m, problem, realisations, work)
-            over_contacts.append(summed)
-        each = solved_packings(problem, left, FLOAT64, work, any_number=True, copied=True)
-        for solved, chunk in each:
-            with work.timed("statistics"):
-                summed, means = _over_contacts(m, *m.changes(solved, len(chunk)))
-            over_contacts.append(summed)
-            packings.append(means)
-    with work.timed("statistics"):
-        summed = replace(reduce(add, over_contacts), realisations=len(realisations))
-        return _over_packings(m, summed, packings)
+        _solve(m, range(first, stop), first, found)
+        return blocks_of(found, first)
 
 
-def _compiled(
-    m: Measurement, problem: Problem, realisations: Sequence[int], work: Work
-) -> tuple[Sums, list[Array], Sequence[int]]:
-    """Sum up by compiled loops, if they are taken, a packing or a few at a time.
-
-    Gives also the a, b of packings, and realisations that are out of the ordinary.
-    """
-    if not engine.compiles(problem, FLOAT64):
-        return none(m), [], realisations
-    sweeps, loads = engine.ready(problem, FLOAT64)
-    assert sweeps is not None
-    assert loads is not None
-    descent = sweeps.descent(problem.force_rows, loads)
-    tally, packings, left = _tally(m, descent), list[Array](), list[int]()
-    beads, step = problem.region.beads, engine.at_once(problem)
-    for at in range(0, len(realisations), step):
-        some = realisations[at : at + step]
-        g = sweeps.changes(some, descent)
-        means = None if g is None else tally.add(g)
-        if means is None:
-            left += some
-        else:
-            packings.append(means)
-        work.did_rows("balanced", problem.region.rows, beads * len(some))
-    engine.keep(problem, sweeps, loads)
-    change, square = tally.sums()
-    summed = replace(none(m), change=change, square=square, tensile=tally.tensile, bins=tally.bins)
-    return summed, packings, left
+def why_left_out(m: Measurement, number: int) -> Exception | None:
+    """Give what is raised for a realisation."""
+    try:
+        with FLOAT64.active():
+            list(_each(m, [number]))
+    except TROUBLE as error:
+        return error
+    return None
 
 
-def _tally(m: Measurement, descent: "Descent") -> "Tally":
-    """Give compiled sums, the same numbers, of groups of many contacts."""
-    from ..statistics.compiled import Tally
-
-    assert m.pieces is not None
-    pieces = []
-    for group, branch, j in m.pieces:
-        if descent.lowest <= j < len(descent.rows):  # some load reaches it
-            side = branch.number
-            start = descent.starts[j]
-            pieces.append((group, side, start, start, descent.rows[j].count))
-    table = np.array(pieces).reshape(-1, 5)
-    return Tally(table, tuple(descent.F), m.groups, m.members, m.unit, m.edges)
+def blocks_of(packings: Sums, first: int) -> list[Block]:
+    """Join single packings, which are listed from number ``first`` on, to blocks."""
+    stop = first + len(packings.first)
+    cut = ranges(first, stop, 1 << stop.bit_length())
+    return [Block(a, b, _join(packings[a - first : b - first])) for a, b in cut]
 
 
-def _over_contacts(m: Measurement, ordered: Array, changes: Array) -> tuple[Sums, Array]:
-    """Sum up changes (groups, realisations, members); give also the a, b of each packing.
-
-    Shape of the latter: (2, groups, realisations).
-    """
-    groups, realisations, members = changes.shape
-    sums = rows_and_squares(changes.reshape(-1, members))
-    by_packing = [one.reshaped(groups, realisations) for one in sums]
-    summed = replace(
-        none(m),
-        realisations=realisations,
-        change=by_packing[0].over(1),
-        square=by_packing[1].over(1),
-        tensile=_pulling(ordered, changes),
-        bins=_counted(m, changes),
-    )
-    means = [one.rounded(-n * m.unit) / members for n, one in enumerate(by_packing, 1)]
-    return summed, np.stack(means)
+def _join(packings: Sums) -> Sums:
+    count = len(packings.first)
+    if count > 1 and count * packings.pairs[0].size > AT_ONCE:
+        return _join(packings[: count // 2]) + _join(packings[count // 2 :])
+    while len(packings.first) > 1:
+        packings = packings[0::2] + packings[1::2]
+    return packings[0]
 
 
-def _pulling(ordered: Array, changes: Array) -> Array:
-    """Count negative forces in each group."""
-    if ordered.min() + changes.min() >= 0:  # then no sum below can be negative
-        return np.zeros(len(changes), np.int64)
-    return np.asarray(np.count_nonzero(ordered[:, None] + changes < 0, axis=(1, 2)))
+def _solve(m: Measurement, numbers: Sequence[int], first: int, found: Sums) -> None:
+    """Fill in single packings; those that can't be built are found by halving."""
+    try:
+        for some, samples, means, tensile, counts in _each(m, numbers):
+            at = np.asarray(some) - first
+            found.packings[at] = 1, 0
+            found.held[at], found.samples[at], found.tensile[at] = samples > 0, samples, tensile
+            found.means[at] = means
+            whole = counts.sum(axis=1, keepdims=True)
+            found.bins[at] = np.stack([counts, counts**2, counts * whole], axis=1)
+    except TROUBLE:
+        if len(numbers) == 1:
+            found.packings[numbers[0] - first], found.first[numbers[0] - first] = (0, 1), numbers[0]
+            return
+        half = len(numbers) // 2
+        for part in numbers[:half], numbers[half:]:
+            _solve(m, part, first, found)
 
 
-def _over_packings(m: Measurement, summed: Sums, packings: list[Array]) -> Sums:
-    """Add the sums over the a, b of packings, arrays of shape (2, groups, realisations)."""
-    values = np.concatenate(packings, axis=2)
-    means, products, pairs = summed.means, summed.products, summed.pairs
-    for at in range(0, values.shape[2], AT_ONCE):
-        cut = digits(values[:, :, at : at + AT_ONCE])
-        a, b = [(k, q[0]) for k, q in cut], [(k, q[1]) for k, q in cut]
-        shape = (m.groups,)
-        means += total(cut, (2, m.groups))
-        products += _stacked([total_products(x, y, shape) for x, y in ((a, a), (a, b), (b, b))])
-        if m.covariance:
-            pairs += total_matrix(b if m.squares else a, m.groups)
-    return replace(summed, means=means, products=products, pairs=pairs)
+# Numbers of packings, their samples (packings, 1 or G), means (packings, K, G), contacts that pull
+# (packings, G), and counts of bins (packings, B + 2).
+_Solved = tuple[Sequence[int], Array, Array, Array, Array]
 
 
-def _stacked(parts: list[ExactSum]) -> ExactSum:
-    """Put sums of equal shapes into one array, along a new first axis."""
-    shape = (len(parts), *parts[0].shape)
-    planes = []
-    for row, part in enumerate(parts):
-        for k, limb in enumerate(part.limbs):
-            plane = np.zeros(shape, dtype=np.int64)
-            plane[row] = limb
-            planes.append((part.low + k, plane))
-    return ExactSum.of(planes, shape)
+def _each(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
+    if m.of_networks:
+        for number in numbers:
+            samples, counts = networks.measured(m, number)
+            none = np.zeros((1, 1), np.int64)
+            yield [number], samples[None, 0].astype(np.int64), samples[None], none, counts[None]
+        return
+    problem = m.many
+    if m.expected < len(numbers):
+        problem = replace(problem, realisations=len(numbers))
+    if problem.route == Route.EXACT and engine.compiles(problem, FLOAT64):
+        numbers = yield from _compiled(m, problem, numbers)
+    for solved, some in engine.packings(problem, numbers, FLOAT64, any_number=True, copied=True):
+        F, g = m.changes(solved, len(some))
+        scaled, cuts = g * 2.0**-m.unit, np.cumsum(m.sizes)[:-1]
+        parts = np.split(scaled, cuts, axis=2) if len(cuts) else [scaled]
+        sums = [np.stack([by_halves(part**k) for part in parts], axis=-1) for k in (1, 2)]
+        tensile = np.zeros((len(some), m.groups), np.int64)
+        if F.min() + g.min() < 0:  # else no sum below can be negative
+            tensile[:] = np.count_nonzero(F[:, None] + g < 0, axis=2).T
+        yield some, *_of(m, np.swapaxes(sums, 1, 2)), tensile, _counted(m, g)
+
+
+def _of(m: Measurement, sums: Any) -> tuple[Array, Array]:
+    """Give samples and means from sums of g and of g² (2, packings, groups, blocks)."""
+    means = by_halves(np.asarray(sums)) / m.members
+    if not np.isfinite(means).all():
+        raise ArithmeticError("a change, or its square, is not finite")
+    return np.array([[m.members]]), np.moveaxis(means, 0, 1)
 
 
 def _counted(m: Measurement, changes: Array) -> Array:
-    """Count changes by bin, and add up squares of each packing's counts; (2, B + 2)."""
-    if not m.edges:
-        return np.zeros((2, 0), np.int64)
-    size, realisations = len(m.edges) + 1, changes.shape[1]
-    places = np.searchsorted(np.array(m.edges), changes, side="right")
-    number = np.arange(realisations)[None, :, None]
-    counts = np.bincount((places + size * number).reshape(-1), minlength=size * realisations)
-    by_packing = counts.reshape(realisations, size)
-    return np.asarray([by_packing.sum(axis=0), (by_packing**2).sum(axis=0)], dtype=np.int64)
+    """Count changes (1, packings, members) by bin."""
+    packings = changes.shape[1]
+    if not m.counted:
+        return np.zeros((packings, 0), np.int64)
+    places = np.searchsorted(np.array(m.edges), changes[0], side="right")
+    places += m.counted * np.arange(packings)[:, None]
+    counts = np.bincount(places.reshape(-1), minlength=m.counted * packings)
+    return counts.reshape(packings, m.counted)
+
+
+def _compiled(
+    m: Measurement, problem: Problem, numbers: Sequence[int]
+) -> Generator[_Solved, None, Sequence[int]]:
+    """Solve and sum up by compiled loops, bitwise the same; give numbers that are left to others.
+
+    Those are of packings out of the ordinary, and all where groups are no whole rows of contacts.
+    """
+    sweeps, loads = engine.ready(problem, FLOAT64)
+    assert sweeps is not None
+    assert loads is not None
+    descent, left, runs = sweeps.descent(problem.force_rows, loads), list[int](), list[list[int]]()
+    for branch, row in m.blocks:
+        if descent.lowest <= row.j < len(descent.rows) and descent.rows[row.j] == row:
+            start = int(descent.starts[row.j])
+            runs.append([branch.number, start, start + row.count])
+    if not runs or len(runs) < len(m.blocks):
+        engine.keep(problem, sweeps, loads)
+        return numbers
+    from ..statistics.tally import tally
+
+    table, edges, step = np.array(runs), np.array(m.edges), engine.at_once(problem)
+    least = np.array([descent.F[branch, start:stop].min() for branch, start, stop in runs])
+    for at in range(0, len(numbers), step):
+        some = numbers[at : at + step]
+        g = sweeps.changes(some, descent)
+        if g is None:
+            left += some
+            continue
+        sums = np.empty((2, len(some), len(runs)))
+        counts = np.zeros((len(some), m.counted), np.int64)
+        tally(g, table, 2.0**-m.unit, edges, sums, counts)
+        tensile = np.zeros(sums.shape[1:], np.int64)
+        # no change is larger than the root of the sum of all squares; a little for its rounding
+        for k, p in np.argwhere(least < 1.001 * 2.0**m.unit * np.sqrt(sums[1])):
+            branch, start, stop = runs[p]
+            of = branch, slice(start, stop)
+            tensile[k, p] = np.count_nonzero(descent.F[of] + g[k][of] < 0)
+        shape = len(some), m.groups, -1
+        samples, means = _of(m, sums.reshape(2, *shape))
+        yield some, samples, means, tensile.reshape(shape).sum(axis=-1), counts
+    engine.keep(problem, sweeps, loads)
+    return left

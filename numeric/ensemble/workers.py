@@ -1,53 +1,38 @@
-"""Who solves the blocks: this process, or a pool of processes on this machine."""
+"""Who solves blocks: this thread, threads or processes of this machine, or a Dask cluster."""
 
+import logging
 import os
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
 from concurrent.futures import (
     FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Executor,
     Future,
     ProcessPoolExecutor,
     ThreadPoolExecutor,
     wait,
 )
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import dataclass
-from functools import reduce
 from itertools import islice
 from multiprocessing import active_children, get_context
-from operator import add
-from threading import Event
-from typing import Any, cast
+from typing import Any
 
-from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
-from ..arithmetic.machine import cores, memory_limit, share_cores, take_one_core
+from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
+from ..arithmetic.machine import memory_limit, share_cores, take_one_core
 from ..arithmetic.processes import end_with_parent, without_interrupts
-from ..disorder.radii import RadiusError
-from ..mechanics.sweep import NotStandingError, UnbuildableError
-from ..mechanics.work import Progress, Work
-from ..unilateral.network import UnfinishedError
+from ..scene.source import program_version
 from .measure import Measurement
-from .sums import AnySums, from_bytes, left_out, measured
+from .sums import Block, from_bytes, measured
 
 # Pools in a row that may die without finishing anything.
 PATIENCE = 3
 # Seconds between looks at whether any process is left.
 LOOK = 10
-_TROUBLE = (UnbuildableError, NotStandingError, RadiusError, UnfinishedError, UndecidedError)
-
-
-class NotStartedError(Exception):
-    """The system gives no process, or no thread to look after it."""
-
-
-class RealisationError(ForceDiffusionError, ValueError):
-    """Hardly a realisation can be built; the message says which can't, and why."""
-
-
-class UnsettledError(RealisationError):
-    """Hardly a packing comes to rest, or is proved to, within what was asked."""
-
-    exit_status = NOT_REACHED
+# Seconds until a scheduler has to answer, and until a worker of it has to be there.
+TO_ANSWER, TO_BE_THERE = 10, 30
 
 
 class WorkersError(ForceDiffusionError, RuntimeError):
@@ -56,170 +41,173 @@ class WorkersError(ForceDiffusionError, RuntimeError):
     exit_status = NOT_REACHED
 
 
-def solve_block(m: Measurement, first: int, stop: int) -> bytes:
-    """Sum up realisations first … stop − 1; those that can't be built are left out and counted."""
-    return _without_unbuildable(m, first, stop).to_bytes()
+def solve_block(m: Measurement, first: int, stop: int) -> tuple[str, bytes]:
+    """Sum up a block; say which version of the program did."""
+    (block,) = measured(m, first, stop)
+    return program_version(), block.sums.to_bytes()
 
 
-def _without_unbuildable(
-    m: Measurement, first: int, stop: int, progress: Progress | None = None
-) -> AnySums:
-    """Find them by halving: sums merge exactly, however they were cut."""
-    try:
-        return measured(m, range(first, stop), Work(progress=progress))
-    except _TROUBLE:
-        if stop - first == 1:
-            return left_out(m, first)
-    middle = (first + stop) // 2
-    parts = (first, middle), (middle, stop)
-    return reduce(add, (_without_unbuildable(m, *part, progress) for part in parts))
-
-
-def refuse_unbuildable(m: Measurement, sums: AnySums) -> None:
-    """Raise ``RealisationError`` where no two packings are left, and say why one can't be built."""
-    if sums.realisations >= 2:
-        return
-    first, why, kind = sums.first_unbuildable, "", RealisationError
-    try:
-        measured(m, [first])
-    except _TROUBLE as error:
-        why = str(error)
-        kind = UnsettledError if isinstance(error, UnfinishedError | UndecidedError) else kind
-    raise kind(
-        f"{sums.unbuildable} of {sums.tried} packings are left out, and statistics need two: "
-        f"realisation {first}: {why}"
-    )
-
-
-class _StoppedError(Exception):
-    """Nobody waits for a thread's block any more."""
-
-
-class InProcess:
-    """Solve blocks here: compiled ones on all cores, a block a core, others one after the other."""
-
-    def results(
-        self, m: Measurement, tasks: Iterator[tuple[int, int]]
-    ) -> Iterator[tuple[int, int, AnySums]]:
-        """Give (first, stop, sums) of every task, as they come."""
-        room = memory_limit() // max(m.plan.memory, 1)
-        threads = min(cores(), max(room, 1)) if m.compiled else 1
-        if threads == 1:
-            for first, stop in tasks:
-                yield first, stop, _without_unbuildable(m, first, stop)
-            return
-        stopped = Event()
-
-        def go_on(kind: str, beads: int) -> None:
-            if stopped.is_set():
-                raise _StoppedError
-
-        def block(first: int, stop: int) -> tuple[int, int, AnySums]:
-            return first, stop, _without_unbuildable(m, first, stop, go_on)
-
-        pool = ThreadPoolExecutor(threads, initializer=take_one_core)
-        with _one_core_for_matrices():
-            try:
-                pending: set[Future[tuple[int, int, AnySums]]] = set()
-                while True:
-                    more = islice(tasks, threads + 1 - len(pending))
-                    pending |= {pool.submit(block, *task) for task in more}
-                    if not pending:
-                        return
-                    done, pending = wait(pending, return_when=FIRST_COMPLETED)
-                    for future in done:
-                        yield future.result()
-            finally:
-                stopped.set()
-                pool.shutdown(cancel_futures=True)
-
-
-def _one_core_for_matrices() -> AbstractContextManager[Any]:
-    """Let each thread multiply matrices on its own core; BLAS takes all cores for each."""
-    try:
-        from threadpoolctl import threadpool_limits
-    except ImportError:  # numba alone, without the rest of the extra "fast": slower, no more
-        return nullcontext()
-    return cast(AbstractContextManager[Any], threadpool_limits(1, user_api="blas"))
-
-
-_here: list[Measurement] = []  # what this process measures, if it is a worker
-
-
-def _start(m: Measurement, workers: int) -> None:
-    if memory_limit() < m.plan.memory:
-        os._exit(1)  # as if killed for it: a library that gets none may wait for ever
-    _here.append(m)
-    share_cores(workers)
-    end_with_parent()
-
-
-def _block(first: int, stop: int) -> bytes:
-    return solve_block(_here[0], first, stop)
-
-
-def _submitted(pool: ProcessPoolExecutor, task: tuple[int, int]) -> Future[bytes]:
-    """Hand a block in; the first ones start the processes."""
-    try:
-        with without_interrupts():
-            return pool.submit(_block, *task)
-    except BrokenProcessPool:
-        raise
-    except (OSError, RuntimeError) as error:
-        raise NotStartedError(str(error)) from None
+def _on_one_core(m: Measurement, first: int, stop: int) -> tuple[str, bytes]:
+    share_cores(sys.maxsize)  # a thread of a worker is one
+    return solve_block(m, first, stop)
 
 
 @dataclass(frozen=True)
 class Pool:
-    """Solve blocks in processes of this machine; one that dies is replaced, its work done again."""
+    """An executor, how many blocks it is given at a time, and whether any of its workers lives."""
 
-    workers: int
+    executor: Executor
+    ahead: Callable[[], int]
+    alive: Callable[[], bool] = lambda: True
+    solve: Callable[[Measurement, int, int], tuple[str, bytes]] = solve_block
 
-    def results(
-        self, m: Measurement, tasks: Iterator[tuple[int, int]]
-    ) -> Iterator[tuple[int, int, AnySums]]:
-        """Give (first, stop, sums) of every task, as they come. Raises ``WorkersError``."""
-        again: list[tuple[int, int]] = []
-        deaths = 0
-        while True:
-            others = active_children()
-            with without_interrupts():
-                pool = ProcessPoolExecutor(
-                    self.workers,
-                    get_context("spawn"),
-                    initializer=_start,
-                    initargs=(m, self.workers),
-                )
-            pending: dict[tuple[int, int], Future[bytes]] = {}
-            try:
+
+Workers = Callable[[], AbstractContextManager[Pool]]
+"""Opens a pool; anew, where the last one died."""
+
+
+def solved(m: Measurement, tasks: Iterator[tuple[int, int]], workers: Workers) -> Iterator[Block]:
+    """Give the block of every task, as they come. Raises ``WorkersError``.
+
+    What workers were at that died is done again.
+    """
+    again: list[tuple[int, int]] = []
+    deaths = 0
+    while deaths < PATIENCE:
+        pending: dict[Future[tuple[str, bytes]], tuple[int, int]] = {}
+        try:
+            with workers() as pool:
                 while True:
-                    while len(pending) < 2 * self.workers:
-                        task = again[-1] if again else next(tasks, None)
-                        if task is None:
-                            break
-                        if not again:
-                            again.append(task)  # it must not be lost where no process starts
-                        pending[task] = _submitted(pool, task)
-                        again.pop()
+                    while len(pending) < pool.ahead() and (
+                        again := again or list(islice(tasks, 1))
+                    ):
+                        pending[pool.executor.submit(pool.solve, m, *again[-1])] = again[-1]
+                        again.pop()  # only now: it must not be lost where no process starts
                     if not pending:
                         return
-                    done, _ = wait(pending.values(), LOOK, return_when=FIRST_COMPLETED)
-                    if not done and not set(active_children()).difference(others):
-                        raise BrokenProcessPool  # it died with those who would have said so
-                    for task in [t for t, future in pending.items() if future.done()]:
-                        content = pending[task].result()
-                        del pending[task]
+                    done, _ = wait(pending, LOOK, return_when=FIRST_COMPLETED)
+                    if not done and not pool.alive():
+                        raise BrokenExecutor  # they died with those who would have said so
+                    for future in done:
+                        version, content = future.result()
+                        if version != program_version():
+                            raise WorkersError(
+                                f"a worker has force-diffusion {version}, and this is "
+                                f"{program_version()}: numbers could differ; install the same "
+                                "version everywhere"
+                            )
                         deaths = 0
-                        yield *task, from_bytes(content, m)
-            except (BrokenProcessPool, NotStartedError):
-                deaths += 1
-                if deaths == PATIENCE:
-                    raise WorkersError(
-                        f"worker processes died {PATIENCE} times in a row, perhaps for want of "
-                        "memory: use fewer workers"
-                    ) from None
-                again += pending
-            finally:
-                pool.shutdown(wait=False, cancel_futures=True)
-                for child in set(active_children()).difference(others):
-                    child.terminate()  # nobody waits for what it is still at
+                        yield Block(*pending.pop(future), from_bytes(content, m))
+        except BrokenExecutor:
+            deaths += 1
+            again += pending.values()
+    raise WorkersError(
+        f"worker processes died {PATIENCE} times in a row, perhaps for want of memory: use fewer "
+        "workers"
+    )
+
+
+class _Here(Executor):
+    def submit(self, function: Callable[..., Any], /, *given: Any, **more: Any) -> Future[Any]:
+        future: Future[Any] = Future()
+        future.set_result(function(*given, **more))
+        return future
+
+
+@contextmanager
+def here() -> Iterator[Pool]:
+    """Solve in this thread, one block after the other."""
+    yield Pool(_Here(), lambda: 1)
+
+
+@contextmanager
+def threads(count: int) -> Iterator[Pool]:
+    """Solve by compiled loops, a thread a core."""
+    with ThreadPoolExecutor(count, initializer=take_one_core) as pool:
+        try:
+            yield Pool(pool, lambda: count + 1)
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+class _Processes(ProcessPoolExecutor):
+    def submit(self, function: Callable[..., Any], /, *given: Any, **more: Any) -> Future[Any]:
+        try:
+            with without_interrupts():  # the first ones start the processes
+                return super().submit(function, *given, **more)
+        except (OSError, RuntimeError) as error:  # no process, or no thread to look after it
+            raise BrokenExecutor(str(error)) from None
+
+
+def _start(count: int, memory: int) -> None:
+    if memory_limit() < memory:
+        os._exit(1)  # as if killed for it: a library that gets none may wait for ever
+    share_cores(count)
+    end_with_parent()
+
+
+@contextmanager
+def processes(count: int, memory: int) -> Iterator[Pool]:
+    """Solve in processes of this machine, each of which needs so many bytes."""
+    others = active_children()
+    with without_interrupts():
+        pool = _Processes(count, get_context("spawn"), _start, (count, memory))
+    try:
+        yield Pool(pool, lambda: 2 * count, lambda: set(active_children()) > set(others))
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
+        for child in set(active_children()).difference(others):
+            child.terminate()  # nobody waits for what it is still at
+
+
+@contextmanager
+def cluster(address: str | None, count: int) -> Iterator[Pool]:
+    """Solve on the workers of the Dask scheduler at ``address``; None makes ``count`` here.
+
+    The scheduler gives the work of a worker that died to another one.
+    """
+    import distributed as untyped
+
+    distributed: Any = untyped  # it has no types
+    with ExitStack() as open_things:
+        client = open_things.enter_context(_client(distributed, address, count, open_things))
+
+        def ahead() -> int:
+            return int(2 * max(sum(client.nthreads().values()), 1))
+
+        try:
+            yield Pool(client.get_executor(pure=False), ahead, solve=_on_one_core)
+        except distributed.KilledWorker:
+            raise WorkersError(
+                "several workers of the cluster died at the same block, perhaps for want of "
+                "memory: give them more"
+            ) from None
+        except CancelledError as error:
+            raise WorkersError(f"the cluster gave the work up: {error}") from None
+
+
+def _client(distributed: Any, address: str | None, count: int, open_things: ExitStack) -> Any:
+    if address is None:
+        with without_interrupts():  # its threads start the workers
+            made = distributed.LocalCluster(
+                n_workers=count,
+                threads_per_worker=1,
+                dashboard_address=":0",
+                silence_logs=logging.ERROR,
+            )
+        return distributed.Client(open_things.enter_context(made))
+    try:
+        client = distributed.Client(address, timeout=TO_ANSWER)
+    except (OSError, ValueError) as error:
+        raise WorkersError(
+            f"no scheduler answers at {address} ({error}): give the address that "
+            "'dask scheduler' prints, such as tcp://127.0.0.1:8786"
+        ) from None
+    try:
+        client.wait_for_workers(1, timeout=TO_BE_THERE)
+    except TimeoutError:
+        client.close()
+        raise WorkersError(
+            f"the scheduler at {address} has no workers: start some with 'dask worker {address}'"
+        ) from None
+    return client

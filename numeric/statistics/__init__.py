@@ -1,1 +1,1 @@
-"""Moments, histograms, exact sums, confidence intervals and bands."""
+"""Moments, histograms, confidence intervals and bands."""

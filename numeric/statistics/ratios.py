@@ -1,10 +1,10 @@
 """Means over samples whose number varies from packing to packing, and their standard errors.
 
 The unit is the packing: its samples are correlated, packings are independent. A mean is a ratio of
-sums over packings, Σ total/Σ count, whose error follows from the scatter of total − mean × count.
+sums over packings, Σ total/Σ count, whose error follows from the scatter of total − mean × count;
+that of a variance from the scatter of the squared deviations from the mean, likewise. Both are
+found from means and products of deviations, and not of the numbers themselves.
 """
-
-import math
 
 import numpy as np
 
@@ -15,38 +15,53 @@ from ..arithmetic.systems import Array
 ROUNDING = 1e-9
 
 
-def ratio(counts: Array, totals: Array) -> tuple[Array, Array]:
-    """Give Σ total/Σ count of each group, and its standard error; arrays are (packings, groups).
-
-    NaN where nothing was counted, and for the error of what only one packing has.
-
-    >>> mean, error = ratio(np.array([[2], [2]]), np.array([[2.0], [6.0]]))
-    >>> float(mean[0]), float(error[0])
-    (2.0, 1.0)
-    """
-    packings, summed = len(counts), counts.sum(axis=0)
-    with np.errstate(all="ignore"):
-        # one by one, so that the order in which packings came decides no bit
-        means = np.array([math.fsum(column) for column in totals.T]) / summed
-        off = totals - means * counts
-        scatter = np.sqrt((off * off).sum(axis=0) / (packings - 1) * packings)
-        return means, np.where((counts > 0).sum(axis=0) > 1, scatter / summed, np.nan)
-
-
 def moments(counts: Array, totals: Array, squares: Array) -> tuple[Array, Array, Array, Array]:
     """Give mean and standard deviation of each group, and the standard errors of both.
 
-    ``squares``: sums of the samples' squares. The error of a deviation is NaN where it is zero, or
-    nothing but rounding.
+    Arrays are (packings, groups): how many samples, their sum, and that of their squares. NaN where
+    nothing was counted; the errors are also NaN of what only one packing has, and that of a
+    deviation where it is zero, or its error nothing but rounding.
 
+    >>> mean, std, error, _ = moments(*np.array([[[2], [2]], [[2], [6]], [[4], [20]]]))
+    >>> float(mean[0]), round(float(std[0]), 9), float(error[0])
+    (2.0, 1.414213562, 1.0)
     >>> a, b = np.array([[0.3], [0.7]]), np.array([[1], [1]])
     >>> _, std, _, error = moments(b, a, a * a)
     >>> round(float(std[0]), 9), float(error[0])
     (0.2, nan)
     """
-    mean, of_mean = ratio(counts, totals)
-    variance, of_variance = ratio(counts, squares - 2 * mean * totals + mean**2 * counts)
-    std = np.sqrt(np.maximum(variance, 0))
+    values = np.stack([counts, totals, squares]).astype(np.float64)
+    with np.errstate(all="ignore"):  # of numbers beyond floats nothing is known
+        means = values.mean(axis=1)
+        off = values - means[:, None]
+        rows, columns = np.triu_indices(3)
+        products = (off[rows] * off[columns]).sum(axis=1)
+        return from_products(len(counts), (counts > 0).sum(axis=0), means, products)
+
+
+def from_products(
+    packings: int, held: Array, means: Array, products: Array
+) -> tuple[Array, Array, Array, Array]:
+    """Give the same from means over packings of count, total and square, (3, groups).
+
+    ``products`` (6, groups) are the sums of products of two deviations from them, those of a row
+    with itself and the later ones, row by row; ``held`` (groups,) packings have samples.
+    """
+    rows, columns = np.triu_indices(3)
+    twice = np.where(rows == columns, 1, 2)[:, None]
+
+    def error(*weights: Array | float) -> Array:
+        """Give the standard error of a ratio from the scatter of a sum with these weights."""
+        w = np.stack(np.broadcast_arrays(*weights, counts)[:3])
+        square = (twice * w[rows] * w[columns] * products).sum(axis=0)
+        found = np.sqrt(np.maximum(square, 0) / packings / (packings - 1)) / counts
+        return np.where(held > 1, found, np.nan)
+
     with np.errstate(all="ignore"):
-        known = of_variance > ROUNDING * variance
-        return mean, std, of_mean, np.where(known, of_variance / (2 * std), np.nan)
+        counts, totals, squares = means
+        mean = totals / counts
+        variance = np.maximum(squares / counts - mean**2, 0)
+        of_variance = error(mean**2 - variance, -2 * mean, 1.0)
+        std = np.sqrt(variance)
+        of_std = np.where(of_variance > ROUNDING * variance, of_variance / (2 * std), np.nan)
+        return mean, std, error(-mean, 1.0, 0.0), of_std

@@ -209,7 +209,6 @@ def test_other_scenes_work(name: str, capsys: pytest.CaptureFixture[str]) -> Non
 def test_without_dask_it_says_what_to_install(
     small: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.delitem(sys.modules, "force_diffusion.numeric.ensemble.cluster", raising=False)
     monkeypatch.setitem(sys.modules, "distributed", None)
     status, _, err = call(capsys, small, "--cluster", "local")
     assert status == 2

@@ -3,6 +3,7 @@
 from typing import Any
 
 from force_diffusion.numeric.ensemble.measure import Measurement, measurement
+from force_diffusion.numeric.ensemble.sums import Sums, measured, total
 
 from tests.numeric.scenes import scene
 
@@ -63,3 +64,12 @@ def case(name: str, *, covariance: bool = False, **disorder: Any) -> Measurement
     sections = CASES[name]
     sections = {**sections, "disorder": {**sections["disorder"], **disorder}}
     return measurement(scene(sections), covariance=covariance)
+
+
+def first(m: Measurement, packings: int) -> Sums:
+    """Give the sums of the first packings, all solved here at once."""
+    return total(m, measured(m, 0, packings))
+
+
+def bytes_of_first(m: Measurement, packings: int) -> bytes:
+    return first(m, packings).to_bytes()

@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric.ensemble.measure import measurement
-from force_diffusion.numeric.ensemble.network_result import NetworkEnsemble
-from force_diffusion.numeric.ensemble.sums import from_bytes, measured
-from force_diffusion.numeric.ensemble.workers import RealisationError
+from force_diffusion.numeric.ensemble.run import RealisationError
+from force_diffusion.numeric.ensemble.sums import from_bytes
 from force_diffusion.numeric.statistics.ratios import moments
 
 import force_diffusion as fd
+from tests.numeric.ensemble.cases import bytes_of_first
 
 
 def strip(quantity: str = "profile", **more: Any) -> fd.Scene:
@@ -33,7 +33,6 @@ def test_without_tension_it_is_the_ensemble_of_the_lattice(load: fd.Load) -> Non
     """Layer by layer, over both branches; σ/r is small, so that no digit may be cancelled."""
     opened = fd.ensemble(strip(std=1e-7, load=load), 8)
     closed = fd.ensemble(strip(std=1e-7, load=load, effects={}), 8)
-    assert isinstance(opened, NetworkEnsemble)
     assert (opened.samples, opened.index["j"].tolist()) == (8 * 2 * 6 * 12, list(range(6)))
     np.testing.assert_allclose(opened.mean, closed.mean.reshape(6, 2).mean(axis=1), rtol=1e-13)
     # rounded forces of size 1 to 6 leave 1e-15 of changes of 1e-6; their squares twice that share
@@ -143,11 +142,10 @@ def test_standard_errors_are_those_of_the_jackknife() -> None:
 
 def test_damaged_sums_are_refused() -> None:
     m = measurement(strip("histogram"))
-    content = measured(m, [0, 1]).to_bytes()
+    content = bytes_of_first(m, 2)
     assert from_bytes(content, m).to_bytes() == content
-    nan = np.array([np.nan]).tobytes()
-    swapped = content[:16] + content[24:32] + content[16:24] + content[32:]
-    for damaged in (b"", content[:-8], content + nan, content[:-8] + nan, swapped):
+    nan, less = np.array([np.nan]).tobytes(), np.array([-1]).tobytes()
+    for damaged in (b"", content[:-8], content + nan, content[:-8] + nan, less + content[8:]):
         with pytest.raises(ValueError, match="sums"):
             from_bytes(damaged, m)
 

@@ -7,12 +7,12 @@ import sqlite3
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
-from force_diffusion.numeric.ensemble.measure import Measurement
-from force_diffusion.numeric.ensemble.run import run
+from force_diffusion.numeric.ensemble.run import RealisationError, run
 from force_diffusion.numeric.ensemble.scene_key import ensemble_key
 from force_diffusion.numeric.ensemble.store import (
     StoreError,
@@ -20,13 +20,12 @@ from force_diffusion.numeric.ensemble.store import (
     open_store,
     read_store,
 )
-from force_diffusion.numeric.ensemble.sums import Sums, measured
-from force_diffusion.numeric.ensemble.workers import InProcess, RealisationError
+from force_diffusion.numeric.ensemble.workers import Pool, WorkersError, here
 from hypothesis import given
 from hypothesis import strategies as st
 
 import force_diffusion as fd
-from tests.numeric.ensemble.cases import PROFILE, case
+from tests.numeric.ensemble.cases import PROFILE, bytes_of_first, case
 from tests.numeric.ensemble.test_run import on_file
 from tests.numeric.scenes import scene
 
@@ -34,20 +33,20 @@ ROOT = Path(__file__).parents[3]
 M = case("profile")
 KEY = ensemble_key(M)
 SIZE = 40
-WHOLE = measured(M, range(SIZE)).to_bytes()
+WHOLE = bytes_of_first(M, SIZE)
 
 
 @pytest.fixture(scope="module")
 def sound(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     path = tmp_path_factory.mktemp("sound") / "ensemble.fd"
-    on_file(path, M, SIZE, InProcess())
+    on_file(path, M, SIZE, here)
     return path.read_bytes()
 
 
 def refused(path: Path, says: str) -> None:
     before = path.read_bytes()
     with pytest.raises(StoreError, match=says):
-        on_file(path, M, SIZE, InProcess())
+        on_file(path, M, SIZE, here)
     assert path.read_bytes() == before
     assert [p.name for p in path.parent.iterdir()] == [path.name]
 
@@ -62,16 +61,16 @@ def test_flipped_bytes_are_refused_or_do_no_harm(
         wrong[data.draw(st.integers(0, len(wrong) - 1))] ^= data.draw(st.integers(1, 255))
     path.write_bytes(wrong)
     try:
-        found = on_file(path, M, SIZE, InProcess())
+        found = on_file(path, M, SIZE, here)
     except StoreError:
         assert path.read_bytes() == bytes(wrong)
     else:  # in a part of the file that holds nothing
-        assert found.estimates.sums.to_bytes() == WHOLE
+        assert found.sums.to_bytes() == WHOLE
 
 
 def test_flipped_sums_are_refused(sound: bytes, tmp_path: Path) -> None:
     path = tmp_path / "ensemble.fd"
-    content = measured(M, range(32)).to_bytes()
+    content = bytes_of_first(M, 32)
     at = sound.index(content[8:200])
     for offset in (0, 7, 100, 190):
         wrong = bytearray(sound)
@@ -136,7 +135,7 @@ def changed(path: Path, *statements: str) -> None:
 @pytest.mark.parametrize(
     ("statement", "says"),
     [
-        ("PRAGMA user_version = 3", "layout 3 of another version"),
+        ("PRAGMA user_version = 4", "layout 4 of another version"),
         ("DELETE FROM about WHERE name = 'ends'", "does not say"),
         ("UPDATE about SET content = '[7]' WHERE name = 'ends'", "checksum"),
         ("UPDATE sums SET stop = 31 WHERE first = 0", "checksum"),
@@ -265,7 +264,7 @@ def test_the_same_scene_in_other_words_is_the_same_ensemble() -> None:
 def test_a_second_process_is_refused_while_one_works(tmp_path: Path) -> None:
     path = tmp_path / "ensemble.fd"
     mine = open_store(path, KEY)
-    run(M, 5, InProcess(), store=mine)
+    run(M, 5, here, store=mine)
     program = (
         "import sys; from pathlib import Path\n"
         "from force_diffusion.numeric.ensemble.store import open_store\n"
@@ -287,25 +286,25 @@ def test_a_full_disk_is_told_and_leaves_the_file_good(tmp_path: Path) -> None:
     pages = store._database.execute("PRAGMA page_count").fetchone()[0]
     store._database.execute(f"PRAGMA max_page_count = {pages + 1}")
     with pytest.raises(OSError, match="full") as failure:
-        run(M, 400, InProcess(), store=store)
+        run(M, 400, here, store=store)
     assert failure.value.filename == str(path)
     held = sum(stop - first for first, stop in store.ranges())
     store.close()
     assert held
-    assert on_file(path, M, held, InProcess()).solved == 0
+    assert on_file(path, M, held, here).solved == 0
 
 
 def test_an_empty_file_is_a_new_one(tmp_path: Path) -> None:
     path = tmp_path / "ensemble.fd"
     path.touch()
-    assert on_file(path, M, 5, InProcess()).solved == 5
+    assert on_file(path, M, 5, here).solved == 5
 
 
 KILLED = """
 import os, signal, sys
 from pathlib import Path
 from force_diffusion.numeric.ensemble import run, store
-from force_diffusion.numeric.ensemble.workers import InProcess
+from force_diffusion.numeric.ensemble.workers import here
 from force_diffusion.numeric.ensemble.scene_key import ensemble_key
 from tests.numeric.ensemble.cases import case
 
@@ -328,7 +327,7 @@ store.sqlite3.connect = lambda *a, **k: connect(*a, factory=Watched, **k)
 m = case("profile")
 run.BLOCK = 5 * m.plan.problem.region.beads
 opened = store.open_store(path, ensemble_key(m))
-run.run(m, 40, InProcess(), store=opened)
+run.run(m, 40, here, store=opened)
 """
 
 
@@ -348,8 +347,8 @@ def test_killed_at_every_kind_of_moment(tmp_path: Path) -> None:
             held.append(held_by(path))
     assert 0 < held[-1] < 40
     assert held == sorted(held)
-    found = on_file(path, M, SIZE, InProcess())
-    assert found.estimates.sums.to_bytes() == WHOLE
+    found = on_file(path, M, SIZE, here)
+    assert found.sums.to_bytes() == WHOLE
     assert found.solved == SIZE - held[-1]
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
 
@@ -368,25 +367,24 @@ def held_by(path: Path) -> int:
     return sum(stop - first for first, stop in ranges)
 
 
-class Failing:
-    def results(
-        self, m: Measurement, tasks: Iterator[tuple[int, int]]
-    ) -> Iterator[tuple[int, int, Sums]]:
-        raise RealisationError("none can be built")
+@contextmanager
+def failing() -> Iterator[Pool]:
+    raise WorkersError("they are gone")
+    yield
 
 
 def test_a_store_that_holds_nothing_serves_the_next_scene(tmp_path: Path) -> None:
     path = tmp_path / "ensemble.fd"
     wild = case("profile", kind="normal", relative_std="=0.9")
     with pytest.raises(ForceDiffusionError):
-        on_file(path, wild, SIZE, Failing())
-    assert on_file(path, M, SIZE, InProcess()).estimates.sums.to_bytes() == WHOLE
+        on_file(path, wild, SIZE, failing)
+    assert on_file(path, M, SIZE, here).sums.to_bytes() == WHOLE
     assert read_store(path).ensemble == KEY
 
 
 def test_a_running_store_can_be_looked_at(tmp_path: Path) -> None:
     path = tmp_path / "ensemble.fd"
-    on_file(path, M, SIZE, InProcess())
+    on_file(path, M, SIZE, here)
     running = open_store(path, KEY)
     try:
         found = read_store(path)

@@ -4,11 +4,10 @@ import math
 
 import pytest
 from force_diffusion.numeric.ensemble.estimates import Estimates
-from force_diffusion.numeric.ensemble.sums import measured
 from force_diffusion.numeric.statistics.confidence import half_width, looks
 from scipy import stats
 
-from tests.numeric.ensemble.cases import case
+from tests.numeric.ensemble.cases import case, first
 
 
 @pytest.mark.parametrize(
@@ -40,12 +39,12 @@ def test_looks_are_few_and_their_shares_add_up() -> None:
 
 
 def test_more_looks_and_more_confidence_ask_for_more() -> None:
-    estimates = Estimates(m := case("profile"), measured(case("profile"), range(40)))
-    fixed = estimates.half_width(0.95, 0)
+    estimates = Estimates(m := case("profile"), first(case("profile"), 40))
+    fixed = estimates.width(0.95, 0)
     t = stats.t.isf(0.05 / m.groups / 2, 39)
     assert fixed == pytest.approx(
         t * max(e / s for e, s in zip(estimates.std_error, estimates.std, strict=True) if e)
     )
-    assert fixed < estimates.half_width(0.95, 1) < estimates.half_width(0.95, 2)
-    assert fixed < estimates.half_width(0.99, 0)
-    assert Estimates(m, measured(m, range(1))).half_width(0.95, 0) == math.inf
+    assert fixed < estimates.width(0.95, 1) < estimates.width(0.95, 2)
+    assert fixed < estimates.width(0.99, 0)
+    assert Estimates(m, first(m, 1)).width(0.95, 0) == math.inf
