@@ -11,10 +11,16 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 from force_diffusion.derivations.api.equation import equation
-from force_diffusion.derivations.coq.files import Statement, files_of, head_of, words_of
+from force_diffusion.derivations.coq.files import (
+    Statement,
+    files_of,
+    head_of,
+    theory,
+    theory_hash,
+    words_of,
+)
 from force_diffusion.derivations.coq.packings import packing_statement
 from force_diffusion.derivations.coq.record import (
     Certificate,
@@ -22,7 +28,6 @@ from force_diffusion.derivations.coq.record import (
     Change,
     Changes,
     Verdict,
-    theory_hash,
 )
 from force_diffusion.derivations.coq.statements import statement, statements
 from force_diffusion.derivations.coq.words import NotStatedError
@@ -32,7 +37,6 @@ from force_diffusion.derivations.coq.workshop import (
     Notice,
     Workshop,
     axioms_in,
-    theory,
 )
 from force_diffusion.derivations.framework.catalogue import Number, paper
 from force_diffusion.derivations.framework.loading import load
@@ -58,18 +62,24 @@ def stated(numbers: Iterable[Number] | None = None) -> list[Statement]:
 
 
 def certify(
-    numbers: Iterable[Number] | None = None, *, mutants: bool = False, notice: Notice = _silent
+    numbers: Iterable[Number] | None = None,
+    *,
+    mutants: bool = False,
+    notice: Notice = _silent,
+    told: Callable[[Certificate], None] = lambda _: None,
 ) -> Certification:
     """Ask Coq about equations, all of the paper's by default; takes about two minutes.
 
-    The theory is compiled, each statement is made and proved in a file of its own, the axioms
-    that it rests on are compared with those that are allowed, and all that was accepted is checked
-    once more by coqchk. Without Coq every verdict is *Coq absent*.
+    The theory is compiled, and kept in the user's cache; each statement is made and proved in files
+    of its own, the axioms that it rests on are compared with those that are allowed, and all that
+    was accepted is checked once more by coqchk, the theory with it. Without Coq every verdict is
+    *Coq absent*.
 
     Args:
         numbers: of equations.
         mutants: whether to ask about mechanical changes of them too, several minutes more.
         notice: told what is being done.
+        told: told each verdict as it comes; coqchk, which comes last, may take it back.
 
     Raises:
         NoSuchFormError: there is no equation of that number.
@@ -90,13 +100,33 @@ def certify(
                 tuple(Certificate(n, Verdict.ABSENT, note=str(absent)) for n in of)
                 for of in (wanted, seeds)
             )
+            for one in (*equations, *packings):
+                told(one)
             return Certification(equations, packings, hashed)
-        asked = stated(None if numbers is None else wanted)
-        shop.compile(theory() | files_of(asked), notice)
-        found = [certificate(shop, number, lambda n: statements(load(n))) for number in wanted]
-        found += [certificate(shop, seed, lambda n: [packing_statement(n)]) for seed in seeds]
+        asked: dict[Number, list[Statement] | NotStatedError] = {}
+        for number in wanted:
+            try:
+                asked[number] = statements(load(number))
+            except NotStatedError as reason:
+                asked[number] = reason
+        asked |= {seed: [packing_statement(seed)] for seed in seeds}
+        files = {
+            number: {} if isinstance(made, NotStatedError) else files_of(made)
+            for number, made in asked.items()
+        }
+        by_number: dict[Number, Certificate] = {}
+
+        def look() -> None:
+            for number, made in asked.items():
+                if number not in by_number and shop.said.keys() >= files[number].keys():
+                    by_number[number] = certificate(shop, number, made)
+                    told(by_number[number])
+
+        shop.restore()
+        everything = {name: text for own in files.values() for name, text in own.items()}
+        shop.compile(theory() | everything, notice, look)
         notice("coqchk")
-        found = checked(shop, found)
+        found = checked(shop, [by_number[number] for number in (*wanted, *seeds)])
         if mutants:
             notice("mutants")
             found = [
@@ -109,13 +139,11 @@ def certify(
 
 
 def certificate(
-    shop: Workshop, number: Number, made: Callable[[Any], list[Statement]]
+    shop: Workshop, number: Number, asked: list[Statement] | NotStatedError
 ) -> Certificate:
     """Read what Coq has said of the statements of one equation or packing."""
-    try:
-        asked = made(number)
-    except NotStatedError as reason:
-        return Certificate(number, Verdict.NOT_STATED, shop.checker, note=str(reason))
+    if isinstance(asked, NotStatedError):
+        return Certificate(number, Verdict.NOT_STATED, shop.checker, note=str(asked))
     trouble = shop.trouble((*theory(), *files_of(asked)))
     axioms: set[str] = set()
     for one in asked:
@@ -143,6 +171,8 @@ def checked(shop: Workshop, found: list[Certificate]) -> list[Certificate]:
     names = [Statement.accepted_file(name) for one in accepted for name in one.theorems or ()]
     trouble = shop.check(names) if names else ""
     if not trouble:
+        if names:
+            shop.keep()
         return found
     return [
         replace(one, verdict=Verdict.NOT_ACCEPTED, note=trouble) if one in accepted else one

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from force_diffusion.derivations.coq.record import Certificate
 
 STATUSES = (
-    "Takes about two minutes. Exit status: 0 all accepted, 1 something is not, or Coq is absent, "
-    "2 wrong usage, 3 the disk or a pipe failed, 130 interrupted."
+    "Takes about two minutes, the first time. Exit status: 0 all accepted, 1 something is not, or "
+    "Coq is absent, 2 wrong usage, 3 the disk or a pipe failed, 130 interrupted."
 )
 
 
@@ -43,35 +43,44 @@ def certify(
 ) -> None:
     """Ask Coq, an independent proof assistant, whether it accepts the printed equations."""
     from force_diffusion.derivations.api.certificates import stated
-    from force_diffusion.derivations.coq.files import files_of, sha256
+    from force_diffusion.derivations.coq.files import files_of, sha256, theory
     from force_diffusion.derivations.coq.record import RECORD
-    from force_diffusion.derivations.coq.workshop import theory
-    from force_diffusion.derivations.framework.loading import load
 
     wanted = [equation_number(word) for word in numbers] if numbers else None
     files = theory() | files_of(stated(wanted))
     with output(out, "certify", [*files, RECORD], overwrite) as folder:
+        told: dict[object, Certificate] = {}
         with noticing() as notice:
-            found = fd.certify(wanted, mutants=mutants, notice=notice)
+
+            def tell(one: "Certificate") -> None:
+                told[one.number] = one
+                notice("")
+                if not as_json:
+                    print(_line(one), flush=True)
+
+            found = fd.certify(wanted, mutants=mutants, notice=notice, told=tell)
         data = {**found.data(), "files": {name: sha256(text) for name, text in files.items()}}
         if folder:
             folder.write({**files, RECORD: json.dumps(data, indent=2) + "\n"})
     if as_json:
         print(json.dumps(data, indent=2))
     else:
-        for one in found.equations:
-            print(_line(f"Eq. {one.number!s:>2}", one, load(one.number).title))
-        for one in found.packings:
-            print(
-                _line(f"{one.number}", one, "an exact packing's Taylor coefficients, as fractions")
-            )
+        for one in (*found.equations, *found.packings):
+            if one != told[one.number]:  # coqchk took it back, or there were mutants
+                print(_line(one))
         counts = Counter(str(one) for one in found.equations)
         print(", ".join(f"{count} {verdict}" for verdict, count in counts.items()) + ".")
     raise typer.Exit(0 if found.passed else 1)
 
 
-def _line(name: str, one: "Certificate", title: str) -> str:
+def _line(one: "Certificate") -> str:
     """One line about an equation or a packing, and what is wrong with it."""
+    from force_diffusion.derivations.framework.loading import load
+    from force_diffusion.derivations.framework.runner import SEEDS
+
+    name, title = str(one.number), "an exact packing's Taylor coefficients, as fractions"
+    if one.number not in SEEDS:
+        name, title = f"Eq. {one.number!s:>2}", load(one.number).title
     said = f"{name:<6}  {one!s:<24}  {title}"
     if one.about:
         shown = ", ".join(re.sub(r"^\((.*)\)%Z$", r"\1", words) for words in one.about)

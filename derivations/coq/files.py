@@ -1,15 +1,40 @@
-"""A statement for Coq as files: what it says, its proof, and that the one is of the other."""
+"""What Coq reads, as files: the theory; what a statement says, and its proof, to be compared."""
 
 import hashlib
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
-from force_diffusion.derivations.coq.workshop import LIBRARY
+PROOFS = Path(__file__).parents[2] / "proofs"
+LIBRARY = "ForceDiffusion"
 
 
 def sha256(content: str) -> str:
     """Hash of a text."""
     return hashlib.sha256(content.encode()).hexdigest()
+
+
+def theory() -> dict[str, str]:
+    """The hand-written theory: names and sources of its files."""
+    return {file.name: file.read_text(encoding="utf-8") for file in sorted(PROOFS.glob("*.v"))}
+
+
+def theory_hash() -> str:
+    """Hash of the theory: of its files' names and hashes."""
+    return sha256("".join(f"{name} {sha256(source)}\n" for name, source in theory().items()))
+
+
+_IMPORTS = re.compile(rf"^From {LIBRARY} Require (?:Import |Export )?([\w\s]+)\.$", re.MULTILINE)
+
+
+def imports(source: str) -> list[str]:
+    """The files of the theory that a file imports.
+
+    >>> imports("From ForceDiffusion Require Import Model Sums.")
+    ['Model.v', 'Sums.v']
+    """
+    return [f"{name}.v" for names in _IMPORTS.findall(source) for name in names.split()]
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,9 @@ from enum import StrEnum
 from functools import cache
 from typing import Any
 
-from force_diffusion.derivations.coq.files import sha256
+from force_diffusion.derivations.coq.files import PROOFS, theory_hash
 from force_diffusion.derivations.coq.statements import statements
 from force_diffusion.derivations.coq.words import NotStatedError
-from force_diffusion.derivations.coq.workshop import PROOFS, theory
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.record import Derivation
 
@@ -120,11 +119,6 @@ class Certification:
     def data(self) -> dict[str, Any]:
         """What JSON can hold."""
         return asdict(self)
-
-
-def theory_hash() -> str:
-    """Hash of the theory: of its files' names and hashes."""
-    return sha256("".join(f"{name} {sha256(source)}\n" for name, source in theory().items()))
 
 
 @dataclass(frozen=True)

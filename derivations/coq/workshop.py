@@ -6,17 +6,21 @@ import shutil
 import signal
 import subprocess
 import time
+import zlib
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from graphlib import TopologicalSorter
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryFile
+from zipfile import BadZipFile, ZipFile
 
+from force_diffusion.derivations.coq.files import LIBRARY, imports, sha256, theory, theory_hash
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.numeric.arithmetic.machine import user_cache
 from force_diffusion.numeric.arithmetic.processes import ending_with, without_interrupts
 
-PROOFS = Path(__file__).parents[2] / "proofs"
-LIBRARY = "ForceDiffusion"
 WRITTEN_FOR = "Coq 8.16.1"
 INSTALL = "on Debian and Ubuntu: apt-get install coq; elsewhere: https://coq.inria.fr"
 EXISTENCE = "Existence"  # no theorem rests on it: it says that hypotheses can be fulfilled
@@ -30,6 +34,9 @@ ALLOWED = frozenset(
     }
 )
 """Axioms that a theorem may rest on: those of Coq's real numbers, and equality of functions."""
+
+LIBRARIES = ("Coq.", "Stdlib.", "Corelib.")
+"""What the names of Coq's own library begin with, by version."""
 
 IN_THE_LIBRARY = frozenset(
     {
@@ -103,6 +110,7 @@ class Workshop:
     Attributes:
         checker: such as "Coq 8.16.1".
         said: what Coq said of each file.
+        kept: whether the compiled theory is from the user's cache.
 
     Raises:
         CoqAbsentError: when there is no Coq.
@@ -114,6 +122,7 @@ class Workshop:
                 raise CoqAbsentError(f"{program} is not there. Install Coq: {INSTALL}")
         self.folder = folder
         self.said: dict[str, Said] = {}
+        self.kept = False
         version = self._wait("coqc", "--print-version")
         found = re.match(r"(\d+(?:\.\w+)+)\s", version.printed)
         if version.failed or not found:
@@ -134,10 +143,51 @@ class Workshop:
             said = running.end() if running else Said()
         return said
 
-    def compile(self, sources: Mapping[str, str], notice: Notice) -> None:
+    @property
+    def _cached(self) -> Path | None:
+        """Where the theory lies compiled: by its content, and that of Coq's version."""
+        folder = user_cache()
+        hashed = sha256(f"{self.checker} {theory_hash()}")
+        return folder and folder / "coq" / f"theory-{hashed[:32]}.zip"
+
+    def restore(self) -> None:
+        """Take the compiled theory from the user's cache, if it is there, whole."""
+        sources = theory()
+        try:
+            with ZipFile(self._cached or "") as held:
+                compiled = {f"{name}o": held.read(f"{name}o") for name in sources}
+        except (OSError, LookupError, ValueError, RuntimeError, EOFError, BadZipFile, zlib.error):
+            return
+        for name, content in compiled.items():
+            (self.folder / name).write_bytes(content)
+        for name, source in sources.items():
+            (self.folder / name).write_text(source, encoding="utf-8")
+            self.said[name] = Said()
+        self.kept = True
+
+    def keep(self) -> None:
+        """Put the compiled theory into the user's cache, where that can be written."""
+        whole = self._cached
+        if whole is None or self.kept:
+            return
+        part = whole.with_suffix(f".{os.getpid()}.part")
+        with suppress(OSError):
+            whole.parent.mkdir(parents=True, exist_ok=True)
+            with ZipFile(part, "w") as held:
+                for name in theory():
+                    held.write(self.folder / f"{name}o", f"{name}o")
+            part.replace(whole)
+
+    def compile(
+        self,
+        sources: Mapping[str, str],
+        notice: Notice,
+        told: Callable[[], None] = lambda: None,
+    ) -> None:
         """Compile files, those first that others import; ``said`` tells of each.
 
-        What is under way is ended when this is interrupted.
+        ``told`` is called whenever there is more in it. What is under way is ended when this is
+        interrupted.
         """
         for name, source in sources.items():
             (self.folder / name).write_text(source, encoding="utf-8")
@@ -164,6 +214,7 @@ class Workshop:
                 for name in [name for name, one in running.items() if one.over()]:
                     self.said[name] = running.pop(name).end()
                     order.done(name)
+                    told()
                 if running:
                     time.sleep(0.02)
         finally:
@@ -180,27 +231,19 @@ class Workshop:
         return ""
 
     def check(self, names: Iterable[str]) -> str:
-        """Let coqchk check compiled files and all they rest on; what went wrong, or nothing."""
-        modules = [f"{LIBRARY}.{name.removesuffix('.v')}" for name in (*names, f"{EXISTENCE}.v")]
-        said = self._wait("coqchk", "-silent", "-o", "-R", ".", LIBRARY, *modules)
-        return f"coqchk: {said.failed}" if said.failed else unexpected(said.printed)
+        """Let coqchk check compiled files and all they rest on; what went wrong, or nothing.
 
-
-def theory() -> dict[str, str]:
-    """The hand-written theory: names and sources of its files."""
-    return {file.name: file.read_text(encoding="utf-8") for file in sorted(PROOFS.glob("*.v"))}
-
-
-_IMPORTS = re.compile(rf"^From {LIBRARY} Require (?:Import |Export )?([\w\s]+)\.$", re.MULTILINE)
-
-
-def imports(source: str) -> list[str]:
-    """The files of the theory that a file imports.
-
-    >>> imports("From ForceDiffusion Require Import Model Sums.")
-    ['Model.v', 'Sums.v']
-    """
-    return [f"{name}.v" for names in _IMPORTS.findall(source) for name in names.split()]
+        Coq's own library is checked with them when the theory was compiled, and not again when that
+        is from the cache. The theory always is.
+        """
+        files, each = [*names, f"{EXISTENCE}.v"], []
+        if self.kept:
+            files, each = [name for name, said in self.said.items() if not said.failed], ["-norec"]
+        modules = [[*each, f"{LIBRARY}.{name.removesuffix('.v')}"] for name in files]
+        said = self._wait("coqchk", "-silent", "-o", "-R", ".", LIBRARY, *chain(*modules))
+        if said.failed:
+            return f"coqchk: {said.failed}"
+        return unexpected(said.printed, library_too=not self.kept)
 
 
 def _error(message: str) -> str:
@@ -232,8 +275,11 @@ _NONE = {
 """Of what there must be none; versions to come may add to it."""
 
 
-def unexpected(summary: str) -> str:
-    """What coqchk's summary holds that must not be there, or nothing."""
+def unexpected(summary: str, *, library_too: bool = True) -> str:
+    """What coqchk's summary holds that must not be there, or nothing.
+
+    Where Coq's library was not checked too, all that is sealed in it is named as an axiom.
+    """
     sections = [(name, said.strip()) for name, said in _SECTION.findall(summary)]
     theories = {said for name, said in sections if name == "Theory"}
     if not {name for name, _ in sections} >= {"Theory", "Axioms", *_NONE}:
@@ -243,6 +289,8 @@ def unexpected(summary: str) -> str:
     for name, said in sections:
         if name == "Axioms":
             for axiom in said.removesuffix("<none>").split():
+                if not library_too and axiom.startswith(LIBRARIES):
+                    continue
                 if axiom.replace("Stdlib.", "Coq.", 1) not in IN_THE_LIBRARY:
                     return f"coqchk: the axiom {axiom}"
         elif name != "Theory" and said != "<none>":

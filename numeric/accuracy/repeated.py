@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -31,18 +31,24 @@ from ..quantities.answer import Answer, answer
 from ..quantities.base import Table
 from .accuracy import Accuracy
 
+if TYPE_CHECKING:
+    from ..mechanics.segments import Kept
+
 CARRIED = "estimated, as the sweep carried it, not certified"
 
 
-def repeated(plan: Plan, work: Work) -> tuple[Answer, Accuracy]:
-    """Answer, and say how large the error is: as sweeps carried it, or a repeat measured it."""
+def repeated(plan: Plan, work: Work, kept: "Kept | None" = None) -> tuple[Answer, Accuracy]:
+    """Answer, and say how large the error is: as sweeps carried it, or a repeat measured it.
+
+    ``kept``: what an earlier run has kept of a sweep by segments.
+    """
     quantity, problem, method = plan.quantity, plan.problem, plan.method
     longer = method.longer
     assert longer is not None
     few = range(method.repeated)
     if method.carries and len(few) >= problem.realisations:
         beside = longer if plan.system is FLOAT64 else None
-        found = answer(quantity, problem, few, plan.system, work, longer=beside)
+        found = answer(quantity, problem, few, plan.system, work, longer=beside, kept=kept)
         with longer.active():
             return found, of_carried(found, plan)
     found = answer(quantity, problem, range(problem.realisations), plan.system, work)

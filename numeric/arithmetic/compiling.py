@@ -4,7 +4,6 @@ No fast-math, and LLVM is not given leave to fuse a product with a sum, so that 
 those of NumPy to the bit. Import it only where work repays loading the compiler (half a second).
 """
 
-import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache
@@ -16,20 +15,12 @@ import llvmlite.binding
 import numba
 from numba.extending import intrinsic
 
-from .machine import cores
+from .machine import cores, user_cache
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
-def _codes() -> Path:
-    """Give a folder of the user's own: what was compiled is loaded from there again."""
-    try:
-        return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "force-diffusion"
-    except RuntimeError:  # nobody knows the user's home
-        return Path(__file__).parent / "__pycache__"
-
-
-CODES = _codes()
+CODES = user_cache() or Path(__file__).parent / "__pycache__"
 """Where recorded code lies, and beside it what was compiled of it."""
 
 # Rows never overlap, but LLVM has to check; it gives up vectorising at 8 comparisons by default.

@@ -1,4 +1,4 @@
-"""What this machine has to offer: cores and free memory."""
+"""What this machine has to offer: cores, free memory, and a folder for what is made once."""
 
 import os
 import threading
@@ -15,6 +15,14 @@ _CACHE = {"inactive_file", "active_file"}  # the kernel makes room of it
 
 _processes = [1]
 _thread = threading.local()
+
+
+def user_cache() -> Path | None:
+    """Give the user's folder for what was compiled; None where nobody knows the user's home."""
+    try:
+        return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "force-diffusion"
+    except RuntimeError:
+        return None
 
 
 def share_cores(processes: int) -> None:

@@ -7,8 +7,8 @@ packing for which that is still too much, the layer below every n-th segment is 
 between are found once more on the way down, n segments at a time.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
@@ -21,6 +21,7 @@ from ..lattice.layers import Layer, LazyRows, Region, Rows
 from . import local
 from .kernels import Deposition, Descent
 from .loads import on_layers, on_rows
+from .physicality import PHYSICAL, Physicality
 from .problem import Problem, Solved
 from .sweep import Forces, Loads, NotStandingError, SolvedPacking, check_standing, deposit
 from .sweeps import Drawing, tell
@@ -29,11 +30,6 @@ from .work import Work
 T = TypeVar("T", Drawing, Deposition)
 # Layers above a segment that are deposited, too: beads look for gaps so far up.
 OVER = 3
-
-
-def count(problem: Problem, layers: int) -> int:
-    """Give how many segments of so many layers a problem has."""
-    return max(1, -(-problem.region.top // layers))
 
 
 class Kept(Protocol):
@@ -75,30 +71,13 @@ class InMemory:
         """There is nowhere else to keep it."""
 
 
-@dataclass(frozen=True)
-class Segment:
-    """One ``of`` several parts: layers ``first`` … ``last``, whose contacts below are balanced.
-
-    Of ``solved`` only these rows and their neighbours are there; rows are numbered as in the whole.
-    ``packing`` has what there is alone, from layer ``first`` or the one below it on.
-    """
-
-    number: int
-    of: int
-    first: int
-    last: int
-    solved: Solved
-    packing: SolvedPacking
-
-
 class Segments:
-    """Solves one realisation of a problem, ``layers`` at a time (an even number)."""
+    """Solves one realisation of a problem, ``segment`` layers at a time (an even number)."""
 
     def __init__(
         self,
         problem: Problem,
         realisation: int,
-        layers: int,
         work: Work,
         kept: Kept,
         *,
@@ -107,8 +86,8 @@ class Segments:
         """``kept`` may hold what an earlier run has kept; ``again``: all will go down once more."""
         self.problem, self.realisation, self.work, self.kept = problem, realisation, work, kept
         self.again = again
-        self.layers, self.top, self.every = layers, problem.region.top, problem.every
-        self.count = count(problem, layers)
+        self.layers, self.top, self.every = problem.segment, problem.region.top, problem.every
+        self.count = max(1, -(-self.top // self.layers))
         self._parts: dict[type, Any] = {}
         self._strength = problem.load.strength(problem.n_x, CARRYING)
 
@@ -132,11 +111,37 @@ class Segments:
                 self.kept.drop(f"c{number - 1}")
             self.kept.save(now=False)
 
-    def down(self, number: int) -> Segment:
+    def layers_of(self, number: int) -> range:
+        """Give the layers that a segment answers for, with those that bear nothing above the last.
+
+        The highest layer of a segment is the lowest of the next one, whose own it is not.
+        """
+        last = (number + 1) * self.layers if number + 1 < self.count else self.problem.height
+        return range(number * self.layers + bool(number), last + 1)
+
+    def packings(
+        self, number: int, physical: Physicality | None
+    ) -> Iterator[tuple[Solved, Sequence[int]]]:
         """Solve a segment: the highest first, and then one after the other.
 
-        Raises what ``up`` does, and ``NotStandingError``.
+        Only its rows and their neighbours are there, numbered as in the whole. ``physical`` looks
+        at it. Raises what ``up`` does, and ``NotStandingError``.
         """
+        solved, packing = self._down(number)
+        if physical is not None:
+            with self.work.timed(PHYSICAL):
+                layers, low = self.layers_of(number), packing.region.rows[0].j
+                there = range(layers.start - low, min(layers.stop, self.top + 1) - low)
+                more = packing.region.rows[-1].j < self.top
+                physical.look_at_gaps(packing, there, more=more)
+                if solved.forces is not None and self.problem.needs_forces:
+                    physical.look_at_forces(solved.forces, layers)
+            rows = self.problem.region.rows[layers.start : layers.stop]
+            self.work.did_rows("checked", rows, sum(row.count for row in rows))
+        yield solved, [self.realisation]
+
+    def _down(self, number: int) -> tuple[Solved, SolvedPacking]:
+        """Solve a segment; give also what there is of the packing alone."""
         self._climb(number, 1)
         region, rho, block = self._deposited(number)
         low = number * self.layers
@@ -151,9 +156,7 @@ class Segments:
             g = self._balanced(number, descent, region, rho, block)
         solved = tell(self.problem.phi, self._parts[Deposition], rho, descent, g)
         assert solved.packing is not None
-        first = low + 1 if number else 0
-        own = self._whole(solved, low, range(low + 1, last + 1))
-        return Segment(number, self.count, first, last, own, solved.packing)
+        return self._whole(solved, low, range(low + 1, last + 1)), solved.packing
 
     def leave(self, number: int) -> None:
         """Forget what only that segment needed, once it is done."""

@@ -5,6 +5,7 @@
 
 import math
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -22,9 +23,8 @@ from ..planning.planner import plan
 from ..quantities.answer import Answer
 from ..scene import reading, scene
 from ..scene.sections import SceneError
-from ..scene.source import files_read
-from .by_segments import by_segments
-from .checkpoint import opened
+from ..scene.source import files_read, program_version, source_of
+from .checkpoint import Checkpoint, opened
 from .outcome import Missed, Outcome
 
 
@@ -49,22 +49,31 @@ def run(
     files = files_read(plan.scene)
     work = Work(progress=progress)
     missed: list[Missed] = []
-    path = None if checkpoint is None else Path(checkpoint)
-    if path is not None and not plan.problem.segment and (unused := opened(path)) is not None:
-        unused.close()  # it is none of somebody else's
-    if plan.problem.segment:
-        answer, accuracy = by_segments(plan, work, path)
-    elif plan.choice is not None:
+    kept = None if checkpoint is None else _kept(Path(checkpoint), plan)
+    if plan.choice is not None:
         plan, answer, accuracy = _chosen(plan.choice, work, missed)
     elif plan.method.certified:
         plan, answer, accuracy = enclosed(plan, work)
     else:
-        answer, accuracy = repeated(plan, work)
+        with kept or nullcontext():
+            answer, accuracy = repeated(plan, work, kept)
     if not accuracy.certified and not accuracy.error_bound and _squares_vanish(plan):
         note = "every change is zero, or below what float64 holds: a tolerance tells which"
         accuracy = replace(accuracy, error_bound=math.inf, note=note)
     seconds = perf_counter() - start
     return Outcome(plan, answer, accuracy, work, seconds, files, tuple(missed))
+
+
+def _kept(path: Path, plan: Plan) -> Checkpoint | None:
+    """Open a checkpoint, of what decides the numbers that are kept; None where none is needed."""
+    problem = plan.problem
+    if problem.segment:
+        source, layers = source_of(plan.scene), [problem.segment, problem.every]
+        key = {"scene": source, "layers": layers, "version": program_version()}
+        return Checkpoint(path, key)
+    if (unused := opened(path)) is not None:
+        unused.close()  # it is none of somebody else's
+    return None
 
 
 def _chosen(choice: Choice, work: Work, missed: list[Missed]) -> tuple[Plan, Answer, Accuracy]:

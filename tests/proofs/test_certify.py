@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 from force_diffusion.derivations.api import certificates
 from force_diffusion.derivations.api.certificates import answers, certificate, certify, tried
-from force_diffusion.derivations.coq.files import Statement, head_of
+from force_diffusion.derivations.coq.files import Statement, head_of, theory
 from force_diffusion.derivations.coq.packings import packing_statement
 from force_diffusion.derivations.coq.record import Certificate, Verdict
 from force_diffusion.derivations.coq.statements import statement
 from force_diffusion.derivations.coq.words import NotStatedError
-from force_diffusion.derivations.coq.workshop import ALLOWED, Workshop, theory
+from force_diffusion.derivations.coq.workshop import ALLOWED, Workshop
 from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import SEEDS
@@ -39,7 +39,7 @@ def ask(shop: Workshop, made: Statement) -> Certificate:
     for name in made.files:
         shop.said.pop(name, None)
     shop.compile(made.files, print)
-    return certificate(shop, 0, lambda _: [made])
+    return certificate(shop, 0, [made])
 
 
 def test_every_equation_and_packing_is_accepted() -> None:

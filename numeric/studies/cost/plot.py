@@ -67,7 +67,7 @@ def draw(
             axes.plot(_x(row), _y(row), marker, color=colour, mfc=face, ms=4, mew=0.8, zorder=3)
     for level in floor:
         axes.axhline(level, color="0.3", ls=":", lw=0.8, zorder=1)
-    axes.set_xlabel("time (s): median; pale: from the fastest to the slowest run")
+    axes.set_xlabel("processor time (s): median; pale: from the fastest to the slowest run")
     axes.set_ylabel(
         "measured error / largest |change|" + (", spaced by √digits" if stretched else "")
     )

@@ -120,7 +120,7 @@ def csv_rows(data: dict[str, Any], command: str) -> list[dict[str, Any]]:
 def _lines(data: dict[str, Any]) -> list[str]:
     result = [
         f"Ways to '{data['quantity']}', measured errors relative to the largest |change|; "
-        "* Pareto front of measured error and median time",
+        "* Pareto front of measured error and least time",
         f"{'':2}{'way':<27}{'arithmetic':<20}{'N':>6} {'error':>9} {'model':>9} {'rounding':>9} "
         f"{'sampling':>9} {'bound':>9}  {'median s':>9} {'min … max s':>19} "
         f"{'runs':>4} {'peak kB':>9}",

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from statistics import median
-from time import perf_counter
+from time import process_time
 from typing import TypeVar
 
 from ...arithmetic.systems import FLOAT64, LONGDOUBLE
@@ -26,10 +26,11 @@ class Row:
     ``error`` is measured against the reference, the radius of a certified one added. Of its parts
     ``model_error`` is that of what is computed, ``rounding_error`` that of the arithmetic,
     ``sampling_error`` that of a finite ensemble. ``certified_bound`` is what the way itself
-    certifies of its error (balls only). ``seconds`` is the median of ``runs`` runs, a warm-up not
-    counted. ``peak_bytes``: what Python and NumPy allocate, by tracemalloc, in a run of its own;
-    where ``peak_is_bound``, it is a lower bound: the limbs of big numbers, which flint and GMP
-    allocate, are not in it. ``pareto``: no other row has a smaller measured error and median time.
+    certifies of its error (balls only). ``seconds``, of the processor, is the median of ``runs``
+    runs, a warm-up not counted. ``peak_bytes``: what Python and NumPy allocate, by tracemalloc, in
+    a run of its own; where ``peak_is_bound``, it is a lower bound: the limbs of big numbers, which
+    flint and GMP allocate, are not in it. ``pareto``: no other row has a smaller measured error and
+    least time.
     """
 
     way: str
@@ -63,7 +64,7 @@ class Reference:
 
 
 def measured(work: Callable[[], T]) -> tuple[T, list[float], int]:
-    """Run once, tracing memory, as a warm-up; then several times by the clock.
+    """Run once, tracing memory, as a warm-up; then several times by the processor's clock.
 
     Gives the result, the seconds of each timed run and the peak of traced memory in bytes.
     """
@@ -78,9 +79,9 @@ def measured(work: Callable[[], T]) -> tuple[T, list[float], int]:
         len(seconds) < LEAST_RUNS
         or (len(seconds) < MOST_RUNS and math.fsum(seconds) < ENOUGH_SECONDS)
     ):
-        start = perf_counter()
+        start = process_time()
         work()
-        seconds.append(perf_counter() - start)
+        seconds.append(process_time() - start)
     return result, seconds, peak
 
 
@@ -103,8 +104,8 @@ def row(
 
 
 def marked(rows: Sequence[Row]) -> tuple[Row, ...]:
-    """Mark the rows on the Pareto front, and sort all by error, the largest first."""
-    front = pareto([(r.seconds, r.error) for r in rows])
+    """Mark the Pareto front of error and least time; sort by error, the largest first."""
+    front = pareto([(r.seconds_min, r.error) for r in rows])
     done = [replace(r, pareto=best) for r, best in zip(rows, front, strict=True)]
     return tuple(sorted(done, key=lambda r: -r.error))
 

@@ -7,8 +7,8 @@ import pytest
 import sympy
 from force_diffusion.derivations.coq import statements as coq
 from force_diffusion.derivations.coq import words
+from force_diffusion.derivations.coq.files import theory
 from force_diffusion.derivations.coq.packings import packing_statement
-from force_diffusion.derivations.coq.workshop import theory
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.witnesses.draws import draw
 from force_diffusion.numeric.mechanics import taylor

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from force_diffusion.derivations.coq import workshop
+from force_diffusion.derivations.coq.files import theory
 from force_diffusion.derivations.coq.record import Verdict
 from force_diffusion.derivations.coq.workshop import (
     CoqAbsentError,
@@ -80,6 +81,15 @@ def test_the_second_check_of_newer_versions_is_read_whole() -> None:
         assert unexpected(rocq.replace(good, bad)) != ""
 
 
+def test_where_the_library_is_not_checked_again_only_its_own_names_are_let_through() -> None:
+    sealed = SUMMARY.replace("* Axioms:\n", "* Axioms:\n    Coq.Reals.Rdefinitions.R0\n")
+    assert unexpected(sealed) != ""
+    assert unexpected(sealed, library_too=False) == ""
+    for name in ("ForceDiffusion.Model.trust_me", "Mine.Coq.trust_me", "Coqs.trust_me"):
+        bad = sealed.replace("Coq.Reals.Rdefinitions.R0", name)
+        assert unexpected(bad, library_too=False) == f"coqchk: the axiom {name}"
+
+
 def test_without_coq_nothing_is_accepted(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -119,6 +129,7 @@ def programs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder = tmp_path / "programs"
     folder.mkdir()
     monkeypatch.setenv("PATH", f"{folder}{os.pathsep}/usr/bin{os.pathsep}/bin")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     put(folder, "coqchk", "exit 1")
     return folder
 
@@ -154,6 +165,70 @@ def test_trouble_with_another_version_names_the_one_that_it_is_written_for(progr
     found = fd.certify([1]).equations[0]
     assert str(found) == "not accepted by Coq 9.1.0"
     assert "written for Coq 8.16.1" in found.note
+
+
+def test_a_compiled_theory_is_kept_by_content_and_version(
+    programs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    put(programs, "coqc", VERSION)
+
+    def shop(name: str) -> Workshop:
+        (tmp_path / name).mkdir()
+        return Workshop(tmp_path / name)
+
+    first = shop("first")
+    first.restore()
+    assert not first.kept
+    for name in theory():
+        (first.folder / f"{name}o").write_text(f"compiled {name}" * 100)
+    first.keep()
+    again = shop("again")
+    again.restore()
+    assert again.kept
+    assert again.said.keys() == theory().keys()
+    assert (again.folder / "Model.vo").read_text() == "compiled Model.v" * 100
+
+    put(programs, "coqc", VERSION.replace("8.16.1", "8.16.2"))
+    newer = shop("newer")
+    newer.restore()
+    assert not newer.kept
+    put(programs, "coqc", VERSION)
+    with monkeypatch.context() as changed:
+        changed.setattr(workshop, "theory_hash", lambda: "another")
+        other = shop("other")
+        other.restore()
+        assert not other.kept
+
+    (held,) = (tmp_path / "cache" / "force-diffusion" / "coq").iterdir()
+    whole = held.read_bytes()
+    places = {*range(60), *range(0, len(whole), len(whole) // 40), *range(-120, 0)}
+    for at in places:
+        flipped = bytearray(whole)
+        flipped[at] ^= 1 << abs(at) % 8
+        held.write_bytes(flipped)
+        damaged = shop(f"damaged-{at}")
+        damaged.restore()
+        for name in theory() if damaged.kept else ():  # what was hit says nothing of the files
+            assert (damaged.folder / f"{name}o").read_text() == f"compiled {name}" * 100
+    held.write_bytes(whole[: len(whole) // 2])
+    cut = shop("cut")
+    cut.restore()
+    assert not cut.kept
+
+
+def test_verdicts_are_told_as_they_come(programs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    put(programs, "coqc", VERSION + "exit 1")
+    told: list[object] = []
+    found = fd.certify([3, 7], told=lambda one: told.append(one.number))
+    assert sorted(told, key=str) == [3, 7]
+    assert [one.number for one in found.equations] == [3, 7]
+    assert main(["certify", "3", "7"]) == 1
+    printed = capsys.readouterr().out.splitlines()
+    lines = {line for line in printed if line.startswith("Eq.")}
+    assert lines == {
+        f"Eq. {number:>2}  not accepted by Coq 8.16.1  {fd.equation(number).title}"
+        for number in (3, 7)
+    }
 
 
 @pytest.mark.parametrize("script", ["exit 1", "exit 0", "echo coqc"])
