@@ -169,7 +169,7 @@ def test_heights_that_cannot_be_built(
     status, printed, err = call(capsys, 3, "--heights", "40", "--realisations", 16, "--out", out)
     assert (status, printed) == (2, "")
     assert "figure 3: bead" in err
-    assert "less disorder or fewer layers" in err
+    assert "less disorder, fewer layers or a smaller spacing" in err
     assert not out.exists()
 
 
