@@ -6,6 +6,7 @@ refuses is answered. Features are compared with ``==``; those that a row leaves 
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Literal, get_args
 
 QuantityName = Literal[
@@ -272,6 +273,7 @@ def plain(quantity: str) -> dict[str, Any]:
     return PLAIN | {"quantity": quantity, "at": quantity == "contact"} | own
 
 
+@lru_cache(maxsize=1024)  # scenes that are solved one after the other are often alike
 def refusal(**features: Any) -> Refusal | None:
     """Give the first row that refuses what has these features, the others being plain.
 
