@@ -120,11 +120,11 @@ def derive(
 
 
 def show(
-    number: Annotated[
-        str,
+    numbers: Annotated[
+        list[str],
         typer.Argument(
-            metavar="N",
-            help="Number of the equation, a theorem's name, or a Python file with a derivation of "
+            metavar="N...",
+            help="Numbers of equations, a theorem's name, or a Python file with a derivation of "
             "your own, which is run.",
         ),
     ],
@@ -147,17 +147,18 @@ def show(
     ] = None,
     columns: Columns = 1,
 ) -> None:
-    """Print an equation, or all of a theorem, without deriving it."""
-    with blamed([number]):
-        _show(number, form, exact, at_j, columns)
+    """Print equations, or all of a theorem, without deriving them."""
+    with blamed(numbers):
+        _show(numbers, form, exact, at_j, columns)
 
 
-def _show(number: str, form: Form, exact: bool, at_j: str | None, columns: int) -> None:
-    numbers = wanted_of([number])
+def _show(words: list[str], form: Form, exact: bool, at_j: str | None, columns: int) -> None:
+    numbers = wanted_of(words)
     if exact and len(numbers) > 1:
         names = ", ".join(str(getattr(one, "number", one)) for one in numbers)
         raise typer.BadParameter(
-            f"{number} has several equations; name one: {names}.", param_hint="N"
+            f"--exact goes with one equation, and {' '.join(words)} are several; name one: {names}.",
+            param_hint="N",
         )
     if at_j is not None and not exact:
         raise typer.BadParameter("goes with --exact only; add it.", param_hint="--at-j")

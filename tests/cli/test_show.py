@@ -27,6 +27,12 @@ def shown(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
     return printed.out
 
 
+def test_several_are_printed_one_below_the_other(capsys: pytest.CaptureFixture[str]) -> None:
+    both = shown(capsys, "13", "T9", "--as", "latex")
+    each = [shown(capsys, number, "--as", "latex") for number in ("13", "T9")]
+    assert both == "\n".join(each)
+
+
 def names() -> dict[str, object]:
     return {**vars(sympy), **vars(sy)}
 
