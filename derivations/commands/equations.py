@@ -123,7 +123,7 @@ def show(
     numbers: Annotated[
         list[str],
         typer.Argument(
-            metavar="N...",
+            metavar="N",
             help="Numbers of equations, a theorem's name, or a Python file with a derivation of "
             "your own, which is run.",
         ),
@@ -157,7 +157,7 @@ def _show(words: list[str], form: Form, exact: bool, at_j: str | None, columns: 
     if exact and len(numbers) > 1:
         names = ", ".join(str(getattr(one, "number", one)) for one in numbers)
         raise typer.BadParameter(
-            f"--exact goes with one equation, and {' '.join(words)} are several; name one: {names}.",
+            f"--exact goes with one, and {' '.join(words)} are several; name one: {names}.",
             param_hint="N",
         )
     if at_j is not None and not exact:
