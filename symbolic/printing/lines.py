@@ -80,7 +80,24 @@ def _argument(tokens: Iterator[str]) -> float:
 
 
 def pack(pieces: Iterable[tuple[str, float]], room: float, first_room: float) -> list[str]:
-    """Pieces in as few lines as fit; the first line may have less room."""
+    """Pieces in as few lines as fit, about as long as each other; the first may have less room.
+
+    >>> pack([(piece, 2) for piece in "abcdefg"], 12, 12)
+    ['a b c d', 'e f g']
+    """
+    found = list(pieces)
+    lines = _filled(found, room, first_room)
+    for share in range(1, 20):
+        less = share * room / 20
+        shorter = _filled(found, room - less, first_room - less)
+        if len(shorter) > len(lines):
+            break
+        lines = shorter
+    return lines
+
+
+def _filled(pieces: Iterable[tuple[str, float]], room: float, first_room: float) -> list[str]:
+    """Pieces in lines, of which each is filled before the next begins."""
     lines: list[str] = []
     left = 0.0
     for piece, size in pieces:
