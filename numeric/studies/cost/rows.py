@@ -14,6 +14,8 @@ from ...arithmetic.systems import FLOAT64, LONGDOUBLE
 LEAST_RUNS, MOST_RUNS, ENOUGH_SECONDS = 3, 15, 0.2
 # After so many seconds no further run is timed: slow rows scatter little, and a study stays short.
 LONG_SECONDS = 2.0
+# Of a run in which the processor's clock did not tick; it is drawn as a power of ten.
+TICK = 1e-6
 T = TypeVar("T")
 Notice = Callable[[str], None]
 """Called with the name of each way before it is measured."""
@@ -81,7 +83,7 @@ def measured(work: Callable[[], T]) -> tuple[T, list[float], int]:
     ):
         start = process_time()
         work()
-        seconds.append(process_time() - start)
+        seconds.append(max(process_time() - start, TICK))
     return result, seconds, peak
 
 

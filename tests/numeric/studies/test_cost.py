@@ -277,3 +277,13 @@ def test_a_line_joins_ensembles_by_their_size() -> None:
     ]  # fmt: skip
     (line,) = plot._lines(rows).values()
     assert [row.realisations for row in line] == [10, 40, 160]
+
+
+def test_a_clock_that_did_not_tick_tells_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As where a machine is crowded, or counts in steps of 15 ms."""
+    monkeypatch.setattr(measuring, "process_time", lambda: 0.0)
+    monkeypatch.setattr(measuring, "MOST_RUNS", 3)
+    study = cost(scene(basic(2, 4)))
+    assert all(row.seconds > 0 for row in study.ways)
+    pytest.importorskip("matplotlib")
+    assert study.plot("of a still clock").axes
