@@ -6,11 +6,14 @@ from functools import cached_property
 
 import numpy as np
 
+from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
 from ..statistics.confidence import half_width
 from ..statistics.ratios import from_products
 from .measure import Measurement
 from .sums import Sums
+
+LEAST = 1e-300  # floats that are smaller have fewer digits
 
 
 @dataclass(frozen=True)
@@ -63,9 +66,20 @@ class Estimates:
         return from_products(self.realisations, self.sums.held, means, products)
 
     def _rows(self, values: Array, power: int = 1) -> Array:
-        """Give what was summed up row by row, in the unit of force to that power."""
+        """Give what was summed up row by row, in the unit of force to that power.
+
+        Raises ``ForceDiffusionError`` where floats don't hold squares in that unit.
+        """
         scaled = np.ldexp(values[self._order], power * self.measurement.unit)
-        return np.asarray(scaled * self._unit**power)
+        with np.errstate(all="ignore"):
+            found = np.asarray(scaled * np.float64(self._unit) ** power)
+        lost = (scaled != 0) & ~((np.abs(found) > LEAST) & np.isfinite(found))
+        if power > 1 and lost.any():
+            raise ForceDiffusionError(
+                f"squares of forces are beyond what floats hold where load.magnitude is "
+                f"{self._unit:g}: choose another unit"
+            )
+        return found
 
     @cached_property
     def mean(self) -> Array:

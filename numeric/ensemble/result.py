@@ -155,7 +155,8 @@ class Ensemble(Estimates):
             else:
                 names = (f"{name}_error", f"{SCATTER_OF.get(name, name)}_error")
                 known = next((columns[n] for n in names if n in columns), np.zeros(len(column)))
-                sampling = np.nan_to_num(known) / (self.mean if name == RATIO else 1)
+                with np.errstate(all="ignore"):  # beside a mean of 0 no digit is known
+                    sampling = np.nan_to_num(known) / (self.mean if name == RATIO else 1)
                 found[name] = known_digits(column, 0.0, sampling)
         return found
 

@@ -15,7 +15,7 @@ from force_diffusion.numeric.scene.sections import SceneError
 
 import force_diffusion as fd
 from tests.numeric.ensemble.cases import CASES, PROFILE, case, first
-from tests.numeric.scenes import scene
+from tests.numeric.scenes import basic, scene
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -138,3 +138,17 @@ def test_an_interrupt_says_what_is_kept(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt) as caught:
         fd.ensemble(scene(PROFILE), 64, store=tmp_path / "e.fd", progress=interrupted)
     assert "holds 32 realisations" in caught.value.__notes__[0]
+
+
+@pytest.mark.parametrize("magnitude", ["=1e-298", "=1e200"])
+def test_squares_beyond_floats_are_refused_and_not_zero(magnitude: str) -> None:
+    sections = basic(4, 6, quantity="profile")
+    sections["packing"]["allow_images"] = True
+    sections["disorder"]["relative_std"] = "=1e-2"
+    usual = fd.ensemble(scene(sections), 32)
+    sections["load"] = {"kind": "surface", "magnitude": magnitude}
+    found = fd.ensemble(scene(sections), 32)
+    with pytest.raises(fd.ForceDiffusionError, match="choose another unit"):
+        _ = found.mean_square
+    assert found.std / float(magnitude[1:]) == pytest.approx(usual.std, rel=1e-14)
+    str(found)
