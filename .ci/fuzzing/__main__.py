@@ -32,7 +32,7 @@ MEMORY = 4 * 2**30
 TOGETHER = 2000  # cases of one process
 QUICK = {"explain", "ensemble-status", "check-packings"}  # which solve nothing
 # What matters is loaded once, and not by every process.
-LOADED = ["numeric.figures.style", "numeric.figures.answers_drawing", "numeric.studies.cost.study"]
+LOADED = ["numeric.figures.style", "numeric.figures.answers_drawing", "numeric.studies.cost.cost"]
 
 Case = Callable[[Random, Path], "list[str] | answers.Judged"]
 
