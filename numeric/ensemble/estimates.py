@@ -129,7 +129,9 @@ class Estimates:
         """Give the half-width of all σ_f together, relative: see ``statistics.confidence``."""
         _, std, _, error = self._found
         known = np.isfinite(error)
-        relative = (error[known] / std[known]).tolist() if self.realisations > 1 else [math.inf]
+        relative = (error[known] / std[known]).tolist()
+        if self.realisations < 2 or (self.realisations == 2 and (std[~known] > 0).any()):
+            relative = [math.inf]  # of single contacts two packings don't tell it
         return half_width(relative, self.realisations, confidence, look)
 
     def _shares(self) -> tuple[Array, Array]:

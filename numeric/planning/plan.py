@@ -18,6 +18,7 @@ from ..quantities.base import Quantity, has_theory
 from ..scene.scene import Scene
 from ..theory.critical_height import critical_height
 from ..theory.expected import ExpectedTension, expected_tension, expected_tension_of_spheres
+from . import budget
 
 CERTIFY = "certify"
 
@@ -232,7 +233,7 @@ def plan_lines(data: dict[str, Any]) -> list[str]:
     lines.append("What is left out")
     lines += [f"  {s['effect']}: {s['reason']}" for s in data["skipped"]] or ["  nothing"]
     lines += _choice_lines(data["choice"]) if data["choice"] else []
-    lines.append(f"Memory: about {data['memory_bytes'] / 1e6:.3g} MB")
+    lines.append(f"Memory: about {budget.size(data['memory_bytes'])}")
     if data["tension"]:
         expected, one = data["tension"]["expected_contacts"], data["tension"]["height_of_one"]
         low = "at no height allowed" if one is None else f"from a height of about {one} on"
@@ -255,7 +256,7 @@ def _choice_lines(choice: dict[str, Any]) -> list[str]:
     ]
     for one in choice["candidates"]:
         mark = "*" if one == chosen else ""
-        memory = "" if one["memory_bytes"] is None else f"{one['memory_bytes'] / 1e6:.3g} MB"
+        memory = "" if one["memory_bytes"] is None else budget.size(one["memory_bytes"])
         lines.append(
             f"  {mark:2}{one['algorithm']:<31}{one['arithmetic']:<22}{one['repeated'] or '':>8} "
             f"{one['expected_error']:>9} {memory:>9}  {one['out']}".rstrip()

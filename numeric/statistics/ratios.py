@@ -10,9 +10,11 @@ import numpy as np
 
 from ..arithmetic.systems import Array
 
-# Of a variance: no sample is so large that its error is less. Below lies rounding, as of two
-# samples, which lie equally far from their mean whatever they are.
+# Of a variance: no sample is so large that its error is less.
 ROUNDING = 1e-9
+# Of the terms of which a squared error is the sum: below lies rounding, as of two samples, which
+# lie equally far from their mean whatever they are.
+CANCELLED = 2.0**-44
 
 
 def moments(counts: Array, totals: Array, squares: Array) -> tuple[Array, Array, Array, Array]:
@@ -53,8 +55,10 @@ def from_products(
     def error(*weights: Array | float) -> Array:
         """Give the standard error of a ratio from the scatter of a sum with these weights."""
         w = np.stack(np.broadcast_arrays(*weights, counts)[:3])
-        square = (twice * w[rows] * w[columns] * products).sum(axis=0)
-        found = np.sqrt(np.maximum(square, 0) / packings / (packings - 1)) / counts
+        terms = twice * w[rows] * w[columns] * products
+        square, size = terms.sum(axis=0), abs(terms).sum(axis=0)
+        square = np.where(square > CANCELLED * size, square, 0)
+        found = np.sqrt(square / packings / (packings - 1)) / counts
         return np.where(held > 1, found, np.nan)
 
     with np.errstate(all="ignore"):

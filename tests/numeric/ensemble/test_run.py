@@ -1,5 +1,6 @@
 """An ensemble is the same to the bit for any workers, blocks, order and interruption."""
 
+import math
 import random
 import subprocess
 import sys
@@ -36,7 +37,9 @@ from force_diffusion.numeric.statistics.confidence import Rule
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import force_diffusion as fd
 from tests.numeric.ensemble.cases import CASES, bytes_of_first, case
+from tests.numeric.scenes import scene
 
 ROOT = Path(__file__).parents[3]
 M = case("profile", covariance=True)
@@ -343,3 +346,18 @@ def test_a_block_is_written_once() -> None:
     one.store = counted
     one.finish(here)
     assert counted.first == [0, 32, 48, 64, 96, 128, 144, 148]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_two_packings_tell_not_how_well_the_scatter_of_a_contact_is_known(seed: int) -> None:
+    asked = scene(
+        {
+            "packing": {"height": 2, "width": 6},
+            "disorder": {"kind": "normal", "relative_std": 1e-3, "seed": seed},
+            "load": {"kind": "surface"},
+            "ask": {"quantity": "contact", "at": [2, 0, "+"]},
+        }
+    )
+    found = fd.ensemble(asked, 2, until=0.01)
+    assert math.isnan(found.std_error[0])
+    assert (found.half_width, found.reached) == (math.inf, False)

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.numeric.scenes import planned
+
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the peak is in bytes of Linux")
 
 # Answers of so many rows that they, and not the libraries, take the memory.
@@ -59,3 +61,14 @@ def test_no_run_takes_more_than_its_plan_says_nor_much_less(name: str, tmp_path:
         if predicted <= 1.5 * peaks[-1]:
             break
     assert max(peaks) <= predicted <= 1.5 * max(peaks)
+
+
+def test_a_plan_says_gigabytes_where_it_takes_some() -> None:
+    plan = planned(
+        {
+            "packing": {"height": 5, "width": 10},
+            "disorder": {"kind": "uniform", "relative_std": 1e-3},
+            "ask": {"quantity": "histogram", "bins": 1_000_000},
+        }
+    )
+    assert "Memory: about 1.13 GB" in str(plan)

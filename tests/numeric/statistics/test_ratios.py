@@ -44,3 +44,13 @@ def test_means_and_errors_are_those_of_their_definition(packings: list[list[floa
     of_variance = error(squares)
     if of_variance > 1e-6 * variance:  # else it may be taken for rounding
         assert of_std == pytest.approx(of_variance / (2 * math.sqrt(variance)), rel=1e-6)
+
+
+@given(st.floats(0.01, 100), st.floats(0.01, 100), st.floats(-100, 100))
+def test_two_samples_tell_nothing_of_the_error_of_their_deviation(
+    above: float, below: float, about: float
+) -> None:
+    x = np.array([[about + above], [about - below]])
+    _, std, _, of_std = moments(np.ones_like(x), x, x * x)
+    assert std[0] > 0
+    assert math.isnan(of_std[0])
