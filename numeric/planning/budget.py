@@ -45,20 +45,24 @@ def memory(
 
 
 def refuse_memory(scene: Scene, needed: int, limit: int) -> None:
-    """Raise ``TooLargeError`` with the size where a scene needs more than ``limit`` bytes."""
-    if needed > limit:
-        less = "less"
-        if scene.ask.quantity == "response" and scene.ask.layers is None:
-            less = "some layers of the response, as with ask.layers = [0]"
-        packing, more = scene.packing, ""
-        if packing.dimension == 3:
-            more = f"with a height of {packing.height} "
-        raise TooLargeError(
-            "packing.width" if more else "packing.height",
-            packing.width if more else packing.height,
-            f"{more}this scene would need about {size(needed)} of memory and {size(limit)} may be "
-            f"used: ask for {less}, or for a smaller packing",
-        )
+    """Raise ``TooLargeError`` with the size where a scene needs more than ``limit`` bytes.
+
+    Of the height, the width and the realisations the largest is named.
+    """
+    if needed <= limit:
+        return
+    less = "less, or for a smaller packing"
+    if scene.ask.quantity == "response" and scene.ask.layers is None:
+        less = "some layers of the response, as with ask.layers = [0], or for a smaller packing"
+    packing, realisations = scene.packing, scene.ask.realisations
+    sizes = [("packing.height", packing.height), ("packing.width", packing.width or 0)]
+    key, value = max([*sizes, ("ask.realisations", realisations)], key=lambda one: one[1])
+    raise TooLargeError(
+        key,
+        value,
+        f"this scene would need about {size(needed)} of memory and {size(limit)} may be used: ask "
+        f"for {less}",
+    )
 
 
 def size(number: int) -> str:

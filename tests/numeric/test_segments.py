@@ -233,7 +233,7 @@ def test_a_plan_that_the_memory_does_not_hold_is_made_of_segments() -> None:
     assert "twice" in text
     assert f"{parts.problem.segment} of 2000 layers at a time" in text
     assert f"{budget.size(whole.memory)} of memory would be needed and 400 MB may be used" in text
-    with pytest.raises(SceneError, match="height = 1999"):
+    with pytest.raises(SceneError, match="width = 2002: this scene would need"):
         plan(asked, memory_limit=2 * 10**8)
 
 

@@ -6,8 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from force_diffusion.numeric.scene.sections import SceneError
 
-from tests.numeric.scenes import planned
+from tests.numeric.scenes import basic, planned
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the peak is in bytes of Linux")
 
@@ -72,3 +73,19 @@ def test_a_plan_says_gigabytes_where_it_takes_some() -> None:
         }
     )
     assert "Memory: about 1.13 GB" in str(plan)
+
+
+@pytest.mark.parametrize(
+    ("sizes", "key"),
+    [
+        ({"height": 3, "width": 10**12}, "packing.width = 1000000000000"),
+        ({"height": 9_999_999, "width": 10**5}, "packing.height = 9999999"),
+        ({"height": 5, "width": 12, "realisations": 10**9}, "ask.realisations = 1000000000"),
+    ],
+)
+def test_what_is_too_large_is_named(sizes: dict[str, int], key: str) -> None:
+    many = sizes.pop("realisations", 1)
+    sections = basic(**sizes, quantity="contact_forces", realisations=many)
+    sections["packing"]["allow_images"] = True
+    with pytest.raises(SceneError, match=f"{key}: this scene would need about .* of memory"):
+        planned(sections)
