@@ -100,7 +100,7 @@ def packings(
     size = chunk_size(problem, system)
     sweeps, loads = (None, None) if plainly else ready(problem, system, carried=carried)
     together = size
-    if sweeps is not None:
+    if sweeps is not None and _in_batches(problem, system):
         together = size * -(-cores() // size)
     elif any_number and _in_batches(problem, system):
         region = problem.region

@@ -21,7 +21,7 @@ from force_diffusion.numeric.mechanics import engine, gaps, sweep
 from force_diffusion.numeric.mechanics.problem import Solved
 from force_diffusion.numeric.mechanics.sweep import NotStandingError, UnbuildableError
 from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.run import Scene
+from force_diffusion.numeric.run import Scene, run
 from force_diffusion.numeric.scene.sections import Ask, Disorder, Load, Packing
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -408,3 +408,22 @@ def test_an_answer_stays_when_the_next_one_takes_its_memory(
     assert all(first[name].tobytes() == copies[name].tobytes() for name in first)
     small = "count" if quantity == "histogram" else list(first)[-1]
     assert not np.array_equal(first[small], second[small], equal_nan=True)
+
+
+@pytest.mark.parametrize("quantity", ["profile", "contact_forces", "histogram", "base_reactions"])
+@pytest.mark.parametrize("stop", [False, True])
+def test_an_answer_is_the_same_whether_the_compiler_is_loaded_or_not(
+    quantity: str, stop: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Packings that stop at tension, each at another contact, can't be swept together."""
+    sections = basic(5, 7, quantity=quantity, realisations=5)
+    sections["packing"]["allow_images"] = True
+    sections["disorder"] |= {"relative_std": "=6e-2", "seed": 814}
+    sections["effects"] = {"stop_at_tension": stop}
+    found = []
+    for most in (10**12, 1):
+        monkeypatch.setattr(engine, "COMPILED_FROM", most)
+        found.append(run(planned(sections)))
+    assert found[0].stopped == found[1].stopped
+    assert stop == (found[0].stopped is not None)
+    assert found[0].decimals() == found[1].decimals()
