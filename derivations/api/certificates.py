@@ -91,7 +91,8 @@ def certify(
     if numbers is not None:
         wanted = [equation(number).number for number in numbers]
     seeds = SEEDS if numbers is None else ()
-    hashed = theory_hash()
+    sources = theory()
+    hashed = theory_hash(sources)
     with TemporaryDirectory() as folder:
         try:
             coq = CoqFolder(Path(folder))
@@ -122,9 +123,9 @@ def certify(
                     by_number[number] = certificate(coq, number, made)
                     told(by_number[number])
 
-        coq.restore()
+        coq.restore(sources)
         everything = {name: text for own in files.values() for name, text in own.items()}
-        coq.compile(theory() | everything, notice, look)
+        coq.compile(sources | everything, notice, look)
         notice("coqchk")
         found = checked(coq, [by_number[number] for number in (*wanted, *seeds)])
         if mutants:
@@ -171,7 +172,7 @@ def checked(coq: CoqFolder, found: list[Certificate]) -> list[Certificate]:
     names = [Statement.accepted_file(name) for one in accepted for name in one.theorems or ()]
     trouble = coq.check(names) if names else ""
     if not trouble:
-        if names:
+        if names and coq.theory:
             coq.keep()
         return found
     return [

@@ -20,9 +20,10 @@ def theory() -> dict[str, str]:
     return {file.name: file.read_text(encoding="utf-8") for file in sorted(PROOFS.glob("*.v"))}
 
 
-def theory_hash() -> str:
-    """Hash of the theory: of its files' names and hashes."""
-    return sha256("".join(f"{name} {sha256(source)}\n" for name, source in theory().items()))
+def theory_hash(sources: Mapping[str, str] | None = None) -> str:
+    """Hash of the theory, or of such files: of their names and hashes."""
+    files = theory() if sources is None else sources
+    return sha256("".join(f"{name} {sha256(source)}\n" for name, source in files.items()))
 
 
 _IMPORTS = re.compile(rf"^From {LIBRARY} Require (?:Import |Export )?([\w\s]+)\.$", re.MULTILINE)

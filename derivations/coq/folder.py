@@ -16,7 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryFile
 from zipfile import BadZipFile, ZipFile
 
-from force_diffusion.derivations.coq.files import LIBRARY, imports, sha256, theory, theory_hash
+from force_diffusion.derivations.coq.files import LIBRARY, imports, sha256, theory_hash
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.arithmetic.machine import user_cache
 from force_diffusion.numeric.arithmetic.processes import ending_with, without_interrupts
@@ -110,6 +110,7 @@ class CoqFolder:
     Attributes:
         checker: such as "Coq 8.16.1".
         said: what Coq said of each file.
+        theory: names and sources of the files that were looked for in the user's cache.
         kept: whether the compiled theory is from the user's cache.
 
     Raises:
@@ -122,6 +123,7 @@ class CoqFolder:
                 raise CoqAbsentError(f"{program} is not there. Install Coq: {INSTALL}")
         self.folder = folder
         self.said: dict[str, Said] = {}
+        self.theory: dict[str, str] = {}
         self.kept = False
         version = self._wait("coqc", "--print-version")
         found = re.match(r"(\d+(?:\.\w+)+)\s", version.printed)
@@ -147,12 +149,12 @@ class CoqFolder:
     def _cached(self) -> Path | None:
         """Where the theory lies compiled: by its content, and that of Coq's version."""
         folder = user_cache()
-        hashed = sha256(f"{self.checker} {theory_hash()}")
+        hashed = sha256(f"{self.checker} {theory_hash(self.theory)}")
         return folder and folder / "coq" / f"theory-{hashed[:32]}.zip"
 
-    def restore(self) -> None:
-        """Take the compiled theory from the user's cache, if it is there, whole."""
-        sources = theory()
+    def restore(self, sources: Mapping[str, str]) -> None:
+        """Take the compiled theory from the user's cache, if this very one is there, whole."""
+        self.theory = dict(sources)
         try:
             with ZipFile(self._cached or "") as held:
                 compiled = {f"{name}o": held.read(f"{name}o") for name in sources}
@@ -174,7 +176,7 @@ class CoqFolder:
         with suppress(OSError):
             whole.parent.mkdir(parents=True, exist_ok=True)
             with ZipFile(part, "w") as held:
-                for name in theory():
+                for name in self.theory:
                     held.write(self.folder / f"{name}o", f"{name}o")
             part.replace(whole)
 

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -25,6 +26,34 @@ pytestmark = pytest.mark.skipif(
     os.environ.get("FORCE_DIFFUSION_TEST_COQ") != "required",
     reason="takes minutes; asked for by FORCE_DIFFUSION_TEST_COQ=required",
 )
+
+
+@pytest.fixture(scope="module", autouse=True)
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A cache of their own."""
+    with pytest.MonkeyPatch.context() as changed:
+        folder = tmp_path_factory.mktemp("cache")
+        changed.setenv("XDG_CACHE_HOME", str(folder))
+        yield folder
+
+
+def test_a_theory_from_the_cache_is_checked_too(cache: Path, tmp_path: Path) -> None:
+    """What lies there may be compiled of other files, all of them; coqchk finds the axiom."""
+    first = certify([3])
+    (held,) = (cache / "force-diffusion" / "coq").iterdir()
+    again = certify([3])
+    assert first.passed
+    assert again.equations == first.equations
+    bent = CoqFolder(tmp_path)
+    says = "Axiom trust_me : forall P : Prop, P.\n"
+    bent.compile({n: text + says * (n == "Model.v") for n, text in theory().items()}, print)
+    bent.theory = theory()  # which it is not
+    bent.keep()
+    assert list((cache / "force-diffusion" / "coq").iterdir()) == [held]
+    (one,) = certify([3]).equations
+    assert one.verdict is Verdict.NOT_ACCEPTED
+    assert one.note == "coqchk: the axiom ForceDiffusion.Model.trust_me"
+    held.unlink()
 
 
 @pytest.fixture(scope="module")

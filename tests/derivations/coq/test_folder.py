@@ -177,27 +177,25 @@ def test_a_compiled_theory_is_kept_by_content_and_version(
         return CoqFolder(tmp_path / name)
 
     first = shop("first")
-    first.restore()
+    first.restore(theory())
     assert not first.kept
     for name in theory():
         (first.folder / f"{name}o").write_text(f"compiled {name}" * 100)
     first.keep()
     again = shop("again")
-    again.restore()
+    again.restore(theory())
     assert again.kept
     assert again.said.keys() == theory().keys()
     assert (again.folder / "Model.vo").read_text() == "compiled Model.v" * 100
 
     put(programs, "coqc", VERSION.replace("8.16.1", "8.16.2"))
     newer = shop("newer")
-    newer.restore()
+    newer.restore(theory())
     assert not newer.kept
     put(programs, "coqc", VERSION)
-    with monkeypatch.context() as changed:
-        changed.setattr(folder, "theory_hash", lambda: "another")
-        other = shop("other")
-        other.restore()
-        assert not other.kept
+    other = shop("other")
+    other.restore({**theory(), "Model.v": "Definition r := 1."})
+    assert not other.kept
 
     (held,) = (tmp_path / "cache" / "force-diffusion" / "coq").iterdir()
     whole = held.read_bytes()
@@ -208,12 +206,12 @@ def test_a_compiled_theory_is_kept_by_content_and_version(
         flipped[at] ^= 1 << abs(at) % 8
         held.write_bytes(flipped)
         damaged.kept = False
-        damaged.restore()
+        damaged.restore(theory())
         for name in theory() if damaged.kept else ():  # what was hit says nothing of the files
             assert (damaged.folder / f"{name}o").read_text() == f"compiled {name}" * 100
     held.write_bytes(whole[: len(whole) // 2])
     cut = shop("cut")
-    cut.restore()
+    cut.restore(theory())
     assert not cut.kept
 
 
