@@ -52,12 +52,24 @@ def _silent(_: str) -> None:
     """Tell nobody."""
 
 
+Asked = list[Statement] | NotStatedError
+"""The statements of an equation or packing, or why there are none."""
+
+
+def asked_of(number: Number) -> Asked:
+    """What ``certify`` asks about an equation, or about the packing of a seed."""
+    try:
+        return [packing_statement(number)] if number in SEEDS else statements(load(number))
+    except NotStatedError as reason:
+        return reason
+
+
 def stated(numbers: Iterable[Number] | None = None) -> list[Statement]:
     """The statements that ``certify`` tries; of what can't be stated there is none."""
-    found = [packing_statement(seed) for seed in SEEDS] if numbers is None else []
-    for number in paper() if numbers is None else numbers:
-        with suppress(NotStatedError):
-            found += statements(load(number))
+    found: list[Statement] = []
+    for number in (*paper(), *SEEDS) if numbers is None else numbers:
+        asked = asked_of(number)
+        found += [] if isinstance(asked, NotStatedError) else asked
     return found
 
 
@@ -104,13 +116,7 @@ def certify(
             for one in (*equations, *packings):
                 told(one)
             return Certification(equations, packings, hashed)
-        asked: dict[Number, list[Statement] | NotStatedError] = {}
-        for number in wanted:
-            try:
-                asked[number] = statements(load(number))
-            except NotStatedError as reason:
-                asked[number] = reason
-        asked |= {seed: [packing_statement(seed)] for seed in seeds}
+        asked = {number: asked_of(number) for number in (*wanted, *seeds)}
         files = {
             number: {} if isinstance(made, NotStatedError) else files_of(made)
             for number, made in asked.items()
@@ -139,9 +145,7 @@ def certify(
         return Certification(tuple(found[: len(wanted)]), tuple(found[len(wanted) :]), hashed)
 
 
-def certificate(
-    coq: CoqFolder, number: Number, asked: list[Statement] | NotStatedError
-) -> Certificate:
+def certificate(coq: CoqFolder, number: Number, asked: Asked) -> Certificate:
     """Read what Coq has said of the statements of one equation or packing."""
     if isinstance(asked, NotStatedError):
         return Certificate(number, Verdict.NOT_STATED, coq.checker, note=str(asked))
@@ -172,7 +176,7 @@ def checked(coq: CoqFolder, found: list[Certificate]) -> list[Certificate]:
     names = [Statement.accepted_file(name) for one in accepted for name in one.theorems or ()]
     trouble = coq.check(names) if names else ""
     if not trouble:
-        if names and coq.theory:
+        if names:
             coq.keep()
         return found
     return [

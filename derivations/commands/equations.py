@@ -107,16 +107,21 @@ def derive(
     with blamed(numbers or ()):
         wanted = wanted_of(numbers or ()) or list(modules())
         status = deriving.derive(wanted, out, as_json, overwrite, columns)
-        own_ones = [one for one in wanted if not isinstance(one, int | str)]
-        for own in own_ones if not status else ():  # else there is no proof that rests on any
-            from force_diffusion.derivations.framework.own import premises_unnamed
-
-            if unnamed := [f"premise({number!r})" for number in premises_unnamed(own)]:
-                tell(
-                    f"{own.number}: its steps rest on more than its premises name, taken as proved "
-                    f"here: add {', '.join(unnamed)}"
-                )
+        if not status:  # else there is no proof that rests on any
+            _tell_of_premises([one for one in wanted if not isinstance(one, int | str)])
     raise typer.Exit(status)
+
+
+def _tell_of_premises(own: "Iterable[Derivation]") -> None:
+    """Say what derivations of one's own rest on and do not name."""
+    from force_diffusion.derivations.framework.own import premises_unnamed
+
+    for one in own:
+        if unnamed := [f"premise({number!r})" for number in premises_unnamed(one)]:
+            tell(
+                f"{one.number}: its steps rest on more than its premises name, taken as proved "
+                f"here: add {', '.join(unnamed)}"
+            )
 
 
 def show(

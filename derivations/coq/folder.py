@@ -168,9 +168,9 @@ class CoqFolder:
         self.kept = True
 
     def keep(self) -> None:
-        """Put the compiled theory into the user's cache, where that can be written."""
+        """Put the theory that was looked for into the user's cache, if that can be written."""
         whole = self._cached
-        if whole is None or self.kept:
+        if whole is None or self.kept or not self.theory:
             return
         part = whole.with_suffix(f".{os.getpid()}.part")
         with suppress(OSError):

@@ -170,11 +170,8 @@ class Rows(Sequence[Layer]):
         return len(self.firsts)
 
     def __iter__(self) -> Iterator[Layer]:
-        return map(Layer, range(self.lowest, self.lowest + len(self)), *self._numbers)
-
-    @property
-    def _numbers(self) -> tuple[list[int], list[int]]:
-        return self.firsts.tolist(), self.counts.tolist()
+        layers = range(self.lowest, self.lowest + len(self))
+        return map(Layer, layers, self.firsts.tolist(), self.counts.tolist())
 
     @overload
     def __getitem__(self, which: int) -> Layer: ...

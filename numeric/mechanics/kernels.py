@@ -271,14 +271,13 @@ def links_of(
     on = np.arange(len(rows)) + sum(steps)
     there = (on >= 0) & (on < len(sources)) & (rows.counts > 0)
     on = np.where(there, on, 0)
+    numbers: tuple[Any, ...]
     if region.dimension == 2:
         shift = (rows.firsts + steps[0] - steps[1] - sources.firsts[on]) // 2
-        length, period = sources.counts[on], region.width or 0
+        numbers = starts[on], sources.counts[on], shift, region.width or 0
     else:
-        shift, period = np.full(len(rows), steps[1]), region.side
-        length = np.full(len(rows), period)
-    periods = np.full(len(rows), period)
-    return np.stack([starts[on], length, shift, periods], 1) * there[:, None]
+        numbers = starts[on], region.side, steps[1], region.side
+    return np.stack(np.broadcast_arrays(*numbers), 1) * there[:, None]
 
 
 def runs_of(

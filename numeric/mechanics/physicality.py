@@ -118,9 +118,8 @@ class Physicality:
         ends = np.cumsum(rows.counts[::-1])
         ends = ends[: int(np.searchsorted(ends, F.shape[1])) + 1]
         cuts = F.shape[1] - ends[::-1]
-        if np.count_nonzero(f <= room) > np.count_nonzero(
-            f < -room
-        ):  # some are so small that their layer decides
+        if np.count_nonzero(f <= room) > np.count_nonzero(f < -room):
+            # some are so small that their layer decides
             counts, changes = np.diff(np.append(cuts, F.shape[1])), np.abs(g).max(axis=0, initial=0)
             room = SIGNS * np.maximum.reduceat(changes, cuts, axis=1).repeat(counts, axis=1)
             self.undecided_signs += int(np.count_nonzero((np.abs(f) <= room) & (f != 0)))

@@ -37,13 +37,12 @@ def expected(method: Method, height: int, realisations: int) -> Fraction:
     For balls, what they should certify: they lose some bits for the depth of the packing.
     """
     bits = method.system.bits
-    if method.carries and method.repeated >= realisations:
-        few = 4 if method.system is FLOAT64 else 8 * height
-        return Fraction(PRINTED * few + merging(method, realisations), 2**bits)
     if method.certified:
         return Fraction(max(height, 4) ** 2 * 2**12, 2**bits)
-    seen = method.repeated >= realisations
-    units = usual_units(method.system, height) * (SAFETY if seen else UNSEEN)
+    if method.repeated >= realisations:  # all sweeps carry their errors
+        few = 4 if method.system is FLOAT64 else 8 * height
+        return Fraction(PRINTED * few, 2**bits)
+    units = usual_units(method.system, height) * UNSEEN
     return (PRINTED * units + merging(method, realisations)) * Fraction(1, 2**bits)
 
 

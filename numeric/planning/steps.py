@@ -51,7 +51,7 @@ def _solving(quantity: Quantity, problem: Problem, method: Method) -> list[Step]
     else:
         steps.append(Step("line sums", "displacements to first order, layer by layer", beads))
     if problem.needs_forces:
-        visited = int(problem.force_rows.counts[1:].sum())
+        visited = problem.force_rows[1:].beads
         steps.append(Step("balance forces", _why_forces(problem), visited))
     if exact:
         steps.append(Step(PHYSICAL, "gaps, overlaps and signs, always", beads))

@@ -5,19 +5,18 @@ from typing import Any
 
 from ..arithmetic.decimals import decimal_string, short
 from .combinations import refusal
-from .sections import Ask, Disorder, Effects, GivenRadii, Load, Packing, SceneError, Section
+from .sections import (
+    Ask,
+    Disorder,
+    Effects,
+    GivenRadii,
+    Load,
+    Packing,
+    SceneError,
+    Sections,
+)
 
 FARTHEST = 10**307  # units of length, in which float64 are given
-
-
-class Sections(Section):
-    """All sections of a scene."""
-
-    packing: Packing
-    disorder: Disorder | None = None
-    load: Load = Load()
-    effects: Effects = Effects()
-    ask: Ask
 
 
 def check(scene: Sections) -> None:

@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from ..lattice.branch import Branch, Contact, Site
-from .checks import Sections, check
+from .checks import check
+from .sections import Sections
 
 
 class Scene(Sections):

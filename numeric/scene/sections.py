@@ -297,6 +297,16 @@ class Ask(Section):
     layers: Layers | None = None
 
 
+class Sections(Section):
+    """All sections of a scene."""
+
+    packing: Packing
+    disorder: Disorder | None = None
+    load: Load = Load()
+    effects: Effects = Effects()
+    ask: Ask
+
+
 def unknown(key: str, model: type[Section]) -> str:
     """Say what a key could have meant."""
     known = [name for name in model.model_fields if name != "folder"]
