@@ -156,14 +156,15 @@ def deposit(
     down = [region.step(a, -1) for a in range(d)]
     c: list[tuple[Any, ...]] = [(base,) * d if on is None else tuple(on)]
     dn: list[tuple[tuple[Any, ...], ...]] = [((nothing,) * d,) * d]
-    for j, layer in enumerate(region.rows):
+    layers = tuple(region.rows)
+    for j, layer in enumerate(layers):
         if work is not None:
             work.did(kind, layer, _beads(rho[j]) // max(layer.count, 1))
         if not linear:
             _check_radii(rho[j], layer, region, system)
         if not j:
             continue
-        looks = [region.look(region.rows[j - 1], layer, one) for one in down]
+        looks = [region.look(layers[j - 1], layer, one) for one in down]
         under = [tuple([_moved(look, v) for v in c[-1]]) for look in looks]
         radii = tuple([_moved(look, rho[j - 1]) for look in looks])
         found = rest(under, rho[j], radii, m, system.sqrt, linear=linear)
@@ -215,8 +216,9 @@ def sweep_down(
     dn = [rows_of for _, rows_of in packing.dn]
     shares = [of for _, of in loads]
     up = [region.step(a, 1) for a in range(d)]
+    layers, deposited = tuple(rows), tuple(region.rows)
     for j in range(top, 0, -1):
-        layer = rows[j]
+        layer = layers[j]
         if not layer.count:
             break
         above: list[tuple[Any, Any, tuple[Any, ...], Any]] = []
@@ -225,8 +227,8 @@ def sweep_down(
                 none = zeros(system, layer.count)
                 above.append((none, none, (none,) * d, none))
                 continue
-            own = region.look(rows[j + 1], layer, up[a], zero)
-            packed = region.look(region.rows[j + 1], layer, up[a], zero)
+            own = region.look(layers[j + 1], layer, up[a], zero)
+            packed = region.look(deposited[j + 1], layer, up[a], zero)
             above.append(
                 (
                     _moved(own, ordered[j + 1][a]),
@@ -239,7 +241,7 @@ def sweep_down(
             above[a][0] if share[j] is None else above[a][0] + share[j]
             for a, share in enumerate(shares)
         )
-        here = partial(region.here, source=region.rows[j], layer=layer)
+        here = partial(region.here, source=deposited[j], layer=layer)
         below = [tuple([_moved(here, x) for x in dn[a][j]]) for a in range(d)]
         found = balance(above, F, below, linear=linear, compensated=compensated)
         if not linear:
