@@ -7,6 +7,10 @@ function does on arrays of floats, to the bit. What was computed before is not c
 from collections.abc import Sequence
 from typing import Any
 
+# Beads that the widest registers hold. Loops take as many at a time; those that are left over at
+# the end of a run are taken so, too, together with some before them that are done twice.
+WIDE = 8
+
 
 class Recorder:
     """Takes down operations on names."""
@@ -128,10 +132,13 @@ class Code:
         lines += [f"    {name} = m[{k}]" for k, name in enumerate(self.constants)]
         lines += [f"    {name}_ = pitch({name})" for name in self.arrays]
         lines += [f"    {one}" for one in self.places]
-        lines += ["    good = True", "    for q in range(run[-1]):"]
-        lines += [f"        {one}" for one in (*self.inputs, *self.recorder.lines, *self.outputs)]
+        lines += ["    good, n = True, run[-1]", f"    whole = n - n % {WIDE}"]
+        lines += ["    for last in range(2 - (whole == n)):"]
+        lines += [f"        low, high = (max(n - {WIDE}, 0), n) if last else (0, whole)"]
+        lines += ["        for q in range(low, high):"]
+        lines += [f"            {one}" for one in (*self.inputs, *self.recorder.lines, *self.outputs)]
         if self.holds:
-            lines.append(f"        good &= {' & '.join(f'({one})' for one in self.holds)}")
+            lines.append(f"            good &= {' & '.join(f'({one})' for one in self.holds)}")
         return "\n".join([*lines, "    return good", ""])
 
 

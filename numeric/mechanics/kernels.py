@@ -29,7 +29,7 @@ from ..arithmetic.systems import FLOAT64, Array
 from ..disorder.radii import relative
 from ..lattice.branch import per_direction
 from ..lattice.layers import LazyRows, Region, Rows
-from . import local
+from . import defects, local
 from .local import RESOLUTION
 from .sweep import SIGNS, Forces, Loads, Memory, SolvedPacking
 
@@ -156,7 +156,10 @@ def _rest(d: int, *, carried: bool) -> Code:
     under = [of.several("block", 0, d, place) for place in supports]
     rho_under = tuple(of.take("rho", 0, place) for place in supports)
     rho, m = of.take("rho", 0, own), local.Metric(*of.constants)
-    found = local.rest(under, rho, rho_under, m, _sqrt, linear=False)
+    if carried:
+        found = defects.rest_with_errors(under, rho, rho_under, m, _sqrt)
+    else:
+        found = local.rest(under, rho, rho_under, m, _sqrt, linear=False)
     of.demand(1 + rho, POSITIVE)
     for value in found.holds:
         of.demand(value, POSITIVE)
@@ -171,14 +174,20 @@ def _balance(d: int, *, carried: bool) -> Code:
     for a in range(d):
         up, over, old = (3 * (a + 1) + k for k in range(3))
         dn = of.several("block", d + a * d, d, over)
-        above.append((of.take("F", a, up), of.take("g", a, up), dn, of.take("lost", a, old)))
+        lost = of.code.takes("lost", a, old)
+        above.append((of.take("F", a, up), of.take("g", a, up), dn, lost))
     below = [of.several("block", d + a * d, d, here) for a in range(d)]
-    found = local.balance(above, of.several("F", 0, d, own), below, linear=False, compensated=True)
+    F = of.several("F", 0, d, own)
+    if carried:
+        found = defects.balance_with_errors(above, F, below)
+    else:
+        found = local.balance(above, F, below, linear=False, compensated=True)
     of.demand(found.det * found.det, POSITIVE)
     for value in found.g:
         of.demand(value, FINITE)
     of.give("g", 0, own, found.g)
-    of.give("lost", 0, new, found.lost)
+    for a, value in enumerate(found.lost):
+        of.code.gives("lost", a, new, value)
     return of.code
 
 

@@ -205,14 +205,14 @@ def balance(
     """
     d = len(F)
     g = tuple(one[1] for one in above)
-    turn = _turned([of if linear else of + change for of, change, _, _ in above],
+    turn = turned([of if linear else of + change for of, change, _, _ in above],
                    [one[2] for one in above])  # fmt: skip
     if compensated:
         turn = plus(turn, tuple(one[3] for one in above))
-    turn = less(turn, _turned(F, dn))
+    turn = less(turn, turned(F, dn))
     det = None
     if not linear:  # (1 + D) h = s, written for h − s, which is small of second order
-        small = _turned(plus(g, turn), dn)
+        small = turned(plus(g, turn), dn)
         (away,), det = solved([[dn[a][b] for a in range(d)] for b in range(d)], (small,))
         turn = less(turn, tuple(away))
     found = plus(g, turn)
@@ -222,7 +222,7 @@ def balance(
     return Balanced(found, plus(less(g, less(found, part)), less(turn, part)), det)
 
 
-def _turned(forces: Sequence[Any], dn: Sequence[Vector]) -> Vector:
+def turned(forces: Sequence[Any], dn: Sequence[Vector]) -> Vector:
     """Give Σ_a f_a δn^a."""
     return tuple([dot(tuple(forces), of) for of in zip(*dn, strict=True)])
 
