@@ -61,8 +61,10 @@ def source(dimension: int, *, carried: bool) -> str:
     )
     loops = Path(__file__).with_name("loops.py").read_text(encoding="utf-8")
     recorded = [
-        _rest(dimension, carried=carried),
-        _balance(dimension, carried=carried),
+        _rest(dimension),
+        _balance(dimension),
+        _rest_errors(dimension),
+        _balance_errors(dimension),
         _order(dimension, carried=carried),
         _gap(dimension),
         _relative(carried=carried),
@@ -150,16 +152,13 @@ def _sqrt(value: Any) -> Any:
     return value.sqrt()
 
 
-def _rest(d: int, *, carried: bool) -> Code:
-    of = _Recording("rest", {"rho": 1, "block": d + d * d}, 3, carried=carried)
+def _rest(d: int) -> Code:
+    of = _Recording("rest", {"rho": 1, "block": d + d * d}, 3, carried=False)
     own, *supports = range(1 + d)
     under = [of.several("block", 0, d, place) for place in supports]
     rho_under = tuple(of.take("rho", 0, place) for place in supports)
     rho, m = of.take("rho", 0, own), local.Metric(*of.constants)
-    if carried:
-        found = defects.rest_with_errors(under, rho, rho_under, m, _sqrt)
-    else:
-        found = local.rest(under, rho, rho_under, m, _sqrt, linear=False)
+    found = local.rest(under, rho, rho_under, m, _sqrt, linear=False)
     of.demand(1 + rho, POSITIVE)
     for value in found.holds:
         of.demand(value, POSITIVE)
@@ -167,8 +166,37 @@ def _rest(d: int, *, carried: bool) -> Code:
     return of.code
 
 
-def _balance(d: int, *, carried: bool) -> Code:
-    of = _Recording("balance", {"F": d, "block": d + d * d, "g": d, "lost": d}, 0, carried=carried)
+def _rest_errors(d: int) -> Code:
+    of = _Recording("rest_errors", {"rho": 1, "block": d + d * d}, 3, carried=True)
+    own, *supports = range(1 + d)
+    under = [of.several("block", 0, d, place) for place in supports]
+    rho_under = tuple(of.take("rho", 0, place) for place in supports)
+    rho, m = of.take("rho", 0, own), local.Metric(*of.constants)
+    c, *dn = (tuple(of.code.takes("block", row + b, own) for b in range(d))
+              for row in range(0, d + d * d, d))  # fmt: skip
+    moved, off = defects.rest_errors(c, dn, under, rho, rho_under, m)
+    for row, error in enumerate((*moved, *(x for v in off for x in v)), d + d * d):
+        of.code.gives("block", row, own, error)
+    return of.code
+
+
+def _balance_errors(d: int) -> Code:
+    of = _Recording("balance_errors", {"F": d, "block": d + d * d, "g": d}, 0, carried=True)
+    own, here, _ = range(3)
+    above = []
+    for a in range(d):
+        up, over, _ = (3 * (a + 1) + k for k in range(3))
+        dn = of.several("block", d + a * d, d, over)
+        above.append((of.take("F", a, up), of.take("g", a, up), dn))
+    below = [of.several("block", d + a * d, d, here) for a in range(d)]
+    g = tuple(of.code.takes("g", a, own) for a in range(d))
+    for row, error in enumerate(defects.balance_errors(g, above, of.several("F", 0, d, own), below), d):
+        of.code.gives("g", row, own, error)
+    return of.code
+
+
+def _balance(d: int) -> Code:
+    of = _Recording("balance", {"F": d, "block": d + d * d, "g": d, "lost": d}, 0, carried=False)
     own, here, new = range(3)
     above = []
     for a in range(d):
@@ -178,10 +206,7 @@ def _balance(d: int, *, carried: bool) -> Code:
         above.append((of.take("F", a, up), of.take("g", a, up), dn, lost))
     below = [of.several("block", d + a * d, d, here) for a in range(d)]
     F = of.several("F", 0, d, own)
-    if carried:
-        found = defects.balance_with_errors(above, F, below)
-    else:
-        found = local.balance(above, F, below, linear=False, compensated=True)
+    found = local.balance(above, F, below, linear=False, compensated=True)
     of.demand(found.det * found.det, POSITIVE)
     for value in found.g:
         of.demand(value, FINITE)

@@ -85,10 +85,12 @@ def solved(
     size = len(matrix)
     rows = [list(row) for row in matrix]
     found = [list(right) for right in rights]
+    inverses = []
     for k in range(size):
         rows[k][k] = 1 + rows[k][k]
+        inverses.append(1 / rows[k][k])
         for i in range(k + 1, size):
-            factor = rows[i][k] / rows[k][k]
+            factor = rows[i][k] * inverses[k]
             for x in found:
                 x[i] = x[i] - factor * x[k]
             for c in range(k + 1, size):
@@ -97,7 +99,7 @@ def solved(
         for k in reversed(range(size)):
             for c in range(k + 1, size):
                 x[k] = x[k] - rows[k][c] * x[c]
-            x[k] = x[k] / rows[k][k]
+            x[k] = x[k] * inverses[k]
     det = rows[0][0]
     for k in range(1, size):
         det = det * rows[k][k]
@@ -153,8 +155,8 @@ def rest(
     for a in range(d):
         across = _across(a, rise, own, under[a], both[a], m)
         across[a] = more[a] - squares[a]
-        length = 2 + both[a]
-        dn.append(tuple(x / length for x in m.raised(tuple(across))))
+        inverse = 1 / (2 + both[a])
+        dn.append(tuple(x * inverse for x in m.raised(tuple(across))))
     return Rest(plus(own, rise), tuple(dn), (discriminant, det, *step))
 
 

@@ -129,6 +129,8 @@ def deposit(
     for k in range(len(rho)):
         for r in range(len(runs)):
             good &= rest(rho[k], block[k], runs[r], m)
+            if PARTS == 2:
+                rest_errors(rho[k], block[k], runs[r], m)
             for q in range(most.shape[1]):
                 own = words[k, q, runs[r, 0] : runs[r, 0] + runs[r, -1]]
                 most[k, q] = _largest(own, most[k, q])
@@ -159,6 +161,8 @@ def sweep_down(F: Array, block: Array, g: Array, lost: Array, runs: Array, m: Ar
     for k in range(len(g)):
         for r in range(len(runs)):
             good &= balance(F, block[k], g[k], lost, runs[r], m)
+            if PARTS == 2:
+                balance_errors(F, block[k], g[k], runs[r], m)
     return good
 
 

@@ -18,11 +18,11 @@ import numpy as np
 
 from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
-from ..arithmetic.systems import FLOAT64, MOST_BITS, Array, Balls, NumberSystem, zeros
+from ..arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem, zeros
 from ..disorder.radii import RadiusError
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
 from ..lattice.layers import Layer, Region, Rows, bead_of
-from .defects import balance_with_errors, rest_with_errors
+from . import defects
 from .local import balance, metric, nested, rest
 from .work import Work
 
@@ -169,7 +169,7 @@ def deposit(
         under = [tuple([_moved(look, v) for v in c[-1]]) for look in looks]
         radii = tuple([_moved(look, rho[j - 1]) for look in looks])
         if system is CARRYING and not linear:
-            found = rest_with_errors(under, rho[j], radii, m, FLOAT64.sqrt)
+            found = defects.rest(under, rho[j], radii, m)
         else:
             found = rest(under, rho[j], radii, m, system.sqrt, linear=linear)
         _check_rest(found.holds, layer, region, system, partial(nested, under, radii, m))
@@ -248,7 +248,7 @@ def sweep_down(
         here = partial(region.here, source=deposited[j], layer=layer)
         below = [tuple([_moved(here, x) for x in dn[a][j]]) for a in range(d)]
         if system is CARRYING and not linear:
-            found = balance_with_errors(above, F, below)
+            found = defects.balance(above, F, below)
         else:
             found = balance(above, F, below, linear=linear, compensated=compensated)
         if not linear:
