@@ -33,7 +33,16 @@ def compiled(function: Function) -> Function:
     A compiled function calls only those of its own file: the copy on disk is made anew where that
     file has changed, and no other is looked at.
     """
-    options: dict[str, Any] = {"error_model": "numpy", "nogil": True}
+    return _made(function)
+
+
+def inner(function: Function) -> Function:
+    """Compile a function that compiled ones of its own file call, and nobody else: in less time."""
+    return _made(function, no_cpython_wrapper=True)
+
+
+def _made(function: Function, **options: Any) -> Function:
+    options |= {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
     try:
         return cast(Function, numba.njit(cache=True, **options)(function))
     except RuntimeError:  # no place to write to

@@ -4,7 +4,7 @@ Every operation is one line, in the order in which it was called, so that the co
 function does on arrays of floats, to the bit. What was computed before is not computed again.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 # Beads that the widest registers hold. Loops take as many at a time; those that are left over at
@@ -146,6 +146,11 @@ def _place(name: str, array: str, row: int, place: int | None) -> str:
     return f"{name} = {row} * {array}_" + ("" if place is None else f" + run[{place}]")
 
 
-def module(codes: Sequence[Code], loops: str) -> str:
-    """Give the source of several functions, and of the ``loops`` that call them."""
-    return "\n\n".join([loops, *(f"@compiled\n{code.text()}" for code in codes)])
+def module(codes: Sequence[Code], loops: str, called: Collection[str] = ()) -> str:
+    """Give the source of several functions, and of the ``loops`` that call them.
+
+    Those that are ``called`` by name are called from Python, too.
+    """
+    kinds = ["compiled" if code.name in called else "inner" for code in codes]
+    texts = [f"@{kind}\n{code.text()}" for kind, code in zip(kinds, codes, strict=True)]
+    return "\n\n".join([loops, *texts])

@@ -45,7 +45,8 @@ class Kernels(NamedTuple):
     """The compiled loops of one dimension, with or without errors."""
 
     runs: Callable[..., int]
-    deviations: Callable[..., None]
+    relative: Callable[..., bool]
+    scaled: Callable[..., bool]
     deposit: Callable[..., bool]
     straight_down: Callable[..., None]
     sweep_down: Callable[..., bool]
@@ -77,7 +78,7 @@ def source(dimension: int, *, carried: bool) -> str:
     # what compiles them has no part in the text, but in what comes of it
     with_what = hashlib.sha256(Path(compiling.__file__).read_text(encoding="utf-8").encode())
     loops = f"{loops}\n# compiled as said in {with_what.hexdigest()[:24]}"
-    return module(recorded, f"{loops}\n\n{imports}\n{names}")
+    return module(recorded, f"{loops}\n\n{imports}\n{names}", Kernels._fields)
 
 
 LOADED: set[tuple[int, bool]] = set()

@@ -90,7 +90,10 @@ class Drawing:
         m = numbers([(CARRYING if self.carried else FLOAT64).scalar(one) for one in of],
                     carried=self.carried)  # fmt: skip
         rho = self._memory(len(values))
-        kernels(self.region.dimension, carried=self.carried).deviations(values, rho, m)
+        loops = kernels(self.region.dimension, carried=self.carried)
+        loop, run = loops.relative if len(of) > 1 else loops.scaled, np.array([0, rho.shape[-1]])
+        for one, found in zip(values, rho, strict=True):
+            loop(one, found, run, m)
         return rho
 
 

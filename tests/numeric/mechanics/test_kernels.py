@@ -331,7 +331,10 @@ def test_several_beads_are_taken_at_a_time(dimension: int, carried: bool) -> Non
     """LLVM stops doing so without a word where it has to compare too many addresses."""
     scope = vars(sys.modules[kernels.kernels(dimension, carried=carried).deposit.__module__])
     values, run = numba.float64[:, ::1], numba.int64[::1]
-    for name, arrays, packed in (("rest", 2, "sqrtpd"), ("balance", 4, "divpd")):
+    loops = [("rest", 2, "sqrtpd"), ("balance", 4, "divpd")]
+    if carried:
+        loops += [("rest_errors", 2, "divpd"), ("balance_errors", 3, "divpd")]
+    for name, arrays, packed in loops:
         made = numba.njit(error_model="numpy")(scope[name].py_func)
         made.compile((values,) * arrays + (run, numba.float64[::1]))
         (assembly,) = made.inspect_asm().values()
