@@ -136,7 +136,8 @@ class Code:
         lines += ["    for last in range(2 - (whole == n)):"]
         lines += [f"        low, high = (max(n - {WIDE}, 0), n) if last else (0, whole)"]
         lines += ["        for q in range(low, high):"]
-        lines += [f"            {one}" for one in (*self.inputs, *self.recorder.lines, *self.outputs)]
+        steps = *self.inputs, *self.recorder.lines, *self.outputs
+        lines += [f"            {one}" for one in steps]
         if self.holds:
             lines.append(f"            good &= {' & '.join(f'({one})' for one in self.holds)}")
         return "\n".join([*lines, "    return good", ""])

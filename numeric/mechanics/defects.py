@@ -56,8 +56,8 @@ def balance_errors(
     ``above[a]`` holds F, g and δn of the contact with x + e_a.
     """
     found = tuple(map(Carried, g))
-    turn = less(turned(plus(F, found), dn),
-                turned([one + change for one, change, _ in above], [n for _, _, n in above]))  # fmt: skip
+    reached = [one + change for one, change, _ in above]
+    turn = less(turned(plus(F, found), dn), turned(reached, [of for _, _, of in above]))
     left = [_apart(change - x, y) for (_, change, _), x, y in zip(above, found, turn, strict=True)]
     (off,), _ = solved([_values(row) for row in zip(*dn, strict=True)], (left,))
     return tuple(off)

@@ -14,7 +14,7 @@ import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -191,7 +191,8 @@ def _balance_errors(d: int) -> Code:
         above.append((of.take("F", a, up), of.take("g", a, up), dn))
     below = [of.several("block", d + a * d, d, here) for a in range(d)]
     g = tuple(of.code.takes("g", a, own) for a in range(d))
-    for row, error in enumerate(defects.balance_errors(g, above, of.several("F", 0, d, own), below), d):
+    off = defects.balance_errors(g, above, of.several("F", 0, d, own), below)
+    for row, error in enumerate(off, d):
         of.code.gives("g", row, own, error)
     return of.code
 
@@ -417,29 +418,40 @@ class Deposition:
 
 
 def told(
-    phi: Fraction, region: Region, rho: Array, block: Array, most: Array, *, carried: bool = False
+    phi: Fraction,
+    region: Region,
+    rho: Array,
+    block: Array,
+    most: Array,
+    of_both: Callable[[Array, Array], Any] | None = None,
 ) -> SolvedPacking:
-    """Tell a ``block`` of values row by row; ``rho`` is (packings, beads).
+    """Tell row by row what loops have filled: ``rho`` (packings, parts, beads), and a ``block``.
 
-    ``carried``: the loops that gave it carried errors, and ``most``.
+    ``of_both`` makes of values and their errors what is told; without it these are values alone.
     """
     d, starts, counts = region.dimension, region.starts, region.rows.counts
+    each = d + d * d
 
-    def rows(values: Array, lowest: int = 0) -> LazyRows[Any]:
-        return rows_of(values[0] if len(values) == 1 else values, starts, counts, lowest)
+    def row(values: Array, quantity: int, j: int, lowest: int = 0) -> Any:
+        own = values[0] if len(values) == 1 else values.swapaxes(0, 1)
+        of = slice(starts[j], starts[j] + counts[j] * (j >= lowest))
+        near = own[quantity, ..., of]
+        return near if of_both is None else of_both(near, own[quantity + len(own) // 2, ..., of])
 
-    def turned(a: int) -> LazyRows[tuple[Array, ...]]:
-        parts = [rows(block[:, d + a * d + b], 1) for b in range(d)]
-        return LazyRows(len(counts), lambda j: tuple(part[j] for part in parts))
+    def turned(a: int, j: int) -> tuple[Any, ...]:
+        return tuple(row(block, d + a * d + b, j, 1) for b in range(d))
+
+    def rows(of: Callable[..., Any], *which: Any) -> LazyRows[Any]:
+        return LazyRows(len(counts), partial(of, *which))
 
     return SolvedPacking(
         phi,
         FLOAT64,
         region,
-        rows(rho),
-        per_direction([rows(block[:, a]) for a in range(d)]),
-        per_direction([turned(a) for a in range(d)]),
-        Memory(rho, block, most, carried),
+        rows(row, rho, 0),
+        per_direction([rows(row, block, a) for a in range(d)]),
+        per_direction([rows(turned, a) for a in range(d)]),
+        Memory(rho[:, 0], block[:, :each], most[:, :each], carried=rho.shape[1] > 1),
     )
 
 
@@ -565,10 +577,12 @@ class Descent:
         """Which of all numbers belong to beads that bear something."""
         return slice(self.starts[self.lowest], self.starts[-1])
 
-    def told(self, F: Array, g: Array, most: float | None = None) -> Forces:
+    def told(
+        self, F: Array, g: Array, most: float | None = None, left: float | None = None
+    ) -> Forces:
         """Tell ``beads_below`` row by row: ordered forces (d, …), changes (packings, d, …).
 
-        ``most``: the largest change, if that is known.
+        ``most``: the largest change, if that is known; ``left``: as ``Forces`` have it.
         """
         d = self.region.dimension
 
@@ -585,4 +599,5 @@ class Descent:
             F=F,
             g=g,
             hold=most is not None and self.bounds[0] - most > 2 * SIGNS * most,
+            left=left,
         )

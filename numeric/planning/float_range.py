@@ -43,18 +43,21 @@ def check(scene: Scene, radii: Radii, load: LoadSpec) -> None:
             f"in float64 it must be zero or at least 1e-300: {WAY_OUT}",
         )
     least = LEAST_PRODUCT / (disorder or 1)
-    allowed = (
-        f"must lie between {short(least)} and {short(MOST)} in float64 where delta_r/r is "
-        f"{short(disorder)}: choose another unit, or {WAY_OUT}"
-    )
+
+    def allowed() -> str:
+        return (
+            f"must lie between {short(least)} and {short(MOST)} in float64 where delta_r/r is "
+            f"{short(disorder)}: choose another unit, or {WAY_OUT}"
+        )
+
     r = scene.packing.radius
     if scene.ask.quantity == "positions":
         if not least <= r <= MOST:
-            raise SceneError("packing.radius", r, allowed)
+            raise SceneError("packing.radius", r, allowed())
         return
     unit = scene.load.magnitude
     if not least <= unit <= MOST:
-        raise SceneError("load.magnitude", unit, allowed)
+        raise SceneError("load.magnitude", unit, allowed())
     for site, force in load.single.items():
         size = max(map(abs, force))
         if size and not (least <= size <= MOST and least <= size * unit <= MOST):
@@ -62,7 +65,7 @@ def check(scene: Scene, radii: Radii, load: LoadSpec) -> None:
                 "load.file" if scene.load.file else "load.pressure",
                 scene.load.file or scene.load.pressure,
                 f"the load on bead {_named(site, scene)} is {short(size)} times load.magnitude, "
-                f"which {allowed}",
+                f"which {allowed()}",
             )
 
 

@@ -119,7 +119,7 @@ def test_every_bit_is_that_of_the_same_source_on_numpy(
             continue  # Dekker's product has parts that are too small for a float
         own = slice(number * part, (number + 1) * part)
         most = deposition.most[:, own]
-        told = kernels.told(phi, region, rho[:, number], block[:, own], most)
+        told = kernels.told(phi, region, rho[:, number : number + 1], block[:, own], most)
         above = np.arange(part)[None, :, None] >= d  # of the base δn are no numbers
         there = np.arange(region.beads) >= above * region.rows[0].count
         sizes = np.where(there, np.abs(block[:, own, : region.beads]), 0)
@@ -161,7 +161,7 @@ def test_gaps_are_those_of_numpy(phi: Fraction, case: tuple[Region, Rows], seed:
     block = deposition(rho)
     assume(block is not None)
     assert block is not None
-    compiled = kernels.told(phi, region, rho[:, 0], block, deposition.most)
+    compiled = kernels.told(phi, region, rho[:, :1], block, deposition.most)
     usual = outcome(sweep.deposit, phi, region, rows_in(region, rho, carried=False), FLOAT64)
     layers = range(region.top + 1)
     a, b = gaps.gaps(compiled, layers), gaps.gaps(usual, layers)
