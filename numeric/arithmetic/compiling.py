@@ -152,10 +152,9 @@ def _pool(threads: int) -> ThreadPoolExecutor:
 
 def on_all_cores(function: Callable[[slice], bool], batch: int) -> bool:
     """Call a compiled ``function`` for parts of a batch, one a core; say whether all are true."""
-    threads = cores()
-    parts = min(batch, threads)
-    if parts == 1:
+    if batch == 1 or (threads := cores()) == 1:
         return function(slice(0, batch))
+    parts = min(batch, threads)
     cuts = [batch * part // parts for part in range(parts + 1)]
     others = [_pool(threads).submit(function, slice(*cut)) for cut in pairwise(cuts[1:])]
     own = function(slice(0, cuts[1]))
