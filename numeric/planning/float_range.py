@@ -8,7 +8,6 @@ from fractions import Fraction
 
 from ..arithmetic.decimals import short
 from ..disorder.radii import ArrayRadii, MeasuredRadii, Radii
-from ..lattice.branch import Site
 from ..lattice.layers import bead_of
 from ..mechanics.loads import LoadSpec
 from ..scene.scene import Scene
@@ -23,50 +22,35 @@ WAY_OUT = "give a tolerance: balls, its arithmetic, have no such limit"
 
 def check(scene: Scene, radii: Radii, load: LoadSpec) -> None:
     """Raise ``SceneError`` where float64 would overflow, or round what is asked for to zero."""
-    disorder = radii.relative_std()
+    disorder, given = radii.relative_std(), scene.disorder
+    key, what = "relative_std", ""
+    value: Fraction | str | None = disorder
     if isinstance(radii, MeasuredRadii):
-        assert scene.disorder is not None
+        assert given is not None
         disorder = radii.least
-        if disorder and disorder < LEAST:
-            raise SceneError(
-                "disorder.file",
-                scene.disorder.file,
-                f"a delta_r/r of {short(disorder)}; in float64 it must be zero or at least 1e-300: "
-                f"{WAY_OUT}",
-            )
-    elif disorder and disorder < LEAST:
-        given = "file" if isinstance(radii, ArrayRadii) else "relative_std"
-        given = scene.disorder.name if isinstance(scene.disorder, GivenRadii) else given
-        raise SceneError(
-            f"disorder.{given}",
-            disorder,
-            f"in float64 it must be zero or at least 1e-300: {WAY_OUT}",
-        )
+        key, value = "file", given.file
+        what = f"a delta_r/r of {short(disorder)}; "
+    elif isinstance(radii, ArrayRadii):
+        key = given.name if isinstance(given, GivenRadii) else "file"
+    if disorder and disorder < LEAST:
+        why = f"{what}in float64 it must be zero or at least 1e-300: {WAY_OUT}"
+        raise SceneError(f"disorder.{key}", value, why)
     least = LEAST_PRODUCT / (disorder or 1)
     allowed = (
         f"must lie between {short(least)} and {short(MOST)} in float64 where delta_r/r is "
         f"{short(disorder)}: choose another unit, or {WAY_OUT}"
     )
-    r = scene.packing.radius
+    key, unit = "load.magnitude", scene.load.magnitude
     if scene.ask.quantity == "positions":
-        if not least <= r <= MOST:
-            raise SceneError("packing.radius", r, allowed)
-        return
-    unit = scene.load.magnitude
+        key, unit = "packing.radius", scene.packing.radius
     if not least <= unit <= MOST:
-        raise SceneError("load.magnitude", unit, allowed)
-    for site, force in load.single.items():
+        raise SceneError(key, unit, allowed)
+    for site, force in load.single.items() if key == "load.magnitude" else ():
         size = max(map(abs, force))
         if size and not (least <= size <= MOST and least <= size * unit <= MOST):
+            bead = site if load.dimension == 2 else bead_of(site, scene.packing.width or 1)
             raise SceneError(
                 "load.file" if scene.load.file else "load.pressure",
                 scene.load.file or scene.load.pressure,
-                f"the load on bead {_named(site, scene)} is {short(size)} times load.magnitude, "
-                f"which {allowed}",
+                f"the load on bead {bead} is {short(size)} times load.magnitude, which {allowed}",
             )
-
-
-def _named(site: Site, scene: Scene) -> tuple[int, ...]:
-    if scene.packing.dimension == 2:
-        return site
-    return bead_of(site, scene.packing.width or 1)

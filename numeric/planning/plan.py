@@ -1,24 +1,20 @@
 """What a plan is: a problem, steps, what is left out, and the ways to the answer."""
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from ..arithmetic.carried import Pairs
 from ..arithmetic.decimals import bound_string, short
-from ..arithmetic.systems import (
-    FLOAT64,
-    Balls,
-    NumberSystem,
-)
+from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..disorder.radii import ArrayRadii, MeasuredRadii
 from ..mechanics.problem import Problem
 from ..quantities.base import Quantity, has_theory
 from ..scene.scene import Scene
 from ..theory.critical_height import critical_height
 from ..theory.expected import ExpectedTension, expected_tension, expected_tension_of_spheres
-from . import budget
+from .memory import size
 
 CERTIFY = "certify"
 
@@ -67,18 +63,26 @@ class Method:
 
 @dataclass(frozen=True)
 class Candidate:
-    """A method that was looked at: its expected error and memory, or why it is out.
+    """A method that was looked at, and its plan, or why it is out.
 
     ``error``: relative to the largest change, expected (balls: bounded) before anything runs.
     """
 
     algorithm: str
-    arithmetic: str
-    certified: bool
-    repeated: int
+    method: Method
     error: Fraction
     out: str
     plan: "Plan | None"
+
+    @property
+    def arithmetic(self) -> str:
+        """What the arithmetic is called."""
+        return self.method.system.name
+
+    @property
+    def certified(self) -> bool:
+        """Whether the error would be a rigorous bound."""
+        return self.method.certified
 
     def data(self) -> dict[str, Any]:
         """Give what JSON can hold of it."""
@@ -86,7 +90,7 @@ class Candidate:
             "algorithm": self.algorithm,
             "arithmetic": self.arithmetic,
             "certified": self.certified,
-            "repeated": self.repeated,
+            "repeated": self.method.repeated,
             "expected_error": bound_string(self.error),
             "memory_bytes": None if self.plan is None else self.plan.memory,
             "out": self.out,
@@ -192,26 +196,16 @@ class Plan:
     def data(self) -> dict[str, Any]:
         """Give what JSON can hold of it; seconds of steps are not known before it runs."""
         tension = self.tension
+        expected = None
+        if tension is not None:
+            contacts = float(f"{tension.contacts:.3g}")
+            expected = {"expected_contacts": contacts, "height_of_one": tension.height_of_one}
         return {
-            "plan": [
-                {
-                    "step": step.step,
-                    "reason": step.reason,
-                    "beads": step.beads,
-                    "arithmetic": step.arithmetic,
-                    "seconds": None,
-                }
-                for step in self.steps
-            ],
-            "skipped": [{"effect": s.effect, "reason": s.reason} for s in self.skipped],
+            "plan": [asdict(step) | {"seconds": None} for step in self.steps],
+            "skipped": [asdict(skipped) for skipped in self.skipped],
             "memory_bytes": self.memory,
             "sees_images": self.sees_images,
-            "tension": None
-            if tension is None
-            else {
-                "expected_contacts": float(f"{tension.contacts:.3g}"),
-                "height_of_one": tension.height_of_one,
-            },
+            "tension": expected,
             "notes": self.notes,
             "choice": None if self.choice is None else self.choice.data(),
         }
@@ -233,7 +227,7 @@ def plan_lines(data: dict[str, Any]) -> list[str]:
     lines.append("What is left out")
     lines += [f"  {s['effect']}: {s['reason']}" for s in data["skipped"]] or ["  nothing"]
     lines += _choice_lines(data["choice"]) if data["choice"] else []
-    lines.append(f"Memory: about {budget.size(data['memory_bytes'])}")
+    lines.append(f"Memory: about {size(data['memory_bytes'])}")
     if data["tension"]:
         expected, one = data["tension"]["expected_contacts"], data["tension"]["height_of_one"]
         low = "at no height allowed" if one is None else f"from a height of about {one} on"
@@ -256,7 +250,7 @@ def _choice_lines(choice: dict[str, Any]) -> list[str]:
     ]
     for one in choice["candidates"]:
         mark = "*" if one == chosen else ""
-        memory = "" if one["memory_bytes"] is None else budget.size(one["memory_bytes"])
+        memory = "" if one["memory_bytes"] is None else size(one["memory_bytes"])
         lines.append(
             f"  {mark:2}{one['algorithm']:<31}{one['arithmetic']:<22}{one['repeated'] or '':>8} "
             f"{one['expected_error']:>9} {memory:>9}  {one['out']}".rstrip()

@@ -11,7 +11,7 @@ from ..lattice.layers import Region, Rows
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
-from . import budget
+from .memory import COMPILED, INTERPRETER, NAMES, PLAN_LAYER, TEXT, size
 from .plan import Method, Step
 
 # Bytes of a bead of a segment (δr, positions, δn, forces, with their errors, and what is gathered),
@@ -92,10 +92,10 @@ def memory(problem: Problem, quantity: Quantity, *, text: bool) -> int:
     found = _divided(problem, _MANY if problem.every == 1 else 0)
     return (
         found.bytes
-        + rows * (quantity.numbers * (_NUMBER + text * budget.TEXT) + text * budget.NAMES)
-        + len(problem.region.rows) * budget.PLAN_LAYER
-        + budget.INTERPRETER
-        + budget.COMPILED
+        + rows * (quantity.numbers * (_NUMBER + text * TEXT) + text * NAMES)
+        + len(problem.region.rows) * PLAN_LAYER
+        + INTERPRETER
+        + COMPILED
     )
 
 
@@ -104,9 +104,9 @@ def steps(
 ) -> tuple[Step, ...]:
     """Say in the steps of a plan what is done twice, and why."""
     k, all_layers = problem.segment, problem.region.top + 1
-    sizes = f"{budget.size(needed)} of memory would be needed and {budget.size(limit)} may be used"
+    sizes = f"{size(needed)} of memory would be needed and {size(limit)} may be used"
     if needed <= limit:
-        sizes = f"{budget.size(needed)} of memory that was not used before take longer"
+        sizes = f"{size(needed)} of memory that was not used before take longer"
     counts = quantity.name == "histogram"
     last = ", and once more to count" if counts else ""
     down = 1 + (problem.every > 1)

@@ -11,6 +11,14 @@ from ..mechanics.work import ESTIMATE
 from ..quantities.base import Quantity
 from .plan import CERTIFY, Method, Step
 
+# How plans call the way to the numbers.
+ALGORITHMS = {
+    Route.ORDERED: "closed form",
+    Route.LINE_SUMS: "line sums",
+    Route.FIRST_ORDER: "first-order sweep",
+    Route.EXACT: "exact sweep in deviation form",
+    Route.UNILATERAL: "beads move until no contact pulls",
+}
 _WHOLE = "spheres are always swept in whole layers"
 
 

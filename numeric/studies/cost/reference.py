@@ -11,7 +11,7 @@ from ...accuracy.accuracy import ToleranceError
 from ...arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
 from ...arithmetic.systems import MOST_BITS, Balls, as_ball
 from ...mechanics.sweep import NotStandingError
-from ...planning.expected_error import initial_bits
+from ...planning.methods import initial_bits
 from ...planning.plan import Plan
 from ...quantities.base import Table
 from ...scene.sections import SceneError

@@ -2,6 +2,8 @@
 
 from ..arithmetic.carried import Pairs
 from ..arithmetic.systems import FLOAT64, NumberSystem
+from ..lattice.layers import Region
+from ..quantities.base import Quantity
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
 
@@ -22,24 +24,32 @@ class TooLargeError(SceneError):
 
 
 def memory(
-    *, beads: int, rows: int, numbers: int, listed: int, layers: int, system: NumberSystem,
-    dimension: int, file: bool, text: bool,
-) -> int:  # fmt: skip
+    quantity: Quantity,
+    region: Region,
+    beads: int,
+    realisations: int,
+    system: NumberSystem,
+    *,
+    text: bool,
+) -> int:
     """Estimate the bytes at the peak.
 
-    ``beads`` are those solved at once, ``layers`` the rows of the plan, ``rows`` those of the
-    answer with so many ``numbers`` each, which become ``text`` or not, of ``listed`` packings;
-    ``file`` says whether the radii are held in memory.
+    ``beads`` are those solved at once, ``region`` is that of the plan; the rows of the answer
+    become ``text`` or not.
     """
-    each = FLOAT_BEADS[dimension] if system is FLOAT64 else 3 * FLOAT_BEADS[dimension]
-    if system.dtype is object and not isinstance(system, Pairs):
+    scene, big = quantity.scene, system.dtype is object
+    each = FLOAT_BEADS[scene.packing.dimension] * (1 if system is FLOAT64 else 3)
+    if big and not isinstance(system, Pairs):
         each = BALL_BEAD * max(64 + system.bits, 128) // 128
-    row = NAMES + numbers * (FLOAT_NUMBER + TEXT * text)
+    if scene.disorder is not None and scene.disorder.file is not None:
+        each += FILE_LINE
+    row = BALL_ROW if big else NAMES + quantity.numbers * (FLOAT_NUMBER + TEXT * text)
+    listed = 0 if quantity.merged or realisations == 1 else realisations
     return (
-        beads * (each + (FILE_LINE if file else 0))
-        + rows * (BALL_ROW if system.dtype is object else row)
+        beads * each
+        + quantity.answer_rows(region, realisations) * row
         + listed * LISTED
-        + layers * (PLAN_LAYER + SOLVED_LAYER)
+        + len(region.rows) * (PLAN_LAYER + SOLVED_LAYER)
         + INTERPRETER
     )
 
