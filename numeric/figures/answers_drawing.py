@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, as_floats
-from ..lattice.branch import Branch, PerAxis, PerBranch
+from ..lattice.branch import Branch, PerBranch, per_direction
 from ..planning.plan import Plan
 from ..quantities.base import first_order_std
 from ..scene.sections import SceneError
@@ -43,7 +43,7 @@ def _theory(plan: Plan) -> PerBranch[Array] | None:
         return None
     unit = plan.scene.load.magnitude
     rows = [np.array([float(v * unit) for v in layers]) for _, layers in found]
-    return PerBranch(*rows) if len(rows) == 2 else PerAxis(*rows)
+    return per_direction(rows)
 
 
 def contact_forces(plan: Plan, columns: Columns, errors: Columns) -> Figure:

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from ..arithmetic.decimals import short
 from ..disorder.radii import ArrayRadii, MeasuredRadii, Radii
-from ..lattice.layers import bead_of
+from ..lattice.naming import Naming
 from ..mechanics.loads import LoadSpec
 from ..scene.scene import Scene
 from ..scene.sections import GivenRadii, SceneError
@@ -48,7 +48,7 @@ def check(scene: Scene, radii: Radii, load: LoadSpec) -> None:
     for site, force in load.single.items() if key == "load.magnitude" else ():
         size = max(map(abs, force))
         if size and not (least <= size <= MOST and least <= size * unit <= MOST):
-            bead = site if load.dimension == 2 else bead_of(site, scene.packing.width or 1)
+            bead = Naming(load.dimension, scene.packing.width).bead(site)
             raise SceneError(
                 "load.file" if scene.load.file else "load.pressure",
                 scene.load.file or scene.load.pressure,

@@ -155,7 +155,7 @@ class Plan:
         if not known or problem.width is None or not has_theory(problem):
             return None
         phi, std = float(1 - 2 * problem.n_x**2), float(problem.radii.relative_std())
-        if problem.dimension == 3:
+        if problem.dimension > 2:
             return expected_tension_of_spheres(problem.height, problem.width, phi, std, load.kind)
         plus, minus = map(float, problem.load.strength(problem.n_x, FLOAT64).unit)
         return expected_tension(problem.height, problem.width, phi, std, load.kind, (plus, minus))

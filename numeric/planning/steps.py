@@ -94,7 +94,7 @@ def _judging(one: list[Step], problem: Problem, method: Method) -> Step:
 
 
 def _why_region(problem: Problem) -> str:
-    if problem.dimension == 3:
+    if problem.dimension > 2:
         return f"{_WHOLE}, up to the highest load or bead asked for"
     if problem.region.beads == (problem.width or 0) * (problem.height + 1):
         return "the answer depends on every bead"
@@ -102,7 +102,7 @@ def _why_region(problem: Problem) -> str:
 
 
 def _why_forces(problem: Problem) -> str:
-    if problem.dimension == 3:
+    if problem.dimension > 2:
         return _WHOLE
     if problem.load.loaded is not None:
         return "only beads in the downward cone of the load carry force"
