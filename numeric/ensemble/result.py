@@ -48,7 +48,7 @@ class Ensemble(Estimates):
     @property
     def quantity(self) -> str:
         """What was asked, as the scene calls it."""
-        return self.measurement.quantity
+        return self.measurement.plan.quantity.name
 
     @property
     def unbuildable(self) -> int:
@@ -193,7 +193,7 @@ class Ensemble(Estimates):
                 else "float64",
             },
             "skipped": [{"effect": s.effect, "reason": s.reason} for s in m.plan.skipped],
-            "results": {m.quantity: rows_of_text(self.text, self.whole_numbers) if rows else []},
+            "results": {self.quantity: rows_of_text(self.text, self.whole_numbers) if rows else []},
             "confidence": {
                 "level": self.confidence,
                 "largest_relative_half_width": (

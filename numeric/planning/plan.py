@@ -1,15 +1,20 @@
 """What a plan is: a problem, steps, what is left out, and the ways to the answer."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from importlib.util import find_spec
 from typing import Any
 
 from ..arithmetic.carried import Pairs
 from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
-from ..disorder.radii import ArrayRadii, MeasuredRadii
-from ..mechanics.problem import Problem
+from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii
+from ..mechanics.engine import worth_compiling
+from ..mechanics.images import sees_images
+from ..mechanics.physicality import PHYSICAL
+from ..mechanics.problem import Problem, Route
+from ..mechanics.work import ESTIMATE
 from ..quantities.base import Quantity, has_theory
 from ..scene.scene import Scene
 from ..theory.critical_height import critical_height
@@ -17,6 +22,15 @@ from ..theory.expected import ExpectedTension, expected_tension, expected_tensio
 from .memory import size
 
 CERTIFY = "certify"
+# How plans call the way to the numbers.
+ALGORITHMS = {
+    Route.ORDERED: "closed form",
+    Route.LINE_SUMS: "line sums",
+    Route.FIRST_ORDER: "first-order sweep",
+    Route.EXACT: "exact sweep in deviation form",
+    Route.UNILATERAL: "beads move until no contact pulls",
+}
+_WHOLE = "spheres are always swept in whole layers"
 
 
 @dataclass(frozen=True)
@@ -125,23 +139,40 @@ class Choice:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Plan:
-    """What will be done; ``choice`` says what a tolerance led to, None without one."""
+    """What will be done.
+
+    ``why_segments``: why the packing is swept part by part, if it is. ``choice`` says what a
+    tolerance led to, None without one.
+    """
 
     scene: Scene
     quantity: Quantity
     problem: Problem
     tolerance: Fraction | None
     method: Method
-    steps: tuple[Step, ...]
     skipped: tuple[Skipped, ...]
     memory: int
-    sees_images: bool
+    why_segments: str = ""
     choice: Choice | None = None
 
     @property
     def system(self) -> NumberSystem:
         """The arithmetic of the answer."""
         return self.method.system
+
+    @cached_property
+    def sees_images(self) -> bool:
+        """Whether the answer is that of the periodic strip, and not of the slab."""
+        unilateral = self.problem.route == Route.UNILATERAL
+        return unilateral or sees_images(self.problem, self.quantity.lowest_layer)
+
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
+        """What is done for all realisations, each step with its reason."""
+        steps = steps_of(self.quantity, self.problem, self.method)
+        if not self.problem.segment:
+            return steps
+        return _repeated(steps, self.problem, self.quantity, self.why_segments)
 
     @cached_property
     def tension(self) -> ExpectedTension | None:
@@ -215,6 +246,126 @@ class Plan:
         return "\n".join([*plan_lines(self.data()), *map("Note: {}".format, self.notes)])
 
     __repr__ = __str__
+
+
+def steps_of(quantity: Quantity, problem: Problem, method: Method) -> tuple[Step, ...]:
+    """List what is done for all realisations."""
+    n, arithmetic = problem.realisations, method.system.name
+    one = _solving(quantity, problem, method)
+    steps = [replace(step, beads=step.beads * n, arithmetic=arithmetic) for step in one]
+    if problem.route != Route.ORDERED:
+        steps.append(_judging(one, problem, method))
+    return tuple(steps)
+
+
+def _solving(quantity: Quantity, problem: Problem, method: Method) -> list[Step]:
+    """List the steps of one realisation."""
+    if problem.route == Route.ORDERED:
+        return [Step("closed form", "the ordered packing is known: nothing is swept", 0)]
+    source = "draw radii" if isinstance(problem.radii, DrawnRadii) else "read radii"
+    if problem.route == Route.LINE_SUMS:
+        beads = quantity.line_beads(problem.load)
+        return [
+            Step(source, "only the beads on the diagonals that the answer depends on", beads),
+            Step("line sums", "to first order the answer is a sum down a few diagonals", beads),
+        ]
+    if problem.route == Route.UNILATERAL:
+        beads, why = problem.region.beads, "every bead may move"
+        return [
+            Step(source, why, beads),
+            Step("relax", f"{problem.protocol}: contacts that pull open, others close", beads),
+        ]
+    beads, exact = problem.region.beads, problem.route == Route.EXACT
+    steps = [Step(source, _why_region(problem), beads)]
+    if exact:
+        quick = worth_compiling(problem, method.system) and find_spec("numba") is not None
+        by = ", by compiled code" if quick else ""
+        why = f"exact positions, as deviations in line-sum coordinates{by}"
+        steps.append(Step("deposit", why, beads))
+    else:
+        steps.append(Step("line sums", "displacements to first order, layer by layer", beads))
+    if problem.needs_forces:
+        visited = problem.force_rows[1:].beads
+        steps.append(Step("balance forces", _why_forces(problem), visited))
+    if exact:
+        steps.append(Step(PHYSICAL, "gaps, overlaps and signs, always", beads))
+    return steps
+
+
+def _judging(one: list[Step], problem: Problem, method: Method) -> Step:
+    """Give the last step, which says how accurate the answer is."""
+    if problem.route == Route.UNILATERAL:
+        why = "Kantorovich's theorem in balls: beads touch exactly, forces and gaps are positive"
+        return Step(CERTIFY, why, 0, method.system.name)
+    if method.longer is None:
+        why = "balls enclose the answer; bits are added, and all is done again, until it fits"
+        return Step(CERTIFY, why, 0, method.system.name)
+    if method.carries and method.repeated == problem.realisations:
+        why = "the sweep carried the rounding error of every number along"
+        return Step(ESTIMATE, why, 0, method.system.name)
+    passes = 1 if method.repeated == problem.realisations else 2
+    visits = sum(step.beads for step in one if step.step != PHYSICAL)
+    longer = method.longer.name
+    again = "their rounding errors carried along" if method.carries else "a longer significand"
+    return Step(
+        ESTIMATE,
+        f"the first realisations again with {again}",
+        passes * method.repeated * visits,
+        longer
+        if passes == 1
+        else method.system.name
+        if method.carries
+        else f"{method.system.name}, then {longer}",
+    )
+
+
+def _why_region(problem: Problem) -> str:
+    if problem.dimension > 2:
+        return f"{_WHOLE}, up to the highest load or bead asked for"
+    if problem.region.beads == (problem.width or 0) * (problem.height + 1):
+        return "the answer depends on every bead"
+    return "only the beads that the answer depends on: the triangles below what is asked"
+
+
+def _why_forces(problem: Problem) -> str:
+    if problem.dimension > 2:
+        return _WHOLE
+    if problem.load.loaded is not None:
+        return "only beads in the downward cone of the load carry force"
+    if problem.contact is not None:
+        return "only beads above the contact decide its force"
+    return "every bead passes its load on"
+
+
+def _repeated(
+    found: tuple[Step, ...], problem: Problem, quantity: Quantity, because: str
+) -> tuple[Step, ...]:
+    """Say what a sweep by segments does twice, and why."""
+    k, all_layers = problem.segment, problem.region.top + 1
+    counts = quantity.name == "histogram"
+    down = 1 + (problem.every > 1)
+    times = 1 + down * (1 + counts)
+    often = {2: "twice", 3: "three times", 5: "five times"}[times]
+    again = "again" if down == 1 else f"twice again, {problem.every} segments at a time,"
+    why = (
+        f"{often}, {k} of {all_layers} layers at a time, because {because}: on the way up every "
+        f"{k * problem.every}-th layer is kept, and those between are deposited {again} on the "
+        f"way down{', and once more to count' if counts else ''}"
+    )
+    drawn = f"{often}, on the way up and down"
+    why_again = {
+        "draw radii": (drawn, times),
+        "read radii": (drawn, times),
+        "deposit": (why, times),
+    }
+    if counts:
+        two = "twice: the bins lie between the smallest and the largest change"
+        why_again["balance forces"] = two, 2
+    changed = []
+    for step in found:
+        reason, passes = why_again.get(step.step, (step.reason, 1))
+        changed.append(replace(step, reason=reason, beads=passes * step.beads))
+    return tuple(changed)
 
 
 def plan_lines(data: dict[str, Any]) -> list[str]:

@@ -16,18 +16,16 @@ from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..disorder.radii import Monodisperse, Radii
 from ..lattice.layers import Region, Rows
 from ..mechanics.engine import chunk_size, worth_compiling
-from ..mechanics.images import sees_images
 from ..mechanics.problem import Problem, Route
 from ..quantities import quantity_of
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
-from . import float_range, segments
+from . import segments
 from .memory import COMPILED, PLAN_LAYER, TooLargeError, memory, refuse_memory, size
 from .methods import TOUCHING, choose, initial_bits, usual_method
-from .plan import Method, Plan, Skipped
-from .sources import load_of, radii_of
-from .steps import ALGORITHMS, steps_of
+from .plan import ALGORITHMS, Method, Plan, Skipped, steps_of
+from .sources import load_of, radii_of, refuse_beyond_floats
 
 
 def plan(
@@ -111,30 +109,27 @@ class _Asked:
         quantity, problem = self.quantity, self.problem
         scene = quantity.scene
         if method.carries or method.system.dtype is not object:
-            float_range.check(scene, problem.radii, problem.load)
-        images = problem.route == Route.UNILATERAL or sees_images(problem, quantity.lowest_layer)
-        steps = steps_of(quantity, problem, method)
-        needed = self._memory(method, max((step.beads for step in steps), default=0))
-        cut = None
+            refuse_beyond_floats(scene, problem.radii, problem.load)
+        needed, cut, because = self._memory(method), None, ""
         if needed > self.limit or problem.region.beads > segments.QUICKER:
             cut = segments.cut(problem, method, scene, self.tolerance, self.limit)
         if cut is not None:
-            steps = segments.steps(steps, cut, quantity, needed, self.limit)
+            because = segments.why(needed, self.limit)
             needed = segments.memory(cut, quantity, text=self.text)
             problem = cut
         refuse_memory(scene, needed, self.limit)
-        return Plan(
-            scene, quantity, problem, self.tolerance, method, steps, self.skipped, needed, images
-        )
+        return Plan(scene, quantity, problem, self.tolerance, method, self.skipped, needed, because)
 
-    def _memory(self, method: Method, visited: int) -> int:
-        """Give the memory needed, where the longest step has ``visited`` beads."""
+    def _memory(self, method: Method) -> int:
+        """Give the memory needed, of a whole packing."""
         problem, quantity = self.problem, self.quantity
         n, region = problem.realisations, problem.region
         together = min(n, chunk_size(problem, method.system))
         at_once = region.beads * together
-        if problem.dimension == 2 and problem.route in {Route.ORDERED, Route.LINE_SUMS}:
-            at_once = visited // n  # one realisation after the other
+        if problem.route == Route.LINE_SUMS:  # one realisation after the other
+            at_once = max(step.beads for step in steps_of(quantity, problem, method)) // n
+        elif problem.route == Route.ORDERED and problem.dimension == 2:
+            at_once = 0
         at_once += quantity.gathered(region, together)
         longest = method.system
         if not method.carries and method.longer is not None:  # else that is only gathered in

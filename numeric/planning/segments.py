@@ -12,7 +12,7 @@ from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
 from .memory import COMPILED, INTERPRETER, NAMES, PLAN_LAYER, TEXT, size
-from .plan import Method, Step
+from .plan import Method
 
 # Bytes of a number of the answer.
 _NUMBER = 20
@@ -100,33 +100,8 @@ def memory(problem: Problem, quantity: Quantity, *, text: bool) -> int:
     )
 
 
-def steps(
-    found: tuple[Step, ...], problem: Problem, quantity: Quantity, needed: int, limit: int
-) -> tuple[Step, ...]:
-    """Say in the steps of a plan what is done twice, and why."""
-    k, all_layers = problem.segment, problem.region.top + 1
-    sizes = f"{size(needed)} of memory would be needed and {size(limit)} may be used"
+def why(needed: int, limit: int) -> str:
+    """Say why a packing of so many bytes is swept by segments."""
     if needed <= limit:
-        sizes = f"{size(needed)} of memory that was not used before take longer"
-    counts = quantity.name == "histogram"
-    last = ", and once more to count" if counts else ""
-    down = 1 + (problem.every > 1)
-    times = 1 + down * (1 + counts)
-    often = {2: "twice", 3: "three times", 5: "five times"}[times]
-    again = "again" if down == 1 else f"twice again, {problem.every} segments at a time,"
-    why = (
-        f"{often}, {k} of {all_layers} layers at a time, because {sizes}: on the way up every "
-        f"{k * problem.every}-th layer is kept, and those between are deposited {again} on the "
-        f"way down{last}"
-    )
-    changed = []
-    for step in found:
-        if step.step in {"draw radii", "read radii", "deposit"}:
-            reason = why if step.step == "deposit" else f"{often}, on the way up and down"
-            changed.append(replace(step, reason=reason, beads=times * step.beads))
-        elif step.step == "balance forces" and counts:
-            reason = "twice: the bins lie between the smallest and the largest change"
-            changed.append(replace(step, reason=reason, beads=2 * step.beads))
-        else:
-            changed.append(step)
-    return tuple(changed)
+        return f"{size(needed)} of memory that was not used before take longer"
+    return f"{size(needed)} of memory would be needed and {size(limit)} may be used"
