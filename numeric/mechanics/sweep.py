@@ -22,6 +22,7 @@ from ..arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem, zeros
 from ..disorder.radii import RadiusError
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
 from ..lattice.layers import Layer, Region, Rows, bead_of
+from . import defects
 from .local import balance, metric, nested, rest
 from .work import Work
 
@@ -167,7 +168,10 @@ def deposit(
         looks = [region.look(layers[j - 1], layer, one) for one in down]
         under = [tuple([_moved(look, v) for v in c[-1]]) for look in looks]
         radii = tuple([_moved(look, rho[j - 1]) for look in looks])
-        found = rest(under, rho[j], radii, m, system.sqrt, linear=linear)
+        if system is CARRYING and not linear:
+            found = defects.rest(under, rho[j], radii, m)
+        else:
+            found = rest(under, rho[j], radii, m, system.sqrt, linear=linear)
         _check_rest(found.holds, layer, region, system, partial(nested, under, radii, m))
         c.append(found.c)
         dn.append(found.dn)
@@ -225,7 +229,7 @@ def sweep_down(
         for a in range(d):
             if j == top:
                 none = zeros(system, layer.count)
-                above.append((none, none, (none,) * d, none))
+                above.append((none, none, (none,) * d, np.zeros(layer.count)))
                 continue
             own = region.look(layers[j + 1], layer, up[a], zero)
             packed = region.look(deposited[j + 1], layer, up[a], zero)
@@ -243,7 +247,10 @@ def sweep_down(
         )
         here = partial(region.here, source=deposited[j], layer=layer)
         below = [tuple([_moved(here, x) for x in dn[a][j]]) for a in range(d)]
-        found = balance(above, F, below, linear=linear, compensated=compensated)
+        if system is CARRYING and not linear:
+            found = defects.balance(above, F, below)
+        else:
+            found = balance(above, F, below, linear=linear, compensated=compensated)
         if not linear:
             check_standing(found.det, layer, region, system)
         if work is not None:

@@ -119,7 +119,7 @@ def test_every_bit_is_that_of_the_same_source_on_numpy(
             continue  # Dekker's product has parts that are too small for a float
         own = slice(number * part, (number + 1) * part)
         most = deposition.most[:, own]
-        told = kernels.told(phi, region, rho[:, number], block[:, own], most)
+        told = kernels.told(phi, region, rho[:, number : number + 1], block[:, own], most)
         above = np.arange(part)[None, :, None] >= d  # of the base δn are no numbers
         there = np.arange(region.beads) >= above * region.rows[0].count
         sizes = np.where(there, np.abs(block[:, own, : region.beads]), 0)
@@ -161,7 +161,7 @@ def test_gaps_are_those_of_numpy(phi: Fraction, case: tuple[Region, Rows], seed:
     block = deposition(rho)
     assume(block is not None)
     assert block is not None
-    compiled = kernels.told(phi, region, rho[:, 0], block, deposition.most)
+    compiled = kernels.told(phi, region, rho[:, :1], block, deposition.most)
     usual = outcome(sweep.deposit, phi, region, rows_in(region, rho, carried=False), FLOAT64)
     layers = range(region.top + 1)
     a, b = gaps.gaps(compiled, layers), gaps.gaps(usual, layers)
@@ -331,7 +331,10 @@ def test_several_beads_are_taken_at_a_time(dimension: int, carried: bool) -> Non
     """LLVM stops doing so without a word where it has to compare too many addresses."""
     scope = vars(sys.modules[kernels.kernels(dimension, carried=carried).deposit.__module__])
     values, run = numba.float64[:, ::1], numba.int64[::1]
-    for name, arrays, packed in (("rest", 2, "sqrtpd"), ("balance", 4, "divpd")):
+    loops = [("rest", 2, "sqrtpd"), ("balance", 4, "divpd")]
+    if carried:
+        loops += [("rest_errors", 2, "divpd"), ("balance_errors", 3, "divpd")]
+    for name, arrays, packed in loops:
         made = numba.njit(error_model="numpy")(scope[name].py_func)
         made.compile((values,) * arrays + (run, numba.float64[::1]))
         (assembly,) = made.inspect_asm().values()
