@@ -12,6 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
+from mpl_toolkits.mplot3d import Axes3D
+from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 from . import specification as spec
 from . import style
@@ -57,9 +59,18 @@ def draw(picture: spec.Picture) -> Figure:
 def _draw(axes: Axes, panel: spec.Panel) -> list[Artist]:
     """Draw a panel; give the keys of its legend."""
     keys = [key for element in panel.elements for key in _PUT[type(element)](axes, element)]
+    if isinstance(axes, Axes3D):
+        axes.set_proj_type("ortho")
+        axes.view_init(elev=22, azim=-90)
     if panel.scaled:
-        axes.set_aspect("equal", anchor="N" if panel.bare else "C")
+        axes.set_aspect("equal")
+        if isinstance(axes, Axes3D):
+            sides = [
+                high - low for low, high in (axes.get_xlim(), axes.get_ylim(), axes.get_zlim())
+            ]
+            axes.set_box_aspect(sides, zoom=1.45)
     if panel.bare:
+        axes.set_anchor("N")
         axes.axis("off")
     for letter, axis in (("x", panel.x), ("y", panel.y)):
         _scale(axes, letter, axis)
@@ -91,7 +102,7 @@ def _scale(axes: Axes, letter: str, axis: spec.Axis) -> None:
         part.set_major_formatter(ScalarFormatter())
         part.set_minor_formatter(NullFormatter())
     if axis.ticks is not None:
-        part.set_ticks(axis.ticks, [f"{tick:g}" for tick in axis.ticks])
+        part.set_ticks(axis.ticks, [f"{tick:g}".replace("-", "−") for tick in axis.ticks])
         axes.minorticks_off()
 
 
@@ -103,7 +114,8 @@ def _line(axes: Axes, one: spec.Line) -> Iterable[Artist]:
     colour = _colour(one.colour)
     alone: Any = {"marker": "_", "ms": 6, "mew": 0.9} if len(one.x) == 1 else {}
     drawn = axes.plot(
-        one.x, one.y, color=colour, ls=one.dashes, lw=one.width, label=one.name or None, **alone
+        one.x, one.y, *one.z, color=colour, ls=one.dashes, lw=one.width, label=one.name or None,
+        **alone,
     )  # fmt: skip
     return drawn if one.name else ()
 
@@ -151,6 +163,11 @@ def _arrow(axes: Axes, one: spec.Arrow) -> Iterable[Artist]:
         "arrowstyle": one.style, "color": _colour(one.colour), "lw": one.width,
         "mutation_scale": one.size, "shrinkA": 0, "shrinkB": 0,
     }  # fmt: skip
+    if isinstance(axes, Axes3D):
+        along = np.subtract(one.tip, one.tail)
+        axes.quiver(*one.tail, *along, color=_colour(one.colour), lw=one.width)
+        axes.text(*one.tail, one.words, ha="center", va="bottom", fontsize=7.5)
+        return ()
     axes.annotate(
         one.words, one.tip, one.tail, ha="center", va="bottom", fontsize=7.5, arrowprops=look,
         zorder=7,
@@ -159,6 +176,15 @@ def _arrow(axes: Axes, one: spec.Arrow) -> Iterable[Artist]:
 
 
 def _beads(axes: Axes, one: spec.Beads) -> Iterable[Artist]:
+    if isinstance(axes, Axes3D):
+        shades = "white" if one.shades is None else one.shades
+        beads: Any = axes.scatter(
+            *one.centres.T, c=shades, s=one.size**2, cmap="Greys", vmin=0, vmax=1.15 * one.most,
+            ec=one.edge, lw=one.width, depthshade=False,
+        )  # fmt: skip
+        if one.bar:
+            _bar(axes, beads, one)
+        return ()
     radii = np.broadcast_to(one.radii, len(one.centres))
     circles = [
         Circle((x, y), radius) for (x, y), radius in zip(one.centres, radii, strict=True)
@@ -189,7 +215,8 @@ def _chains(axes: Axes, one: spec.Chains) -> Iterable[Artist]:
     widths = one.thickness(one.forces)
     for pulls, colour, order in ((False, PRESSING, 1), (True, PULLING, 2)):
         own = (one.forces < 0) == pulls
-        lines = LineCollection(
+        kind = Line3DCollection if isinstance(axes, Axes3D) else LineCollection
+        lines = kind(
             list(one.ends[own]), linewidths=widths[own].tolist(), colors=colour,
             capstyle="round", zorder=order,
         )  # fmt: skip

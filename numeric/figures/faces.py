@@ -15,6 +15,7 @@ from ..arithmetic.systems import Array
 from ..lattice.branch import PerAxis
 from ..mechanics.problem import Solved
 from ..scene.sections import PointLoad
+from .elements import across_cone, base_vectors, point_load_in_space
 from .packings import (
     PAPER_STD,
     PHI,
@@ -25,7 +26,7 @@ from .packings import (
     of_ensembles,
     planned,
 )
-from .specification import Axis, Comparison, Figure, Line, Panel, Picture, Points
+from .specification import Axis, Beads, Comparison, Figure, Line, Panel, Picture, Points
 
 APEX, LAYER = 10, 4
 ROWS = (0, 1, 2)
@@ -38,6 +39,7 @@ def places(row: int) -> list[tuple[int, int, int]]:
     return [(left - q, q, row) for q in range(1, left)]
 
 
+SCATTER = r"$\sigma(p)/f^{\mathrm{load}}$ over $\sigma_{\delta r}/r$"
 BEADS = [bead for row in ROWS for bead in places(row)]
 FACE = len(places(0))
 
@@ -46,6 +48,31 @@ def theory() -> Array:
     """σ(p)/f_load over σ/r along the face (Eq. B19); shape (l − j − 1,)."""
     form = closed_forms.spheres_response
     return np.sqrt([float(form(steps, APEX, float(PHI), 1.0, 1.0)) for steps in places(0)])
+
+
+def cone() -> Panel:
+    """σ(p) over σ/r by Eq. B19 on legs and faces, in space; the face behind is left out."""
+    steps = [
+        (a, b, layers - a - b)
+        for layers in range(1, APEX + 1)
+        for a in range(layers + 1)
+        for b in range(layers - a + 1)
+        if 0 in (a, layers - a - b)
+    ]
+    form = closed_forms.spheres_response
+    shades = np.sqrt([float(form(own, APEX, float(PHI), 1.0, 1.0)) for own in steps])
+    centres = -2 * np.array(steps) @ base_vectors(float(PHI))
+    beads = Beads(
+        centres, shades=shades, bar=SCATTER, side="left", most=float(shades.max()), size=5.5
+    )
+    layer = across_cone(float(PHI), APEX - LAYER, 0, f"layer $j={LAYER}$, of (b)")
+    return Panel(
+        [beads, layer, *point_load_in_space(float(PHI), APEX)],
+        legend="lower right",
+        scaled=True,
+        bare=True,
+        spatial=True,
+    )
 
 
 def vertical(change: PerAxis[Any], ordered: float, steps: tuple[int, int, int]) -> Array:
@@ -105,12 +132,12 @@ def figure(o: Options) -> Figure:
             ),
         ],
         Axis("place along the row", ticks=q[:FACE].tolist()),
-        Axis(r"$\sigma(p)/f^{\mathrm{load}}$ over $\sigma_{\delta r}/r$", log=True),
+        Axis(SCATTER, log=True),
         legend="center right",
     )  # fmt: skip
     rest = len(inside)
     return Figure(
-        Picture([panel], 2.6),
+        Picture([cone(), panel], 2.7, page=True),
         tables={
             "figureB19": {
                 "row": row,

@@ -39,7 +39,10 @@ RELATIVE_HEIGHT = Axis("relative height $z=j/M$", 0, 1)
 
 @dataclass(frozen=True)
 class Line:
-    """A curve through (x, y); of a single point, a dash."""
+    """A curve through (x, y), in space through (x, y, z); of a single point, a dash.
+
+    ``z`` is empty, or one array in a list.
+    """
 
     x: Any = ()
     y: Any = ()
@@ -47,6 +50,7 @@ class Line:
     dashes: Any = "-"
     name: str = ""
     width: float = 0.9
+    z: Any = ()
 
 
 @dataclass(frozen=True)
@@ -103,8 +107,8 @@ class Words:
 class Arrow:
     """An arrow from ``tail`` to ``tip``, with words at its tail."""
 
-    tail: tuple[float, float]
-    tip: tuple[float, float]
+    tail: Any
+    tip: Any
     words: str = ""
     colour: Colour = "black"
     style: str = "-|>"
@@ -118,6 +122,7 @@ class Beads:
 
     Negative shades are vermillion. With ``bar``, the name of the shades, there is a bar of greys up
     to ``most``, on a side of the panel. Without shades they are filled with ``face``.
+    In space they are so many points in ``size``, and white without shades.
     """
 
     centres: Array
@@ -130,6 +135,7 @@ class Beads:
     edge: str = "0.75"
     width: float = 0.25
     above: bool = False
+    size: float = 5.0
 
 
 @dataclass(frozen=True)
