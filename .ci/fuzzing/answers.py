@@ -70,7 +70,7 @@ def of_balls(random: Random, folder: Path) -> Judged:
 
 def of_radii(random: Random, folder: Path) -> Judged:
     """Solve an array of a Python user's, odd or not."""
-    usual = [(4, 6), (3, 9), (2, 2), (2, 3, 5), (3, 4, 4), (2, 3, 3, 3)]
+    usual = [(4, 6), (3, 9), (2, 2), (2, 3, 5), (3, 4, 4), (2, 3, 3, 3), (2, 2, 2, 2)]
     shape = random.choice([*usual * 3, (6, 4), (5, 1), (1, 5), (4,), ()])
     scatter = random.choice([1e-3, 1e-3, 0.02, 0.1, 1e-12, 0])
     values = 1 + scatter * np.random.default_rng(random.randrange(10**6)).uniform(-1, 1, shape)
@@ -123,7 +123,7 @@ def differs(rough: fd.Outcome, sharp: fd.Outcome) -> str:
     wide = [max((midpoint(x.rad()) for x in column), default=0) for column in _balls(sharp, names)]
     if [len(one) for one in mine] != [len(one) for one in true]:
         return f"{[len(one) for one in mine]} rows, in balls {[len(one) for one in true]}"
-    largest = max((abs(x) for column in true for x in column), default=Fraction(0))
+    largest = max((abs(x) for column in mine for x in column), default=Fraction(0))
     error = Fraction(stated) * largest * SLACK + largest / 10**24
     if "relative to σ/r" in rough.accuracy.note:  # as every change is zero
         scene = rough.plan.scene

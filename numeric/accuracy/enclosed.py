@@ -12,7 +12,7 @@ from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import MOST_BITS, Balls, midpoint
 from ..mechanics.sweep import NotStandingError
 from ..mechanics.work import Work
-from ..planning.expected_error import initial_bits
+from ..planning.methods import initial_bits
 from ..planning.plan import CERTIFY, Plan
 from ..quantities.answer import Answer, answer
 from ..quantities.base import Table

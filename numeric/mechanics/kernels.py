@@ -287,7 +287,9 @@ def turns_of(region: Region, steps: tuple[int, ...]) -> Array:
     """Say for each row of a layer in which one the beads lie that are so many steps on."""
     if region.dimension == 2:
         return np.zeros(1, np.int64)
-    return (np.arange(region.side) + steps[0]) % region.side
+    side, others = region.side, region.dimension - 2
+    rows = np.arange(side**others).reshape((side,) * others)
+    return np.roll(rows, tuple(-step for step in steps[:others]), range(others)).ravel()
 
 
 def links_of(
@@ -306,7 +308,7 @@ def links_of(
         shift = (rows.firsts + steps[0] - steps[1] - sources.firsts[on]) // 2
         numbers = starts[on], sources.counts[on], shift, region.width or 0
     else:
-        numbers = starts[on], region.side, steps[1], region.side
+        numbers = starts[on], region.side, steps[-2], region.side
     return np.stack(np.broadcast_arrays(*numbers), 1) * there[:, None]
 
 

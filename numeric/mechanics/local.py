@@ -49,10 +49,29 @@ def cosine(n_x: Fraction) -> Fraction:
     return 1 - 2 * n_x**2
 
 
+def vertical_square(dimension: int, n_x: Fraction) -> Fraction:
+    """Give the square of the vertical component of the base vectors: n_y², or n_z² of three."""
+    return 1 - Fraction(2 * (dimension - 1), dimension) * n_x**2
+
+
 def metric(dimension: int, phi: Fraction, scalar: Callable[[Fraction], Any]) -> Metric:
     """Round what φ decides, each number once."""
     cross = -phi / ((1 - phi) * (1 + (dimension - 1) * phi))
     return Metric(scalar(phi), scalar(1 / (1 - phi)), scalar(cross))
+
+
+def level(dimension: int) -> tuple[tuple[int, ...], ...]:
+    """Give d − 1 level vectors as whole numbers of n^1 … n^d: n^1 − n^d, 2 n^2 − n^1 − n^d, ….
+
+    They are perpendicular; the square of number k = 1 … d − 1 is k (k + 1) (1 − φ).
+
+    >>> level(2), level(4)
+    (((1, -1),), ((1, 0, 0, -1), (-1, 2, 0, -1), (-1, -1, 3, -1)))
+    """
+    rows = [(1, *(0,) * (dimension - 2), -1)]
+    for k in range(2, dimension):
+        rows.append((*(-1,) * (k - 1), k, *(0,) * (dimension - k - 1), -1))
+    return tuple(rows)
 
 
 def total(values: Iterable[Any]) -> Any:

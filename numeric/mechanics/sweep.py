@@ -42,7 +42,7 @@ class NotStandingError(ForceDiffusionError, ValueError):
     def __init__(self, site: tuple[int, ...]) -> None:
         """Name the bead."""
         why = "the two contacts below it are parallel"
-        if len(site) == 3:
+        if len(site) > 2:
             why = "the contacts below it lie in one plane"
         super().__init__(f"bead {site}: {why}")
         self.site = site
@@ -57,7 +57,7 @@ def radii_named(region: Region) -> Iterator[None]:
         if region.dimension == 2:
             raise
         i, j = error.site
-        raise RadiusError(bead_of((i, j), region.side), error.reason) from None
+        raise RadiusError(bead_of((i, j), region.side, region.dimension), error.reason) from None
 
 
 @dataclass(frozen=True)
@@ -363,11 +363,10 @@ NESTED = (
     "its supports are too close to hold it up, and one is much larger than the other; less "
     "disorder or a larger spacing would help"
 )
-STEEP = {
-    2: f"the line through its supports is steeper than n⁺ or n⁻{REMEDY}",
-    3: "the plane through its supports is steeper than a base vector, or they lie crosswise"
-    + REMEDY,
-}
+STEEP = f"the line through its supports is steeper than n⁺ or n⁻{REMEDY}"
+STEEP_PLANE = (
+    f"the plane through its supports is steeper than a base vector, or they lie crosswise{REMEDY}"
+)
 
 
 def _check_rest(
@@ -385,7 +384,7 @@ def _check_rest(
     for number, values in enumerate(holds):
         good, bad = system.signs(values)
         if bad.any():
-            why, first = STEEP[region.dimension], tuple(np.argwhere(bad)[0])
+            why, first = STEEP if region.dimension == 2 else STEEP_PLANE, tuple(np.argwhere(bad)[0])
             if not number:
                 why = NESTED if any(system.signs(one)[0][first] for one in close()) else APART
             raise UnbuildableError(_site(bad, layer, region), why)

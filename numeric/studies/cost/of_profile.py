@@ -31,15 +31,8 @@ from ...quantities.base import Table
 from ...scene.scene import Scene
 from .reference import decimal, exactly
 from .result import CostStudy
-from .rows import (
-    Notice,
-    Reference,
-    Way,
-    marked,
-    measured,
-    row,
-)
-from .ways import answer, systems, with_geometry
+from .rows import Reference, Way, marked
+from .ways import Notice, answer, measured, systems, with_geometry
 
 # Realisations that the correction and the scatter are estimated from: at least, at most.
 LEAST, MOST = 8, 64
@@ -57,21 +50,22 @@ def study_ensemble(scene: Scene, notice: Notice) -> CostStudy:
         model = reference.off(meant, reference.best)
         for system in systems():
             notice(f"{way}, {system.name}")
-            found, seconds, peak = measured(partial(formula, linear, printed, system))
+            found, costs = measured(partial(formula, linear, printed, system), system)
             error, rounding = reference.off(found, reference.best), reference.off(found, meant)
-            rows.append(row(way, system.name, seconds, peak, error, (model, rounding, None)))
+            rows.append(Way(way, system.name, None, error, model, rounding, None, None, **costs))
     for name in reference.plans if scene.effects.geometry == "exact" else ["first-order"]:
         rounding = reference.rounding(name)
-        model = reference.off(reference.mean[name], reference.best)
+        mean = reference.mean[name]
+        model = reference.off(mean, reference.best)
         for n in sizes(scene.ask.realisations):
             way = f"Monte Carlo, {name}"
             notice(f"{way}, {n} realisations")
             plan = reference.plans[name]
-            table, seconds, peak = measured(partial(answer, plan, FLOAT64, range(n)))
+            table, costs = measured(partial(answer, plan, FLOAT64, range(n)), FLOAT64)
             std = _both_branches(table, "std")
-            parts = (model, rounding, reference.off(std, reference.mean[name]))
-            error = reference.off(std, reference.best)
-            rows.append(row(way, FLOAT64.name, seconds, peak, error, parts, None, n))
+            error, sampling = reference.off(std, reference.best), reference.off(std, mean)
+            parts = model, rounding, sampling
+            rows.append(Way(way, FLOAT64.name, n, error, *parts, None, **costs))
     skipped = tuple(_skipped(scene))
     return CostStudy("profile", reference.reference, marked(rows), skipped, reference.floor)
 

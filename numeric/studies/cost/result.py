@@ -1,4 +1,4 @@
-"""The result of a study of cost: rows, arrays, plain data, and the table for a terminal."""
+"""The result of a study of cost: a row a way, arrays, plain data, the table for a terminal."""
 
 from dataclasses import asdict, dataclass
 from decimal import ROUND_CEILING, Context, Decimal

@@ -18,30 +18,89 @@ if TYPE_CHECKING:
 
 Measured = Comparison | Enclosed | ClosedFormRow
 FLOATS, ENCLOSURES, CLOSED_FORMS = "rows", "enclosures", "closed_forms"
-FILES = {
-    FLOATS: "stability.csv",
-    ENCLOSURES: "stability_balls.csv",
-    CLOSED_FORMS: "closed_forms.csv",
-}
 
-HEADS = {
-    FLOATS: (
+
+def _number(value: float | None, spec: str = "7.1e") -> str:
+    width = int(spec.split(".", maxsplit=1)[0])
+    return f"{'--':>{width}}" if value is None else f"{value:{spec}}"
+
+
+def _float_line(row: tables.Row) -> str:
+    own, plain = row["seconds"], row["plain_seconds"]
+    ratio = own / plain if own and plain else None
+    return (
+        f"{row['group']:<10}{row['height']:5}{row['width']:5}  {row['relative_std']:8.1e}  "
+        f"{row['spacing']:<15} {_number(row['error'])} {_number(own, '8.1e')}s  "
+        f"{_number(row['plain_error'], '8.1e')} {_number(plain, '8.1e')}s {_number(ratio, '5.1f')} "
+        f"{_number(row['ball_bits_lost'], '7.1f')} of {row['ball_bits']:<4} "
+        f"{_number(row['ball_seconds'], '8.1e')}s  {row['tensile']!s:>6} {row['overlaps']!s:>8}"
+        f"  {row['note']}"
+    ).rstrip()
+
+
+def _ball_line(row: tables.Row) -> str:
+    lost = row["bits_lost"]
+    each = None if lost is None else lost / row["height"]
+    return (
+        f"{row['form']:<10}{row['height']:6}{row['width']:5}  {row['relative_std']:8.1e}  "
+        f"{row['critical_height']:8.4g}  {_number(lost, '9.1f')}  {_number(each, '9.3f')}  "
+        f"{row['bits'] or '--':>7}  {_number(row['error'], '15.1e')}  "
+        f"{_number(row['seconds'], '8.1e')}s  {row['note']}"
+    ).rstrip()
+
+
+def _worst_lines(rows: list[tables.Row]) -> Iterator[str]:
+    for height, form in sorted({(row["height"], row["form"]) for row in rows}):
+        here = [row for row in rows if (row["height"], row["form"]) == (height, form)]
+        worst = max(here, key=lambda row: float(row["relative_error"]))
+        yield f"{form:<18} M = {height:<11} {worst['relative_error']:.1e} at j = {worst['j']}"
+
+
+@dataclass(frozen=True)
+class _Table:
+    """A table: its file, its head, what measures its rows, and a row as a line of text.
+
+    Without a ``line`` the worst rows are told, once all are known.
+    """
+
+    file: str
+    head: str
+    measured: Callable[[], Iterator[Measured]]
+    line: Callable[[tables.Row], str] | None
+
+    def lines(self, rows: list[tables.Row]) -> list[str]:
+        """Give all lines of text, but for the head."""
+        return list(_worst_lines(rows) if self.line is None else map(self.line, rows))
+
+
+TABLES = {
+    FLOATS: _Table(
+        "stability.csv",
         "Both forms in float64, and balls; errors of change relative to the largest, against an "
         "enclosure\nof all contact forces; ratio: seconds of the deviation form / of the plain "
         "form.\n"
         "group       M    W   sigma/r  s/r             deviation form       plain form         "
-        "ratio   balls: lost bits, time  pulling overlaps"
+        "ratio   balls: lost bits, time  pulling overlaps",
+        lambda: map(measure, cases()),
+        _float_line,
     ),
-    ENCLOSURES: (
+    ENCLOSURES: _Table(
+        "stability_balls.csv",
         f"Balls in positions and in line-sum coordinates, at the precision that leaves {DIGITS} "
         "digits.\n"
         "balls in      M    W   sigma/r        M*  lost bits  per layer  of bits  certified error"
-        "   seconds"
+        "   seconds",
+        lambda: map(enclose, strips()),
+        _ball_line,
     ),
-    CLOSED_FORMS: (
-        "Closed forms of Eqs. 13 and 14 in float64, against exact rationals: largest errors."
+    CLOSED_FORMS: _Table(
+        "closed_forms.csv",
+        "Closed forms of Eqs. 13 and 14 in float64, against exact rationals: largest errors.",
+        closed_form_rows,
+        None,
     ),
 }
+FILES = {name: table.file for name, table in TABLES.items()}
 
 
 @dataclass(frozen=True)
@@ -86,14 +145,14 @@ class StabilityStudy:
     def __str__(self) -> str:
         """Give the tables."""
         return "\n\n".join(
-            "\n".join([HEADS[table], *_table_lines(table, self.rows(table))])
-            for table in self.measured
+            "\n".join([TABLES[name].head, *TABLES[name].lines(self.rows(name))])
+            for name in self.measured
         )
 
     def _repr_html_(self) -> str:
         """Show the tables in a notebook."""
         return "".join(
-            tables.html_table(self.rows(table), HEADS[table].splitlines()[:1])
+            tables.html_table(self.rows(table), TABLES[table].head.splitlines()[:1])
             for table in self.measured
         )
 
@@ -119,75 +178,22 @@ def stability(
         if name not in FILES:
             raise ForceDiffusionError(f'there is no table "{name}"; there are {", ".join(FILES)}')
     found: dict[str, tuple[Measured, ...]] = {}
-    for name in FILES:
+    for name, table in TABLES.items():
         if name not in only:
             continue
-        notice(("\n" if found else "") + HEADS[name])
+        notice(("\n" if found else "") + table.head)
         rows = []
-        for row in _measured(name):
+        for row in table.measured():
             rows.append(row)
-            if name != CLOSED_FORMS:
-                notice(_line(name, asdict(row)))
-        if name == CLOSED_FORMS:  # of which the worst are told, once all are known
-            for line in _closed_form_lines([asdict(row) for row in rows]):
-                notice(line)
+            if table.line is not None:
+                notice(table.line(asdict(row)))
         found[name] = tuple(rows)
+        for line in table.lines([asdict(row) for row in rows]) if table.line is None else ():
+            notice(line)
     return StabilityStudy(found)
-
-
-def _measured(name: str) -> Iterator[Measured]:
-    if name == FLOATS:
-        return map(measure, cases())
-    return map(enclose, strips()) if name == ENCLOSURES else closed_form_rows()
 
 
 def csv_rows(data: dict[str, Any], command: str) -> dict[str, list[dict[str, Any]]]:
     """Give the rows of each CSV file; each ends with the command behind it."""
     own = {"command": command}
     return {file: [row | own for row in data[name]] for name, file in FILES.items()}
-
-
-def _table_lines(name: str, rows: list[tables.Row]) -> list[str]:
-    if name == CLOSED_FORMS:
-        return list(_closed_form_lines(rows))
-    return [_line(name, row) for row in rows]
-
-
-def _line(name: str, row: dict[str, Any]) -> str:
-    return _float_line(row) if name == FLOATS else _ball_line(row)
-
-
-def _number(value: float | None, spec: str = "7.1e") -> str:
-    width = int(spec.split(".", maxsplit=1)[0])
-    return f"{'--':>{width}}" if value is None else f"{value:{spec}}"
-
-
-def _float_line(row: dict[str, Any]) -> str:
-    own, plain = row["seconds"], row["plain_seconds"]
-    ratio = own / plain if own and plain else None
-    return (
-        f"{row['group']:<10}{row['height']:5}{row['width']:5}  {row['relative_std']:8.1e}  "
-        f"{row['spacing']:<15} {_number(row['error'])} {_number(own, '8.1e')}s  "
-        f"{_number(row['plain_error'], '8.1e')} {_number(plain, '8.1e')}s {_number(ratio, '5.1f')} "
-        f"{_number(row['ball_bits_lost'], '7.1f')} of {row['ball_bits']:<4} "
-        f"{_number(row['ball_seconds'], '8.1e')}s  {row['tensile']!s:>6} {row['overlaps']!s:>8}"
-        f"  {row['note']}"
-    ).rstrip()
-
-
-def _ball_line(row: dict[str, Any]) -> str:
-    lost = row["bits_lost"]
-    each = None if lost is None else lost / row["height"]
-    return (
-        f"{row['form']:<10}{row['height']:6}{row['width']:5}  {row['relative_std']:8.1e}  "
-        f"{row['critical_height']:8.4g}  {_number(lost, '9.1f')}  {_number(each, '9.3f')}  "
-        f"{row['bits'] or '--':>7}  {_number(row['error'], '15.1e')}  "
-        f"{_number(row['seconds'], '8.1e')}s  {row['note']}"
-    ).rstrip()
-
-
-def _closed_form_lines(rows: list[dict[str, Any]]) -> Iterator[str]:
-    for height, form in sorted({(row["height"], row["form"]) for row in rows}):
-        here = [row for row in rows if (row["height"], row["form"]) == (height, form)]
-        worst = max(here, key=lambda row: float(row["relative_error"]))
-        yield f"{form:<18} M = {height:<11} {worst['relative_error']:.1e} at j = {worst['j']}"
