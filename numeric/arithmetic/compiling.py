@@ -45,7 +45,8 @@ def inner(function: Function) -> Function:
 
     Kept on disk is what calls it, of which it has become a part.
     """
-    return cast(Function, numba.njit(no_cpython_wrapper=True, **OPTIONS)(function))
+    options = OPTIONS | {"no_cpython_wrapper": True}
+    return cast(Function, numba.njit(**options)(function))
 
 
 def _borrowed_code(typing: Any, array: Any) -> Any:

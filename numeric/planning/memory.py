@@ -16,7 +16,7 @@ PLAN_LAYER, SOLVED_LAYER = 150, 750
 NAMES, FLOAT_NUMBER, TEXT, BALL_ROW = 100, 60, 150, 1300
 INTERPRETER = 85_000_000
 # The compiler that the extra ``fast`` brings, and what it leaves behind.
-COMPILED = 120_000_000
+COMPILED = 150_000_000
 
 
 def float_bead(dimension: int) -> int:

@@ -217,7 +217,7 @@ def test_one_contact_of_many_beads_has_its_own_error() -> None:
         "disorder": {"kind": "uniform", "relative_std": "=1e-8", "seed": 4},
         "ask": {"quantity": "contact", "at": [0, 0, "+"]},
     }
-    by_parts = plan(scene(parts), memory_limit=22 * 10**7)
+    by_parts = plan(scene(parts), memory_limit=25 * 10**7)
     assert by_parts.problem.segment
     alike(run(by_parts), run(plan(scene(parts), memory_limit=10**10)))
 
