@@ -179,8 +179,8 @@ def rows_of_text(columns: Mapping[str, Array], whole: Sequence[str]) -> list[dic
 
 
 def csv_bytes(columns: Mapping[str, Array]) -> bytes:
-    """Write columns of text as CSV; nothing without rows."""
-    if not columns or not len(next(iter(columns.values()))):
+    """Write columns of text as CSV: a header, and the rows."""
+    if not columns:
         return b""
     parts = [part for text in columns.values() for part in (text, b",")]
     return ",".join(columns).encode() + b"\n" + _rows([*parts[:-1], b"\n"])

@@ -123,7 +123,7 @@ def differs(rough: fd.Outcome, sharp: fd.Outcome) -> str:
     wide = [max((midpoint(x.rad()) for x in column), default=0) for column in _balls(sharp, names)]
     if [len(one) for one in mine] != [len(one) for one in true]:
         return f"{[len(one) for one in mine]} rows, in balls {[len(one) for one in true]}"
-    largest = max((abs(x) for column in true for x in column), default=Fraction(0))
+    largest = max((abs(x) for column in mine for x in column), default=Fraction(0))
     error = Fraction(stated) * largest * SLACK + largest / 10**24
     if "relative to σ/r" in rough.accuracy.note:  # as every change is zero
         scene = rough.plan.scene

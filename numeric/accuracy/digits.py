@@ -60,7 +60,7 @@ def _of_arithmetic(table: Table, name: str, accuracy: Accuracy) -> Array | float
 def _of_sampling(table: Table, name: str) -> Array | float:
     """Give the standard errors of a column, 0 where they are not known."""
     errors = table.errors.get(name if name in table.errors else SCATTER_OF.get(name, ""))
-    return 0.0 if errors is None else np.nan_to_num(errors) / _over(table, name)
+    return 0.0 if errors is None else np.nan_to_num(errors, posinf=np.inf) / _over(table, name)
 
 
 def _over(table: Table, name: str) -> Array | float:

@@ -75,7 +75,7 @@ def deposit(n_x: Fraction, rho: Sequence[Array], system: NumberSystem) -> PlainP
         if bad.any():
             q = int(np.argwhere(bad)[0][0])
             raise UnbuildableError(
-                (layer.first + 2 * q, j), "its supports are too far apart to hold it"
+                (layer.first + 2 * q, j), "its supports are too far apart, or too close, to hold it"
             )
         if not good.all():
             raise UndecidedError(f"layer {j}: balls are too wide to tell whether beads rest")

@@ -47,7 +47,9 @@ def test_rows_are_those_of_the_libraries(rows: list[tuple[int, str, float]]) -> 
         "branch": text.text_of(columns["branch"]),
         "force": text.significant(np.array(columns["force"], dtype=float), np.full(len(rows), 17)),
     }
-    read = list(csv.DictReader(io.StringIO(text.csv_bytes(written).decode())))
+    file = csv.DictReader(io.StringIO(text.csv_bytes(written).decode()))
+    read = list(file)
+    assert file.fieldnames == names  # also where there is no row
     same = [{"i": int(r["i"]), "branch": r["branch"], "force": float(r["force"])} for r in read]
     objects = json.loads(b"[" + text.json_rows(written, ["i"]) + b"]")
     for found in (same, [one | {"force": float(one["force"])} for one in objects]):

@@ -395,6 +395,18 @@ def test_statistics_end_where_they_scatter_from_packing_to_packing() -> None:
             assert len(shown[name]) <= 6  # 0.764 ± 0.017, and no digits of these very packings
         assert row["std_over_mean"] == pytest.approx(row["std"] / row["mean"])
         assert len(shown["std_over_mean"]) <= 6
+
+
+def test_a_scatter_too_small_for_its_balls_is_zero_and_has_no_error() -> None:
+    scene = fd.Scene(
+        packing=fd.Packing(height=4, width=6, spacing=2.5),
+        disorder=fd.Disorder(kind="normal", relative_std=1e-100, seed=795),
+        load=fd.BulkLoad(),
+        effects=fd.Effects(contacts="unilateral"),
+        ask=fd.Ask(quantity="profile", realisations=5),
+    )
+    for row in scene.run().decimals():
+        assert (row["std"], row["std_error"], row["std_over_mean"]) == ("0", "", "0")
     (one, *_) = strip("profile").run().decimals()
     assert one["std_error"] == ""  # of one packing no scatter is known
     assert len(one["std"]) > 20
