@@ -148,9 +148,7 @@ def _asked(quantity: Quantity, limit: int, tolerance: Fraction | None, *, text: 
     unilateral = scene.effects.contacts == "unilateral"
     ordered = _is_ordered(scene) and not unilateral
     single = quantity.single and (ordered or scene.effects.geometry == "first-order")
-    refuse_memory(
-        scene, _least_memory(quantity, tolerance, ordered=ordered, single=single, text=text), limit
-    )
+    _refuse_beads(quantity, tolerance, limit, ordered=ordered, single=single, text=text)
     load, skipped = load_of(scene), dict[str, str]()
     if not quantity.needs_forces:
         if "load" in scene.model_fields_set:
@@ -200,21 +198,27 @@ def _is_ordered(scene: Scene) -> bool:
     return drawn and not disorder.relative_std
 
 
-def _least_memory(
-    quantity: Quantity, tolerance: Fraction | None, *, ordered: bool, single: bool, text: bool
-) -> int:
-    """Give what a scene surely takes, with the least of plans."""
+def _refuse_beads(
+    quantity: Quantity,
+    tolerance: Fraction | None,
+    limit: int,
+    *,
+    ordered: bool,
+    single: bool,
+    text: bool,
+) -> None:
+    """Refuse what surely takes too much memory, with the least of plans."""
     scene, packing = quantity.scene, quantity.scene.packing
     beads = 5 * packing.height if single else quantity.most_beads()
     if ordered and packing.dimension == 2:
         beads = 0
     layers = 0 if quantity.single and not beads else packing.height + 1
     needed = memory(quantity, Region(packing.width, Rows()), beads, 1, FLOAT64, text=text)
-    if segments.suits(scene, tolerance):
+    if needed + layers * PLAN_LAYER > limit and segments.suits(scene, tolerance):
         height = packing.height
         widest = min(packing.width or 2 * height + 2, -(-2 * beads // (height + 1)))
         needed = min(needed, segments.division(widest, height, packing.dimension, 0).bytes)
-    return needed + layers * PLAN_LAYER
+    refuse_memory(scene, needed + layers * PLAN_LAYER, limit)
 
 
 def _theory(

@@ -72,13 +72,13 @@ def answer(
     asked = _Asked(quantity, problem, realisations, system, work, longer)
     counts = problem.segments > 1 and isinstance(quantity, Histogram) and not quantity.single
     networks: list[Network] = []
-    store = Kept() if kept is None else kept
     with system.active(), asked.own.active():
         sweep: Sweep = _Whole(asked, plainly, networks)
         if problem.segment:
             from ..mechanics.segments import Segments
 
             (realisation,) = realisations
+            store = Kept() if kept is None else kept
             sweep = Segments(problem, realisation, work, store, again=counts)
         part = _swept(asked, sweep, kept, counts=counts)
         table = named(quantity, part.table)
