@@ -226,7 +226,7 @@ def _swept(asked: _Asked, sweep: Sweep, kept: Kept | None, *, counts: bool) -> P
                 part.keep(kept, number)
             sweep.leave(number)
         parts.insert(0, part)
-    found = joined(parts)
+    found = parts[0] if len(parts) == 1 else joined(parts)
     return found.extremes() if counts else found
 
 
