@@ -15,6 +15,15 @@ from force_diffusion.derivations.commands.output import Overwrite, out_option, o
 from force_diffusion.derivations.commands.shared import images, noticing, sourced, warn
 from force_diffusion.numeric.arithmetic import processes
 from force_diffusion.numeric.arithmetic.errors import printable
+from force_diffusion.numeric.figures.names import (
+    FIGURES,
+    HEIGHTS,
+    LEAST_REALISATIONS,
+    MODELS,
+    OF_ENSEMBLES,
+    OWN_SPACING,
+    OWN_STD,
+)
 from force_diffusion.numeric.scene.combinations import answered, either
 
 import force_diffusion as fd
@@ -23,12 +32,7 @@ if TYPE_CHECKING:
     from force_diffusion.numeric.figures.catalogue import PaperFigure
     from force_diffusion.numeric.figures.packings import Notice
 
-NAMES = ("1", "2", "3", "4", "pf", "chains", "B2", "B5", "B7", "B9", "B10", "B11", "B12", "B13",
-         "B15", "B19")  # fmt: skip
-OF_ENSEMBLES = ("3", "4", "pf", "B2", "B5", "B7", "B9", "B12", "B13", "B19")
-MODELS = {"q-model": "3", "double-y": "4"}
-OWN_SPACING, OWN_STD = ("2", "3", "4", "pf", "chains"), ("3", "4", "pf", "chains")
-LEAST_REALISATIONS, MOST_REALISATIONS = 16, 1_000_000
+MOST_REALISATIONS = 1_000_000
 HIGHEST, MOST_HEIGHTS = 10_000, 6
 # So few figures are drawn sooner than another process has loaded what draws.
 FEW = 2
@@ -71,15 +75,18 @@ def figures(
         list[str] | None,
         typer.Argument(
             metavar="WHICH",
-            help=f"Figures: {', '.join(NAMES)}; by default all. A scene of your own, FILE.toml, is "
-            f"answered and drawn; it asks for {either(answered('figures'))}, or of spheres for "
+            help=f"Figures: {', '.join(FIGURES)}; by default all. A scene of your own, FILE.toml, "
+            f"is answered and drawn; it asks for {either(answered('figures'))}, or of spheres for "
             f"{either(answered('figures', dimension=3))}.",
         ),
     ] = None,
     out: Annotated[Path, out_option("PNG, SVG, PDF and CSV")] = Path("figures"),
     heights: Annotated[
         str | None,
-        typer.Option(metavar="M,M...", help="Heights of figure 3; 8,32,128 by default."),
+        typer.Option(
+            metavar="M,M...",
+            help=f"Heights of figure 3; {','.join(map(str, HEIGHTS))} by default.",
+        ),
     ] = None,
     realisations: Annotated[
         int | None,
@@ -87,9 +94,9 @@ def figures(
             metavar="N",
             min=LEAST_REALISATIONS,
             max=MOST_REALISATIONS,
-            help="Packings of each ensemble; by default 400 of each height in figure 3 "
-            "and each angle in B2, 4000 in figure 4 and pf, 6000 in B5, "
-            "1000 in B7 and B12, 20000 in B9.",
+            help="Packings of each ensemble; by default "
+            + ", ".join(f"{FIGURES[name].realisations} in {name}" for name in OF_ENSEMBLES)
+            + ".",
         ),
     ] = None,
     seed: Annotated[
@@ -106,11 +113,13 @@ def figures(
     ] = None,
     spacing: Annotated[
         str | None,
-        typer.Option(metavar="S", help="s/r of figures 2, 3, 4, pf, chains; 3 by default."),
+        typer.Option(metavar="S", help=f"s/r of figures {', '.join(OWN_SPACING)}; 3 by default."),
     ] = None,
     relative_std: Annotated[
         str | None,
-        typer.Option(metavar="X", help="σ/r of figures 3, 4, pf, chains, in place of their own."),
+        typer.Option(
+            metavar="X", help=f"σ/r of figures {', '.join(OWN_STD)}, in place of their own."
+        ),
     ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print what was found as JSON and nothing else.")
@@ -118,12 +127,12 @@ def figures(
     overwrite: Overwrite = False,
 ) -> None:
     """Draw the paper's figures from new simulations of exact packings."""
-    wanted = list(dict.fromkeys(which or NAMES))
+    wanted = list(dict.fromkeys(which or FIGURES))
     scenes = {name: Path(name).stem for name in wanted if name.endswith(".toml")}
     for name in wanted:
-        if name not in NAMES and name not in scenes:
+        if name not in FIGURES and name not in scenes:
             raise typer.BadParameter(
-                f"There is no figure '{printable(name)}'. Give any of {', '.join(NAMES)}, or a "
+                f"There is no figure '{printable(name)}'. Give any of {', '.join(FIGURES)}, or a "
                 "scene, FILE.toml.",
                 param_hint="WHICH",
             )
@@ -160,7 +169,6 @@ def figures(
                 f"{model} stands beside figure {MODELS[model]}; add {MODELS[model]}.",
                 param_hint="--with",
             )
-    from force_diffusion.numeric.figures.catalogue import FIGURES
     from force_diffusion.numeric.figures.library import drawing
 
     with drawing():  # or leave before anything is solved

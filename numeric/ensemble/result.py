@@ -65,12 +65,14 @@ class Ensemble(Estimates):
     def std_over_mean(self) -> Array | None:
         """σ_f/⟨f⟩, as the paper plots it; None where a mean may be zero: only loads straight down.
 
-        Its standard error is that of ``std`` over ⟨f⟩.
+        NaN where a contact has opened in all packings. Its standard error is that of ``std``, over
+        ⟨f⟩.
         """
         load = self.measurement.problem.load
         if load.loaded is not None or load.angle_deg or "component" in self.index:
             return None
-        ratio: Array = self.std / self.mean
+        with np.errstate(invalid="ignore"):
+            ratio: Array = self.std / self.mean
         return ratio
 
     @cached_property

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arithmetic.systems import Array, as_floats
-from ..mechanics.problem import Route
 from ..planning.plan import Plan
 from ..scene.checks import refuse
 from ..scene.sections import SceneError
@@ -36,18 +35,15 @@ def figure_of(
     quantity = plan.quantity.name
     refuse("figures", plan.scene)
     with drawing():
-        from . import networks_drawing
         from .answers_drawing import DRAWN
+        from .drawing import draw
 
-        drawn = DRAWN.get(quantity)
-        if plan.problem.route == Route.UNILATERAL:
-            drawn = networks_drawing.drawn(quantity, networks)
-        if drawn is None:
+        if quantity not in DRAWN:
             raise SceneError("ask.quantity", quantity, "there is no figure of it")
         if not len(next(iter(columns.values()), [])):
             raise SceneError("ask.quantity", quantity, "the answer has no rows to be drawn")
         _check_sizes(plan, columns)
-        return drawn(plan, columns, errors)
+        return draw(DRAWN[quantity](plan, columns, errors, networks))
 
 
 def _check_sizes(plan: Plan, columns: Mapping[str, Array]) -> None:

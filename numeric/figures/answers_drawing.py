@@ -1,21 +1,36 @@
-"""One answer drawn, by quantity; of listed packings the first one. Lengths are in units of r."""
+"""Pictures of one answer, by quantity; of listed packings the first one. Lengths in units of r."""
 
-from collections.abc import Callable, Mapping
-from math import sqrt
+from collections.abc import Callable, Mapping, Sequence
+from math import ceil, radians, sqrt, tan
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, as_floats
-from ..lattice.branch import Branch, PerAxis, PerBranch
+from ..lattice.branch import Branch, PerBranch, per_direction
+from ..mechanics.problem import Route
 from ..planning.plan import Plan
 from ..quantities.base import first_order_std
 from ..scene.sections import SceneError
-from . import parts, style
+from ..unilateral.network import Network
+from .elements import base, cone, point_load, surface_load
+from .specification import (
+    EQUAL,
+    RELATIVE_HEIGHT,
+    Axis,
+    Beads,
+    Chains,
+    Element,
+    Line,
+    Panel,
+    Picture,
+    Points,
+    alike,
+)
 
 Columns = Mapping[str, Array]
+NESTED = (5.2, 3.4, 1.8)
+"""Sizes of markers that may lie on each other."""
 
 
 def of_first(columns: Columns) -> dict[str, Array]:
@@ -39,32 +54,38 @@ def _axes(plan: Plan) -> tuple[float, float]:
 def _theory(plan: Plan) -> PerBranch[Array] | None:
     """Give σ_f of layers 0 … M − 1 to first order; None where no closed form applies."""
     found = first_order_std(plan.problem)
-    if found is None:
+    if found is None or plan.problem.route == Route.UNILATERAL:
         return None
     unit = plan.scene.load.magnitude
     rows = [np.array([float(v * unit) for v in layers]) for _, layers in found]
-    return PerBranch(*rows) if len(rows) == 2 else PerAxis(*rows)
+    return per_direction(rows)
 
 
-def contact_forces(plan: Plan, columns: Columns, errors: Columns) -> Figure:
+def contact_forces(
+    plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
+) -> Picture:
     """Draw force chains on the ordered lattice: a line as thick as the force of its contact.
 
-    Of an ensemble, which has no one packing, lines are as thick as σ_f.
+    Of an ensemble, which has no one packing, lines are as thick as σ_f. Under unilateral contacts
+    they lie where the beads rest.
     """
-    rows = of_first(columns)
-    forces = rows["force"] if "force" in rows else rows["std"]
-    ends = _contacts(plan, rows)
-    figure = style.figure(style.PAGE, height_of(ends))
-    axes = figure.subplots()
-    chains(axes, plan, ends, forces)
-    size, what = np.abs(forces), "f" if "force" in rows else r"\sigma_f"
-    shown = [(size.mean(), f"mean, ${what}={size.mean():.3g}$")]
-    shown.append((forces.max(), f"largest, ${what}={forces.max():.3g}$"))
-    if forces.min() < 0:
-        shown.append((forces.min(), f"pulling, ${what}={forces.min():.3g}$ at most"))
-    keys = parts.chain_keys(forces, shown)
-    figure.legend(handles=keys, loc="outside lower center", ncols=3)
-    return figure
+    if networks:
+        ends, forces, surface = _at_rest(plan, networks[0])
+        panel = _chains(plan, ends, forces, "f", surface)
+    else:
+        rows = of_first(columns)
+        ends, what = _contacts(plan, rows), "force" if "force" in rows else "std"
+        panel = _chains(plan, ends, rows[what], "f" if what == "force" else r"\sigma_f")
+    return Picture([panel], _height(ends), page=True)
+
+
+def _at_rest(plan: Plan, network: Network) -> tuple[Array, Array, Array]:
+    """Give both ends of contacts, (contacts, 2, 2), their forces, and the beads of the surface."""
+    x, period = as_floats(network.x), float(network.frame.period)
+    low, high = x[network.pairs[:, 1]], x[network.pairs[:, 0]]
+    high[:, 0] -= period * np.round((high[:, 0] - low[:, 0]) / period)
+    forces = as_floats(network.forces) * float(plan.scene.load.magnitude)
+    return np.stack([low, high], axis=1), forces, x[-network.width :]
 
 
 def _contacts(plan: Plan, rows: Mapping[str, Array]) -> Array:
@@ -85,28 +106,59 @@ def _unwrapped(plan: Plan, i: Array) -> Array:
     return np.asarray(i + 2 * width * np.rint((int(at[0]) - i) / (2 * width)))
 
 
-def chains(axes: Axes, plan: Plan, ends: Array, forces: Array, top: float | None = None) -> None:
-    """Draw lines between the ends of contacts, and the load; ``top`` is where the surface lies."""
-    _, ny = _axes(plan)
-    parts.force_chains(axes, ends, forces)
-    left, right = ends[..., 0].min(), ends[..., 0].max()
-    load = plan.scene.load
-    surface = 2 * ny * plan.problem.height if top is None else top
-    room = 1.0
-    if load.kind == "surface":
-        parts.surface_load(axes, left, right, surface)
-        room = 5.0
-    elif load.at is not None:
-        x, own = _apex(plan)
-        if top is None:
-            surface = own
-        parts.point_load(axes, x, surface)
-        room = 10.0
-        axes.plot([left, right], [-0.9, -0.9], color="black", lw=1)
-    axes.set_xlim(left - 1, right + 1)
-    axes.set_ylim(-1.5, max(surface, ends[..., 1].max()) + room)
-    axes.set_aspect("equal")
-    axes.axis("off")
+def _chains(
+    plan: Plan, ends: Array, forces: Array, what: str, surface: Array | None = None
+) -> Panel:
+    """Draw lines between the ends of contacts, the base and the load.
+
+    ``surface``: the beads of the surface where they rest, (W, 2); else they are on the lattice.
+    """
+    nx, ny = _axes(plan)
+    left, right = float(ends[..., 0].min()), float(ends[..., 0].max())
+    load, M = plan.scene.load, plan.problem.height
+    top = float(ends[..., 1].max())
+    elements: list[Element] = [Chains(ends, forces, _shown(forces, what))]
+    low = float(ends[..., 1].min())
+    if low < 2:  # else layers further below are left out
+        elements.append(base(left, right))
+    if load.at is not None:
+        x, y = _apex(plan)
+        y = y if surface is None else float(surface[:, 1].max())
+        elements += point_load(x, y)
+        top = max(top, y) + 10
+    elif load.kind == "surface":
+        if surface is None:
+            i = np.arange(ceil(left / (2 * nx)), right / (2 * nx) + EQUAL)
+            i = i[(i - M) % 2 == 0]
+            surface = np.stack([2 * nx * i, np.full(len(i), 2 * ny * M)], axis=1)
+        elements += surface_load(surface, tan(radians(plan.problem.load.angle_deg)))
+        top = max(top, float(surface[:, 1].max())) + 5
+    return Panel(
+        elements,
+        Axis(low=left - 1, high=right + 1),
+        Axis(low=low - 1.5, high=top + 1),
+        legend="below",
+        columns=3,
+        scaled=True,
+        bare=True,
+    )
+
+
+def _shown(forces: Array, what: str) -> list[tuple[float, str]]:
+    """Choose the forces that the legend shows, and name them."""
+    mean, largest, smallest = (float(v) for v in (forces.mean(), forces.max(), forces.min()))
+    if alike(forces):
+        if largest - smallest < EQUAL * largest:
+            return [(mean, f"all, ${what}={mean:.3g}$")]
+        shown = [(mean, f"mean, ${what}={mean:.3g}$")]
+        for name, force in (("smallest", smallest), ("largest", largest)):
+            shown.append((force, f"{name}, ${100 * (force / mean - 1):+.2g}" + r"\%$"))
+        return shown
+    size = float(np.abs(forces).mean())
+    shown = [(size, f"mean, ${what}={size:.3g}$"), (largest, f"largest, ${what}={largest:.3g}$")]
+    if smallest < 0:
+        shown.append((smallest, f"pulling, ${what}={smallest:.3g}$ at most"))
+    return shown
 
 
 def _apex(plan: Plan) -> tuple[float, float]:
@@ -117,67 +169,59 @@ def _apex(plan: Plan) -> tuple[float, float]:
     return 2 * nx * i, 2 * ny * j
 
 
-def height_of(points: Array) -> float:
+def _height(points: Array) -> float:
     """Give the height of a figure that is a page wide, in inches."""
     wide, high = np.ptp(points.reshape(-1, 2), axis=0)
-    return float(np.clip(style.PAGE * (high + 8) / (wide + 2) + 0.3, 1.6, 8))
+    return float(np.clip(7.0 * (high + 8) / (wide + 2) + 0.3, 1.6, 8))
 
 
-def positions(plan: Plan, columns: Columns, errors: Columns) -> Figure:
+def positions(
+    plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
+) -> Picture:
     """Draw the beads where they lie, each with its radius, as dark as it is displaced."""
     rows = of_first(columns)
     sites = list(zip(rows["i"].tolist(), rows["j"].tolist(), strict=True))
     unit = float(plan.scene.packing.radius)
     with FLOAT64.active():
         radii = unit * (1 + plan.problem.radii.at(sites, 0, FLOAT64))
-    points = np.stack([rows["x"], rows["y"]], axis=-1)
-    figure = style.figure(style.PAGE, height_of(points / unit) + 0.4)
-    axes = figure.subplots()
-    circles = list(zip(rows["x"].tolist(), rows["y"].tolist(), radii.tolist(), strict=True))
-    away = np.hypot(rows["dx"], rows["dy"])
-    beads = parts.discs(axes, circles, away)
-    beads.set_clim(0, 1.15 * (away.max() or 1))
-    axes.set_aspect("equal")
-    axes.autoscale_view()
-    axes.set_xlabel("$x$")
-    axes.set_ylabel("$y$")
+    centres, away = np.stack([rows["x"], rows["y"]], axis=-1), np.hypot(rows["dx"], rows["dy"])
     name = r"displacement $(\delta x^2+\delta y^2)^{1/2}$"
-    figure.colorbar(beads, ax=axes, location="bottom", shrink=0.6, aspect=30, label=name)
-    return figure
+    beads = Beads(centres, radii, away, name, most=float(away.max()) or 1.0)
+    panel = Panel([beads], Axis("$x$"), Axis("$y$"), scaled=True)
+    return Picture([panel], _height(centres / unit) + 0.4, page=True)
 
 
-def profile(plan: Plan, columns: Columns, errors: Columns) -> Figure:
-    """Draw σ_f over the relative height, with its standard errors, beside Eq. 13 or 14."""
-    figure = style.figure(style.COLUMN, 2.8)
-    axes = figure.subplots()
-    M, theory = plan.problem.height, _theory(plan)
-    branch, z, std = columns["branch"], columns["j"] / M, floats(columns["std"])
-    layers = np.arange(M) / M
-    if theory is not None and plan.problem.load.angle_deg:
-        for dashes, (own, exact) in zip("-:", theory, strict=True):
-            axes.plot(layers, exact, dashes, color="0.35", label=f"exact at finite $M$, $f^{own}$")
-    elif theory is not None:
-        axes.plot(layers, theory.plus, color="0.35", label="exact at finite $M$")
-    if theory is not None and not plan.problem.load.angle_deg and plan.problem.dimension == 2:
-        number = 14 if plan.problem.load.kind == "bulk" else 13
-        name = f"Eq. ({number}), printed"
-        axes.plot(layers, theory.plus * _printed_over_exact(plan), "--", color="black", label=name)
-    for number, own in enumerate(plan.quantity.branches):
-        rows = branch == own
-        error = errors["std"][rows] if "std" in errors else None
-        colour, marker = style.series(number)
-        axes.errorbar(
-            z[rows], std[rows], error, fmt=marker, color=colour, mfc="white", ms=3.4, mew=0.7,
-            elinewidth=0.7, label=f"simulated, $f^{own}$", clip_on=False,
-        )  # fmt: skip
-    axes.set_xlim(0, 1)
-    axes.set_ylim(0, None)
-    axes.set_xlabel("relative height $z=j/M$")
-    axes.set_ylabel(
-        r"$\sigma_f$" if plan.problem.load.loaded is None else r"$\sigma$ of the change"
-    )
-    axes.legend(loc="best")
-    return figure
+def profile(plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]) -> Picture:
+    """Draw σ_f over the relative height, with its standard errors, beside Eq. 13 or 14.
+
+    Under unilateral contacts, for which there is no theory, ⟨f⟩ stands beside it.
+    """
+    M, theory, load = plan.problem.height, _theory(plan), plan.problem.load
+    z, layers, what = columns["j"] / M, np.arange(M) / M, r"$\sigma_f$"
+    elements: list[Line | Points] = []
+    if plan.problem.route == Route.UNILATERAL:
+        for c, (name, symbol) in enumerate((("std", r"$\sigma_f$"), ("mean", r"$⟨f⟩$"))):
+            error = columns.get(f"{name}_error")
+            elements.append(Points(z, floats(columns[name]), c, symbol, error))
+        what = "force"
+    else:
+        if theory is not None and load.angle_deg:
+            for dashes, (own, exact) in zip("-:", theory, strict=True):
+                name = f"exact at finite $M$, $f^{own}$"
+                elements.append(Line(layers, exact, dashes=dashes, name=name))
+        elif theory is not None:
+            elements.append(Line(layers, theory.plus, name="exact at finite $M$"))
+            if plan.problem.dimension == 2:
+                name = f"Eq. ({14 if load.kind == 'bulk' else 13}), printed"
+                printed = theory.plus * _printed_over_exact(plan)
+                elements.append(Line(layers, printed, "black", "--", name))
+        for c, own in enumerate(plan.quantity.branches):
+            rows = columns["branch"] == own
+            error = errors["std"][rows] if "std" in errors else None
+            std, name = floats(columns["std"])[rows], f"simulated, $f^{own}$"
+            elements.append(Points(z[rows], std, c, name, error, NESTED[c]))
+        what = what if load.loaded is None else r"$\sigma$ of the change"
+    return Picture([Panel(elements, RELATIVE_HEIGHT, Axis(what, 0))], 2.8)
 
 
 def _printed_over_exact(plan: Plan) -> Array:
@@ -190,14 +234,15 @@ def _printed_over_exact(plan: Plan) -> Array:
     return np.sqrt(ratios)
 
 
-def histogram(plan: Plan, columns: Columns, errors: Columns) -> Figure:
+def histogram(
+    plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
+) -> Picture:
     """Draw P of the changes, with the Gaussian of theory where there is one.
 
     All contacts together have a Gaussian a layer. Errors are drawn where they are known: of one
-    contact, or of an ensemble.
+    contact, or of an ensemble. Under unilateral contacts it is P(f).
     """
-    figure = style.figure(style.COLUMN, 2.8)
-    axes = figure.subplots()
+    free = plan.problem.route == Route.UNILATERAL
     known, contact = _theory(plan), plan.problem.contact
     asked = slice(None) if plan.scene.ask.layers is None else list(plan.scene.ask.layers)
     theory = None if known is None else np.concatenate([rows[asked] for _, rows in known])
@@ -207,99 +252,83 @@ def histogram(plan: Plan, columns: Columns, errors: Columns) -> Figure:
     if theory is not None:
         largest = float(theory.max())  # squares of small ones are below what a float holds
         unit = largest * sqrt(float(((theory / largest) ** 2).mean()))
-    inside = np.isfinite(columns["low"]) & np.isfinite(columns["high"])
-    low, high = columns["low"][inside] / unit, columns["high"][inside] / unit
     count = columns["count"]
+    some = np.isfinite(columns["low"]) & np.isfinite(columns["high"])
+    low, high = columns["low"][some] / unit, columns["high"][some] / unit
     error = columns.get("share_error")
-    if error is None and contact is not None:  # one a packing: these are independent
+    if error is None and contact is not None and not free:  # one a packing: these are independent
         error = np.sqrt(count) / count.sum()
-    some = count[inside] > 0
-    width = high - low
+    full = count[some] > 0
     with np.errstate(all="ignore"):
-        density = (count[inside] / count.sum() / width)[some]
+        density = (count[some] / count.sum() / (high - low))[full]
+        error = None if error is None else (error[some] / (high - low))[full]
     if not np.isfinite(density).all():
         allowed = "has no density to be drawn: all changes are alike, or nearly"
         raise SceneError("ask.quantity", plan.quantity.name, allowed)
-    parts.densities(
-        axes,
-        ((low + high) / 2)[some],
-        density,
-        None if error is None else (error[inside] / width)[some],
-        style.series(0),
-        "simulated",
-    )
+    elements: list[Line | Points] = [
+        Points(((low + high) / 2)[full], density, 0, "simulated", error)
+    ]
+    own, least = r"\sigma_f" if contact is not None else r"\sigma", None
     if theory is not None:
-        v = np.linspace(low[0], high[-1], 321)
-        ratio = (theory / unit)[:, None]
+        v, ratio = np.linspace(low[0], high[-1], 321), (theory / unit)[:, None]
         gauss = np.exp(-((v / ratio) ** 2) / 2) / ratio / sqrt(2 * np.pi)
         name = "Gaussian of theory" if contact is not None else "theory: a Gaussian a layer"
-        axes.plot(v, gauss.mean(axis=0), color="black", lw=1.0, label=name)
-        axes.set_ylim(0.3 / count.sum() / width.max(), None)
-    own = r"\sigma_f" if contact is not None else r"\sigma"
-    change = r"f-f^{\rm ordered}"
-    axes.set_xlabel(f"$({change})\\,/\\,{own}$" if unit != 1 else f"${change}$")
-    axes.set_ylabel(f"${own}\\,P$" if unit != 1 else "$P$")
-    axes.legend(loc="lower center")
-    return figure
+        elements.append(Line(v, gauss.mean(axis=0), "black", name=name, width=1.0))
+        least = 0.3 / count.sum() / (high - low).max()
+    change = "f" if free else r"f-f^{\rm ordered}"
+    panel = Panel(
+        elements,
+        Axis(f"$({change})\\,/\\,{own}$" if unit != 1 else f"${change}$"),
+        Axis(f"${own}\\,P$" if unit != 1 else "$P$", least, log=True),
+        legend="" if free else "lower center",
+    )
+    return Picture([panel], 2.8)
 
 
-def response(plan: Plan, columns: Columns, errors: Columns) -> Figure:
+def response(plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]) -> Picture:
     """Draw p, the vertical force that a bead gets from both its upper contacts, and the contacts.
 
     Of one packing these are as thick as their force, of several as σ of it; p is the mean then.
     """
+    if networks:
+        return contact_forces(plan, columns, errors, networks)
     one = "vertical" in columns
     rows = {name: floats(column) for name, column in columns.items()}
     rows["i"] = _unwrapped(plan, rows["i"])
-    vertical = rows["vertical" if one else "vertical_mean"]
     found: dict[tuple[int, int], float] = {}
+    vertical = rows["vertical" if one else "vertical_mean"]
     for i, j, own in zip(rows["i"].tolist(), rows["j"].tolist(), vertical.tolist(), strict=True):
         found[int(i), int(j)] = found.get((int(i), int(j)), 0.0) + own
-    nx, ny = _axes(plan)
-    figure = style.figure(style.PAGE, 2.9)
-    left, right = figure.subplots(1, 2)
-    parts.cone(
-        left,
-        [(2 * nx * i, 2 * ny * j) for i, j in found],
-        np.array(list(found.values())),
-        _apex(plan),
-        r"$p\,/\,f^{\rm load}$" if one else r"$\langle p\rangle\,/\,f^{\rm load}$",
-        "bottom",
-        max(found.values()),
-    )
-    forces = rows["force" if one else "force_std"]
-    chains(right, plan, _contacts(plan, rows), forces)
-    what = "f" if one else r"\sigma_f"
-    shown = [(forces.max(), f"largest, ${what}={forces.max():.3g}$")]
-    if forces.min() < 0:
-        shown.append((forces.min(), f"pulling, ${what}={forces.min():.3g}$ at most"))
-    keys = parts.chain_keys(forces, shown)
-    right.legend(handles=keys, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=2)
-    style.letter((left, right))
-    return figure
+    centres = np.array(list(found)) * (2 * np.array(_axes(plan)))
+    name = r"$p\,/\,f^{\rm load}$" if one else r"$\langle p\rangle\,/\,f^{\rm load}$"
+    shades = np.array(list(found.values()))
+    left = cone(centres, shades, _apex(plan), name, "bottom", float(shades.max()))
+    forces, what = rows["force" if one else "force_std"], "f" if one else r"\sigma_f"
+    return Picture([left, _chains(plan, _contacts(plan, rows), forces, what)], 2.9, page=True)
 
 
-def base_reactions(plan: Plan, columns: Columns, errors: Columns) -> Figure:
-    """Draw what the base bears along it: forces above, their changes below."""
+def base_reactions(
+    plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
+) -> Picture:
+    """Draw what the base bears along it: forces above, their changes, if there are any, below."""
     rows = of_first(columns)
-    figure = style.figure(style.COLUMN, 3.6)
-    above, below = figure.subplots(2, 1, sharex=True)
-    for axes, names in ((above, ("fx", "fy")), (below, ("change_x", "change_y"))):
-        for number, (name, symbol) in enumerate(zip(names, "xy", strict=True)):
-            colour, marker = style.series(number)
-            axes.plot(
-                rows["i"], rows[name], marker, color=colour, mfc="white", ms=3.2, mew=0.7,
-                label=f"${symbol}$",
-            )  # fmt: skip
-    above.set_ylabel("reaction of the base")
-    below.set_ylabel("its change")
-    below.set_xlabel("bead $i$ of the base")
-    handles, names = above.get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside upper right", ncols=2)
-    return figure
+    panels = [
+        Panel(
+            [Points(rows["i"], rows[name + side], c, f"${side}$") for c, side in enumerate("xy")],
+            Axis("bead $i$ of the base" if name == names[-1] else ""),
+            Axis("reaction of the base" if name == "f" else "its change"),
+            legend="below",
+            columns=2,
+        )
+        for names in [["f", "change_"] if "change_x" in rows else ["f"]]
+        for name in names
+    ]
+    if len(panels) == 1:
+        return Picture(panels, 2.5)
+    return Picture(panels, 3.7, mosaic="a;b", share="x")
 
 
-DRAWN: dict[str, Callable[[Plan, Columns, Columns], Figure]] = {
+DRAWN: dict[str, Callable[[Plan, Columns, Columns, Sequence[Network]], Picture]] = {
     "contact_forces": contact_forces,
     "positions": positions,
     "profile": profile,

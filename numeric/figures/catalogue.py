@@ -1,78 +1,26 @@
-"""All figures by name: what makes their data, how they are drawn, and the files they become."""
+"""All figures by name: made, drawn, and the files they become."""
 
 import csv
 import io
 from collections.abc import Callable, Collection, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
+from importlib import import_module
 from operator import index
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, SupportsIndex
+from typing import Any, SupportsIndex
+
+import numpy as np
 
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.processes import Start
 from ..scene.sections import SceneError
-from . import (
-    chains,
-    comparison,
-    diffusion,
-    dimensions,
-    directions,
-    distribution,
-    faces,
-    layers,
-    mean_forces,
-    mean_response,
-    neighbours,
-    notation,
-    response,
-    sharing,
-    spheres,
-    stress,
-)
 from .library import KINDS, drawing
-from .packings import PAPER, Medium, Notice, Row, planned
+from .names import FIGURES, HEIGHTS, LEAST_REALISATIONS, MODELS, OWN_SPACING, OWN_STD
+from .packings import PAPER, Notice, Options, planned
+from .specification import Figure, Table
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-HEIGHTS = (8, 32, 128)
-LEAST_REALISATIONS = 16
-MODELS = {"q-model": "3", "double-y": "4"}
-"""What may be drawn beside which figure."""
-OWN_SPACING, OWN_STD = ("2", "3", "4", "pf", "chains"), ("3", "4", "pf", "chains")
-"""Figures of packings whose spacing, and σ/r but in figure 2, can be chosen."""
 LEAST_STD, MOST_STD = 1e-9, 0.5
-
-
-@dataclass(frozen=True)
-class Options:
-    """What can be chosen; ``realisations`` None is each figure's own default."""
-
-    heights: Sequence[int] = HEIGHTS
-    realisations: int | None = None
-    seed: int = 1
-    models: frozenset[str] = field(default_factory=frozenset)
-    spacing: Fraction | None = None
-    relative_std: float | None = None
-    notice: Notice = lambda _: None
-
-    def medium(self, usual: Medium = PAPER) -> Medium:
-        """Give what was chosen, in place of what is usual for a figure."""
-        return Medium(self.spacing or usual.spacing, self.relative_std or usual.std)
-
-
-class Data(Protocol):
-    """What a figure shows."""
-
-    def tables(self) -> dict[str, list[Row]]:
-        """Give the rows of each CSV file, by its name without the ending."""
-
-    def facts(self) -> dict[str, Any]:
-        """Give verdicts and parameters, as JSON can hold them."""
-
-    def lines(self) -> list[str]:
-        """Say the verdicts."""
 
 
 class NoSuchFigureError(ForceDiffusionError, ValueError):
@@ -100,138 +48,6 @@ class PaperFigure:
 
     def __repr__(self) -> str:
         return "\n".join([self.title, *(f"  {line}" for line in self.lines)])
-
-
-class _Figure(NamedTuple):
-    file: str
-    title: str
-    data: Callable[[Options], Data]
-    draw: "Callable[[Any], Figure]"
-
-
-def _draw_comparison(data: Any) -> "Figure":
-    from . import comparison_drawing
-
-    return comparison_drawing.draw(data)
-
-
-def _draw_response(data: Any) -> "Figure":
-    from . import response_drawing
-
-    return response_drawing.draw(data)
-
-
-FIGURES = {
-    "1": _Figure(
-        "figure1",
-        "Notation, and a disordered packing over the ordered one",
-        lambda o: notation.beads(o.seed, o.notice),
-        notation.draw,
-    ),
-    "2": _Figure(
-        "figure2",
-        "Diffusion of geometry and of forces",
-        lambda o: diffusion.widths(diffusion.HEIGHT, o.medium(), o.notice),
-        diffusion.draw,
-    ),
-    "3": _Figure(
-        "figure3",
-        "Theory against exact simulation, surface load",
-        lambda o: comparison.compare(
-            o.heights,
-            o.realisations or 400,
-            o.seed,
-            o.notice,
-            q_model="q-model" in o.models,
-            medium=o.medium(),
-        ),
-        _draw_comparison,
-    ),
-    "4": _Figure(
-        "figure4",
-        "Mean and fluctuation of the response to an isolated load",
-        lambda o: response.respond(
-            o.realisations or 4000,
-            o.seed,
-            o.notice,
-            double_y="double-y" in o.models,
-            medium=o.medium(response.MEDIUM),
-        ),
-        _draw_response,
-    ),
-    "pf": _Figure(
-        "pf",
-        "P(f) against the Gaussian",
-        lambda o: distribution.samples(o.realisations or 4000, o.seed, o.notice, o.medium()),
-        distribution.draw,
-    ),
-    "chains": _Figure(
-        "chains",
-        "Force chains",
-        lambda o: chains.contacts(o.seed, o.notice, o.medium(chains.MEDIUM)),
-        chains.draw,
-    ),
-    "B2": _Figure(
-        "figureB2",
-        "Fluctuation of the forces under a load at an angle",
-        lambda o: directions.sweep(o.realisations or 400, o.seed, o.notice),
-        directions.draw,
-    ),
-    "B5": _Figure(
-        "figureB5",
-        "Mean contact forces to second order, surface and bulk load",
-        lambda o: mean_forces.simulate(o.realisations or 6000, o.seed, o.notice),
-        mean_forces.draw,
-    ),
-    "B7": _Figure(
-        "figureB7",
-        "Fluctuation of the mean over N neighbours",
-        lambda o: neighbours.simulate(o.realisations or 1000, o.seed, o.notice),
-        neighbours.draw,
-    ),
-    "B9": _Figure(
-        "figureB9",
-        "Mean response to a point load at second order",
-        lambda o: mean_response.respond(o.realisations or 20000, o.seed, o.notice),
-        mean_response.draw,
-    ),
-    "B10": _Figure(
-        "figureB10",
-        "Mean stress ratio to second order",
-        lambda o: stress.ratios(o.notice),
-        stress.draw,
-    ),
-    "B11": _Figure(
-        "figureB11",
-        "Diffusion of forces in two, three and four dimensions",
-        lambda o: dimensions.widths(o.notice),
-        dimensions.draw,
-    ),
-    "B12": _Figure(
-        "figureB12",
-        "Covariance of forces along a diagonal",
-        lambda o: layers.simulate(o.realisations or 1000, o.seed, o.notice),
-        layers.draw,
-    ),
-    "B13": _Figure(
-        "figureB13",
-        "Diffusion of forces in packings of spheres",
-        lambda o: spheres.simulate(o.realisations or 100, o.seed, o.notice),
-        spheres.draw,
-    ),
-    "B15": _Figure(
-        "figureB15",
-        "What the load of either branch gives to a mean force",
-        lambda o: sharing.shares(o.notice),
-        sharing.draw,
-    ),
-    "B19": _Figure(
-        "figureB19",
-        "Fluctuations of the response to a point load on spheres",
-        lambda o: faces.respond(o.realisations or 1000, o.seed, o.notice),
-        faces.draw,
-    ),
-}
 
 
 def figure(
@@ -317,24 +133,28 @@ def begun(
         raise SceneError("heights", heights, "must be a list of whole numbers, such as [16, 32]")
     chosen = _chosen(str(name), spacing, relative_std)
     with drawing():  # or leave before anything is solved
-        file, _, data_of, _ = FIGURES[str(name)]
-        data = data_of(Options(heights, realisations, seed, frozenset(beside), *chosen, notice))
-    notice(f"{file}: drawing")
+        entry = FIGURES[str(name)]
+        options = Options(
+            tuple(heights), realisations or entry.realisations, seed, frozenset(beside), *chosen,
+            notice,
+        )  # fmt: skip
+        data = import_module(f".{entry.module}", __package__).figure(options)
+    notice(f"{entry.file}: drawing")
     made_by = command or f"force_diffusion.figure({name!r}, seed={seed})"
     return start(_finished, str(name), data, made_by, kinds)
 
 
-def _finished(name: str, data: Data, made_by: str, kinds: Sequence[str]) -> PaperFigure:
-    file, title, _, draw = FIGURES[name]
-    tables = data.tables().items()
+def _finished(name: str, data: Figure, made_by: str, kinds: Sequence[str]) -> PaperFigure:
+    file, title, *_ = FIGURES[name]
     with drawing():
         from . import style
+        from .drawing import draw
 
         files: dict[str, str | bytes] = {
-            **style.images(lambda: draw(data), file, title, made_by, kinds),
-            **{f"{table}.csv": csv_file(rows, title, made_by) for table, rows in tables},
+            **style.images(lambda: draw(data.picture), file, title, made_by, kinds),
+            **{f"{own}.csv": csv_file(table, title, made_by) for own, table in data.tables.items()},
         }
-    return PaperFigure(title, files, data.facts(), data.lines())
+    return PaperFigure(title, files, dict(data.facts), list(data.says))
 
 
 def _chosen(name: str, spacing: Any, relative_std: Any) -> tuple[Fraction | None, float | None]:
@@ -358,11 +178,12 @@ def _chosen(name: str, spacing: Any, relative_std: Any) -> tuple[Fraction | None
     )
 
 
-def csv_file(rows: list[Row], title: str, command: str) -> str:
-    """Write rows as CSV below two lines of comment, which say what this is and what made it."""
+def csv_file(table: Table, title: str, command: str) -> str:
+    """Write columns as CSV below two lines of comment, which say what this is and what made it."""
     text = io.StringIO()
     text.write(f"# {title}\n# {command}\n")
-    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(table)
+    columns = [c.tolist() if isinstance(c, np.ndarray) else c for c in table.values()]
+    writer.writerows(zip(*columns, strict=True))
     return text.getvalue()

@@ -7,6 +7,7 @@ in δr: the ratio of nonlinear to first-order σ_f is estimated on realisations 
 solved both ways, so that most of the sampling error cancels.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -18,40 +19,44 @@ import numpy as np
 from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..planning.plan import Plan
-from ..statistics.bands import (
-    Band,
-    Estimate,
-    averaged,
-    log_relative_std,
-    simultaneous,
-)
+from ..statistics.bands import Estimate, averaged, log_relative_std, simultaneous
 from ..theory.critical_height import critical_height
 from .models.q_model import weight_variance
-from .packings import (
-    PAPER,
-    Medium,
-    Notice,
-    Row,
-    changes,
-    planned,
+from .names import LEAST_REALISATIONS
+from .packings import LEVEL, PAPER, Medium, Notice, Options, band_of_spread, moments, planned
+from .specification import (
+    RELATIVE_HEIGHT,
+    Area,
+    Axis,
+    Comparison,
+    Element,
+    Figure,
+    Line,
+    Panel,
+    Picture,
+    Points,
+    Rule,
+    Table,
+    table,
 )
 
-LEVEL = 0.99
-# Fewer realisations than this make no covariance worth the name.
-LEAST = 16
+NOTEWORTHY = 0.01
+"""Nonlinear corrections from here on are drawn and told of."""
+NEAR = 0.5
+"""… and from this part of M* on they are told of, whatever they are."""
+MARKED = 16
+"""About so many layers get a marker."""
 
 
 @dataclass(frozen=True)
 class Height:
-    """One height of packings; arrays have shape (M,), over layers j = 0 … M − 1.
+    """One height of packings; ``alone``: the exact finite-M curve; ``printed``: shape (M,).
 
-    ``correction`` estimates ln(σ nonlinear / σ first-order), from other realisations than ``band``.
+    ``correction`` estimates ln(σ nonlinear / σ first-order), from other realisations.
     """
 
     height: int
-    realisations: int
-    band: Band
-    exact: Array
+    alone: Comparison
     printed: Array
     correction: Estimate
 
@@ -61,143 +66,101 @@ class Height:
         return np.arange(self.height) / self.height
 
     @property
-    def corrected(self) -> Array:
-        """The exact finite-M curve times the estimated nonlinear correction."""
-        return np.asarray(self.exact * np.exp(self.correction.log))
+    def factor(self) -> Array:
+        """The nonlinear correction."""
+        return np.exp(self.correction.log)
 
-    def deviation(self) -> float:
-        """Largest deviation of the exact finite-M curve, in half-widths of the band."""
-        return self.band.deviation(self.exact)
-
-    @cached_property  # it is drawn, written and told
+    @cached_property  # it is written and told
     def corrected_deviation(self) -> float:
-        """The same for the corrected curve; its own error widens the band."""
-        both = simultaneous(self.band.estimate - self.correction, self.band.level)
-        return both.deviation(self.exact)
+        """That of the curve times its correction, whose own error widens the band."""
+        band = self.alone.band
+        both = simultaneous(band.estimate - self.correction, band.level)
+        return both.deviation(self.alone.theory)
 
+    @property
+    def largest(self) -> float:
+        """The largest correction."""
+        return float(np.abs(np.expm1(self.correction.log)).max())
 
-@dataclass(frozen=True)
-class Comparison:
-    """What figure 3 shows; ``q_model`` says whether the q-model stands beside it."""
-
-    heights: tuple[Height, ...]
-    q_model: bool
-    medium: Medium
-
-    def tables(self) -> dict[str, list[Row]]:
-        """CSV files: σ/⟨f⟩ plain; multiply by M^(-3/2) to get what is drawn."""
-        rows = []
-        for one in self.heights:
-            low, high = one.band.limits
-            columns = {
-                "z": one.z,
-                "simulated": np.exp(one.band.estimate.log),
-                "band_low": low,
-                "band_high": high,
-                "exact_first_order": one.exact,
-                "printed": one.printed,
-                "nonlinear_correction": np.exp(one.correction.log),
-                "correction_standard_error": one.correction.error * np.exp(one.correction.log),
-                "corrected": one.corrected,
-            }
-            for j in range(one.height):
-                row: Row = {"height": one.height, "realisations": one.realisations, "j": j}
-                rows.append(row | {name: float(values[j]) for name, values in columns.items()})
-        tables = {"figure3": rows}
-        if self.q_model:
-            tables["figure3_q_model"] = [
-                {"height": one.height, "depth": depth, "weight_variance": variance}
-                for one in self.heights
-                for depth, variance in enumerate(weight_variance(one.height))
-            ]
-        return tables
-
-    def facts(self) -> dict[str, Any]:
-        """Verdicts for each height."""
-        found = []
-        for one in self.heights:
-            alone, corrected = one.deviation(), one.corrected_deviation
-            found.append(
-                {
-                    "height": one.height,
-                    "realisations": one.realisations,
-                    "exact_finite_M_inside": alone <= 1,
-                    "largest_deviation_in_half_widths": alone,
-                    "corrected_inside": corrected <= 1,
-                    "corrected_deviation_in_half_widths": corrected,
-                    "largest_correction": float(np.abs(np.expm1(one.correction.log)).max()),
-                    "band_in_standard_errors": one.band.critical,
-                }
-            )
+    def facts(self, realisations: int) -> dict[str, Any]:
+        """Verdicts."""
+        alone, corrected = self.alone.deviation(), self.corrected_deviation
         return {
-            "simultaneous_level": LEVEL,
-            "spacing_over_r": float(self.medium.spacing),
-            "relative_std": self.medium.std,
-            "critical_height": critical_height(Fraction(self.medium.std)),
-            "heights": found,
+            "height": self.height,
+            "realisations": realisations,
+            "exact_finite_M_inside": alone <= 1,
+            "largest_deviation_in_half_widths": alone,
+            "corrected_inside": corrected <= 1,
+            "corrected_deviation_in_half_widths": corrected,
+            "largest_correction": self.largest,
+            "band_in_standard_errors": self.alone.band.critical,
         }
 
-    def lines(self) -> list[str]:
-        """Say for each height whether theory holds."""
-        said = []
-        facts = self.facts()
-        for one, fact in zip(self.heights, facts["heights"], strict=True):
-            alone = fact["largest_deviation_in_half_widths"]
-            words = f"M = {one.height}: exact finite-M curve {one.band.verdict(alone)}"
-            near = one.height / facts["critical_height"]
-            if near > NEAR:
-                words += f"; M = {near:.2g} M*"
-            if alone > 1 or fact["largest_correction"] > NOTEWORTHY or near > NEAR:
-                words += (
-                    f"; with the nonlinear correction (up to {fact['largest_correction']:.2%}) "
-                    f"{one.band.verdict(fact['corrected_deviation_in_half_widths'])}"
-                )
-            said.append(words)
-        return said
+    def says(self, critical: float) -> str:
+        """Say whether theory holds."""
+        words, near = self.alone.verdict(), self.height / critical
+        if near > NEAR:
+            words += f"; M = {near:.2g} M*"
+        if self.alone.deviation() > 1 or self.largest > NOTEWORTHY or near > NEAR:
+            words += (
+                f"; with the nonlinear correction (up to {self.largest:.2%}) "
+                f"{self.alone.band.verdict(self.corrected_deviation)}"
+            )
+        return words
+
+    def columns(self, realisations: int) -> Table:
+        """Columns of the CSV file: σ/⟨f⟩ plain; times M^(-3/2) it is what is drawn."""
+        return {
+            "height": np.full(self.height, self.height),
+            "realisations": np.full(self.height, realisations),
+            "j": np.arange(self.height),
+            "z": self.z,
+            **self.alone.columns(),
+            "printed": self.printed,
+            "nonlinear_correction": self.factor,
+            "correction_standard_error": self.correction.error * self.factor,
+            "corrected": self.alone.theory * self.factor,
+        }
+
+    def marked(self, number: int) -> slice:
+        """Choose the layers that get a marker, other ones for each height."""
+        step = -(-self.height // MARKED)
+        return slice(number * step // 3, None, step)
+
+    def over_height(self, c: int, unit: float) -> list[Element]:
+        """Simulation, exact curve and, if it matters, the corrected one, over M^(3/2)."""
+        unit, exact, some = unit * self.height**1.5, self.alone.theory, self.marked(c)
+        low, high = self.alone.band.limits
+        simulated = self.alone.band.value[some] / unit
+        found: list[Element] = [
+            Line(self.z, exact / unit, c),
+            Area(self.z, low / unit, high / unit, c),
+            Points(self.z[some], simulated, c, f"simulated, $M={self.height}$"),
+        ]
+        if self.largest > NOTEWORTHY:
+            found.append(Line(self.z, exact * self.factor / unit, c, ":"))
+        return found
+
+    def over_theory(self, c: int) -> list[Element]:
+        """Simulation over the exact curve, less 1, in %: all of a band has to hold zero."""
+        some, exact = self.marked(c), self.alone.theory
+        low, high = (100 * (edge / exact - 1) for edge in self.alone.band.limits)
+        off = 100 * (self.alone.band.value / exact - 1)
+        return [
+            Area(self.z, low, high, c, alpha=0.18, edges=0.5),
+            Points(self.z[some], off[some], c, size=2.6),
+        ]
 
 
-# Nonlinear corrections from here on are drawn and told of.
-NOTEWORTHY = 0.01
-# … and these parts of M* are told of, whatever the correction is.
-NEAR = 0.5
-
-
-def compare(
-    heights: Sequence[int],
-    realisations: int,
-    seed: int,
-    notice: Notice,
-    *,
-    q_model: bool = False,
-    medium: Medium = PAPER,
-) -> Comparison:
-    """Simulate and compare. Raises ``SceneError`` and what the sweeps raise near M*."""
-    for M in heights:  # one that is too large is refused before any is solved
-        _ensemble(M, realisations, seed, "exact", medium)
-    found = tuple(_height(M, realisations, seed, medium, notice) for M in heights)
-    return Comparison(found, q_model, medium)
-
-
-def _height(M: int, n: int, seed: int, medium: Medium, notice: Notice) -> Height:
-    start = M << 32  # heights share no radii
-    moments = averages(M, range(start, start + n), seed, "exact", notice, medium)
-    band = simultaneous(averaged(*log_relative_std(*moments)), LEVEL, seed)
-    apart = range(start + n, start + n + max(n // 8, LEAST // 2))
-    log, influence = log_relative_std(*averages(M, apart, seed, "exact", notice, medium))
-    first, first_influence = log_relative_std(
-        *averages(M, apart, seed, "first-order", notice, medium)
+def averages(
+    M: int, realisations: range, seed: int, geometry: str, notice: Notice, medium: Medium = PAPER
+) -> tuple[Array, Array]:
+    """Average g = f/F − 1 and g² over the contacts of each layer; shapes (realisations, M)."""
+    ensemble = _ensemble(M, len(realisations), seed, geometry, medium)
+    what = f"figure 3, M = {M}" + ("" if geometry == "exact" else ", first order")
+    return moments(
+        ensemble, realisations, notice, what, over=lambda change: change.mean(axis=3).mean(axis=1).T
     )
-    exact, printed = curves(M, medium)
-    correction = averaged(log - first, influence - first_influence)
-    return Height(M, n, band, exact, printed, correction)
-
-
-def curves(M: int, medium: Medium = PAPER) -> tuple[Array, Array]:
-    """Give σ_f/⟨f⟩ of layers 0 … M − 1 by Eq. 13: exact to first order at finite M, and printed."""
-    phi, std = float(medium.phi), medium.std
-    exact = [closed_forms.surface_variance(M, j, phi, std, 1.0) for j in range(M)]
-    printed = [closed_forms.surface_diffusion(M, j / M, phi, std, 1.0) for j in range(M)]
-    return np.sqrt(exact), np.sqrt(printed)
 
 
 def _ensemble(M: int, realisations: int, seed: int, geometry: str, medium: Medium) -> Plan:
@@ -208,21 +171,106 @@ def _ensemble(M: int, realisations: int, seed: int, geometry: str, medium: Mediu
     )  # fmt: skip
 
 
-def averages(
-    M: int,
-    realisations: range,
-    seed: int,
-    geometry: str,
-    notice: Notice,
-    medium: Medium = PAPER,
-) -> tuple[Array, Array]:
-    """Average g = f/F − 1 and g² over the contacts of each layer; shapes (realisations, M)."""
-    ensemble = _ensemble(M, len(realisations), seed, geometry, medium)
-    what = f"figure 3, M = {M}" + ("" if geometry == "exact" else ", first order")
-    means: list[Array] = []
-    squares: list[Array] = []
-    for F, g in changes(ensemble, realisations, notice, what):
-        relative = g / F[:, None]  # (layer and branch, realisation, contact)
-        for found, values in ((means, relative), (squares, relative**2)):
-            found.append(values.mean(axis=2).reshape(M, 2, -1).mean(axis=1).T)
-    return np.concatenate(means), np.concatenate(squares)
+def curves(M: int, medium: Medium = PAPER) -> tuple[Array, Array]:
+    """Give σ_f/⟨f⟩ of layers 0 … M − 1 by Eq. 13: exact to first order at finite M, and printed."""
+    phi, std = float(medium.phi), medium.std
+    exact = [closed_forms.surface_variance(M, j, phi, std, 1.0) for j in range(M)]
+    printed = [closed_forms.surface_diffusion(M, j / M, phi, std, 1.0) for j in range(M)]
+    return np.sqrt(exact), np.sqrt(printed)
+
+
+def simulated(M: int, o: Options) -> Height:
+    """Simulate one height."""
+    start, n, medium = M << 32, o.realisations, o.medium()  # heights share no radii
+    found = averages(M, range(start, start + n), o.seed, "exact", o.notice, medium)
+    exact, printed = curves(M, medium)
+    alone = Comparison(f"M = {M}: exact finite-M curve", band_of_spread(*found, o.seed), exact)
+    apart = range(start + n, start + n + max(n // 8, LEAST_REALISATIONS // 2))
+    (log, influence), (first, first_influence) = (
+        log_relative_std(*averages(M, apart, o.seed, geometry, o.notice, medium))
+        for geometry in ("exact", "first-order")
+    )
+    return Height(M, alone, printed, averaged(log - first, influence - first_influence))
+
+
+def figure(o: Options) -> Figure:
+    """Simulation, exact finite-M curves and the printed curve; below, their ratio.
+
+    Raises ``SceneError`` and what the sweeps raise near M*.
+    """
+    medium = o.medium()
+    for M in o.heights:  # one that is too large is refused before any is solved
+        _ensemble(M, o.realisations, o.seed, "exact", medium)
+    found = [simulated(M, o) for M in o.heights]
+    critical, q_model = critical_height(Fraction(medium.std)), "q-model" in o.models
+    parts = [one.columns(o.realisations) for one in found]
+    columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    loads = [(M, *row) for M in o.heights for row in enumerate(weight_variance(M).tolist())]
+    panels = [_theory_and_simulation(found, medium), _ratio(found)]
+    return Figure(
+        Picture([*panels, _shapes(found)], 3.5, page=True, mosaic="ac;bc", share="x", rows=(2.6, 1))
+        if q_model
+        else Picture(panels, 3.5, mosaic="a;b", share="x", rows=(2.6, 1)),
+        tables={"figure3": columns}
+        | ({"figure3_q_model": table("height depth weight_variance", loads)} if q_model else {}),
+        facts={
+            "simultaneous_level": LEVEL,
+            "spacing_over_r": float(medium.spacing),
+            "relative_std": medium.std,
+            "critical_height": critical,
+            "heights": [one.facts(o.realisations) for one in found],
+        },
+        says=[one.says(critical) for one in found],
+        comparisons=[one.alone for one in found],
+    )
+
+
+def _theory_and_simulation(found: Sequence[Height], medium: Medium) -> Panel:
+    power = -math.floor(math.log10(medium.std))
+    z, unit = np.linspace(0, 1, 201), 10.0**-power
+    form, phi = closed_forms.surface_diffusion, float(medium.phi)
+    printed = np.sqrt([form(1, v, phi, medium.std, 1.0) for v in z]) / unit
+    return Panel(
+        [
+            Line(z, printed, "black", "--", "Eq. (13), printed", 1.0),
+            Line(name="exact at finite $M$"),
+            *(element for c, one in enumerate(found) for element in one.over_height(c, unit)),
+            Area(name=f"{LEVEL:.0%} band"),
+        ],
+        Axis(low=0, high=1),
+        Axis(rf"$10^{{{power}}}\,M^{{-3/2}}\,\sigma_f/\langle f\rangle$", 0),
+        legend="lower left",
+    )
+
+
+def _ratio(found: Sequence[Height]) -> Panel:
+    edges = [edge / one.alone.theory - 1 for one in found for edge in one.alone.band.limits]
+    widest = 115 * max(float(np.abs(edge).max()) for edge in edges)
+    return Panel(
+        [Rule("y", 0), *(element for c, one in enumerate(found) for element in one.over_theory(c))],
+        RELATIVE_HEIGHT,
+        Axis(r"sim./exact $-\,1$ (%)", -widest, widest),
+    )
+
+
+def _shapes(found: Sequence[Height]) -> Panel:
+    z = np.linspace(0, 1, 201)
+    elements: list[Element] = []
+    for c, one in enumerate(found):
+        std, depth = np.sqrt(weight_variance(one.height)), np.arange(one.height + 1)
+        here, shape = 1 - depth / one.height, std / std[-1]
+        some = slice(None, None, max(1, one.height // MARKED))
+        elements += [
+            Line(here, shape, c),
+            Points(here[some], shape[some], c, f"$q$-model, $M={one.height}$"),
+        ]
+    return Panel(
+        [
+            Line(z, np.sqrt((1 - z) ** 2 * (2 * z + 1)), "black", name="Eq. (13), printed"),
+            Line(z, np.sqrt(1 - z), "0.45", ":", r"Brownian, $\sqrt{1-z}$"),
+            *elements,
+        ],
+        RELATIVE_HEIGHT,
+        Axis(r"$\sigma(z)\,/\,\sigma(0)$", 0, 1.04),
+        legend="lower left",
+    )

@@ -9,26 +9,16 @@ and at M = 2 with two-point radii there is no Gaussian.
 """
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .. import closed_forms
 from ..arithmetic.systems import Array
-from .packings import (
-    PAPER,
-    Medium,
-    Notice,
-    Row,
-    changes,
-    forces_of,
-    impulses,
-    planned,
-)
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from ..mechanics.problem import Solved
+from ..quantities.base import ContactQuantity
+from .packings import Medium, Options, forces_of, gathered, impulses, planned
+from .specification import Axis, Figure, Line, Panel, Picture, Points, table
 
 # Excess kurtosis of the radii.
 KURTOSIS = {"uniform": -1.2, "normal": 0.0, "two-point": -2.0}
@@ -69,80 +59,40 @@ class Sample:
         }
 
 
-@dataclass(frozen=True)
-class Distribution:
-    """P(f) of one contact at the base, for several radii and heights."""
-
-    samples: tuple[Sample, ...]
-    medium: Medium
-
-    def tables(self) -> dict[str, list[Row]]:
-        """CSV files: the samples themselves, and the tests."""
-        rows = [
-            {"radii": one.kind, "height": one.height, "realisation": k, "deviate": value}
-            for one in self.samples
-            for k, value in enumerate(one.deviates.tolist())
-        ]
-        return {"pf": rows, "pf_tests": [one.facts() for one in self.samples]}
-
-    def facts(self) -> dict[str, Any]:
-        """What the tests say; both together at level 1 %."""
-        return {
-            "spacing_over_r": float(self.medium.spacing),
-            "relative_std": self.medium.std,
-            "level_of_both_tests_together": LEVEL,
-            "samples": [one.facts() for one in self.samples],
-        }
-
-    def lines(self) -> list[str]:
-        """One line a sample."""
-        return [
-            f"{one.kind} radii, M = {one.height}: Gaussian "
-            f"{'rejected' if one.facts()['gaussian_rejected'] else 'not rejected'} "
-            f"(Kolmogorov–Smirnov p = {one.smirnov:.2g}, Anderson–Darling p = {one.anderson:.2g})"
-            for one in self.samples
-        ]
-
-
-def samples(realisations: int, seed: int, notice: Notice, medium: Medium = PAPER) -> Distribution:
+def simulated(o: Options, medium: Medium) -> list[Sample]:
     """Draw one contact from each realisation, and test."""
     found = [
-        _sample(case, range(number << 32, (number << 32) + realisations), seed, medium, notice)
+        _deviates(case, range(number << 32, (number << 32) + o.realisations), o, medium)
         for number, case in enumerate(CASES)  # samples share no radii
     ]
-    notice("P(f): tests")
-    values = tests(np.stack([deviates for deviates, _ in found]), seed)
-    return Distribution(
-        tuple(
-            Sample(*case, deviates, *p_values, KURTOSIS[case[0]] * share)
-            for case, (deviates, share), p_values in zip(CASES, found, values, strict=True)
-        ),
-        medium,
-    )
+    o.notice("P(f): tests")
+    values = tests(np.stack([deviates for deviates, _ in found]), o.seed)
+    return [
+        Sample(*case, deviates, *p_values, KURTOSIS[case[0]] * share)
+        for case, (deviates, share), p_values in zip(CASES, found, values, strict=True)
+    ]
 
 
-def _sample(
-    case: tuple[str, int], realisations: range, seed: int, medium: Medium, notice: Notice
+def _deviates(
+    case: tuple[str, int], realisations: range, o: Options, medium: Medium
 ) -> tuple[Array, float]:
     """Give the deviates, and Σw⁴/(Σw²)² of the weights of the radii."""
     kind, M = case
     plan = planned(
-        "contact",
-        at=(0, 0, "+"),
-        height=M,
-        width=None,
-        seed=seed,
-        kind=kind,
-        realisations=len(realisations),
-        std=medium.std,
-        spacing=medium.spacing,
-    )
-    what = f"P(f), {kind} radii, M = {M}"
-    found = [g[0, :, 0] / F[0, 0] for F, g in changes(plan, realisations, notice, what)]
+        "contact", at=(0, 0, "+"), height=M, width=None, seed=o.seed, kind=kind,
+        realisations=len(realisations), std=medium.std, spacing=medium.spacing,
+    )  # fmt: skip
+    quantity = plan.quantity
+    assert isinstance(quantity, ContactQuantity)
+
+    def each(answer: Solved, number: int) -> tuple[Array]:
+        F, g = quantity.changes(plan.problem, answer, number)
+        return (g[0, :, 0] / F[0, 0],)
+
+    (found,) = gathered(plan, realisations, o.notice, f"P(f), {kind} radii, M = {M}", each)
     std = np.sqrt(closed_forms.surface_variance(M, 0, float(medium.phi), medium.std, 1.0))
     weights = forces_of(impulses(plan)).change.plus[1][:, 0]
-    share = float((weights**4).sum() / (weights**2).sum() ** 2)
-    return np.concatenate(found) / std, share
+    return found / std, float((weights**4).sum() / (weights**2).sum() ** 2)
 
 
 def tests(samples: Array, seed: int) -> list[tuple[float, float]]:
@@ -169,46 +119,59 @@ def _anderson_darling(samples: Array, axis: int) -> Array:
     return np.asarray(-n - ((2 * np.arange(1, n + 1) - 1) / n * both).sum(axis=axis))
 
 
-def draw(data: Distribution) -> "Figure":
-    """Draw histograms of two samples with the Gaussian of theory."""
-    from . import style
+def figure(o: Options) -> Figure:
+    """P(f) of one contact at the base, for several radii and heights; two of them drawn."""
+    medium = o.medium()
+    found = simulated(o, medium)
+    facts = [one.facts() for one in found]
+    drawn = [next(s for s in found if (s.kind, s.height) == case) for case in DRAWN]
+    rows = [
+        (one.kind, one.height, k, value)
+        for one in found
+        for k, value in enumerate(one.deviates.tolist())
+    ]
+    return Figure(
+        Picture([_histogram(one, c) for c, one in enumerate(drawn)], 2.6, page=True),
+        tables={
+            "pf": table("radii height realisation deviate", rows),
+            "pf_tests": table(" ".join(facts[0]), [one.values() for one in facts]),
+        },
+        facts={
+            "spacing_over_r": float(medium.spacing),
+            "relative_std": medium.std,
+            "level_of_both_tests_together": LEVEL,
+            "samples": facts,
+        },
+        says=[
+            f"{one.kind} radii, M = {one.height}: Gaussian "
+            f"{'rejected' if fact['gaussian_rejected'] else 'not rejected'} "
+            f"(Kolmogorov–Smirnov p = {one.smirnov:.2g}, Anderson–Darling p = {one.anderson:.2g})"
+            for one, fact in zip(found, facts, strict=True)
+        ],
+    )
 
-    figure = style.figure(style.PAGE, 2.6)
-    panels = figure.subplots(1, 2)
-    for number, (axes, case) in enumerate(zip(panels, DRAWN, strict=True)):
-        one = next(s for s in data.samples if (s.kind, s.height) == case)
-        _histogram(axes, one, style.series(number))
-    style.letter(panels)
-    return figure
 
-
-def _histogram(axes: "Axes", one: Sample, look: tuple[str, str]) -> None:
-    from . import parts
-
-    edges = np.linspace(-4, 4, 41)
-    width = edges[1] - edges[0]
+def _histogram(one: Sample, c: int) -> Panel:
+    edges, v = np.linspace(-4, 4, 41), np.linspace(-4, 4, 321)
     counts, _ = np.histogram(one.deviates, edges)
-    some = counts > 0
+    some, unit = counts > 0, len(one.deviates) * (edges[1] - edges[0])
     middle = ((edges[1:] + edges[:-1]) / 2)[some]
-    density = counts[some] / len(one.deviates) / width
-    error = np.sqrt(counts[some]) / len(one.deviates) / width
-    v = np.linspace(-4, 4, 321)
-    axes.plot(v, np.exp(-(v**2) / 2) / np.sqrt(2 * np.pi), color="black", lw=1.0, label="Gaussian")
-    name = f"{one.kind} radii, $M={one.height}$"
-    parts.densities(axes, middle, density, error, look, name)
-    axes.set_xlim(-4, 4)
-    axes.set_ylim(8e-5, 1)
-    axes.set_xlabel(r"$(f-\langle f\rangle)\,/\,\sigma_f$")
-    axes.set_ylabel(r"$\sigma_f\,P(f)$")
-    tests = f"Kolmogorov–Smirnov {_p(one.smirnov)}\nAnderson–Darling {_p(one.anderson)}"
-    axes.legend(loc="lower center", title=tests, title_fontsize=7)  # below the curve
+    return Panel(
+        [
+            Line(v, np.exp(-(v**2) / 2) / np.sqrt(2 * np.pi), "black", name="Gaussian"),
+            Points(
+                middle, counts[some] / unit, c, f"{one.kind} radii, $M={one.height}$",
+                np.sqrt(counts[some]) / unit,
+            ),
+        ],
+        Axis(r"$(f-\langle f\rangle)\,/\,\sigma_f$", -4, 4),
+        Axis(r"$\sigma_f\,P(f)$", 8e-5, 1, log=True),
+        legend="lower center",  # below the curve
+        legend_title=f"Kolmogorov–Smirnov {_p(one.smirnov)}\nAnderson–Darling {_p(one.anderson)}",
+    )  # fmt: skip
 
 
 def _p(value: float) -> str:
-    return (
-        f"$p={value:.2f}$"
-        if value >= 0.01
-        else f"$p={value:.3f}$"
-        if value >= 0.001
-        else "$p<0.001$"
-    )
+    if value < 0.001:
+        return "$p<0.001$"
+    return f"$p={value:.2f}$" if value >= 0.01 else f"$p={value:.3f}$"

@@ -4,23 +4,19 @@ Simulated are exact, nonlinear packings under a surface load; curves are Eqs. B7
 first order, in the N that they are for, and what independent contacts would have.
 """
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
-
 import numpy as np
 
 from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..lattice.branch import Branch
-from ..statistics.bands import Band, averaged, simultaneous
-from .packings import N_X, PAPER_STD, PHI, Notice, Row, planned, solved
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from ..mechanics.problem import Solved
+from .packings import PAPER, PAPER_STD, PHI, Options, band_of_means, gathered, of_ensembles, planned
+from .specification import Axis, Comparison, Figure, Line, Panel, Picture, table
 
 HEIGHT, LAYER = 32, 16
 WINDOWS = (1, 2, 3, 5, 8, 14)
-LEVEL = 0.99
+KNOWN = np.array([count >= 3 for count in WINDOWS] * 2)
+"""Windows, of contacts and then of beads, that the equations are for."""
 
 
 def contacts(count: int) -> float:
@@ -35,127 +31,64 @@ def beads(count: int) -> float:
     return float(form(HEIGHT, LAYER, count, float(PHI), PAPER_STD, 1.0))
 
 
-@dataclass(frozen=True)
-class Neighbours:
-    """The band holds ln σ of windows of contacts, then of beads; one a window."""
-
-    realisations: int
-    band: Band
-
-    def theory(self) -> Array:
-        """σ where Eqs. B7 and B8 are meant, else NaN; in the band's order."""
-        return np.sqrt(
-            [
-                form(count) if count >= 3 else np.nan
-                for form in (contacts, beads)
-                for count in WINDOWS
-            ]
-        )
-
-    def deviation(self, scale: float = 1.0) -> float:
-        """Largest deviation of theory, in half-widths of the band: inside is ≤ 1."""
-        off = np.abs(np.log(scale * self.theory()) - self.band.estimate.log) / self.band.half
-        return float(np.nanmax(off))
-
-    def tables(self) -> dict[str, list[Row]]:
-        """CSV: one row a window."""
-        low, high = self.band.limits
-        found, exact = np.exp(self.band.estimate.log), self.theory()
-        return {
-            "figureB7": [
-                {
-                    "of": of,
-                    "N": count,
-                    "sigma_simulated": float(found[at]),
-                    "band_low": float(low[at]),
-                    "band_high": float(high[at]),
-                    "sigma_exact_first_order": "" if count < 3 else float(exact[at]),
-                }
-                for b, of in enumerate(("contacts", "beads"))
-                for at, count in enumerate(WINDOWS, start=b * len(WINDOWS))
-            ]
-        }
-
-    def facts(self) -> dict[str, Any]:
-        """Verdict and parameters."""
-        return {
-            "height": HEIGHT,
-            "layer": LAYER,
-            "realisations": self.realisations,
-            "relative_std": PAPER_STD,
-            "simultaneous_level": LEVEL,
-            "largest_deviation_in_half_widths": self.deviation(),
-        }
-
-    def lines(self) -> list[str]:
-        """Say whether theory holds."""
-        verdict = self.band.verdict(self.deviation())
-        return [f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8 {verdict}"]
+def window_means(answer: Solved, number: int) -> tuple[Array]:
+    """Mean squares of windows of contacts, then of beads; (number, 2 windows)."""
+    forces, packing, upper = answer.forces, answer.packing, LAYER + 1
+    assert forces is not None
+    assert packing is not None
+    relative, vertical = [], []
+    for branch in Branch:
+        change, ordered = forces.change[branch][upper], forces.ordered[branch][upper]
+        a, b = (part[upper] for part in zip(*packing.dn[branch], strict=True))
+        relative.append((change / ordered).reshape(number, -1))
+        push = (ordered + change) * PAPER.n_y * (1 + a + b) - ordered * PAPER.n_y
+        vertical.append(push.reshape(number, -1))
+    # contacts are named by their upper bead: bead q of an even layer has f⁺ at q, f⁻ at q − 1
+    bead = vertical[0] + np.roll(vertical[1], 1, axis=1)
+    each = [
+        np.asarray(sum(np.roll(values, -q, axis=1) for q in range(count)) / count) ** 2
+        for values in (relative[0], bead)
+        for count in WINDOWS
+    ]
+    return (np.stack([square.mean(axis=1) for square in each], axis=1),)
 
 
-def simulate(realisations: int, seed: int, notice: Notice) -> Neighbours:
-    """Solve packings, and average neighbours of one layer in windows at every place."""
+def simulated(o: Options) -> Comparison:
+    """Average neighbours of one layer in windows at every place; σ of contacts, then of beads."""
     ensemble = planned(
-        "profile", height=HEIGHT, width=2 * HEIGHT, seed=seed, realisations=realisations
+        "profile", height=HEIGHT, width=2 * HEIGHT, seed=o.seed, realisations=o.realisations
     )
-    n_y = np.sqrt(1 - float(N_X) ** 2)
-    squares = []
-    for answer, number in solved(ensemble, range(realisations), notice, "figure B7"):
-        forces, packing = answer.forces, answer.packing
-        assert forces is not None
-        assert packing is not None
-        upper = LAYER + 1
-        relative, vertical = [], []
-        for sign, change, ordered in (
-            (Branch.PLUS, forces.change.plus[upper], forces.ordered.plus[upper]),
-            (Branch.MINUS, forces.change.minus[upper], forces.ordered.minus[upper]),
-        ):
-            a, b = (part[upper] for part in zip(*packing.dn[sign], strict=True))
-            relative.append((change / ordered).reshape(number, -1))
-            push = (ordered + change) * n_y * (1 + a + b) - ordered * n_y
-            vertical.append(push.reshape(number, -1))
-        # contacts are named by their upper bead: bead q of an even layer has f⁺ at q, f⁻ at q − 1
-        bead = vertical[0] + np.roll(vertical[1], 1, axis=1)
-        each = [
-            (_windows(values, count) ** 2).mean(axis=1)
-            for values in (relative[0], bead)
-            for count in WINDOWS
-        ]
-        squares.append(np.stack(each, axis=1))
-    square = np.concatenate(squares)
-    mean = square.mean(axis=0)
-    log, influence = np.log(mean) / 2, (square - mean) / (2 * mean)
-    return Neighbours(realisations, simultaneous(averaged(log, influence), LEVEL, seed))
+    (square,) = gathered(ensemble, range(o.realisations), o.notice, "figure B7", window_means)
+    exact = [form(N) if N >= 3 else np.nan for form in (contacts, beads) for N in WINDOWS]
+    what = f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8"
+    return Comparison(what, band_of_means(square, o.seed, 0.5), np.sqrt(exact), KNOWN)
 
 
-def _windows(values: Array, count: int) -> Array:
-    """Means of ``count`` neighbours at every place of a periodic layer, (number, W)."""
-    total = sum(np.roll(values, -place, axis=1) for place in range(count))
-    return np.asarray(total / count)
-
-
-def draw(data: Neighbours) -> "Figure":
-    """Draw σ of the mean over N on logarithmic axes."""
-    from . import style
-
-    figure = style.figure(style.COLUMN, 2.6)
-    axes = figure.subplots()
-    found, exact = np.exp(data.band.estimate.log), data.theory()
-    low, high = data.band.limits
+def figure(o: Options) -> Figure:
+    """σ of the mean over N, on logarithmic axes."""
+    found, every, count = simulated(o), np.array(WINDOWS), len(WINDOWS)
+    halves = slice(0, count), slice(count, None)
     names = ("contacts of one branch, Eq. (B7)", "beads, vertical force, Eq. (B8)")
-    every = np.array(WINDOWS)
-    for b, name in enumerate(names):
-        look = style.series(b)
-        here = slice(b * len(WINDOWS), (b + 1) * len(WINDOWS))
-        axes.plot(every, exact[here], color=look[0], label=name)
-        error = found[here] - low[here], high[here] - found[here]
-        style.points(axes, every, found[here], error, look)
-    axes.plot(every, found[0] / np.sqrt(every), ":", color="0.35", label="independent contacts")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xticks([1, 2, 5, 10], ["1", "2", "5", "10"])
-    axes.minorticks_off()
-    axes.set_xlabel("number of neighbours $N$")
-    axes.set_ylabel(r"$\sigma$ of the mean over $N$, relative")
-    axes.legend(loc="lower left")
-    return figure
+    panel = Panel(
+        [
+            *(Line(every, found.theory[halves[b]], b, name=name) for b, name in enumerate(names)),
+            *(found.points(every, b, rows=halves[b]) for b in (0, 1)),
+            Line(
+                every, found.band.value[0] / np.sqrt(every), dashes=":",
+                name="independent contacts",
+            ),
+        ],
+        Axis("number of neighbours $N$", log=True, ticks=(1, 2, 5, 10)),
+        Axis(r"$\sigma$ of the mean over $N$, relative", log=True),
+        legend="lower left",
+    )  # fmt: skip
+    windows = [(of, N) for of in ("contacts", "beads") for N in WINDOWS]
+    columns = found.columns("sigma_")
+    exact = {"sigma_exact_first_order": np.where(KNOWN, found.theory.astype(object), "")}
+    return Figure(
+        Picture([panel], 2.6),
+        tables={"figureB7": table("of N", windows) | columns | exact},
+        facts=of_ensembles(o, PAPER_STD, height=HEIGHT, layer=LAYER) | found.fact(),
+        says=[found.verdict()],
+        comparisons=[found],
+    )

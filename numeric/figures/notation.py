@@ -4,133 +4,95 @@ The disordered packing is solved exactly. Its radii scatter by σ/r = 0.06, far 
 other figures, so that it can be seen.
 """
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from math import sqrt
 
 import numpy as np
 
-from .packings import (
-    N_X,
-    SPACING,
-    Notice,
-    Row,
-    centres,
-    planned,
-    solved,
-)
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from ..arithmetic.systems import Array
+from .packings import N_X, SPACING, Options, centres, planned, solved
+from .specification import Arrow, Axis, Beads, Element, Figure, Line, Panel, Picture, Words, table
 
 HEIGHT, WIDTH, STD = 3, 16, 0.06
-SHOWN = range(9)  # columns i of the detail that is drawn
+SHOWN = range(9)  # columns i of the detail
+NX, NY = float(N_X), sqrt(1 - N_X**2)
+NAMED = {
+    (4, 2): "$(i,j)$", (5, 3): "$(i+1,j+1)$", (3, 3): "$(i-1,j+1)$", (5, 1): "$(i+1,j-1)$",
+    (3, 1): "$(i-1,j-1)$",
+}  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Notation:
-    """The beads of the detail, one row each: lattice indices, ordered and disordered centres."""
-
-    beads: tuple[Row, ...]
-
-    def tables(self) -> dict[str, list[Row]]:
-        """CSV files; lengths in units of r."""
-        return {"figure1": list(self.beads)}
-
-    def facts(self) -> dict[str, Any]:
-        """What the packing is."""
-        return {"relative_std": STD, "height": HEIGHT, "spacing_over_r": float(SPACING)}
-
-    def lines(self) -> list[str]:
-        """Nothing is decided here."""
-        return [f"{len(self.beads)} beads of an exact packing at σ/r = {STD}"]
-
-
-def beads(seed: int, notice: Notice) -> Notation:
-    """Solve a packing and cut the detail out of it."""
-    notice("figure 1")
-    one = planned("positions", height=HEIGHT, width=WIDTH, seed=seed, std=STD)
+def beads(o: Options) -> list[tuple[float, ...]]:
+    """Solve a packing and cut the detail out of it: i, j, ordered and displaced centre, radius."""
+    o.notice("figure 1")
+    one = planned("positions", height=HEIGHT, width=WIDTH, seed=o.seed, std=STD)
     packing = next(solved(one, range(1)))[0].packing
     assert packing is not None
     found = []
     for j, layer in enumerate(packing.region.rows):
         columns = (layer.sites(), *centres(packing, j), 1 + packing.rho[j])
-        for i, x0, y0, x, y, radius in zip(*columns, strict=True):
+        for i, *numbers in zip(*columns, strict=True):
             if i in SHOWN:
-                row: Row = {"i": i, "j": j, "x_ordered": float(x0), "y_ordered": float(y0)}
-                found.append(row | {"x": float(x), "y": float(y), "radius": float(radius)})
-    return Notation(tuple(found))
+                found.append((i, j, *map(float, numbers)))
+    return found
 
 
-def draw(data: Notation) -> "Figure":
-    """Draw ordered beads black, the disordered ones grey, and name what the text names."""
-    from matplotlib.patches import Circle
-
-    from . import style
-
-    figure = style.figure(style.COLUMN, 1.85)
-    axes = figure.subplots()
-    for bead in data.beads:
-        centre = (bead["x"], bead["y"])
-        axes.add_patch(Circle(centre, bead["radius"], fc="0.87", ec="0.55", lw=0.7, zorder=1))
-    for bead in data.beads:
-        centre = (bead["x_ordered"], bead["y_ordered"])
-        axes.add_patch(Circle(centre, 1, fc="none", ec="black", lw=1.1, zorder=3))
-    _names(axes)
-    axes.set_aspect("equal")
-    axes.set_xlim(-1.2, 13.2)
-    axes.set_ylim(-2.45, 5.15)
-    axes.axis("off")
-    return figure
+def at(i: float, j: float) -> Array:
+    """Give the ordered centre of a bead."""
+    return np.array([2 * NX * i, 2 * NY * j])
 
 
-def _names(axes: "Axes") -> None:
-    from . import style
+def beside(place: Array, right: float, up: float) -> tuple[float, float]:
+    """Give a place that is so far away from another one."""
+    return float(place[0] + right), float(place[1] + up)
 
-    nx = float(N_X)
-    ny = np.sqrt(1 - nx**2)
 
-    def at(i: float, j: float) -> tuple[float, float]:
-        return 2 * nx * i, 2 * ny * j
+def names() -> list[Element]:
+    """Name what the text names."""
+    found: list[Element] = [
+        Words(*beside(at(*site), 0, -0.45 * (site == (4, 2))), words, size=7)
+        for site, words in NAMED.items()
+    ]
+    middle, left, right, edge = at(4, 2), at(2, 0), at(4, 0), at(7, 1)
+    for side, name, colour in ((1, "+", 0), (-1, "-", 1)):
+        word = rf"$\hat{{\mathbf{{n}}}}^{{{name}}}$"
+        tip = beside(middle, side * NX, NY)
+        found += [
+            Arrow(beside(middle, 0, 0), tip, colour=colour, width=1.3),
+            Words(*beside(middle, side * 1.45, -0.12), word, colour),
+        ]
+    for x, y in (left, right):
+        found.append(Line([x, x], [y, y - 1.6], "black", (0, (2, 2)), width=0.5))
+    return [
+        *found,
+        Arrow(beside(left, 0, -1.45), beside(right, 0, -1.45), style="<->"),
+        Words(*beside((left + right) / 2, 0, -1.6), "$s$", align=("center", "top")),
+        Arrow(beside(edge, 0, 0), beside(edge, 1, 0), style="->"),
+        Words(*beside(edge, 0.5, 0.12), "$r$", align=("center", "bottom")),
+        Arrow((3.0, 4.85), beside((at(1, 3) + at(2, 2)) / 2, 0, 0), "contact", size=5),
+        Words(*beside(at(8, 0), -0.2, -1.6), "base, $j=0$", align=("right", "center")),
+    ]
 
-    for words, site in (
-        ("$(i,j)$", (4, 2)),
-        ("$(i+1,j+1)$", (5, 3)),
-        ("$(i-1,j+1)$", (3, 3)),
-        ("$(i+1,j-1)$", (5, 1)),
-        ("$(i-1,j-1)$", (3, 1)),
-    ):
-        x, y = at(*site)
-        low = 0.45 if site == (4, 2) else 0.0
-        axes.text(x, y - low, words, ha="center", va="center", fontsize=6.2, zorder=6)
-    x, y = at(4, 2)
-    for side, name, colour in ((1, "+", style.BLUE), (-1, "-", style.VERMILLION)):
-        axes.annotate(
-            "", (x + side * nx, y + ny), (x, y), zorder=7,
-            arrowprops={
-                "arrowstyle": "-|>", "color": colour, "lw": 1.3, "shrinkA": 0, "shrinkB": 0,
-                "mutation_scale": 7,
-            },
-        )  # fmt: skip
-        axes.text(
-            x + side * 1.45, y - 0.12, rf"$\hat{{\mathbf{{n}}}}^{{{name}}}$", color=colour,
-            ha="center", va="center", fontsize=7.5, zorder=8,
-        )  # fmt: skip
-    both = {"arrowstyle": "<->", "lw": 0.7, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 6}
-    (left, base), (right, _) = at(2, 0), at(4, 0)
-    axes.annotate("", (left, base - 1.45), (right, base - 1.45), arrowprops=both)
-    for x in (left, right):
-        axes.plot([x, x], [base, base - 1.6], color="black", lw=0.5, ls=(0, (2, 2)), zorder=5)
-    axes.text((left + right) / 2, base - 1.6, "$s$", ha="center", va="top")
-    x, y = at(7, 1)
-    axes.annotate("", (x + 1, y), (x, y), arrowprops={**both, "arrowstyle": "->"}, zorder=6)
-    axes.text(x + 0.5, y + 0.12, "$r$", ha="center", va="bottom", zorder=6)
-    upper, lower = at(1, 3), at(0, 2)
-    touch = ((upper[0] + lower[0]) / 2, (upper[1] + lower[1]) / 2)
-    axes.annotate(
-        "contact", touch, (-1.1, 4.75), ha="left", va="center", fontsize=7.5, zorder=9,
-        arrowprops={"arrowstyle": "-|>", "lw": 0.7, "color": "black", "mutation_scale": 5,
-                    "shrinkA": 1, "shrinkB": 0},
-    )  # fmt: skip
-    axes.axhline(0, color="black", lw=0.6, ls=(0, (1, 1.5)), zorder=0)
-    axes.text(at(8, 0)[0] + 1.2, -1.45, "base, $j=0$", ha="right", va="center", fontsize=7.5)
+
+def figure(o: Options) -> Figure:
+    """Ordered beads black, the disordered ones grey."""
+    found = beads(o)
+    _, _, *columns, radii = np.array(found).T
+    ordered, displaced = np.stack(columns[:2], axis=1), np.stack(columns[2:], axis=1)
+    panel = Panel(
+        [
+            Line([-2, 14], [0, 0], "black", (0, (1, 1.5)), width=0.6),
+            Beads(displaced, radii, face="0.87", edge="0.55", width=0.7),
+            Beads(ordered, face="none", edge="black", width=1.1, above=True),
+            *names(),
+        ],
+        Axis(low=0.9, high=11.9),
+        Axis(low=-2.45, high=5.15),
+        scaled=True,
+        bare=True,
+    )
+    return Figure(
+        Picture([panel], 2.4),
+        tables={"figure1": table("i j x_ordered y_ordered x y radius", found)},
+        facts={"relative_std": STD, "height": HEIGHT, "spacing_over_r": float(SPACING)},
+        says=[f"{len(found)} beads of an exact packing at σ/r = {STD}"],
+    )

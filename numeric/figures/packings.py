@@ -1,6 +1,6 @@
 """Ensembles for figures: planned, and solved batch after batch by the engine."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import sqrt
@@ -24,12 +24,13 @@ from ..scene.sections import (
     Packing,
     SurfaceLoad,
 )
+from ..statistics.bands import Band, averaged, log_relative_std, simultaneous
 
 Notice = Callable[[str], None]
 """Told, now and then, what is being done."""
 
-Row = dict[str, Any]
-"""One line of a CSV file."""
+LEVEL = 0.99
+"""Of all simultaneous bands."""
 
 # (σ_δr/r)² = 1e-6/12, uniform radii, and s = 3 r, as in the caption of figure 3.
 PAPER_STD = sqrt(1e-6 / 12)
@@ -61,6 +62,23 @@ class Medium:
 
 PAPER = Medium()
 N_X, PHI = PAPER.n_x, PAPER.phi
+
+
+@dataclass(frozen=True)
+class Options:
+    """What can be chosen of figures."""
+
+    heights: Sequence[int] = (8, 32, 128)
+    realisations: int = 0
+    seed: int = 1
+    models: frozenset[str] = frozenset()
+    spacing: Fraction | None = None
+    relative_std: float | None = None
+    notice: Notice = lambda _: None
+
+    def medium(self, usual: Medium = PAPER) -> Medium:
+        """Give what was chosen, in place of what is usual for a figure."""
+        return Medium(self.spacing or usual.spacing, self.relative_std or usual.std)
 
 
 def planned(
@@ -106,17 +124,51 @@ def solved(
                 notice(f"{what}: realisation {chunk[-1] - realisations[0]} of {len(realisations)}")
 
 
-def changes(
-    ensemble: Plan, realisations: range, notice: Notice, what: str
-) -> Iterator[tuple[Array, Array]]:
-    """Solve realisations; give F and g of the quantity's groups, as an ensemble has them.
+def gathered(
+    ensemble: Plan,
+    realisations: range,
+    notice: Notice,
+    what: str,
+    each: Callable[[Solved, int], tuple[Array, ...]],
+) -> tuple[Array, ...]:
+    """Solve realisations; join what ``each`` gives of them, arrays of (realisations, …)."""
+    found = [each(*solution) for solution in solved(ensemble, realisations, notice, what)]
+    return tuple(np.concatenate(parts) for parts in zip(*found, strict=True))
 
-    Shapes: (groups, 1 or members) and (groups, realisations of a batch, members).
+
+def moments(
+    ensemble: Plan,
+    realisations: range,
+    notice: Notice,
+    what: str,
+    over: Callable[[Array], Array],
+) -> tuple[Array, Array]:
+    """Solve realisations of a profile; give averages of g/F and of its square.
+
+    ``over`` takes (M, branches, realisations, contacts) to averages, (realisations, L).
     """
-    quantity = ensemble.quantity
+    quantity, problem = ensemble.quantity, ensemble.problem
     assert isinstance(quantity, ContactQuantity)
-    for answer, number in solved(ensemble, realisations, notice, what):
-        yield quantity.changes(ensemble.problem, answer, number)
+
+    def each(answer: Solved, number: int) -> tuple[Array, Array]:
+        F, g = quantity.changes(problem, answer, number)
+        change = (g / F[:, None]).reshape(problem.height, problem.dimension, number, -1)
+        return over(change), over(change**2)
+
+    mean, square = gathered(ensemble, realisations, notice, what, each)
+    return mean, square
+
+
+def band_of_means(values: Array, seed: int, power: float = 1.0) -> Band:
+    """Give the band of means, to some power, of ``values``, (realisations, L)."""
+    mean = values.mean(axis=0)
+    influence = power * (values - mean) / mean
+    return simultaneous(averaged(power * np.log(mean), influence), LEVEL, seed)
+
+
+def band_of_spread(mean: Array, square: Array, seed: int) -> Band:
+    """Give the band of σ/⟨f⟩ (``log_relative_std``)."""
+    return simultaneous(averaged(*log_relative_std(mean, square)), LEVEL, seed)
 
 
 def forces_of(answer: Solved) -> Forces:
@@ -151,3 +203,13 @@ def centres(packing: SolvedPacking, j: int) -> tuple[Array, Array, Array, Array]
     y = np.full(len(x), 2 * j * ny)
     cp, cm = packing.c.plus[j], packing.c.minus[j]
     return x, y, x + (cp - cm) / (2 * nx), y + (cp + cm) / (2 * ny)
+
+
+def of_ensembles(o: Options, std: float, **parameters: Any) -> dict[str, Any]:
+    """Give the facts of a figure that draws ensembles."""
+    return {
+        **parameters,
+        "realisations": o.realisations,
+        "relative_std": std,
+        "simultaneous_level": LEVEL,
+    }

@@ -7,9 +7,8 @@ contact carries all of p, half of the load on average, and fluctuates less. The 
 l are the closed forms, exact to first order; the simulation is exact and nonlinear.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from math import asin, sqrt
+from math import asin
 from typing import Any
 
 import numpy as np
@@ -20,186 +19,140 @@ from ..mechanics.problem import Solved
 from ..planning.plan import Plan
 from ..quantities import response as quantities
 from ..scene.sections import PointLoad
-from ..statistics.bands import Band, averaged, simultaneous
+from ..statistics.bands import averaged, simultaneous
+from .elements import cone
 from .models.double_y import Profile, profiles
-from .packings import (
-    Medium,
-    Notice,
-    Row,
-    planned,
-    solved,
+from .packings import LEVEL, Medium, Options, gathered, planned
+from .specification import (
+    Area,
+    Axis,
+    Comparison,
+    Element,
+    Figure,
+    Line,
+    Panel,
+    Picture,
+    Points,
+    Rule,
+    Table,
+    Words,
+    table,
 )
 
 APEX = 24  # the loaded bead is (0, APEX)
 MEDIUM = Medium(std=1e-4)  # far below M*
-LEVEL = 0.99
 CUTS = (18, 12, 6, 0)
+SITES = [(i, j) for j in range(APEX) for i in range(-(APEX - j), APEX - j + 1, 2)]
+"""The beads of the cone, legs included, layer by layer from the base up."""
+COLUMN, LAYER = np.array(SITES).T
+LEG = np.abs(COLUMN) == APEX - LAYER
+ON_CUTS = np.concatenate([np.flatnonzero(j == LAYER) for j in CUTS])
+VARIANCE = r"$\sigma^2_{\rm ensemble}(p)\,/\,(f^{\rm load}\sigma_{\delta r}/r)^2$"
 
 
 @dataclass(frozen=True)
 class Response:
-    """The response on layers j = 0 … l − 1, in units of the load; lists hold one array a layer.
+    """The response on ``SITES``, in units of the load; shapes (sites,).
 
-    Layer j has the l − j + 1 beads i = −(l − j), …, l − j within the cone, its two legs included.
     ``variance`` and ``one_contact`` (upper contacts "+", the bead's upper right) are exact to first
-    order, in (σ/r)²; ``simulated_*`` are those of the ensemble, and ``bands`` lie around its ln σ.
+    order, in (σ/r)²; ``mean`` and ``simulated`` variances are those of the ensemble.
     """
 
-    apex: int
-    realisations: int
     medium: Medium
-    variance: tuple[Array, ...]
-    one_contact: tuple[Array, ...]
-    mean: tuple[Array, ...]
-    simulated_mean: tuple[Array, ...]
-    simulated_variance: tuple[Array, ...]
-    band: Band
-    double_y: tuple[Profile, ...]
+    realisations: int
+    variance: Array
+    one_contact: Array
+    mean: Array
+    simulated: Array
+    cuts: Comparison
 
-    def printed(self, j: int) -> float:
+    @property
+    def ordered(self) -> Array:
+        """The mean in the ordered packing."""
+        return np.where(LEG, 0.5, 0.0)
+
+    @property
+    def printed(self) -> Array:
         """Eq. 16, in (σ/r)²."""
-        return 1.5 / float(1 - self.medium.phi**2) ** 2 * (self.apex + j)
+        return np.asarray(1.5 / float(1 - self.medium.phi**2) ** 2 * (APEX + LAYER))
 
-    def sites(self, j: int) -> Array:
-        """All i of layer j within the cone."""
-        return np.arange(-(self.apex - j), self.apex - j + 1, 2)
+    @property
+    def standard_error(self) -> Array:
+        """Of the simulated mean."""
+        return self.medium.std * np.sqrt(self.simulated / (self.realisations - 1))
 
-    def limits(self) -> dict[int, tuple[Array, Array]]:
-        """Give the band of the variance, legs included, by height of the cuts."""
-        low, high = (edge**2 for edge in self.band.limits)
-        found, at = {}, 0
-        for j in CUTS:
-            n = self.apex - j + 1
-            found[j] = (low[at : at + n], high[at : at + n])
-            at += n
-        return found
+    def limits(self) -> tuple[Array, Array]:
+        """Give the band of the variance on the cuts."""
+        low, high = self.cuts.band.limits
+        return low**2, high**2
 
-    def standard_error(self, j: int, q: int) -> float:
-        """Give the standard error of the simulated mean on the q-th bead of layer j."""
-        return self.medium.std * sqrt(
-            float(self.simulated_variance[j][q]) / (self.realisations - 1)
-        )
-
-    def deviation(self) -> float:
-        """Give the largest deviation of the exact first-order σ on the cuts, in half-widths."""
-        return self.band.deviation(np.sqrt(_on_cuts(self.variance)))
-
-    def tables(self) -> dict[str, list[Row]]:
-        """CSV files: the map, the cuts with their bands, and the double Y where asked for."""
-        beads: list[Row] = []
-        cuts: list[Row] = []
-        limits = self.limits()
-        for j in range(self.apex):
-            sites = self.sites(j).tolist()
-            for q, i in enumerate(sites):
-                leg = q in {0, len(sites) - 1}
-                row: Row = {
-                    "i": i,
-                    "j": j,
-                    "on_cone": int(leg),
-                    "mean_ordered": float(self.mean[j][q]),
-                    "mean_simulated": float(self.simulated_mean[j][q]),
-                    "mean_standard_error": self.standard_error(j, q),
-                    "variance_exact_first_order": float(self.variance[j][q]),
-                    "variance_printed": "" if leg else self.printed(j),
-                    "variance_simulated": float(self.simulated_variance[j][q]),
-                    "variance_upper_plus_contact": float(self.one_contact[j][q]),
-                }
-                beads.append(row)
-                if j in limits:
-                    low, high = (float(side[q]) for side in limits[j])
-                    cuts.append({**row, "band_low": low, "band_high": high})
-        tables = {"figure4": beads, "figure4_cuts": cuts}
-        if self.double_y:
-            tables["figure4_double_y"] = [row for one in self.double_y for row in one.rows()]
-        return tables
+    def table(self) -> Table:
+        """One row a bead."""
+        return {
+            "i": COLUMN,
+            "j": LAYER,
+            "on_cone": LEG.astype(int),
+            "mean_ordered": self.ordered,
+            "mean_simulated": self.mean,
+            "mean_standard_error": self.standard_error,
+            "variance_exact_first_order": self.variance,
+            "variance_printed": np.where(LEG, "", self.printed.astype(object)),
+            "variance_simulated": self.simulated,
+            "variance_upper_plus_contact": self.one_contact,
+        }
 
     def facts(self) -> dict[str, Any]:
         """Verdicts, and what the paper says of apex and base."""
-        below, base = self.variance[self.apex - 2], self.variance[1]
-        found: dict[str, Any] = {
-            "apex": self.apex,
+        deviation = self.cuts.deviation()
+        below, base = (APEX - 2, APEX - 2 == LAYER), (1, LAYER == 1)
+        exact, printed = (
+            [float(values[rows][len(values[rows]) // 2]) for _, rows in (below, base)]
+            for values in (self.variance, self.printed)
+        )
+        return {
+            "apex": APEX,
             "realisations": self.realisations,
             "spacing_over_r": float(self.medium.spacing),
             "relative_std": self.medium.std,
             "simultaneous_level": LEVEL,
-            "exact_first_order_inside": self.deviation() <= 1,
-            "largest_deviation_in_half_widths": self.deviation(),
-            "variance_below_apex_over_base_exact": float(below[1] / base[len(base) // 2]),
-            "variance_below_apex_over_base_printed": self.printed(self.apex - 2) / self.printed(1),
+            "exact_first_order_inside": deviation <= 1,
+            "largest_deviation_in_half_widths": deviation,
+            "variance_below_apex_over_base_exact": exact[0] / exact[1],
+            "variance_below_apex_over_base_printed": printed[0] / printed[1],
         }
-        if self.double_y:
-            found["double_y"] = [one.facts() for one in self.double_y]
-        return found
-
-    def lines(self) -> list[str]:
-        """Say whether theory holds."""
-        deviation = self.deviation()
-        where = "inside" if deviation <= 1 else "outside"
-        return [
-            f"apex l = {self.apex}: exact first-order fluctuation {where} the simultaneous "
-            f"{LEVEL:.0%} band ({deviation:.2f} of its half-width)"
-        ]
 
 
-def _on_cuts(layers: tuple[Array, ...]) -> Array:
-    """Put the beads of the cuts one after the other."""
-    return np.concatenate([layers[j] for j in CUTS], axis=-1)
-
-
-def respond(
-    realisations: int,
-    seed: int,
-    notice: Notice,
-    *,
-    double_y: bool = False,
-    medium: Medium = MEDIUM,
-) -> Response:
+def simulated(o: Options) -> Response:
     """Evaluate the closed forms, and simulate."""
+    medium = o.medium(MEDIUM)
     ensemble = planned(
-        "response",
-        height=APEX,
-        width=None,
-        seed=seed,
-        std=medium.std,
-        spacing=medium.spacing,
-        load=PointLoad(at=(0, APEX)),
-        realisations=realisations,
+        "response", height=APEX, width=None, seed=o.seed, std=medium.std, spacing=medium.spacing,
+        load=PointLoad(at=(0, APEX)), realisations=o.realisations,
+    )  # fmt: skip
+    (change,) = gathered(
+        ensemble, range(o.realisations), o.notice, "figure 4",
+        lambda answer, number: (np.concatenate(vertical(ensemble, answer, number), axis=1),),
+    )  # fmt: skip
+    rest = medium.phi, 1, 1
+    exact = np.array([bead_response(i, j, 0, APEX, *rest) for i, j in SITES], dtype=float)
+    one_contact = np.array(
+        [contact_response(i, j, 0, APEX, "+", *rest) for i, j in SITES], dtype=float
     )
-    ordered = tuple(_ordered(j) for j in range(APEX))
-    samples: list[tuple[Array, ...]] = []
-    for answer, number in solved(ensemble, range(realisations), notice, "figure 4"):
-        samples.append(vertical(ensemble, answer, number))
-    changes = tuple(np.concatenate(parts) for parts in zip(*samples, strict=True))
-    cut = _on_cuts(changes) / medium.std
+    cut = np.take(change, ON_CUTS, axis=1) / medium.std
     variance = cut.var(axis=0)
     influence = (cut - cut.mean(axis=0)) ** 2 / (2 * variance) - 0.5
+    band = simultaneous(averaged(np.log(variance) / 2, influence), LEVEL, o.seed)
     return Response(
-        APEX,
-        realisations,
         medium,
-        tuple(_exact(j, medium, bead_response) for j in range(APEX)),
-        tuple(_exact(j, medium, contact_response, "+") for j in range(APEX)),
-        ordered,
-        tuple(F + p.mean(axis=0) for F, p in zip(ordered, changes, strict=True)),
-        tuple(p.var(axis=0) / medium.std**2 for p in changes),
-        simultaneous(averaged(np.log(variance) / 2, influence), LEVEL, seed),
-        profiles(asin(medium.n_x), seed) if double_y else (),
+        o.realisations,
+        exact,
+        one_contact,
+        np.where(LEG, 0.5, 0.0) + change.mean(axis=0),
+        change.var(axis=0) / medium.std**2,
+        Comparison(
+            f"apex l = {APEX}: exact first-order fluctuation", band, np.sqrt(exact[ON_CUTS])
+        ),
     )
-
-
-def _ordered(j: int) -> Array:
-    mean = np.zeros(APEX - j + 1)
-    mean[[0, -1]] = 0.5
-    return mean
-
-
-def _exact(j: int, medium: Medium, variance: Callable[..., Any], *branch: str) -> Array:
-    """Evaluate a closed form on all beads of layer j within the cone, in (f_load σ/r)²."""
-    reach = APEX - j
-    phi = medium.phi
-    found = [variance(i, j, 0, APEX, *branch, phi, 1, 1) for i in range(-reach, reach + 1, 2)]
-    return np.array(found, dtype=float)
 
 
 def vertical(ensemble: Plan, answer: Solved, number: int) -> tuple[Array, ...]:
@@ -217,3 +170,90 @@ def vertical(ensemble: Plan, answer: Solved, number: int) -> tuple[Array, ...]:
         )
         at += 2 * row.count
     return tuple(found)
+
+
+def figure(o: Options) -> Figure:
+    """Maps of mean and fluctuation, line cuts, and the double Y where it is asked for."""
+    found = simulated(o)
+    low, high = found.limits()
+    order = np.argsort(ON_CUTS)  # as the other file has them
+    cuts = {name: np.asarray(column)[ON_CUTS[order]] for name, column in found.table().items()}
+    cuts |= {"band_low": low[order], "band_high": high[order]}
+    double_y = profiles(asin(found.medium.n_x), o.seed) if "double-y" in o.models else ()
+    side = "bottom" if double_y else "right"
+    centres = np.stack([2 * float(found.medium.n_x) * COLUMN, 2 * found.medium.n_y * LAYER], axis=1)
+    apex = (0.0, 2 * found.medium.n_y * APEX)
+    highest = float(found.variance[APEX - 2 == LAYER][1])
+    panels = [
+        cone(centres, found.mean, apex, r"$\langle p\rangle\,/\,f^{\rm load}$", side, 0.5),
+        cone(centres, found.variance, apex, VARIANCE, side, highest),
+        _cuts(found),
+    ]
+    tables = {"figure4": found.table(), "figure4_cuts": cuts}
+    facts = found.facts()
+    picture = Picture(panels, 3.4, page=True, mosaic="ac;bc", columns=(0.85, 1.1))
+    if double_y:
+        panels.append(_double_y(double_y, found.medium))
+        picture = Picture(panels, 4.7, page=True, mosaic="ab;cd", rows=(1, 1.05))
+        own = [row for one in double_y for row in one.rows()]
+        tables["figure4_double_y"] = table(" ".join(own[0]), [row.values() for row in own])
+        facts["double_y"] = [one.facts() for one in double_y]
+    return Figure(picture, tables, facts, [found.cuts.verdict()], [found.cuts])
+
+
+def _cuts(found: Response) -> Panel:
+    elements: list[Element] = []
+    low, high = found.limits()
+    for c, j in enumerate(CUTS):
+        here, band = j == LAYER, j == LAYER[ON_CUTS]
+        printed = float(found.printed[here][0])
+        x, exact = COLUMN[here] / APEX, found.variance[here]
+        inside, reach = slice(1, -1), 1 - j / APEX
+        for rows in (inside, slice(0, 1), slice(-1, None)):
+            elements += [
+                Area(x[rows], low[band][rows], high[band][rows], c, 0.2),
+                Line(x[rows], exact[rows], c),
+            ]
+        elements += [
+            Points(x, found.simulated[here], c, size=2.6),
+            Line([-reach, reach], [printed, printed], "black", "--", width=0.8),
+            Words(reach, printed, f"$j={j}$", c, ("left", "center"), (3, -1)),
+        ]
+    lower = CUTS[2]
+    own = (lower == LAYER) & ~LEG
+    elements += [
+        Words(0, 5, "legs of the cone", "0.3"),
+        Line(name="exact first order"),
+        Line(name="Eq. (16), printed", colour="black", dashes="--"),
+        Points(name="simulated", size=2.6),
+        Area(name=f"{LEVEL:.0%} band of all", alpha=0.2),
+        Line(COLUMN[own] / APEX, found.one_contact[own], 2, ":", f"one contact, $j={lower}$"),
+    ]
+    return Panel(
+        elements,
+        Axis("horizontal position $i/l$", -1.08, 1.4),
+        Axis(VARIANCE, 0),
+        legend="below",
+        columns=5,
+    )
+
+
+def _double_y(found: tuple[Profile, ...], medium: Medium) -> Panel:
+    dashes, slope = ("-", (0, (5, 2)), (0, (1, 1.2))), float(medium.n_x) / medium.n_y
+    return Panel(
+        [
+            *(
+                Line(
+                    np.repeat(one.edges, 2), np.pad(np.repeat(one.density, 2), 1), c, dashes[c],
+                    one.name, 1.0,
+                )
+                for c, one in enumerate(found)
+            ),
+            Rule("x", -slope, dashes=(0, (1, 1.5))),
+            Rule("x", slope, dashes=(0, (1, 1.5)), name="the packing's cone"),
+        ],
+        Axis("horizontal position $x/H$", -3, 3),
+        Axis(r"mean response $H\,p(x)\,/\,f^{\rm load}$", 0),
+        legend="upper center",
+        legend_title="double Y",
+    )  # fmt: skip

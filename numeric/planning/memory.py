@@ -7,9 +7,9 @@ from ..quantities.base import Quantity
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
 
-# Bytes that a bead takes while it is solved, by dimension, a packing whose rows are listed, and a
-# line of a file; measured, rounded up. The rest is the interpreter with its libraries.
-FLOAT_BEADS, BALL_BEAD, LISTED, FILE_LINE = {2: 310, 3: 490}, 2200, 3500, 600
+# Bytes of a bead of balls, a packing whose rows are listed, and a line of a file; measured, rounded
+# up. The rest is the interpreter with its libraries.
+BALL_BEAD, LISTED, FILE_LINE = 2200, 3500, 600
 # Bytes of a layer: in the plan, and while it is solved in memory.
 PLAN_LAYER, SOLVED_LAYER = 150, 750
 # What a row of the answer takes: its names, a number, and that as text.
@@ -17,6 +17,14 @@ NAMES, FLOAT_NUMBER, TEXT, BALL_ROW = 100, 60, 150, 1300
 INTERPRETER = 85_000_000
 # The compiler that the extra ``fast`` brings, and what it leaves behind.
 COMPILED = 120_000_000
+
+
+def float_bead(dimension: int) -> int:
+    """Give the bytes of a bead while it is solved in float64; measured up to d = 3, rounded up.
+
+    δr, c and δn are 1 + d + d² numbers, with their errors; forces, loads and gaps a few times d.
+    """
+    return 16 * (1 + dimension + dimension**2) + 99 * dimension
 
 
 class TooLargeError(SceneError):
@@ -38,7 +46,7 @@ def memory(
     become ``text`` or not.
     """
     scene, big = quantity.scene, system.dtype is object
-    each = FLOAT_BEADS[scene.packing.dimension] * (1 if system is FLOAT64 else 3)
+    each = float_bead(scene.packing.dimension) * (1 if system is FLOAT64 else 3)
     if big and not isinstance(system, Pairs):
         each = BALL_BEAD * max(64 + system.bits, 128) // 128
     if scene.disorder is not None and scene.disorder.file is not None:

@@ -186,7 +186,7 @@ class Plan:
         if not known or problem.width is None or not has_theory(problem):
             return None
         phi, std = float(1 - 2 * problem.n_x**2), float(problem.radii.relative_std())
-        if problem.dimension == 3:
+        if problem.dimension > 2:
             return expected_tension_of_spheres(problem.height, problem.width, phi, std, load.kind)
         plus, minus = map(float, problem.load.strength(problem.n_x, FLOAT64).unit)
         return expected_tension(problem.height, problem.width, phi, std, load.kind, (plus, minus))
@@ -320,7 +320,7 @@ def _judging(one: list[Step], problem: Problem, method: Method) -> Step:
 
 
 def _why_region(problem: Problem) -> str:
-    if problem.dimension == 3:
+    if problem.dimension > 2:
         return f"{_WHOLE}, up to the highest load or bead asked for"
     if problem.region.beads == (problem.width or 0) * (problem.height + 1):
         return "the answer depends on every bead"
@@ -328,7 +328,7 @@ def _why_region(problem: Problem) -> str:
 
 
 def _why_forces(problem: Problem) -> str:
-    if problem.dimension == 3:
+    if problem.dimension > 2:
         return _WHOLE
     if problem.load.loaded is not None:
         return "only beads in the downward cone of the load carry force"

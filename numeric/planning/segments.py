@@ -14,9 +14,8 @@ from ..scene.scene import Scene
 from .memory import COMPILED, INTERPRETER, NAMES, PLAN_LAYER, TEXT, size
 from .plan import Method
 
-# Bytes of a bead of a segment (δr, positions, δn, forces, with their errors, and what is gathered),
-# and of one that is kept on the way up, by dimension; of a number of the answer.
-_BEAD, _KEPT, _NUMBER = {2: 260, 3: 410}, {2: 32, 3: 48}, 20
+# Bytes of a number of the answer.
+_NUMBER = 20
 # Bytes from which on fewer layers are kept, and found once more on the way down; the fewest layers
 # of a segment then.
 _MANY, _FEWEST = 600_000_000, 16
@@ -55,7 +54,9 @@ def division(widest: int, height: int, dimension: int, limit: int) -> Division:
 
     That is with a layer kept below every segment, if it takes no more than ``limit``.
     """
-    bead, kept = _BEAD[dimension], _KEPT[dimension]
+    # of a bead of a segment: δr, c, δn with their errors, forces, and what is gathered; of one that
+    # is kept on the way up: c
+    bead, kept = 16 * (1 + dimension + dimension**2) + 74 * dimension, 16 * dimension
     k = max(2, 2 * round(math.sqrt(kept / bead * (height + 1)) / 2))
     usual = widest * (bead * (k + _BESIDE) + kept * (height // k + 1))
     if usual <= min(limit, _MANY):

@@ -12,7 +12,7 @@ from ..arithmetic.decimals import short
 from ..arithmetic.systems import Array
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii, Radii
 from ..lattice.branch import Site
-from ..lattice.layers import Rows, bead_of, full_layer
+from ..lattice.layers import Rows, full_layer
 from ..lattice.naming import Naming
 from ..mechanics.loads import LoadSpec
 from ..scene.scene import Scene
@@ -129,21 +129,24 @@ def refuse_beyond_floats(scene: Scene, radii: Radii, load: LoadSpec) -> None:
         why = f"{what}in float64 it must be zero or at least 1e-300: {WAY_OUT}"
         raise SceneError(f"disorder.{key}", value, why)
     least = LEAST_PRODUCT / (disorder or 1)
-    allowed = (
-        f"must lie between {short(least)} and {short(MOST)} in float64 where delta_r/r is "
-        f"{short(disorder)}: choose another unit, or {WAY_OUT}"
-    )
+
+    def allowed() -> str:
+        return (
+            f"must lie between {short(least)} and {short(MOST)} in float64 where delta_r/r is "
+            f"{short(disorder)}: choose another unit, or {WAY_OUT}"
+        )
+
     key, unit = "load.magnitude", scene.load.magnitude
     if scene.ask.quantity == "positions":
         key, unit = "packing.radius", scene.packing.radius
     if not least <= unit <= MOST:
-        raise SceneError(key, unit, allowed)
+        raise SceneError(key, unit, allowed())
     for site, force in load.single.items() if key == "load.magnitude" else ():
         size = max(map(abs, force))
         if size and not (least <= size <= MOST and least <= size * unit <= MOST):
-            bead = site if load.dimension == 2 else bead_of(site, scene.packing.width or 1)
+            bead = Naming(load.dimension, scene.packing.width).bead(site)
             raise SceneError(
                 "load.file" if scene.load.file else "load.pressure",
                 scene.load.file or scene.load.pressure,
-                f"the load on bead {bead} is {short(size)} times load.magnitude, which {allowed}",
+                f"the load on bead {bead} is {short(size)} times load.magnitude, which {allowed()}",
             )

@@ -9,6 +9,7 @@ layers, simulated with the estimated correlations (a multivariate t).
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -75,25 +76,44 @@ def critical_value(estimate: Estimate, level: float, seed: int) -> float:
 
 @dataclass(frozen=True)
 class Band:
-    """A simultaneous band around estimated logarithms; ``half`` is its half-width, shape (L,)."""
+    """A simultaneous band; ``half`` is its half-width, shape (L,), in the logarithm if it is one.
+
+    ``logarithmic``: what was estimated are logarithms, as ``Estimate`` has them; else plain means.
+    """
 
     estimate: Estimate
     level: float
     critical: float
+    logarithmic: bool = True
 
     @property
     def half(self) -> Array:
-        """Half-width in the logarithm, shape (L,)."""
+        """Half-width, shape (L,)."""
         return self.critical * self.estimate.error
+
+    @property
+    def value(self) -> Array:
+        """What was estimated (no logarithm), shape (L,)."""
+        return self._plain(self.estimate.log)
 
     @property
     def limits(self) -> tuple[Array, Array]:
         """Lower and upper edge of what was estimated (no logarithm)."""
-        return np.exp(self.estimate.log - self.half), np.exp(self.estimate.log + self.half)
+        return self._plain(self.estimate.log - self.half), self._plain(
+            self.estimate.log + self.half
+        )
 
-    def deviation(self, curve: Array) -> float:
-        """Give the largest deviation of a curve, in units of the half-width: inside is ≤ 1."""
-        return float((np.abs(np.log(curve) - self.estimate.log) / self.half).max())
+    def _plain(self, values: Array) -> Array:
+        return np.asarray(np.exp(values) if self.logarithmic else values)
+
+    def deviation(self, curve: Array, rows: Any = ...) -> float:
+        """Give the largest deviation of a curve, in units of the half-width: inside is ≤ 1.
+
+        ``rows``: those that count.
+        """
+        curve = np.asarray(curve)[rows]
+        own = np.log(curve) if self.logarithmic else curve
+        return float((np.abs(own - self.estimate.log[rows]) / self.half[rows]).max())
 
     def verdict(self, deviation: float) -> str:
         """Say whether a curve with this deviation is inside."""
@@ -101,6 +121,8 @@ class Band:
         return f"{where} the simultaneous {self.level:.0%} band ({deviation:.2f} of its half-width)"
 
 
-def simultaneous(estimate: Estimate, level: float = 0.99, seed: int = 0) -> Band:
+def simultaneous(
+    estimate: Estimate, level: float = 0.99, seed: int = 0, *, logarithmic: bool = True
+) -> Band:
     """Give the band that holds all true values with probability ``level``."""
-    return Band(estimate, level, critical_value(estimate, level, seed))
+    return Band(estimate, level, critical_value(estimate, level, seed), logarithmic)

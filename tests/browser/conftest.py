@@ -71,7 +71,7 @@ def report(
 def _make(folder: Path) -> None:
     from force_diffusion.derivations.export.page import sections
     from force_diffusion.numeric.arithmetic import processes
-    from force_diffusion.numeric.figures import catalogue
+    from force_diffusion.numeric.figures import names
     from force_diffusion.numeric.studies import timing
     from force_diffusion.numeric.studies.stability import stability as tables
     from force_diffusion.symbolic.search import mutants
@@ -84,7 +84,7 @@ def _make(folder: Path) -> None:
         patch.setattr(mutants, "mutants", lambda equation: islice(every_mutant(equation), 3))
         patch.setattr(processes, "cores", lambda: 1)  # another process has no patches
         patch.setattr(sections, "SCENE", scene)
-        patch.setattr(catalogue, "FIGURES", {name: catalogue.FIGURES[name] for name in "12"})
+        patch.setattr(names, "FIGURES", {name: names.FIGURES[name] for name in "12"})
         patch.setattr(tables, "cases", lambda: islice(every_case(), 3))
         patch.setattr(tables, "strips", lambda: (s for s in every_strip() if s.height == 4))
         patch.setattr(timing, "LEAST_RUNS", 1)

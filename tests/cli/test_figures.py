@@ -11,7 +11,6 @@ from typing import Any
 from xml.etree import ElementTree
 
 import pytest
-from force_diffusion.derivations.commands import figures as figures_command
 from force_diffusion.derivations.export.manifest import read_manifest
 from force_diffusion.numeric.figures import catalogue, comparison
 from PIL import Image
@@ -223,10 +222,6 @@ def test_interrupted(
     assert status == 130
     assert "Traceback" not in err
     assert not (tmp_path / "out").exists()
-
-
-def test_the_command_knows_every_figure() -> None:
-    assert tuple(catalogue.FIGURES) == figures_command.NAMES
 
 
 def test_a_scene_of_ones_own_is_answered_and_drawn(

@@ -38,7 +38,8 @@ _PACKINGS = {
 
 def figures_part(notice: Notice) -> Part:
     """All figures, each with what it found, of how many packings, and its data."""
-    from force_diffusion.numeric.figures.catalogue import FIGURES, begun
+    from force_diffusion.numeric.figures.catalogue import begun
+    from force_diffusion.numeric.figures.names import FIGURES
 
     figures = []
     for name in FIGURES:

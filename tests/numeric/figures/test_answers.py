@@ -13,7 +13,7 @@ from force_diffusion.numeric.figures.library import MissingLibraryError
 import force_diffusion as fd
 
 pytest.importorskip("matplotlib")
-from force_diffusion.numeric.figures import parts
+from force_diffusion.numeric.figures import drawing, specification
 from matplotlib.collections import LineCollection, PatchCollection
 from matplotlib.colors import to_rgba
 from matplotlib.container import ErrorbarContainer
@@ -88,10 +88,10 @@ def test_chains_are_as_thick_as_forces_and_tension_has_its_colour() -> None:
     assert (forces < 0).any()
     pressing, pulling = lines(outcome.plot())
     assert len(pulling.get_segments()) == (forces < 0).sum()
-    assert to_rgba(parts.PULLING) in map(tuple, pulling.get_colors())
-    widths = np.array(pressing.get_linewidths()) / parts.WIDEST
+    assert to_rgba(drawing.PULLING) in map(tuple, pulling.get_colors())
+    widths = np.array(pressing.get_linewidths()) / specification.WIDEST
     expected = forces[forces >= 0] / abs(forces).max()
-    assert widths == pytest.approx(np.maximum(expected, 0.05 / parts.WIDEST))
+    assert widths == pytest.approx(np.maximum(expected, 0.05 / specification.WIDEST))
     # each line is a contact of the ordered lattice, of length 2 r, also at the edges of the strip
     ends = np.array([*pressing.get_segments(), *pulling.get_segments()])
     assert np.hypot(*(ends[:, 1] - ends[:, 0]).T) == pytest.approx(2.0)
@@ -101,7 +101,7 @@ def test_a_point_load_near_the_edge_has_one_cone() -> None:
     load = fd.PointLoad(at=(0, M))
     outcome = scene("response", load=load, packing=fd.Packing(height=M, width=2 * M)).run()
     figure = outcome.plot()
-    (beads,) = (c for c in figure.axes[0].collections if isinstance(c, PatchCollection))
+    beads, _ = (c for c in figure.axes[0].collections if isinstance(c, PatchCollection))
     centres = np.array([path.get_extents().get_points().mean(axis=0) for path in beads.get_paths()])
     shades = np.asarray(beads.get_array())
     assert len(shades) == M * (M + 3) // 2  # l − j + 1 beads on layer j
@@ -116,7 +116,7 @@ def test_some_layers_of_a_response_are_drawn_alone() -> None:
     one, layers = fd.PointLoad(at=(0, M)), [0, M // 2]
     asked = scene("response", load=one, packing=fd.Packing(height=M, width=2 * M))
     some = asked.model_copy(update={"ask": asked.ask.model_copy(update={"layers": layers})})
-    (beads,) = (c for c in some.run().plot().axes[0].collections if isinstance(c, PatchCollection))
+    beads, _ = (c for c in some.run().plot().axes[0].collections if isinstance(c, PatchCollection))
     assert len(beads.get_paths()) == sum(M - j + 1 for j in layers)
 
 

@@ -6,6 +6,7 @@ import math
 from collections import defaultdict
 from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -36,10 +37,12 @@ from force_diffusion.numeric.figures.packings import (
     PAPER_STD,
     PHI,
     Medium,
+    Options,
     forces_of,
     impulses,
     planned,
 )
+from force_diffusion.numeric.figures.specification import Figure
 from force_diffusion.numeric.mechanics import engine, first_order
 from force_diffusion.numeric.mechanics.loads import LoadSpec
 from force_diffusion.numeric.scene.sections import PointLoad
@@ -52,8 +55,14 @@ def silent(_: str) -> None:
     pass
 
 
+def columns(found: Figure, name: str) -> dict[str, list[Any]]:
+    return {key: list(column) for key, column in found.tables[name].items()}
+
+
 def test_figure_1_shows_beads_that_touch() -> None:
-    beads = {(b["i"], b["j"]): b for b in notation.beads(4, silent).beads}
+    table = columns(notation.figure(Options(seed=4)), "figure1")
+    rows = [dict(zip(table, row, strict=True)) for row in zip(*table.values(), strict=True)]
+    beads = {(b["i"], b["j"]): b for b in rows}
     touching = 0
     for (i, j), bead in beads.items():
         for step in (-1, 1):
@@ -105,34 +114,35 @@ def test_figure_3_is_the_same_however_it_is_batched(monkeypatch: pytest.MonkeyPa
 
 
 def test_figure_3_finds_theory_within_the_band_and_a_wrong_theory_outside() -> None:
-    found = comparison.compare([3, 6], 300, 1, silent)
-    for one in found.heights:
-        assert one.deviation() <= 1
+    o = Options((3, 6), 300)
+    for M in o.heights:
+        one = comparison.simulated(M, o)
+        assert one.alone.deviation() <= 1
         assert one.corrected_deviation <= 1
-        assert one.band.deviation(one.exact * 1.2) > 1
-        assert one.band.deviation(one.printed) > 1  # at these heights it is far off
+        assert one.alone.deviation(one.alone.theory * 1.2) > 1
+        assert one.alone.deviation(one.printed) > 1  # at these heights it is far off
         # most of the sampling error cancels between the two solutions of one realisation
-        assert one.correction.error.max() < one.band.estimate.error.min() / 10
-    facts = found.facts()
-    assert json.loads(json.dumps(facts)) == facts
-    assert [fact["exact_finite_M_inside"] for fact in facts["heights"]] == [True, True]
+        assert one.correction.error.max() < one.alone.band.estimate.error.min() / 10
+    found = comparison.figure(o)
+    assert json.loads(json.dumps(found.facts)) == found.facts
+    assert [fact["exact_finite_M_inside"] for fact in found.facts["heights"]] == [True, True]
 
 
 def test_csv_comes_back() -> None:
-    found = comparison.compare([2, 3], 16, 1, silent, q_model=True)
-    tables = found.tables()
-    assert set(tables) == {"figure3", "figure3_q_model"}
-    for rows in tables.values():
-        text = csv_file(rows, "a title", "force-diffusion figures 3")
+    found = comparison.figure(Options((2, 3), 16, models=frozenset({"q-model"})))
+    assert set(found.tables) == {"figure3", "figure3_q_model"}
+    for table in found.tables.values():
+        text = csv_file(table, "a title", "force-diffusion figures 3")
         comments = [line for line in text.splitlines() if line.startswith("#")]
         assert comments == ["# a title", "# force-diffusion figures 3"]
         back = list(csv.DictReader(line for line in text.splitlines() if line[0] != "#"))
-        assert [{k: float(v) for k, v in row.items()} for row in back] == rows
-    rows = [row for row in tables["figure3"] if row["height"] == 3]
-    low, high = found.heights[1].band.limits
-    assert [row["band_low"] for row in rows] == low.tolist()
-    assert [row["band_high"] for row in rows] == high.tolist()
-    assert [row["z"] for row in rows] == [0, 1 / 3, 2 / 3]
+        for name, column in table.items():
+            assert [float(row[name]) for row in back] == list(column)
+    table = found.tables["figure3"]
+    low, high = found.comparisons[1].band.limits
+    assert table["band_low"][2:].tolist() == low.tolist()
+    assert table["band_high"][2:].tolist() == high.tolist()
+    assert table["z"][2:].tolist() == [0, 1 / 3, 2 / 3]
 
 
 def test_figure_4_conserves_the_load() -> None:
@@ -153,29 +163,34 @@ def test_figure_4_conserves_the_load() -> None:
 
 @pytest.fixture(scope="module")
 def figure4() -> response.Response:
-    return response.respond(400, 1, silent)
+    return response.simulated(Options(realisations=400))
+
+
+def on_layer(values: Any, j: int) -> Any:
+    """The beads of a layer, from the left leg of the cone to the right one."""
+    return values[j == response.LAYER]
 
 
 def test_figure_4_does_not_depend_on_the_horizontal_position(figure4: response.Response) -> None:
-    for j in range(1, figure4.apex - 1):
-        inside = figure4.variance[j][1:-1]
+    for j in range(1, response.APEX - 1):
+        inside = on_layer(figure4.variance, j)[1:-1]
         assert inside == pytest.approx(np.full(inside.shape, inside[0]), rel=1e-12)
         # Eq. 16 is the leading order in l + j: here it is off by no more than 2/(l + j)
-        assert inside[0] == pytest.approx(figure4.printed(j), rel=2 / (figure4.apex + j))
+        printed = on_layer(figure4.printed, j)[0]
+        assert inside[0] == pytest.approx(printed, rel=2 / (response.APEX + j))
         if len(inside) > 1:
-            single = figure4.one_contact[j][1:-1]
+            single = on_layer(figure4.one_contact, j)[1:-1]
             assert (np.diff(single) < -0.5).all()
-    assert figure4.deviation() <= 1
-    legs = [row for row in figure4.tables()["figure4"] if row["on_cone"]]
-    for row in legs:
-        assert row["mean_simulated"] == pytest.approx(0.5, abs=5 * row["mean_standard_error"])
+    assert figure4.cuts.deviation() <= 1
+    off = np.abs(figure4.mean - 0.5)[response.LEG]
+    assert (off < 5 * figure4.standard_error[response.LEG]).all()
     facts = figure4.facts()
     assert facts["variance_below_apex_over_base_exact"] == pytest.approx(1.84, abs=0.03)
 
 
 def test_figure_4_agrees_with_the_weights_of_all_radii(figure4: response.Response) -> None:
     """The engine's own weights, legs of the cone included."""
-    l = figure4.apex  # noqa: E741
+    l = response.APEX  # noqa: E741
     plan = planned("response", height=l, width=None, seed=1, load=PointLoad(at=(0, l)))
     weights = impulses(plan)
     packing, forces = weights.packing, forces_of(weights)
@@ -192,14 +207,14 @@ def test_figure_4_agrees_with_the_weights_of_all_radii(figure4: response.Respons
         right = np.concatenate((plus, nothing), axis=1)
         both = right + np.concatenate((nothing, minus), axis=1)
         assert np.abs(both.sum(axis=1)).max() < 1e-13  # every layer bears the whole load
-        assert figure4.variance[j] == pytest.approx((both**2).sum(axis=0), rel=1e-12)
-        assert figure4.one_contact[j] == pytest.approx((right**2).sum(axis=0), rel=1e-12)
+        assert on_layer(figure4.variance, j) == pytest.approx((both**2).sum(axis=0), rel=1e-12)
+        assert on_layer(figure4.one_contact, j) == pytest.approx((right**2).sum(axis=0), rel=1e-12)
 
 
 @pytest.mark.parametrize(("i", "j"), [(0, 8), (5, 3), (-7, 1)])
 def test_figure_4_agrees_with_line_sums(i: int, j: int, figure4: response.Response) -> None:
     """The weights of the upper right contact of a bead, one radius at a time, by line sums."""
-    load = LoadSpec("point", figure4.apex, None, at=(0, figure4.apex))
+    load = LoadSpec("point", response.APEX, None, at=(0, response.APEX))
     contact = (i, j, "+")
     strength = load.strength(N_X, FLOAT64)
     above, below = first_order.crossing_layers(contact, load)
@@ -222,16 +237,18 @@ def test_figure_4_agrees_with_line_sums(i: int, j: int, figure4: response.Respon
             system=FLOAT64,
         )
         square += float(change) ** 2
-    q = (i + figure4.apex - j) // 2
-    assert figure4.one_contact[j][q] == pytest.approx(NY**2 * square, rel=1e-12)
+    q = (i + response.APEX - j) // 2
+    assert on_layer(figure4.one_contact, j)[q] == pytest.approx(NY**2 * square, rel=1e-12)
 
 
 def test_chains_balance_as_drawn() -> None:
     """At every bead the drawn lines, each as strong as its force, leave nothing over."""
-    found = chains.contacts(2, silent)
+    found = chains.figure(Options(seed=2))
     scale = 1 / (2 * NY)
     left: dict[tuple[int, int], np.ndarray] = defaultdict(lambda: np.zeros(2))
-    for row in found.contacts:
+    table = columns(found, "chains")
+    for values in zip(*table.values(), strict=True):
+        row = dict(zip(table, values, strict=True))
         along = np.array([row["x_high"] - row["x_low"], row["y_high"] - row["y_low"]])
         along *= scale * row["force"] / np.hypot(*along)
         step = 1 if row["branch"] == "+" else -1
@@ -242,21 +259,21 @@ def test_chains_balance_as_drawn() -> None:
         load = np.array([0.0, 1.0 if j == chains.HEIGHT else 0.0])
         if j:
             assert rest == pytest.approx(load, abs=1e-12)
-    facts = found.facts()
+    facts = found.facts
     assert 0 < facts["tensile"] < facts["contacts"] / 4
     assert facts["smallest_gap"] > 0
     assert chains.HEIGHT < facts["critical_height"] < 2 * chains.HEIGHT
 
 
 def test_distributions() -> None:
-    found = distribution.samples(200, 1, silent)
-    by = {(one.kind, one.height): one for one in found.samples}
+    found = distribution.simulated(Options(realisations=200), Medium())
+    by = {(one.kind, one.height): one for one in found}
     assert set(by) == set(distribution.CASES)
-    for one in found.samples:
+    for one in found:
         assert one.deviates.std() == pytest.approx(1, abs=5 / np.sqrt(2 * 200))
         assert len(one.deviates) == 200
     # fourth moments: 5 standard errors of a normal sample, √(24/n)
-    for one in found.samples:
+    for one in found:
         assert one.kurtosis == pytest.approx(one.kurtosis_expected, abs=5 * np.sqrt(24 / 200))
     assert by["two-point", 2].kurtosis_expected < -0.5 < by["two-point", 32].kurtosis_expected
     assert by["normal", 2].kurtosis_expected == 0
@@ -285,36 +302,35 @@ def test_the_disorder_is_that_of_the_paper() -> None:
 
 
 def test_figures_of_another_spacing_and_disorder_are_those_of_its_theory() -> None:
-    medium = Medium(Fraction(12, 5), 1e-3)
-    found = comparison.compare([6], 300, 1, silent, medium=medium)
-    (one,) = found.heights
+    s, usual = Fraction(12, 5), Fraction(3)
+    one = comparison.simulated(6, Options(realisations=300, spacing=s, relative_std=1e-3)).alone
     assert one.deviation() <= 1
-    assert one.band.deviation(comparison.curves(6)[0]) > 1
-    assert one.band.deviation(comparison.curves(6, Medium(std=1e-3))[0]) > 1
+    assert one.deviation(comparison.curves(6)[0]) > 1
+    assert one.deviation(comparison.curves(6, Medium(std=1e-3))[0]) > 1
     narrow, paper = (
-        response.respond(300, 1, silent, medium=Medium(spacing, 1e-4))
-        for spacing in (Fraction(21, 10), Fraction(3))
+        response.simulated(Options(realisations=300, spacing=spacing)).cuts
+        for spacing in (Fraction(21, 10), usual)
     )
     assert narrow.deviation() <= 1
-    other = replace(narrow, variance=paper.variance)
-    assert other.deviation() > 1
-    wide, usual = (
-        diffusion.displacement_std(4, Medium(s)) for s in (Fraction(33, 10), Fraction(3))
-    )
-    assert wide[0][-1] < usual[0][-1]
-    assert wide[1][-1] > usual[1][-1]
-    assert chains.contacts(1, silent, Medium(std=1e-4)).facts()["tensile"] == 0
+    assert narrow.deviation(paper.theory) > 1
+    wide, known = (diffusion.displacement_std(4, Medium(s)) for s in (Fraction(33, 10), usual))
+    assert wide[0][-1] < known[0][-1]
+    assert wide[1][-1] > known[1][-1]
+    assert chains.figure(Options(relative_std=1e-4)).facts["tensile"] == 0
 
 
 def test_figure_b2_finds_theory_within_the_band_and_a_wrong_one_outside() -> None:
-    found = directions.sweep(60, 1, silent)
-    assert found.deviation() <= 1
-    assert found.band.deviation(found.exact[::-1].ravel()) > 1  # the branches exchanged
-    assert found.band.deviation(found.exact.ravel() * 1.2) > 1
+    found = directions.figure(Options(realisations=60))
+    (one,) = found.comparisons
+    assert one.deviation() <= 1
+    half = len(directions.ANGLES)
+    assert one.deviation(np.roll(one.theory, half)) > 1  # the branches exchanged
+    assert one.deviation(one.theory * 1.2) > 1
     assert directions.ratio(0) == 1
     assert directions.ratio(-20) == pytest.approx(1 / directions.ratio(20), rel=1e-14)
-    (rows,) = found.tables().values()
-    assert len(rows) == 2 * len(directions.ANGLES)
+    table = columns(found, "figureB2")
+    assert len(table["t"]) == 2 * half
+    assert table["branch"][: half + 1] == [*"+" * half, "-"]
 
 
 def test_the_components_of_figure_b2_are_those_of_scenes() -> None:
@@ -325,109 +341,117 @@ def test_the_components_of_figure_b2_are_those_of_scenes() -> None:
 
 
 def test_figure_b5_finds_theory_within_the_bands_and_wrong_ones_outside() -> None:
-    found = mean_forces.simulate(400, 1, silent)
-    for one in found.means:
-        assert one.shift.deviation(one.exact) <= 1
-        assert one.shift.deviation(np.zeros(mean_forces.HEIGHT)) > 5
-        assert one.shift.deviation(1.2 * one.exact) > 1
-    surface, bulk = found.means[:2]
-    assert surface.shift.deviation(bulk.exact) > 1
-    (rows,) = found.tables().values()
-    assert len(rows) == 4 * mean_forces.HEIGHT
+    found = mean_forces.figure(Options(realisations=400))
+    for one in found.comparisons:
+        assert one.deviation() <= 1
+        assert one.deviation(np.zeros(mean_forces.HEIGHT)) > 5
+        assert one.deviation(1.2 * one.theory) > 1
+    surface, bulk = found.comparisons[:2]
+    assert surface.deviation(bulk.theory) > 1
+    assert len(columns(found, "figureB5")["j"]) == 4 * mean_forces.HEIGHT
 
 
 def test_figure_b7_finds_theory_within_the_band_and_a_wrong_one_outside() -> None:
-    found = neighbours.simulate(200, 1, silent)
-    assert found.deviation() <= 1
-    assert found.deviation(1.1) > 1
-    (rows,) = found.tables().values()
-    assert len(rows) == 2 * len(neighbours.WINDOWS)
-    own, pair = (float(row["sigma_simulated"]) for row in rows[:2])
+    found = neighbours.figure(Options(realisations=200))
+    (one,) = found.comparisons
+    assert one.deviation() <= 1
+    assert one.deviation(1.1 * one.theory) > 1
+    table = columns(found, "figureB7")
+    assert [value == "" for value in table["sigma_exact_first_order"]] == [
+        N < 3 for N in table["N"]
+    ]
+    own, pair = table["sigma_simulated"][:2]
     assert pair < own / 2  # independent ones would have own/√2
 
 
 def test_figure_b12_finds_theory_within_the_band_and_a_wrong_one_outside() -> None:
-    found = layers.simulate(400, 1, silent)
-    assert found.deviation() <= 1
-    assert found.deviation(1.2) > 1
-    (rows,) = found.tables().values()
-    assert len(rows) == len(layers.PAIRS)
-    farthest = rows[len(layers.UPPER[layers.LOWER[0]]) - 1]
-    assert float(farthest["covariance_simulated"]) > 0.1  # 20 layers higher, by far not zero
+    found = layers.figure(Options(realisations=400))
+    (one,) = found.comparisons
+    assert one.deviation() <= 1
+    assert one.deviation(1.2 * one.theory) > 1
+    table = columns(found, "figureB12")
+    assert list(zip(table["j"], table["l"], strict=True)) == layers.PAIRS
+    farthest = len(layers.UPPER[layers.LOWER[0]]) - 1
+    assert table["covariance_simulated"][farthest] > 0.1  # 20 layers higher, by far not zero
 
 
-def test_figure_b15_equals_theory_as_fractions() -> None:
-    found = sharing.shares(silent)
-    assert found.agree()
-    own, other = found.measured[0]
-    assert not replace(found, measured=((other, own), found.measured[1])).agree()
-    (rows,) = found.tables().values()
-    assert len(rows) == 4 * sharing.HEIGHT
+def test_figure_b15_equals_theory_as_fractions(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = {case: sharing.measured(*case, silent) for case in sharing.CASES}
+    monkeypatch.setattr(sharing, "measured", lambda n, sign, _: found[n, sign])
+    right = sharing.figure(Options())
+    assert right.facts["equal_as_fractions"]
+    assert len(columns(right, "figureB15")["j"]) == 4 * sharing.HEIGHT
+    own, other = sharing.CASES[:2]
+    found[own], found[other] = found[other], found[own]
+    assert not sharing.figure(Options()).facts["equal_as_fractions"]
+    assert "does not equal" in sharing.figure(Options()).says[0]
 
 
 def test_figure_b9_finds_theory_within_the_bands_and_a_wrong_one_outside() -> None:
-    found = mean_response.respond(6000, 1, silent)
-    for one in found.cuts:
-        assert one.shift.deviation(mean_response.theory(one.spacing)) <= 1
-        assert one.shift.deviation(np.zeros(len(found.offsets))) > 1
-    first, second = found.cuts
-    assert first.shift.deviation(mean_response.theory(second.spacing)) > 1
-    (rows,) = found.tables().values()
-    assert len(rows) == 2 * len(found.offsets)
+    found = mean_response.figure(Options(realisations=6000))
+    first, second = found.comparisons
+    for one in (first, second):
+        assert one.deviation() <= 1
+        assert one.deviation(np.zeros(len(mean_response.OFFSETS))) > 1
+    assert first.deviation(second.theory) > 1
+    assert len(columns(found, "figureB9")["offset"]) == 2 * len(mean_response.OFFSETS)
 
 
-def test_figure_b10_agrees_as_fractions_and_would_not_with_another_form() -> None:
-    found = stress.ratios(silent)
-    assert found.facts()["equal_as_fractions"]
-    surface, bulk = (found.measured[load] for load in ("surface", "bulk"))
-    other = stress.Ratios({"surface": bulk, "bulk": bulk})
-    assert other.agree("bulk")
-    assert not other.agree("surface")
-    assert not other.facts()["equal_as_fractions"]
-    assert "does not equal" in other.lines()[0]
-    assert not stress.Ratios({"surface": surface[::-1], "bulk": bulk}).agree("surface")
-    (rows,) = found.tables().values()
-    assert len(rows) == 4 * stress.HEIGHT
+def test_figure_b10_agrees_as_fractions_and_would_not_with_another_form(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found = {case: stress.measured(*case, silent) for case in stress.CASES}
+    given = dict(found)
+    monkeypatch.setattr(stress, "measured", lambda load, n, _: given[load, n])
+    right = stress.figure(Options())
+    assert right.facts["equal_as_fractions"]
+    assert len(columns(right, "figureB10")["j"]) == 4 * stress.HEIGHT
+    one, other = stress.DIRECTIONS
+    given["surface", one] = found["bulk", one]
+    wrong = stress.figure(Options())
+    assert not wrong.facts["equal_as_fractions"]
+    assert ["does not equal" in line for line in wrong.says] == [True, False]
+    given["surface", one], given["surface", other] = (found["surface", n] for n in (other, one))
+    assert not stress.figure(Options()).facts["equal_as_fractions"]
 
 
 def test_figure_b11_is_exact_in_two_dimensions_and_near_the_leading_order_in_others() -> None:
-    found = dimensions.widths(silent)
-    phi = float(dimensions.PHI)
-    known = [
-        math.sqrt(closed_forms.surface_variance(dimensions.HEIGHT, j, phi, 1.0, 1.0))
-        for j in range(dimensions.HEIGHT)
-    ]
-    assert found.exact[0] == pytest.approx(known, rel=1e-13)
+    found = dimensions.figure(Options())
+    phi, M = float(dimensions.PHI), dimensions.HEIGHT
+    known = [math.sqrt(closed_forms.surface_variance(M, j, phi, 1.0, 1.0)) for j in range(M)]
+    exact = columns(found, "figureB11")["exact_finite_M"]
+    assert exact[:M] == pytest.approx(known, rel=1e-13)
     # the next order is a share of 1/M or so
-    assert found.ratios() == pytest.approx([1, 1, 1], abs=2 / dimensions.HEIGHT)
-    assert found.exact[1][0] > 1.3 * found.exact[0][0]
+    assert found.facts["exact_over_printed_at_base"] == pytest.approx([1, 1, 1], abs=2 / M)
+    assert exact[M] > 1.3 * exact[0]
 
 
 def test_figure_b13_holds_spheres_to_theory_and_would_not_to_that_of_discs(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(spheres, "CASES", spheres.CASES[:1])
-    found = spheres.simulate(40, 1, silent)
-    assert max(found.deviations()) <= 1
-    (rows,) = found.tables().values()
-    assert [row["j"] for row in rows] == list(range(8))
+    found = spheres.figure(Options(realisations=40))
+    (one,) = found.comparisons
+    assert one.deviation() <= 1
+    assert columns(found, "figureB13")["j"] == list(range(8))
     monkeypatch.setattr(closed_forms, "surface_variance_of_spheres", closed_forms.surface_variance)
-    assert min(found.deviations()) > 10
-    assert "outside" in found.lines()[0]
+    wrong = replace(one, theory=spheres.exact(spheres.CASES[0]))
+    assert wrong.deviation() > 10
+    assert "outside" in wrong.verdict()
 
 
-def test_figure_b19_holds_faces_to_theory_and_the_inside_to_zero(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    found = faces.respond(200, 1, silent)
-    assert found.deviation() <= 1
-    assert 0 < found.share() < 0.01  # of order σ/r, 2.9e-4, times a power of the height
-    (rows,) = found.tables().values()
-    assert [row["exact_first_order"] > 0 for row in rows] == [True] * 5 + [False] * 7
+def test_figure_b19_holds_faces_to_theory_and_the_inside_to_zero() -> None:
+    found = faces.figure(Options(realisations=200))
+    (one,) = found.comparisons
+    assert one.deviation() <= 1
+    # of order σ/r, 2.9e-4, times a power of the height
+    assert 0 < found.facts["largest_inside_over_face"] < 0.01
+    table = columns(found, "figureB19")
+    assert [value > 0 for value in table["exact_first_order"]] == [True] * 5 + [False] * 7
     discs = math.sqrt(closed_forms.response(10, 4, float(faces.PHI), 1.0, 1.0))
-    monkeypatch.setattr(faces, "theory", lambda: np.full(5, discs))
-    assert found.deviation() > 3  # its curve is half as high again
-    assert "outside" in found.lines()[0]
+    wrong = replace(one, theory=np.full(5, discs * PAPER_STD))
+    assert wrong.deviation() > 3  # its curve is half as high again
+    assert "outside" in wrong.verdict()
 
 
 def test_the_response_of_spheres_is_nothing_off_legs_and_faces() -> None:

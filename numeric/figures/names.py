@@ -1,0 +1,61 @@
+"""Which figures there are, and what can be chosen of each."""
+
+from typing import NamedTuple
+
+
+class Entry(NamedTuple):
+    """A figure: its files, what it shows, the module that makes it.
+
+    ``realisations``: packings of each ensemble by default; 0 where it draws none.
+    """
+
+    file: str
+    title: str
+    module: str
+    realisations: int = 0
+
+
+FIGURES = {
+    "1": Entry("figure1", "Notation, and a disordered packing over the ordered one", "notation"),
+    "2": Entry("figure2", "Diffusion of geometry and of forces", "diffusion"),
+    "3": Entry(
+        "figure3", "Theory against exact simulation, surface load", "comparison", 400
+    ),
+    "4": Entry(
+        "figure4", "Mean and fluctuation of the response to an isolated load", "response", 4000
+    ),
+    "pf": Entry("pf", "P(f) against the Gaussian", "distribution", 4000),
+    "chains": Entry("chains", "Force chains", "chains"),
+    "B2": Entry(
+        "figureB2", "Fluctuation of the forces under a load at an angle", "directions", 400
+    ),
+    "B5": Entry(
+        "figureB5", "Mean contact forces to second order, surface and bulk load", "mean_forces",
+        6000,
+    ),
+    "B7": Entry("figureB7", "Fluctuation of the mean over N neighbours", "neighbours", 1000),
+    "B9": Entry(
+        "figureB9", "Mean response to a point load at second order", "mean_response", 20000
+    ),
+    "B10": Entry("figureB10", "Mean stress ratio to second order", "stress"),
+    "B11": Entry(
+        "figureB11", "Diffusion of forces in two, three and four dimensions", "dimensions"
+    ),
+    "B12": Entry("figureB12", "Covariance of forces along a diagonal", "layers", 1000),
+    "B13": Entry("figureB13", "Diffusion of forces in packings of spheres", "spheres", 100),
+    "B15": Entry(
+        "figureB15", "What the load of either branch gives to a mean force", "sharing"
+    ),
+    "B19": Entry(
+        "figureB19", "Fluctuations of the response to a point load on spheres", "faces", 1000
+    ),
+}  # fmt: skip
+
+OF_ENSEMBLES = tuple(name for name, one in FIGURES.items() if one.realisations)
+HEIGHTS = (8, 32, 128)
+"""Of figure 3."""
+LEAST_REALISATIONS = 16
+MODELS = {"q-model": "3", "double-y": "4"}
+"""What may be drawn beside which figure."""
+OWN_SPACING, OWN_STD = ("2", "3", "4", "pf", "chains"), ("3", "4", "pf", "chains")
+"""Figures of packings whose spacing, and σ/r but in figure 2, can be chosen."""
