@@ -93,5 +93,5 @@ def figure(o: Options) -> Figure:
             "smallest_force": float(forces.min()),
             "smallest_gap": smallest_gap,
         },
-        says=[f"{tensile} of {len(forces)} contacts pull at M = {HEIGHT}, M* = {critical:.3g}"],
+        words=[f"{tensile} of {len(forces)} contacts pull at M = {HEIGHT}, M* = {critical:.3g}"],
     )

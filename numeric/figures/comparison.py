@@ -37,6 +37,7 @@ from .specification import (
     Points,
     Rule,
     Table,
+    stacked,
     table,
 )
 
@@ -203,8 +204,7 @@ def figure(o: Options) -> Figure:
         _ensemble(M, o.realisations, o.seed, "exact", medium)
     found = [simulated(M, o) for M in o.heights]
     critical, q_model = critical_height(Fraction(medium.std)), "q-model" in o.models
-    parts = [one.columns(o.realisations) for one in found]
-    columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    columns = stacked([one.columns(o.realisations) for one in found])
     loads = [(M, *row) for M in o.heights for row in enumerate(weight_variance(M).tolist())]
     panels = [_theory_and_simulation(found, medium), _ratio(found)]
     return Figure(
@@ -220,7 +220,7 @@ def figure(o: Options) -> Figure:
             "critical_height": critical,
             "heights": [one.facts(o.realisations) for one in found],
         },
-        says=[one.says(critical) for one in found],
+        words=[one.says(critical) for one in found],
         comparisons=[one.alone for one in found],
     )
 

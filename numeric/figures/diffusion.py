@@ -80,5 +80,5 @@ def figure(o: Options) -> Figure:
             "spacing_over_r": float(medium.spacing),
             "relative_std": medium.std,
         },
-        says=[f"exact first-order widths at M = {M}"],
+        words=[f"exact first-order widths at M = {M}"],
     )

@@ -67,5 +67,5 @@ def figure(o: Options) -> Figure:
             "phi": float(PHI),
             "exact_over_printed_at_base": list(ratios.values()),
         },
-        says=[f"M = {HEIGHT}: exact over leading σ_f at the base: {told}"],
+        words=[f"M = {HEIGHT}: exact over leading σ_f at the base: {told}"],
     )

@@ -98,6 +98,5 @@ def figure(o: Options) -> Figure:
         Picture([panel], 2.6),
         tables={"figureB2": table},
         facts=of_ensembles(o, PAPER_STD, height=HEIGHT) | found.fact(),
-        says=[found.verdict()],
         comparisons=[found],
     )

@@ -142,7 +142,7 @@ def figure(o: Options) -> Figure:
             "level_of_both_tests_together": LEVEL,
             "samples": facts,
         },
-        says=[
+        words=[
             f"{one.kind} radii, M = {one.height}: Gaussian "
             f"{'rejected' if fact['gaussian_rejected'] else 'not rejected'} "
             f"(Kolmogorov–Smirnov p = {one.smirnov:.2g}, Anderson–Darling p = {one.anderson:.2g})"

@@ -153,7 +153,7 @@ def figure(o: Options) -> Figure:
             **face.fact(),
             "largest_inside_over_face": share,
         },
-        says=[
+        words=[
             f"{face.verdict()}; inside of the cone σ(p) is at most {share:.1g} of that on its faces"
         ],
         comparisons=[face],

@@ -68,9 +68,8 @@ def figure(o: Options) -> Figure:
         rows = np.array([lower == j for lower, _ in PAIRS])
         z, fine = np.array(UPPER[j]) / HEIGHT, np.linspace(j / HEIGHT, 1, 101)
         panel += [
-            Line(z, found.theory[rows] / UNIT, c),
             Line(fine, leading(j / HEIGHT, fine), "0.55", "--"),
-            found.points(z, c, f"lower contact at $z={j}/{HEIGHT}$", unit=UNIT, rows=rows),
+            *found.drawn(z, c, f"lower contact at $z={j}/{HEIGHT}$", unit=UNIT, rows=rows),
         ]
     panel += [
         Line(name=f"Eq. (B12), exact at $M={HEIGHT}$"),
@@ -90,6 +89,5 @@ def figure(o: Options) -> Figure:
         ),
         tables={"figureB12": table("j l", PAIRS) | found.columns("covariance_", UNIT)},
         facts=of_ensembles(o, PAPER_STD, height=HEIGHT) | found.fact(),
-        says=[found.verdict()],
         comparisons=[found],
     )

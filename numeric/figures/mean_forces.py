@@ -77,10 +77,10 @@ def panel(load: str, found: list[Comparison]) -> Panel:
             Line(name=f"Eq. ({LOADS[load][0]}), exact at $M={HEIGHT}$"),
             Line(name=r"$M\to\infty$", dashes="--"),
             *(Line(fine, leading(load, fine, phi), c, "--") for c, phi in enumerate(phis)),
-            *(Line(z, one.theory / HEIGHT, c) for c, one in enumerate(found)),
             *(
-                one.points(z, c, rf"$\phi={phi:g}$, simulated", unit=HEIGHT)
+                element
                 for c, (one, phi) in enumerate(zip(found, phis, strict=True))
+                for element in one.drawn(z, c, rf"$\phi={phi:g}$, simulated", unit=HEIGHT)
             ),
             Rule("y", 0),
         ],
@@ -100,7 +100,7 @@ def figure(o: Options) -> Figure:
                 share="y"),
         tables={"figureB5": table("load spacing phi j", layers) | columns("shift", found)},
         facts=of_ensembles(o, STD, height=HEIGHT) | facts(found),
-        says=[
+        words=[
             f"{one.verdict()}; no shift at all would be "
             f"{one.deviation(np.zeros(HEIGHT)):.1f} of it off"
             for one in found

@@ -65,10 +65,10 @@ def figure(o: Options) -> Figure:
     panel = Panel(
         [
             Line(name="Eq. (B9)"),
-            *(Line(OFFSETS, one.theory, c) for c, one in enumerate(found)),
             *(
-                one.points(OFFSETS, c, rf"$\phi={cosine(spacing):g}$, simulated")
+                element
                 for c, (one, spacing) in enumerate(zip(found, SPACINGS, strict=True))
+                for element in one.drawn(OFFSETS, c, rf"$\phi={cosine(spacing):g}$, simulated")
             ),
             Rule("y", 0),
             *(Rule("x", leg, dashes=":") for leg in (-REACH, REACH)),
@@ -82,7 +82,7 @@ def figure(o: Options) -> Figure:
         Picture([panel], 2.6),
         tables={"figureB9": table("spacing phi offset", places) | columns("mean", found)},
         facts=of_ensembles(o, STD, apex=APEX, layer=LAYER) | facts(found),
-        says=[
+        words=[
             f"{one.verdict()}; no mean response would be "
             f"{one.deviation(np.zeros(len(OFFSETS))):.1f} of it off"
             for one in found

@@ -89,6 +89,5 @@ def figure(o: Options) -> Figure:
         Picture([panel], 2.6),
         tables={"figureB7": table("of N", windows) | columns | exact},
         facts=of_ensembles(o, PAPER_STD, height=HEIGHT, layer=LAYER) | found.fact(),
-        says=[found.verdict()],
         comparisons=[found],
     )

@@ -94,5 +94,5 @@ def figure(o: Options) -> Figure:
         Picture([panel], 2.4),
         tables={"figure1": table("i j x_ordered y_ordered x y radius", found)},
         facts={"relative_std": STD, "height": HEIGHT, "spacing_over_r": float(SPACING)},
-        says=[f"{len(found)} beads of an exact packing at σ/r = {STD}"],
+        words=[f"{len(found)} beads of an exact packing at σ/r = {STD}"],
     )

@@ -198,7 +198,7 @@ def figure(o: Options) -> Figure:
         own = [row for one in double_y for row in one.rows()]
         tables["figure4_double_y"] = table(" ".join(own[0]), [row.values() for row in own])
         facts["double_y"] = [one.facts() for one in double_y]
-    return Figure(picture, tables, facts, [found.cuts.verdict()], [found.cuts])
+    return Figure(picture, tables, facts, [found.cuts])
 
 
 def _cuts(found: Response) -> Panel:

@@ -86,7 +86,7 @@ def figure(o: Options) -> Figure:
         Picture([panel], 3.2),
         tables={"figureB15": table("phi load j shift_taylor shift_closed_form", rows)},
         facts={"height": HEIGHT, "equal_as_fractions": agree},
-        says=[
+        words=[
             f"M = {HEIGHT}: Eq. B15 {'equals' if agree else 'does not equal'} the Taylor "
             "coefficients, as fractions"
         ],

@@ -12,7 +12,17 @@ from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..scene.sections import BulkLoad, SurfaceLoad
 from .packings import PAPER_STD, PHI, Options, band_of_spread, moments, of_ensembles, planned
-from .specification import RELATIVE_HEIGHT, Axis, Comparison, Figure, Line, Panel, Picture, table
+from .specification import (
+    RELATIVE_HEIGHT,
+    Axis,
+    Comparison,
+    Figure,
+    Line,
+    Panel,
+    Picture,
+    stacked,
+    table,
+)
 
 
 class Case(NamedTuple):
@@ -74,12 +84,9 @@ def figure(o: Options) -> Figure:
             Line(name="Eqs. (B13), (B14), exact"),
             Line(name=r"$M\to\infty$", dashes="--"),
             *(
-                Line(case.z, one.theory / unit[c], c)
+                element
                 for c, (case, one) in enumerate(zip(CASES, found, strict=True))
-            ),
-            *(
-                one.points(case.z, c, f"{case.load}, $M={case.height}$", unit=unit[c])
-                for c, (case, one) in enumerate(zip(CASES, found, strict=True))
+                for element in one.drawn(case.z, c, f"{case.load}, $M={case.height}$", unit=unit[c])
             ),
             *(Line(fine, leading(load, fine) / PAPER_STD, dashes="--") for load in LOADS),
         ],
@@ -87,21 +94,18 @@ def figure(o: Options) -> Figure:
         Axis(r"$M^{-3/2}\,(\sigma_f/\langle f\rangle)\,/\,(\sigma_{\delta r}/r)$", 0),
         legend="upper right",
     )
-    parts = [one.columns() for one in found]
-    columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     layers = [(*case, j, z) for case in CASES for j, z in enumerate(case.z.tolist())]
     printed = [leading(case.load, case.z) * case.height**1.5 for case in CASES]
     return Figure(
         Picture([panel], 2.8),
         tables={
             "figureB13": table("load M j z", layers)
-            | columns
+            | stacked([one.columns() for one in found])
             | {"printed": np.concatenate(printed)}
         },
         facts={
             **of_ensembles(o, PAPER_STD, cases=[case._asdict() for case in CASES]),
             "largest_deviation_in_half_widths": [one.deviation() for one in found],
         },
-        says=[one.verdict() for one in found],
         comparisons=found,
     )

@@ -122,7 +122,7 @@ def figure(o: Options) -> Figure:
         Picture([panel(load, found) for load in LOADS], 2.6, page=True, share="y"),
         tables={"figureB10": table("load phi j shift_taylor shift_closed_form", rows)},
         facts={"height": HEIGHT, "equal_as_fractions": all(agree.values())},
-        says=[
+        words=[
             f"M = {HEIGHT}: Eq. {LOADS[load][0]} {'equals' if same else 'does not equal'} the "
             "Taylor coefficients, as fractions"
             for load, same in agree.items()
