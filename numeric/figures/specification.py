@@ -177,12 +177,14 @@ Element = Line | Points | Area | Rule | Words | Arrow | Beads | Chains
 
 @dataclass(frozen=True)
 class Panel:
-    """One panel; ``legend`` is its place, "below" under the whole figure, "" nowhere.
+    """One panel, of elements or lists of them.
+
+    ``legend`` is its place, "below" under the whole figure, "" nowhere.
 
     ``scaled``: both axes alike; ``bare``: no axes. ``spatial``: in three dimensions.
     """
 
-    elements: Sequence[Element]
+    elements: Sequence[Element | Sequence[Element]]
     x: Axis = Axis()
     y: Axis = Axis()
     title: str = ""
@@ -253,7 +255,7 @@ class Comparison:
 
     def drawn(
         self, x: Any, series: int, name: str = "", *, unit: float = 1.0, rows: Any = ...
-    ) -> list[Line | Points]:
+    ) -> list[Element]:
         """Give theory as a line, and what was simulated."""
         line = Line(x, self.theory[rows] / unit, series)
         return [line, self.points(x, series, name, unit=unit, rows=rows)]

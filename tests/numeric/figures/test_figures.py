@@ -184,8 +184,8 @@ def test_figure_4_does_not_depend_on_the_horizontal_position(figure4: response.R
     assert figure4.cuts.deviation() <= 1
     off = np.abs(figure4.mean - 0.5)[response.LEG]
     assert (off < 5 * figure4.standard_error[response.LEG]).all()
-    facts = figure4.facts()
-    assert facts["variance_below_apex_over_base_exact"] == pytest.approx(1.84, abs=0.03)
+    ratio = figure4.below_apex_over_base(figure4.variance)
+    assert ratio == pytest.approx(1.84, abs=0.03)
 
 
 def test_figure_4_agrees_with_the_weights_of_all_radii(figure4: response.Response) -> None:
