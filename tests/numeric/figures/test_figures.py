@@ -48,6 +48,8 @@ from force_diffusion.numeric.mechanics.loads import LoadSpec
 from force_diffusion.numeric.scene.sections import PointLoad
 from scipy import stats
 
+import force_diffusion as fd
+
 NY = math.sqrt(1 - N_X**2)
 
 
@@ -143,6 +145,12 @@ def test_csv_comes_back() -> None:
     assert table["band_low"][2:].tolist() == low.tolist()
     assert table["band_high"][2:].tolist() == high.tolist()
     assert table["z"][2:].tolist() == [0, 1 / 3, 2 / 3]
+
+
+@pytest.mark.parametrize("heights", [[], 5, "8", iter(())])
+def test_figure_3_needs_heights(heights: Any) -> None:
+    with pytest.raises(fd.SceneError, match=r"heights = .*must be a list of whole numbers"):
+        fd.figure(3, heights=heights)
 
 
 def test_figure_4_conserves_the_load() -> None:
