@@ -70,7 +70,7 @@ def of_balls(random: Random, folder: Path) -> Judged:
 
 def of_radii(random: Random, folder: Path) -> Judged:
     """Solve an array of a Python user's, odd or not."""
-    usual = [(4, 6), (3, 9), (2, 2), (2, 3, 5), (3, 4, 4), (2, 3, 3, 3)]
+    usual = [(4, 6), (3, 9), (2, 2), (2, 3, 5), (3, 4, 4), (2, 3, 3, 3), (2, 2, 2, 2)]
     shape = random.choice([*usual * 3, (6, 4), (5, 1), (1, 5), (4,), ()])
     scatter = random.choice([1e-3, 1e-3, 0.02, 0.1, 1e-12, 0])
     values = 1 + scatter * np.random.default_rng(random.randrange(10**6)).uniform(-1, 1, shape)

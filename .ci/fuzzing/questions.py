@@ -14,7 +14,7 @@ Sections = dict[str, dict[str, Any]]
 # Values, as TOML has them, that are good at least somewhere: changes reach beyond the reader.
 GOOD = {
     "packing.height": ["1", "2", "3", "5", "9"],
-    "packing.dimension": ["2", "3", "3"],
+    "packing.dimension": ["2", "3", "4"],
     "packing.width": ["1", "2", "3", "4", "8", "16"],
     "packing.spacing": ["2.05", "3.0", "3.4641", "3.99", "4.0"],
     "packing.radius": ["1", "1e-100", "1e100", "1e-400", "0.5"],
@@ -77,12 +77,13 @@ class Raw:
 
 def tiny(random: Random) -> Sections:
     """Draw a scene that is solved in a moment, and that most commands answer."""
-    spheres = random.random() < 0.25
+    dimension = random.choice([2] * 15 + [3] * 4 + [4])
+    spheres = dimension > 2
     height = random.randrange(1, 4 if spheres else 6)
     width = random.randrange(height + 1, 6 if spheres else 9)
     packing: dict[str, Any] = {"height": height, "width": width}
     if spheres:
-        packing["dimension"] = 3
+        packing["dimension"] = dimension
     elif random.random() < 0.3:
         packing["spacing"] = Raw(random.choice(["2.1", "2.5", "3.0", "3.4"]))
     std = random.choice(["1e-3", "1e-2", "0.03", "0.06", "1e-9", "1e-100", "0"])
@@ -95,7 +96,7 @@ def tiny(random: Random) -> Sections:
     load = random.choice(["surface", "surface", "bulk", "point"])
     found["load"] = {"kind": load}
     if load == "point":
-        found["load"]["at"] = bead(random, height, width, spheres, lowest=1)
+        found["load"]["at"] = bead(random, height, width, dimension, lowest=1)
     elif random.random() < 0.3:
         found["load"]["angle_deg"] = random.choice([5, -20, 31])
     quantities = ["contact", "contact_forces", "positions", "profile", "histogram"]
@@ -103,8 +104,8 @@ def tiny(random: Random) -> Sections:
     ask: dict[str, Any] = {"quantity": random.choice(quantities)}
     found["effects"] = {}
     if ask["quantity"] == "contact":
-        branch = random.choice(["1", "2", "3"] if spheres else ["+", "-"])
-        ask["at"] = [*bead(random, height - 1, width, spheres), branch]
+        branch = random.choice("1234"[:dimension] if spheres else "+-")
+        ask["at"] = [*bead(random, height - 1, width, dimension), branch]
     elif random.random() < 0.3:
         ask["realisations"] = random.choice([2, 3])
     if random.random() < 0.25:
@@ -114,11 +115,11 @@ def tiny(random: Random) -> Sections:
     return {**found, "ask": ask}
 
 
-def bead(random: Random, top: int, width: int, spheres: bool, lowest: int = 0) -> list[int]:
+def bead(random: Random, top: int, width: int, dimension: int, lowest: int = 0) -> list[int]:
     """Draw a bead."""
     j = random.randrange(lowest, top + 1)
-    if spheres:
-        return [random.randrange(width), random.randrange(width), j]
+    if dimension > 2:
+        return [*(random.randrange(width) for _ in range(dimension - 1)), j]
     return [2 * random.randrange(width) + j % 2, j]
 
 

@@ -20,7 +20,7 @@ from ..arithmetic.systems import (
 )
 from ..mechanics.kept import Kept
 from ..mechanics.work import ESTIMATE, Work
-from ..planning.expected_error import (
+from ..planning.methods import (
     PRINTED,
     SAFETY,
     UNSEEN,

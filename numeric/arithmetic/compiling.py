@@ -33,7 +33,16 @@ def compiled(function: Function) -> Function:
     A compiled function calls only those of its own file: the copy on disk is made anew where that
     file has changed, and no other is looked at.
     """
-    options: dict[str, Any] = {"error_model": "numpy", "nogil": True}
+    return _made(function)
+
+
+def inner(function: Function) -> Function:
+    """Compile a function that compiled ones of its own file call, and nobody else: in less time."""
+    return _made(function, no_cpython_wrapper=True)
+
+
+def _made(function: Function, **options: Any) -> Function:
+    options |= {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
     try:
         return cast(Function, numba.njit(cache=True, **options)(function))
     except RuntimeError:  # no place to write to
@@ -143,10 +152,9 @@ def _pool(threads: int) -> ThreadPoolExecutor:
 
 def on_all_cores(function: Callable[[slice], bool], batch: int) -> bool:
     """Call a compiled ``function`` for parts of a batch, one a core; say whether all are true."""
-    threads = cores()
-    parts = min(batch, threads)
-    if parts == 1:
+    if batch == 1 or (threads := cores()) == 1:
         return function(slice(0, batch))
+    parts = min(batch, threads)
     cuts = [batch * part // parts for part in range(parts + 1)]
     others = [_pool(threads).submit(function, slice(*cut)) for cut in pairwise(cuts[1:])]
     own = function(slice(0, cuts[1]))

@@ -4,8 +4,12 @@ Every operation is one line, in the order in which it was called, so that the co
 function does on arrays of floats, to the bit. What was computed before is not computed again.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
+
+# Beads that the widest registers hold. Loops take as many at a time; those that are left over at
+# the end of a run are taken so, too, together with some before them that are done twice.
+WIDE = 8
 
 
 class Recorder:
@@ -128,10 +132,14 @@ class Code:
         lines += [f"    {name} = m[{k}]" for k, name in enumerate(self.constants)]
         lines += [f"    {name}_ = pitch({name})" for name in self.arrays]
         lines += [f"    {one}" for one in self.places]
-        lines += ["    good = True", "    for q in range(run[-1]):"]
-        lines += [f"        {one}" for one in (*self.inputs, *self.recorder.lines, *self.outputs)]
+        lines += ["    good, n = True, run[-1]", f"    whole = n - n % {WIDE}"]
+        lines += ["    for last in range(2 - (whole == n)):"]
+        lines += [f"        low, high = (max(n - {WIDE}, 0), n) if last else (0, whole)"]
+        lines += ["        for q in range(low, high):"]
+        steps = *self.inputs, *self.recorder.lines, *self.outputs
+        lines += [f"            {one}" for one in steps]
         if self.holds:
-            lines.append(f"        good &= {' & '.join(f'({one})' for one in self.holds)}")
+            lines.append(f"            good &= {' & '.join(f'({one})' for one in self.holds)}")
         return "\n".join([*lines, "    return good", ""])
 
 
@@ -139,6 +147,11 @@ def _place(name: str, array: str, row: int, place: int | None) -> str:
     return f"{name} = {row} * {array}_" + ("" if place is None else f" + run[{place}]")
 
 
-def module(codes: Sequence[Code], loops: str) -> str:
-    """Give the source of several functions, and of the ``loops`` that call them."""
-    return "\n\n".join([loops, *(f"@compiled\n{code.text()}" for code in codes)])
+def module(codes: Sequence[Code], loops: str, called: Collection[str] = ()) -> str:
+    """Give the source of several functions, and of the ``loops`` that call them.
+
+    Those that are ``called`` by name are called from Python, too.
+    """
+    kinds = ["compiled" if code.name in called else "inner" for code in codes]
+    texts = [f"@{kind}\n{code.text()}" for kind, code in zip(kinds, codes, strict=True)]
+    return "\n\n".join([loops, *texts])

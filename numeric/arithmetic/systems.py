@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cache
+from functools import cache, reduce
 from typing import Any, Protocol
 
 import flint
@@ -204,6 +204,11 @@ def as_ball(value: Any) -> Any:
 
 
 _flint = threading.RLock()
+
+
+def largest_of(balls: Iterable[Any]) -> Any:
+    """Give the largest of balls that are not negative, 0 of none."""
+    return reduce(flint.arb.max, balls, flint.arb(0))
 
 
 @contextmanager

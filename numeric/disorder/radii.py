@@ -226,11 +226,14 @@ class ArrayRadii:
 
     @cached_property
     def _relative_std(self) -> Fraction:
-        deltas = (self.values - float(self.origin)) / float(self.radius)
-        largest = float(np.abs(deltas).max(initial=0))
+        deltas = self.values - float(self.origin)
+        deltas /= float(self.radius)
+        largest = float(max(deltas.max(initial=0), -deltas.min(initial=0)))
         if not largest:
             return Fraction(0)
-        return Fraction(largest) * Fraction(float(np.sqrt(np.mean((deltas / largest) ** 2))))
+        deltas /= largest
+        deltas *= deltas
+        return Fraction(largest) * Fraction(float(np.sqrt(deltas.mean())))
 
     @cached_property
     def mean(self) -> float:

@@ -47,7 +47,7 @@ class Estimates:
         if self.measurement.of_networks:
             return np.flatnonzero(self.sums.samples)
         labels = self.measurement.labels
-        names = ("component", "branch", "q", "p", "i", "j")
+        names = ("component", "branch", *"tsqp", "i", "j")
         keys = [labels[name] for name in names if name in labels]
         return np.lexsort(keys) if keys else np.arange(self.measurement.groups)
 

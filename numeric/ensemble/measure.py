@@ -19,7 +19,7 @@ from ..lattice.branch import PerBranch
 from ..lattice.layers import Region
 from ..lattice.naming import Block
 from ..mechanics.engine import compiles
-from ..mechanics.problem import Problem, Route, Solved
+from ..mechanics.problem import Problem, Route
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.base import ContactQuantity, first_order_std
@@ -68,6 +68,12 @@ class Measurement:
         """What is solved."""
         return self.plan.problem
 
+    @property
+    def quantity(self) -> ContactQuantity | NetworkQuantity:
+        """What is asked of each packing."""
+        assert isinstance(self.plan.quantity, ContactQuantity | NetworkQuantity)
+        return self.plan.quantity
+
     @cached_property
     def many(self) -> Problem:
         """What is solved, with as many realisations as there will be."""
@@ -84,25 +90,9 @@ class Measurement:
         return self.problem.route == Route.UNILATERAL
 
     @property
-    def network(self) -> NetworkQuantity:
-        """What is asked of packings whose contacts are unilateral."""
-        assert isinstance(self.plan.quantity, NetworkQuantity)
-        return self.plan.quantity
-
-    @property
-    def _of(self) -> ContactQuantity:
-        assert isinstance(self.plan.quantity, ContactQuantity)
-        return self.plan.quantity
-
-    @property
-    def quantity(self) -> str:
-        """What the scene asks."""
-        return self.plan.quantity.name
-
-    @property
     def row(self) -> int:
         """Whether covariances are of mean squares of packings, 1, or of changes, 0."""
-        return 0 if self.of_networks else int(self._of.squares)
+        return int(self.quantity.squares)
 
     @property
     def counted(self) -> int:
@@ -119,7 +109,7 @@ class Measurement:
     @cached_property
     def labels(self) -> dict[str, list[Any]]:
         """Columns that name the groups, each of length ``groups``."""
-        return self.network.labels() if self.of_networks else self._of.labels(self.problem)
+        return self.quantity.labels(self.problem)
 
     @cached_property
     def groups(self) -> int:
@@ -129,24 +119,19 @@ class Measurement:
     @cached_property
     def members(self) -> int:
         """Contacts in a group; 0 where they differ from packing to packing."""
-        return 0 if self.of_networks else self._of.members(self.problem)
+        return self.quantity.members(self.problem)
 
     @property
     def variables(self) -> int:
         """Size of the covariance matrix."""
         return self.groups if self.covariance else 0
 
-    def changes(self, solved: Solved, realisations: int) -> tuple[Array, Array]:
-        """Give ordered forces (groups, 1 or members) and changes (groups, realisations, members).
-
-        Of a response the second half of the groups is vertical: f N_y, its change likewise.
-        """
-        return self._of.changes(self.problem, solved, realisations)
-
     @cached_property
     def blocks(self) -> list[Block]:
         """Give the whole rows of contacts that groups are made of, in order; none of contacts."""
-        return self._of.blocks(self.problem) if self.members > 1 else []
+        if self.members < 2 or isinstance(self.quantity, NetworkQuantity):
+            return []
+        return self.quantity.blocks(self.problem)
 
     @cached_property
     def runs(self) -> Array | None:
@@ -169,9 +154,7 @@ class Measurement:
 
     def ordered(self) -> Array:
         """Give the ordered force of each group (of a group whose forces differ, their mean)."""
-        if self.of_networks:
-            return self.network.ordered(self.problem)
-        return np.array([float(force) for force in self._of.ordered(self.problem)])
+        return np.array([float(force) for force in self.quantity.ordered(self.problem)])
 
     def theory(self) -> PerBranch[Sequence[Fraction]] | None:
         """Give σ_f of layers j = 0 … M − 1, exact to first order; None where it does not apply."""
@@ -194,14 +177,18 @@ def measurement(
         why = planned.skipped[-1].reason
         raise SceneError("disorder", None, f"every realisation would be the same: {why}")
     made = Measurement(planned, (), covariance)
-    if made.of_networks:
-        _refuse_of_networks(made)
-    elif not (made.groups and made.members):
+    magnitude = scene.load.magnitude
+    if made.of_networks and made.problem.most_seconds is not None:
+        why = "which packings come to rest in time depends on the machine: give most_events"
+        raise SceneError("effects.most_seconds", made.problem.most_seconds, why)
+    if made.of_networks and not 1 <= magnitude * MOST_UNIT <= MOST_UNIT**2:
+        why = "must lie between 1e-280 and 1e280, as sums are float64: choose another unit"
+        raise SceneError("load.magnitude", magnitude, why)
+    if not made.of_networks and not (made.groups and made.members):
         allowed = "bears on no contact that is asked for: there is nothing to gather"
         raise SceneError("load.kind", scene.load.kind, allowed)
     if ask.quantity == "histogram":
         made = replace(made, edges=_edges(made, reach))
-    magnitude = scene.load.magnitude
     if covariance and not 1 <= magnitude * MOST_MAGNITUDE <= MOST_MAGNITUDE**2:
         raise SceneError(
             "load.magnitude",
@@ -217,17 +204,6 @@ def measurement(
             "are allowed: ask for a smaller packing, or leave the covariance out",
         )
     return made
-
-
-def _refuse_of_networks(made: Measurement) -> None:
-    """Refuse what packings whose contacts differ do not have."""
-    if made.problem.most_seconds is not None:
-        why = "which packings come to rest in time depends on the machine: give most_events"
-        raise SceneError("effects.most_seconds", made.problem.most_seconds, why)
-    unit = made.plan.scene.load.magnitude
-    if not 1 <= unit * MOST_UNIT <= MOST_UNIT**2:
-        why = "must lie between 1e-280 and 1e280, as sums are float64: choose another unit"
-        raise SceneError("load.magnitude", unit, why)
 
 
 def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
@@ -253,8 +229,8 @@ def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
 
 def _usual_reach(made: Measurement) -> float:
     """Give the outer edge that is taken where none is named."""
-    theory = made.theory()
-    if made.of_networks and (mean := made.network.mean_force(made.problem)):
+    theory, quantity = made.theory(), made.quantity
+    if isinstance(quantity, NetworkQuantity) and (mean := quantity.mean_force(made.problem)):
         return FORCES * mean
     if theory is None:
         raise SceneError(

@@ -48,7 +48,7 @@ class Ensemble(Estimates):
     @property
     def quantity(self) -> str:
         """What was asked, as the scene calls it."""
-        return self.measurement.quantity
+        return self.measurement.plan.quantity.name
 
     @property
     def unbuildable(self) -> int:
@@ -65,12 +65,14 @@ class Ensemble(Estimates):
     def std_over_mean(self) -> Array | None:
         """σ_f/⟨f⟩, as the paper plots it; None where a mean may be zero: only loads straight down.
 
-        Its standard error is that of ``std`` over ⟨f⟩.
+        NaN where a contact has opened in all packings. Its standard error is that of ``std``, over
+        ⟨f⟩.
         """
         load = self.measurement.problem.load
         if load.loaded is not None or load.angle_deg or "component" in self.index:
             return None
-        ratio: Array = self.std / self.mean
+        with np.errstate(invalid="ignore"):
+            ratio: Array = self.std / self.mean
         return ratio
 
     @cached_property
@@ -191,7 +193,7 @@ class Ensemble(Estimates):
                 else "float64",
             },
             "skipped": [{"effect": s.effect, "reason": s.reason} for s in m.plan.skipped],
-            "results": {m.quantity: rows_of_text(self.text, self.whole_numbers) if rows else []},
+            "results": {self.quantity: rows_of_text(self.text, self.whole_numbers) if rows else []},
             "confidence": {
                 "level": self.confidence,
                 "largest_relative_half_width": (

@@ -31,6 +31,10 @@ class UnsettledError(RealisationError):
     exit_status = NOT_REACHED
 
 
+Told = Callable[[int, float | None], None]
+"""Told how many realisations are done, and the half-width at the last look."""
+
+
 def run(
     m: Measurement,
     size: int,
@@ -39,88 +43,98 @@ def run(
     store: Store | None = None,
     rule: Rule | None = None,
     confidence: float = 0.95,
-    progress: Callable[[int, float | None], None] = lambda done, width: None,
+    progress: Told = lambda done, width: None,
 ) -> Ensemble:
     """Sum up realisations 0 … size − 1, or fewer where the rule is met at a look before.
 
-    ``progress`` is told how many realisations are done, and the half-width at the last look. Raises
-    ``StoreError``, and what the workers raise; what a store holds by then stays good.
+    Raises ``StoreError``, and what the workers raise; what a store holds by then stays good.
     """
-    return _Run(m, size, store, rule, confidence, progress).finish(workers)
+    confidence = confidence if rule is None else rule.confidence
+    blocks = _Blocks(m, size, store)
+    sizes, look, solved_now = list(looks(size)), 0, 0
+    found, width, met = Estimates(m, nothing(m, 1)[0]), None, False
+
+    def enough() -> bool:
+        """Look at all sizes up to which nothing is missing; say whether that is enough."""
+        nonlocal look, found, width, met
+        done = blocks.without_gap
+        while rule is not None and not met and look < len(sizes) and sizes[look] <= done:
+            found = Estimates(m, blocks.sums(sizes[look]))
+            look += 1
+            width = found.width(confidence, look)
+            met = width <= rule.relative
+        if not met and done >= size:
+            found = Estimates(m, blocks.sums(size))
+        return met or done >= size
+
+    progress(blocks.done, None)
+    ended = enough()
+    for block in () if ended else solved(m, blocks.missing(), workers):
+        solved_now += block.stop - block.first
+        blocks.keep(block)
+        ended = enough()
+        progress(blocks.done, width)
+        if ended:
+            break
+    _refuse_unbuildable(m, found.sums)
+    if rule is not None:  # the size itself is looked at last
+        look += found.sums.tried not in sizes
+    last = found.width(confidence, look if rule is not None else 0)
+    reached = None if rule is None else last <= rule.relative
+    return Ensemble(m, found.sums, confidence, look, last, reached, solved_now)
 
 
-class _Run:
-    def __init__(
-        self,
-        m: Measurement,
-        size: int,
-        store: Store | None,
-        rule: Rule | None,
-        confidence: float,
-        progress: Callable[[int, float | None], None],
-    ) -> None:
-        self.m, self.size, self.store, self.rule = m, size, store, rule
-        self.confidence = confidence if rule is None else rule.confidence
-        self.progress = progress
-        self.blocks = [] if store is None else store.blocks(m)
-        self._refuse_straddling()
+class _Blocks:
+    """The blocks of an ensemble: those of the store, and those that come."""
+
+    def __init__(self, m: Measurement, size: int, store: Store | None) -> None:
+        self.m, self.size, self.store = m, size, store
+        self._all = [] if store is None else store.blocks(m)
+        ends: tuple[int, ...] = ()
         if store is not None:
-            store.begin(size, self.blocks)
-        ends = () if store is None else store.about.ends
-        last = max([size, *(block.stop for block in self.blocks)])
+            self._refuse_straddling(store)
+            store.begin(size, self._all)
+            ends = store.about.ends
+        last = max([size, *(block.stop for block in self._all)])
         # Where ranges begin and end that are looked at, or were asked for: none lies across.
         self.cuts = sorted({*looks(2 * last), *ends, size})
-        self.looks = list(looks(size))
-        self.sums, self.look = nothing(m, 1)[0], 0
-        self.width: float | None = None
-        self.solved = 0
 
-    def _refuse_straddling(self) -> None:
-        for block in self.blocks:
+    def _refuse_straddling(self, store: Store) -> None:
+        for block in self._all:
             if block.first < self.size < block.stop:
-                assert self.store is not None
                 raise StoreError(
-                    f"{self.store.path} holds sums over realisations {block.first} to "
+                    f"{store.path} holds sums over realisations {block.first} to "
                     f"{block.stop - 1}, of which {self.size} would need a part: ask for "
                     f"{block.first or block.stop} or {block.stop}, or give another name"
                 )
 
-    def finish(self, workers: Workers) -> Ensemble:
-        """Solve what is missing until the size or the rule is reached."""
-        self.progress(self._done(), None)
-        if not self._advance():
-            for block in solved(self.m, self._tasks(), workers):
-                self.solved += block.stop - block.first
-                self._keep(block)
-                ended = self._advance()
-                self.progress(self._done(), self.width)
-                if ended:
-                    break
-        _refuse_unbuildable(self.m, self.sums)
-        estimates = Estimates(self.m, self.sums)
-        look, reached = 0, None
-        if self.rule is not None:
-            # the size itself is looked at last
-            look = self.look + (self.sums.tried not in self.looks)
-            reached = estimates.width(self.confidence, look) <= self.rule.relative
-        width = estimates.width(self.confidence, look)
-        return Ensemble(self.m, self.sums, self.confidence, look, width, reached, self.solved)
+    @property
+    def done(self) -> int:
+        """How many realisations there are, of those asked for."""
+        asked = (block for block in self._all if block.first < self.size)
+        return sum(min(block.stop, self.size) - block.first for block in asked)
 
-    def _done(self) -> int:
-        return sum(min(block.stop, self.size) - block.first
-                   for block in self.blocks if block.first < self.size)  # fmt: skip
+    @property
+    def without_gap(self) -> int:
+        """Up to which realisation none is missing."""
+        done = 0
+        for block in self._all:
+            done = block.stop if block.first == done else done
+        return done
 
-    def _tasks(self) -> Iterator[tuple[int, int]]:
+    def sums(self, size: int) -> Sums:
+        """Give the sums over the first realisations."""
+        return total(self.m, [block for block in self._all if block.stop <= size])
+
+    def missing(self) -> Iterator[tuple[int, int]]:
         """Give the blocks that are missing, in order."""
-        beads = max(self.m.problem.region.beads, 1)
-        large = min(
-            LARGE[self.m.compiled] // beads, self.size // SHARES, MEANS // max(self.m.groups, 1)
-        )
+        m, beads = self.m, max(self.m.problem.region.beads, 1)
+        large = min(LARGE[m.compiled] // beads, self.size // SHARES, MEANS // max(m.groups, 1))
         step = max(1, min(BLOCK // beads, 4096), large)
-        if self.m.of_networks:  # each takes a second, or many
+        if m.of_networks:  # each takes a second, or many
             step = 1
         step = 1 << (step.bit_length() - 1)
-        held = {block.first: block.stop for block in self.blocks}
+        held = {block.first: block.stop for block in self._all}
         ends, at = sorted({*self.cuts, *held}), 0
         while at < self.size:
             stop = held.get(at) or ends[bisect_right(ends, at)]
@@ -128,35 +142,13 @@ class _Run:
                 yield from ranges(at, stop, step)
             at = stop
 
-    def _keep(self, block: Block) -> None:
+    def keep(self, block: Block) -> None:
         """Join a block with its neighbours as far as no range ends between; write that."""
-        insort(self.blocks, block, key=lambda one: one.first)
-        self.blocks = joined(self.blocks, self.cuts)
-        whole = next(one for one in self.blocks if one.first <= block.first < one.stop)
+        insort(self._all, block, key=lambda one: one.first)
+        self._all = joined(self._all, self.cuts)
+        whole = next(one for one in self._all if one.first <= block.first < one.stop)
         if self.store is not None and whole.sums.realisations:  # none: a wrong scene is no result
             self.store.put(whole)
-
-    def _advance(self) -> bool:
-        """Look at all sizes up to which nothing is missing; say whether that is enough."""
-        done = 0
-        for block in self.blocks:
-            done = block.stop if block.first == done else done
-        while self.rule is not None and self.look < len(self.looks):
-            size = self.looks[self.look]
-            if size > done:
-                break
-            self.look += 1
-            self.width = self._sum_up(size).width(self.confidence, self.look)
-            if self.width <= self.rule.relative:
-                return True
-        if done < self.size:
-            return False
-        self._sum_up(self.size)
-        return True
-
-    def _sum_up(self, size: int) -> Estimates:
-        self.sums = total(self.m, [block for block in self.blocks if block.stop <= size])
-        return Estimates(self.m, self.sums)
 
 
 def _refuse_unbuildable(m: Measurement, sums: Sums) -> None:

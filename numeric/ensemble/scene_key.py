@@ -22,29 +22,14 @@ def ensemble_key(m: Measurement) -> dict[str, Any]:
     if scene.ask.layers is None:  # as in stores that were made before there were any
         del sections["ask"]["layers"]
     if scene.load.file is not None:  # its content counts, not its name
-        forces = sorted((list(site), list(map(str, force))) for site, force in _loads(m))
+        loads = m.problem.load.single.items()
+        forces = sorted((list(site), list(map(str, force))) for site, force in loads)
         digest = hashlib.sha256(json.dumps(forces).encode()).hexdigest()
         sections["load"]["file"] = f"sha256 {digest}"
-    key = _plain(sections)
-    key["measured"] = {
-        "covariance": m.covariance,
-        "edges": [edge.hex() for edge in m.edges],
-    }
+    key: dict[str, Any] = json.loads(json.dumps(sections, default=str))  # of fractions
+    key["measured"] = {"covariance": m.covariance, "edges": [edge.hex() for edge in m.edges]}
     key["version"] = {"force-diffusion": program_version()}
-    assert isinstance(key, dict)
     return key
-
-
-def _loads(m: Measurement) -> Any:
-    return m.problem.load.single.items()
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {name: _plain(one) for name, one in value.items()}
-    if isinstance(value, list):
-        return [_plain(one) for one in value]
-    return str(value) if isinstance(value, Fraction) else value
 
 
 def differences(old: dict[str, Any], new: dict[str, Any]) -> str:

@@ -16,18 +16,21 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic.errors import UndecidedError
-from ..arithmetic.systems import FLOAT64, Array
+from ..arithmetic.systems import FLOAT64, Array, Balls
 from ..disorder.radii import RadiusError
 from ..mechanics import engine
 from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import NotStandingError, UnbuildableError
+from ..mechanics.work import Work
+from ..quantities.network import NetworkQuantity
 from ..statistics.moments import by_halves
-from ..unilateral.network import UnfinishedError
-from . import networks
+from ..unilateral.network import Relaxed, UnfinishedError
 from .measure import Measurement
 
 # What is raised for a packing that is left out.
 TROUBLE = (UnbuildableError, NotStandingError, RadiusError, UnfinishedError, UndecidedError)
+# Bits with which a packing of unilateral contacts is proved, one after the other until it is.
+BITS = (64, 128, 256)
 # Numbers that are joined at once: few enough for a cache.
 AT_ONCE = 20_000
 # Of no packing, where the lowest number of one is looked for.
@@ -255,11 +258,12 @@ _Solved = tuple[Sequence[int] | Array, Array, Array, Array, Array]
 
 
 def _each(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
-    if m.of_networks:
+    quantity = m.quantity
+    if isinstance(quantity, NetworkQuantity):
         for number in numbers:
-            samples, counts = networks.measured(m, number)
+            samples, counts = _at_rest(m, quantity, number)
             none = np.zeros((1, 1), np.int64)
-            yield [number], samples[None, 0].astype(np.int64), samples[None], none, counts[None]
+            yield [number], samples[None, 0].astype(np.int64), samples[None], none, counts
         return
     problem = m.many
     if m.expected < len(numbers):
@@ -267,13 +271,13 @@ def _each(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
     if problem.route == Route.EXACT and engine.compiles(problem, FLOAT64):
         numbers = yield from _compiled(m, problem, numbers)
     for solved, some in engine.packings(problem, numbers, FLOAT64, any_number=True, copied=True):
-        F, g = m.changes(solved, len(some))
+        F, g = quantity.changes(problem, solved, len(some))
         parts = np.split(g * 2.0**-m.unit, np.cumsum(m.sizes)[:-1], axis=2)
         sums = np.stack([[by_halves(x) for x in (part, part * part)] for part in parts], axis=-1)
         tensile = np.zeros((len(some), m.groups), np.int64)
         if F.min() + g.min() < 0:  # else no sum below can be negative
             tensile[:] = np.count_nonzero(F[:, None] + g < 0, axis=2).T
-        yield some, *_of(m, np.moveaxis(sums, 2, 0)), tensile, _counted(m, g)
+        yield some, *_of(m, np.moveaxis(sums, 2, 0)), tensile, _counted(m, g[0])
 
 
 def _of(m: Measurement, sums: Array) -> tuple[Array, Array]:
@@ -284,12 +288,34 @@ def _of(m: Measurement, sums: Array) -> tuple[Array, Array]:
     return np.array([[m.members]]), means
 
 
-def _counted(m: Measurement, changes: Array) -> Array:
-    """Count changes (1, packings, members) by bin."""
-    packings = changes.shape[1]
+def _at_rest(m: Measurement, quantity: NetworkQuantity, number: int) -> tuple[Array, Array]:
+    """Solve a realisation whose contacts are unilateral, and prove it with as few bits as will do.
+
+    Gives its samples, their sums and those of their squares, (3, groups), and counts (1, B + 2).
+    What the protocol raises is passed on.
+    """
+    from ..unilateral.relaxation import packings  # SciPy's solvers take 35 MB
+
+    for bits in BITS:
+        system = Balls(bits)
+        try:
+            with system.active():
+                ((solved, _),) = packings(m.problem, [number], system, Work())
+                assert isinstance(solved, Relaxed)
+                _, values = quantity.samples(m.problem, solved.network)
+                return quantity.sums(m.problem, solved.network), _counted(m, values[None])
+        except UndecidedError:
+            if bits == BITS[-1]:
+                raise
+    raise AssertionError
+
+
+def _counted(m: Measurement, values: Array) -> Array:
+    """Count numbers (packings, members) by bin."""
+    packings = len(values)
     if not m.counted:
         return np.zeros((packings, 0), np.int64)
-    places = np.searchsorted(np.array(m.edges), changes[0], side="right")
+    places = np.searchsorted(np.array(m.edges), values, side="right")
     places += m.counted * np.arange(packings)[:, None]
     counts = np.bincount(places.reshape(-1), minlength=m.counted * packings)
     return counts.reshape(packings, m.counted)

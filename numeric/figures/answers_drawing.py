@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, as_floats
-from ..lattice.branch import Branch, PerAxis, PerBranch
+from ..lattice.branch import Branch, PerBranch, per_direction
 from ..mechanics.problem import Route
 from ..planning.plan import Plan
 from ..quantities.base import first_order_std
@@ -17,8 +17,8 @@ from . import specification as spec
 from .elements import base, cone, point_load, surface_load
 
 Columns = Mapping[str, Array]
-NESTED = (5.2, 3.4, 1.8)
-"""Sizes of markers that may lie on each other."""
+NESTED = 0.66
+"""By so much markers that may lie on each other are smaller than the last ones."""
 
 
 def of_first(columns: Columns) -> dict[str, Array]:
@@ -46,7 +46,7 @@ def _theory(plan: Plan) -> PerBranch[Array] | None:
         return None
     unit = plan.scene.load.magnitude
     rows = [np.array([float(v * unit) for v in layers]) for _, layers in found]
-    return PerBranch(*rows) if len(rows) == 2 else PerAxis(*rows)
+    return per_direction(rows)
 
 
 def contact_forces(
@@ -209,7 +209,7 @@ def profile(
             rows = columns["branch"] == own
             error = errors["std"][rows] if "std" in errors else None
             std, name = floats(columns["std"])[rows], f"simulated, $f^{own}$"
-            elements.append(spec.Points(z[rows], std, c, name, error, NESTED[c]))
+            elements.append(spec.Points(z[rows], std, c, name, error, 5.2 * NESTED**c))
         what = what if load.loaded is None else r"$\sigma$ of the change"
     return spec.Picture([spec.Panel(elements, spec.RELATIVE_HEIGHT, spec.Axis(what, 0))], 2.8)
 

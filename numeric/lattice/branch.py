@@ -1,4 +1,4 @@
-"""Along which base vector contacts lead up: two branches, or three axes; what there is of each."""
+"""Along which base vector contacts lead up: two branches, or d axes; what there is of each."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -14,12 +14,12 @@ class Direction(StrEnum):
 
     @property
     def side(self) -> int:
-        """The change of i; 0 in three dimensions, where nothing is called i."""
+        """The change of i; 0 in three dimensions and more, where nothing is called i."""
         return 0
 
     @property
     def number(self) -> int:
-        """0, 1 or 2, in the order in which they are named."""
+        """0, 1, …, in the order in which they are named."""
         return list(type(self)).index(self)
 
 
@@ -45,15 +45,26 @@ class Branch(Direction):
 
 
 class Axis(Direction):
-    """One of the three base vectors in three dimensions.
+    """One of the d base vectors in three dimensions and more.
 
-    >>> [(axis.value, axis.number) for axis in Axis], Branch.MINUS.number
+    >>> [(axis.value, axis.number) for axis in Axis][:3], Branch.MINUS.number
     ([('1', 0), ('2', 1), ('3', 2)], 1)
     """
 
     FIRST = "1"
     SECOND = "2"
     THIRD = "3"
+    FOURTH = "4"
+    FIFTH = "5"
+
+
+def directions(dimension: int) -> tuple[Direction, ...]:
+    """Give the directions along which contacts lead up.
+
+    >>> [one.value for one in directions(2)], [one.value for one in directions(4)]
+    (['+', '-'], ['1', '2', '3', '4'])
+    """
+    return tuple(Branch) if dimension == 2 else tuple(Axis)[:dimension]
 
 
 def direction(name: str) -> Direction:
@@ -65,13 +76,34 @@ def direction(name: str) -> Direction:
     return Axis(name) if name.isdigit() else Branch(name)
 
 
-class AxisContact(NamedTuple):
-    """A contact in three dimensions, by its lower bead (p, q, j) and its axis."""
+def bead_names(dimension: int) -> tuple[str, ...]:
+    """Give what the numbers that name a bead are called, its layer last.
 
-    p: int
-    q: int
-    j: int
+    >>> bead_names(2), bead_names(4)
+    (('i', 'j'), ('p', 'q', 's', 'j'))
+    """
+    return ("i", "j") if dimension == 2 else (*"pqst"[: dimension - 1], "j")
+
+
+def axis_names(dimension: int) -> str:
+    """Give what Cartesian coordinates are called, the vertical one last."""
+    return "xyzwv"[:dimension]
+
+
+class AxisContact(NamedTuple):
+    """A contact in three dimensions or more: its lower bead (p, q, …, j), and its axis."""
+
+    bead: tuple[int, ...]
     axis: Axis
+
+    @property
+    def j(self) -> int:
+        """The layer of the lower bead."""
+        return self.bead[-1]
+
+    def named(self) -> dict[str, int | str]:
+        """Give its numbers and its axis by their names."""
+        return {**dict(zip(bead_names(len(self.bead)), self.bead, strict=True)), "axis": self.axis}
 
 
 class Contact(NamedTuple):
@@ -85,6 +117,10 @@ class Contact(NamedTuple):
     def upper(self) -> Site:
         """The bead that the contact supports."""
         return self.i + self.branch.side, self.j + 1
+
+    def named(self) -> dict[str, int | str]:
+        """Give its numbers and its branch by their names."""
+        return {"i": self.i, "j": self.j, "branch": self.branch}
 
 
 @dataclass(frozen=True)
@@ -106,25 +142,30 @@ class PerBranch(Generic[T]):
         yield Branch.MINUS, self.minus
 
 
-@dataclass(frozen=True)
 class PerAxis(PerBranch[T]):
-    """Something for each of three axes.
+    """Something for each axis, of which ``plus`` and ``minus`` are the first two.
 
     >>> PerAxis(5, 6, 7)[Axis.THIRD], [value for _, value in PerAxis(5, 6, 7)]
     (7, [5, 6, 7])
     """
 
-    third: T
+    _values: tuple[T, ...]
+
+    def __init__(self, *values: T) -> None:
+        """``values``: one an axis, three or more."""
+        first, second, *_ = values
+        super().__init__(first, second)
+        object.__setattr__(self, "_values", values)
 
     def __getitem__(self, axis: Direction) -> T:
-        return (self.plus, self.minus, self.third)[int(axis.value) - 1]
+        return self._values[int(axis.value) - 1]
 
     def __iter__(self) -> Iterator[tuple[Direction, T]]:
-        yield from ((axis, self[axis]) for axis in Axis)
+        yield from zip(Axis, self._values, strict=False)
 
 
 def per_direction(values: Sequence[T]) -> PerBranch[T]:
-    """Give what there is of each branch or axis, of which there are two or three.
+    """Give what there is of each branch or axis.
 
     >>> per_direction([1, 2]), per_direction([5, 6, 7])[Axis.THIRD]
     (PerBranch(plus=1, minus=2), 7)

@@ -5,10 +5,10 @@ x − e₋ = (i + 1, j − 1). A layer of a periodic packing has ``width`` = W b
 q of layer j is i = 2q + (j mod 2), 0 ≤ i < 2W. Lengths are in units of the mean radius r.
 """
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
-from math import isqrt
 from typing import Any, TypeVar, overload
 
 import numpy as np
@@ -41,40 +41,38 @@ def column(i: int, j: int, width: int) -> int:
     return (i - lowest_column(j)) // 2 % width
 
 
-Bead = tuple[int, int, int]
-"""A bead (p, q, j) in three dimensions, whose layers of W² beads lie in rows: column p W + q."""
+Bead = tuple[int, ...]
+"""A bead (p, q, …, j) in three dimensions or more, p, q, … being columns.
+
+A layer of W^(d−1) beads is one row here, in which q neighbours q + 1: column (p W + q) W + ….
+"""
 
 
-def bead_of(site: Site, width: int) -> Bead:
-    """Name a bead (p, q, j), of a site of the row of W² beads."""
+def bead_of(site: tuple[Any, Any], side: int, dimension: int) -> Bead:
+    """Name a bead (p, q, …, j), of a site of the row of W^(d−1) beads, W the ``side``.
+
+    Or give columns p, q, … and j, of columns i and j.
+    """
     i, j = site
-    return (*divmod((i - j % 2) // 2 % width**2, width), j)
+    number = (i - j % 2) // 2
+    return (*(number // side**k % side for k in reversed(range(dimension - 1))), j)
 
 
-def lower_bead(upper: Bead, axis: Direction, width: int) -> Bead:
-    """Give the bead below a contact."""
-    p, q, j = upper
-    return (p - (axis == Axis.FIRST)) % width, (q - (axis == Axis.SECOND)) % width, j - 1
+def site_of(bead: Sequence[int], side: int) -> Site:
+    """Give the site in the row of W^(d−1) beads.
 
-
-def lower_beads(upper: dict[str, Array], axes: Array, width: int) -> dict[str, Array]:
-    """Do so for columns p, q and j of beads, and the names of axes."""
-    first, second = axes == Axis.FIRST.value, axes == Axis.SECOND.value
-    return {
-        "p": (upper["p"] - first) % width,
-        "q": (upper["q"] - second) % width,
-        "j": upper["j"] - 1,
-    }
-
-
-def site_of(bead: Bead, width: int) -> Site:
-    """Give the site in the row of W² beads.
-
-    >>> site_of((2, 1, 3), 5), bead_of((23, 3), 5)
+    >>> site_of((2, 1, 3), 5), bead_of((23, 3), 5, 3)
     ((23, 3), (2, 1, 3))
     """
-    p, q, j = bead
-    return 2 * (p % width * width + q % width) + j % 2, j
+    *columns, j = bead
+    number = sum(one % side * side**k for k, one in enumerate(reversed(columns)))
+    return 2 * number + j % 2, j
+
+
+def lower_bead(upper: Bead, axis: Direction, side: int) -> Bead:
+    """Give the bead below a contact."""
+    *columns, j = upper
+    return (*((one - (axis.number == a)) % side for a, one in enumerate(columns)), j - 1)
 
 
 @dataclass(frozen=True)
@@ -209,8 +207,8 @@ class Rows(Sequence[Layer]):
 class Region:
     """Rows of beads, one a layer from the base (``rows[0]``) up; ``width`` None: infinite slab.
 
-    In three dimensions a row is a whole layer of W² beads, and ``width`` their number: a step along
-    e_1 (e_2) is one of p (q), and one along e_3 keeps both.
+    In d ≥ 3 dimensions a row is a whole layer of W^(d−1) beads, and ``width`` their number: a step
+    along e_1 (e_2, …) is one of p (q, …), and one along e_d keeps all of these.
     """
 
     width: int | None
@@ -229,20 +227,20 @@ class Region:
 
     @property
     def side(self) -> int:
-        """W, in three dimensions."""
-        return isqrt(self.width or 0)
+        """W, in three dimensions or more."""
+        return round(math.pow(self.width or 0, 1 / (self.dimension - 1)))
 
     def bead(self, layer: Layer, column: int) -> tuple[int, ...]:
-        """Name a bead of a row: (i, j), or (p, q, j)."""
+        """Name a bead of a row: (i, j), or (p, q, …, j)."""
         site = layer.first + 2 * column, layer.j
-        return site if self.dimension == 2 else bead_of(site, self.side)
+        return site if self.dimension == 2 else bead_of(site, self.side, self.dimension)
 
     def contact_below(self, layer: Layer, branch: Direction, column: int) -> Contact | AxisContact:
         """Name the contact below a bead of a row."""
         if self.dimension == 2:
             return Contact(layer.first + 2 * column - branch.side, layer.j - 1, Branch(branch))
-        p, q, j = bead_of((layer.first + 2 * column, layer.j), self.side)
-        return AxisContact(*lower_bead((p, q, j), branch, self.side), Axis(branch))
+        upper = self.bead(layer, column)
+        return AxisContact(lower_bead(upper, branch, self.side), Axis(branch))
 
     def above(self, values: Array, source: Layer, layer: Layer, axis: int, zero: Any) -> Array:
         """Read the values of the row above at x + e_axis; what it lacks reads ``zero``."""
@@ -279,7 +277,7 @@ class Region:
             first = layer.first + steps[0] - steps[1]
             wanted = Layer(layer.j + sum(steps), first, layer.count)
             return partial(pick, source=source, wanted=wanted, width=self.width, zero=zero)
-        return partial(_turned, side=self.side, steps=steps) if any(steps[:2]) else _itself
+        return partial(_turned, side=self.side, steps=steps[:-1]) if any(steps[:-1]) else _itself
 
     @cached_property
     def starts(self) -> Array:
@@ -307,10 +305,10 @@ def _itself(values: Array) -> Array:
 
 
 def _turned(values: Array, side: int, steps: tuple[int, ...]) -> Array:
-    """Turn the W rows of W beads of a layer."""
-    shape = values.shape
-    square = values.reshape(*shape[:-1], side, side)
-    return np.roll(square, (-steps[0], -steps[1]), (-2, -1)).reshape(shape)
+    """Turn the columns of a layer, each by its step."""
+    shape, axes = values.shape, tuple(range(-len(steps), 0))
+    columns = values.reshape(*shape[:-1], *[side] * len(steps))
+    return np.roll(columns, tuple(-step for step in steps), axes).reshape(shape)
 
 
 @lru_cache(maxsize=4)

@@ -1,4 +1,4 @@
-"""How beads and contacts are named: (i, j) and a branch, or (p, q, j) and an axis.
+"""How beads and contacts are named: (i, j) and a branch, or (p, q, …, j) and an axis.
 
 Columns of names have one entry a bead, or a contact, row by row.
 """
@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..arithmetic.systems import Array
-from .branch import Axis, Branch, Direction, Site, direction
-from .layers import Layer, lower_beads, site_of
+from .branch import Direction, Site, bead_names, direction, directions
+from .layers import Layer, bead_of, site_of
 
 _NONE = np.empty(0, dtype=np.int64)
 
@@ -23,7 +23,7 @@ class Block(NamedTuple):
 
 
 class Naming(NamedTuple):
-    """Names of a packing of layers of W (None: the slab), or in three dimensions W × W, beads."""
+    """Names of a packing of layers of W (None: the slab), or in d dimensions W^(d−1), beads."""
 
     dimension: int
     side: int | None
@@ -31,7 +31,7 @@ class Naming(NamedTuple):
     @property
     def branches(self) -> tuple[Direction, ...]:
         """Along which contacts lead up."""
-        return tuple(Branch) if self.dimension == 2 else tuple(Axis)
+        return directions(self.dimension)
 
     @property
     def row(self) -> int | None:
@@ -47,7 +47,14 @@ class Naming(NamedTuple):
         if self.dimension == 2:
             return int(at[0]), int(at[1])
         assert self.side is not None
-        return site_of((int(at[0]), int(at[1]), int(at[2])), self.side)
+        return site_of([int(one) for one in at], self.side)
+
+    def bead(self, site: Site) -> tuple[int, ...]:
+        """Name a bead as a scene does."""
+        if self.dimension == 2:
+            return site
+        assert self.side is not None
+        return bead_of(site, self.side, self.dimension)
 
     def contact(self, at: Sequence[Any]) -> Block:
         """Give the contact that a scene names by its lower bead and its branch."""
@@ -56,19 +63,19 @@ class Naming(NamedTuple):
         if self.dimension == 2:
             i, j = self.site(below)
             return Block(branch, Layer(j + 1, i + branch.side, 1))
-        up = (branch == Axis.FIRST, branch == Axis.SECOND, 1)
-        i, j = self.site([int(b) + step for b, step in zip(below, up, strict=True)])
+        *columns, j = map(int, below)
+        above = [one + (a == branch.number) for a, one in enumerate(columns)]
+        i, j = self.site([*above, j + 1])
         return Block(branch, Layer(j, i, 1))
 
     def beads(self, rows: Sequence[Layer]) -> dict[str, Array]:
-        """Give the columns i and j, or p, q and j, of beads."""
+        """Give the columns i and j, or p, q, … and j, of beads."""
         j = np.repeat([row.j for row in rows] or _NONE, [row.count for row in rows] or _NONE)
         i = np.concatenate([_NONE, *(row.first + 2 * np.arange(row.count) for row in rows)])
         if self.dimension == 2:
             return {"i": self.home(i), "j": j}
         assert self.side is not None
-        p, q = np.divmod((i - j % 2) // 2, self.side)
-        return {"p": p, "q": q, "j": j}
+        return self._named(bead_of((i, j), self.side, self.dimension))
 
     def contacts(self, blocks: Sequence[Block]) -> dict[str, Array]:
         """Give the columns of the lower beads, and branch, of contacts."""
@@ -78,5 +85,10 @@ class Naming(NamedTuple):
             lower = [Layer(row.j - 1, row.first - b.side, row.count) for b, row in blocks]
             return {**self.beads(lower), "branch": branch}
         assert self.side is not None
-        below = lower_beads(self.beads([row for _, row in blocks]), branch, self.side)
-        return {**below, "branch": branch}
+        *columns, j = self.beads([row for _, row in blocks]).values()
+        along = zip(columns, self.branches, strict=False)
+        below = [(one - (branch == axis.value)) % self.side for one, axis in along]
+        return {**self._named([*below, j - 1]), "branch": branch}
+
+    def _named(self, numbers: Sequence[Any]) -> dict[str, Array]:
+        return dict(zip(bead_names(self.dimension), numbers, strict=True))

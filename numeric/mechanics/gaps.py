@@ -49,6 +49,13 @@ class Gaps:
         return max(self.smallest, RESOLUTION)
 
 
+@lru_cache(maxsize=64)
+def _least(dimension: int, phi: Fraction) -> Fraction:
+    """Give the least eigenvalue of the Gram matrix."""
+    return min(1 - phi, 1 + (dimension - 1) * phi)
+
+
+@lru_cache(maxsize=64)
 def square_of(phi: Fraction, steps: Steps) -> Fraction:
     """Give the square of a distance in the ordered packing, exactly."""
     return 4 * (sum(s * s for s in steps) * (1 - phi) + sum(steps) ** 2 * phi)
@@ -57,13 +64,12 @@ def square_of(phi: Fraction, steps: Steps) -> Fraction:
 @lru_cache(maxsize=64)
 def _shell(dimension: int, phi: Fraction, reach: int) -> tuple[tuple[float, Steps], ...]:
     """Give all lattice distances with steps up to ``reach`` that none beyond falls below."""
-    least = min(1 - phi, 1 + (dimension - 1) * phi)
     found = []
     for steps in product(range(-reach, reach + 1), repeat=dimension):
         first = next((s for s in (sum(steps), *steps) if s), 0)
         contact = sum(steps) == 1 and sum(map(abs, steps)) == 1
         square = square_of(phi, steps)
-        if first > 0 and not contact and square < 4 * least * (reach + 1) ** 2:
+        if first > 0 and not contact and square < 4 * _least(dimension, phi) * (reach + 1) ** 2:
             found.append((sqrt(square), steps))
     return tuple(sorted(found))
 
@@ -92,7 +98,7 @@ def gaps(packing: "SolvedPacking", layers: range, *, more: bool = False) -> Gaps
     turn, moved, widest = _bounds(packing, phi)
     thick = 2 + 2 * widest
     # √d/(2√λ) steps are the most of a distance of 1, λ the least eigenvalue of the Gram matrix
-    slack = 1 - turn * sqrt(d / float(min(1 - phi, 1 + (d - 1) * phi))) / 2
+    slack = 1 - turn * sqrt(d / float(_least(d, phi))) / 2
     compiled = None if packing.memory is None else _Compiled(packing)
     # no two beads of a part of the slab are farther apart; elsewhere each has images
     farthest = inf if region.width is not None else 4 * region.widest + 8 * region.top + 8
@@ -136,7 +142,7 @@ def _bounds(packing: "SolvedPacking", phi: Fraction) -> tuple[float, float, floa
             ]
             dn[a] = max(sizes, default=0.0)
     turn = 2 * max(widest, deepest) + (2 + 2 * widest) * max(dn)
-    moved = 2 * sqrt(sum(x * x for x in c) / float(min(1 - phi, 1 + (d - 1) * phi)))
+    moved = 2 * sqrt(sum(x * x for x in c) / float(_least(d, phi)))
     return turn * ROOM, moved * ROOM, widest
 
 

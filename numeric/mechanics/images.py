@@ -21,7 +21,7 @@ def sees_images(problem: Problem, lowest_layer: int) -> bool:
 
     ``lowest_layer``: of the beads that are asked about (1: by the contacts below them).
     """
-    if problem.dimension == 3:
+    if problem.dimension > 2:
         return _of_spheres(problem, lowest_layer)
     width, load, contact = problem.width, problem.load, problem.contact
     if width is None:

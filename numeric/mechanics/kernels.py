@@ -14,7 +14,7 @@ import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -29,7 +29,7 @@ from ..arithmetic.systems import FLOAT64, Array
 from ..disorder.radii import relative
 from ..lattice.branch import per_direction
 from ..lattice.layers import LazyRows, Region, Rows
-from . import local
+from . import defects, local
 from .local import RESOLUTION
 from .sweep import SIGNS, Forces, Loads, Memory, SolvedPacking
 
@@ -45,7 +45,8 @@ class Kernels(NamedTuple):
     """The compiled loops of one dimension, with or without errors."""
 
     runs: Callable[..., int]
-    deviations: Callable[..., None]
+    relative: Callable[..., bool]
+    scaled: Callable[..., bool]
     deposit: Callable[..., bool]
     straight_down: Callable[..., None]
     sweep_down: Callable[..., bool]
@@ -61,8 +62,10 @@ def source(dimension: int, *, carried: bool) -> str:
     )
     loops = Path(__file__).with_name("loops.py").read_text(encoding="utf-8")
     recorded = [
-        _rest(dimension, carried=carried),
-        _balance(dimension, carried=carried),
+        _rest(dimension),
+        _balance(dimension),
+        _rest_errors(dimension),
+        _balance_errors(dimension),
         _order(dimension, carried=carried),
         _gap(dimension),
         _relative(carried=carried),
@@ -75,7 +78,7 @@ def source(dimension: int, *, carried: bool) -> str:
     # what compiles them has no part in the text, but in what comes of it
     with_what = hashlib.sha256(Path(compiling.__file__).read_text(encoding="utf-8").encode())
     loops = f"{loops}\n# compiled as said in {with_what.hexdigest()[:24]}"
-    return module(recorded, f"{loops}\n\n{imports}\n{names}")
+    return module(recorded, f"{loops}\n\n{imports}\n{names}", Kernels._fields)
 
 
 LOADED: set[tuple[int, bool]] = set()
@@ -150,8 +153,8 @@ def _sqrt(value: Any) -> Any:
     return value.sqrt()
 
 
-def _rest(d: int, *, carried: bool) -> Code:
-    of = _Recording("rest", {"rho": 1, "block": d + d * d}, 3, carried=carried)
+def _rest(d: int) -> Code:
+    of = _Recording("rest", {"rho": 1, "block": d + d * d}, 3, carried=False)
     own, *supports = range(1 + d)
     under = [of.several("block", 0, d, place) for place in supports]
     rho_under = tuple(of.take("rho", 0, place) for place in supports)
@@ -164,21 +167,54 @@ def _rest(d: int, *, carried: bool) -> Code:
     return of.code
 
 
-def _balance(d: int, *, carried: bool) -> Code:
-    of = _Recording("balance", {"F": d, "block": d + d * d, "g": d, "lost": d}, 0, carried=carried)
+def _rest_errors(d: int) -> Code:
+    of = _Recording("rest_errors", {"rho": 1, "block": d + d * d}, 3, carried=True)
+    own, *supports = range(1 + d)
+    under = [of.several("block", 0, d, place) for place in supports]
+    rho_under = tuple(of.take("rho", 0, place) for place in supports)
+    rho, m = of.take("rho", 0, own), local.Metric(*of.constants)
+    c, *dn = (tuple(of.code.takes("block", row + b, own) for b in range(d))
+              for row in range(0, d + d * d, d))  # fmt: skip
+    moved, off = defects.rest_errors(c, dn, under, rho, rho_under, m)
+    for row, error in enumerate((*moved, *(x for v in off for x in v)), d + d * d):
+        of.code.gives("block", row, own, error)
+    return of.code
+
+
+def _balance_errors(d: int) -> Code:
+    of = _Recording("balance_errors", {"F": d, "block": d + d * d, "g": d}, 0, carried=True)
+    own, here, _ = range(3)
+    above = []
+    for a in range(d):
+        up, over, _ = (3 * (a + 1) + k for k in range(3))
+        dn = of.several("block", d + a * d, d, over)
+        above.append((of.take("F", a, up), of.take("g", a, up), dn))
+    below = [of.several("block", d + a * d, d, here) for a in range(d)]
+    g = tuple(of.code.takes("g", a, own) for a in range(d))
+    off = defects.balance_errors(g, above, of.several("F", 0, d, own), below)
+    for row, error in enumerate(off, d):
+        of.code.gives("g", row, own, error)
+    return of.code
+
+
+def _balance(d: int) -> Code:
+    of = _Recording("balance", {"F": d, "block": d + d * d, "g": d, "lost": d}, 0, carried=False)
     own, here, new = range(3)
     above = []
     for a in range(d):
         up, over, old = (3 * (a + 1) + k for k in range(3))
         dn = of.several("block", d + a * d, d, over)
-        above.append((of.take("F", a, up), of.take("g", a, up), dn, of.take("lost", a, old)))
+        lost = of.code.takes("lost", a, old)
+        above.append((of.take("F", a, up), of.take("g", a, up), dn, lost))
     below = [of.several("block", d + a * d, d, here) for a in range(d)]
-    found = local.balance(above, of.several("F", 0, d, own), below, linear=False, compensated=True)
+    F = of.several("F", 0, d, own)
+    found = local.balance(above, F, below, linear=False, compensated=True)
     of.demand(found.det * found.det, POSITIVE)
     for value in found.g:
         of.demand(value, FINITE)
     of.give("g", 0, own, found.g)
-    of.give("lost", 0, new, found.lost)
+    for a, value in enumerate(found.lost):
+        of.code.gives("lost", a, new, value)
     return of.code
 
 
@@ -257,7 +293,9 @@ def turns_of(region: Region, steps: tuple[int, ...]) -> Array:
     """Say for each row of a layer in which one the beads lie that are so many steps on."""
     if region.dimension == 2:
         return np.zeros(1, np.int64)
-    return (np.arange(region.side) + steps[0]) % region.side
+    side, others = region.side, region.dimension - 2
+    rows = np.arange(side**others).reshape((side,) * others)
+    return np.roll(rows, tuple(-step for step in steps[:others]), range(others)).ravel()
 
 
 def links_of(
@@ -276,7 +314,7 @@ def links_of(
         shift = (rows.firsts + steps[0] - steps[1] - sources.firsts[on]) // 2
         numbers = starts[on], sources.counts[on], shift, region.width or 0
     else:
-        numbers = starts[on], region.side, steps[1], region.side
+        numbers = starts[on], region.side, steps[-2], region.side
     return np.stack(np.broadcast_arrays(*numbers), 1) * there[:, None]
 
 
@@ -382,29 +420,40 @@ class Deposition:
 
 
 def told(
-    phi: Fraction, region: Region, rho: Array, block: Array, most: Array, *, carried: bool = False
+    phi: Fraction,
+    region: Region,
+    rho: Array,
+    block: Array,
+    most: Array,
+    of_both: Callable[[Array, Array], Any] | None = None,
 ) -> SolvedPacking:
-    """Tell a ``block`` of values row by row; ``rho`` is (packings, beads).
+    """Tell row by row what loops have filled: ``rho`` (packings, parts, beads), and a ``block``.
 
-    ``carried``: the loops that gave it carried errors, and ``most``.
+    ``of_both`` makes of values and their errors what is told; without it these are values alone.
     """
     d, starts, counts = region.dimension, region.starts, region.rows.counts
+    each = d + d * d
 
-    def rows(values: Array, lowest: int = 0) -> LazyRows[Any]:
-        return rows_of(values[0] if len(values) == 1 else values, starts, counts, lowest)
+    def row(values: Array, quantity: int, j: int, lowest: int = 0) -> Any:
+        own = values[0] if len(values) == 1 else values.swapaxes(0, 1)
+        of = slice(starts[j], starts[j] + counts[j] * (j >= lowest))
+        near = own[quantity, ..., of]
+        return near if of_both is None else of_both(near, own[quantity + len(own) // 2, ..., of])
 
-    def turned(a: int) -> LazyRows[tuple[Array, ...]]:
-        parts = [rows(block[:, d + a * d + b], 1) for b in range(d)]
-        return LazyRows(len(counts), lambda j: tuple(part[j] for part in parts))
+    def turned(a: int, j: int) -> tuple[Any, ...]:
+        return tuple(row(block, d + a * d + b, j, 1) for b in range(d))
+
+    def rows(of: Callable[..., Any], *which: Any) -> LazyRows[Any]:
+        return LazyRows(len(counts), partial(of, *which))
 
     return SolvedPacking(
         phi,
         FLOAT64,
         region,
-        rows(rho),
-        per_direction([rows(block[:, a]) for a in range(d)]),
-        per_direction([turned(a) for a in range(d)]),
-        Memory(rho, block, most, carried),
+        rows(row, rho, 0),
+        per_direction([rows(row, block, a) for a in range(d)]),
+        per_direction([rows(turned, a) for a in range(d)]),
+        Memory(rho[:, 0], block[:, :each], most[:, :each], carried=rho.shape[1] > 1),
     )
 
 
@@ -530,10 +579,12 @@ class Descent:
         """Which of all numbers belong to beads that bear something."""
         return slice(self.starts[self.lowest], self.starts[-1])
 
-    def told(self, F: Array, g: Array, most: float | None = None) -> Forces:
+    def told(
+        self, F: Array, g: Array, most: float | None = None, left: float | None = None
+    ) -> Forces:
         """Tell ``beads_below`` row by row: ordered forces (d, …), changes (packings, d, …).
 
-        ``most``: the largest change, if that is known.
+        ``most``: the largest change, if that is known; ``left``: as ``Forces`` have it.
         """
         d = self.region.dimension
 
@@ -550,4 +601,5 @@ class Descent:
             F=F,
             g=g,
             hold=most is not None and self.bounds[0] - most > 2 * SIGNS * most,
+            left=left,
         )

@@ -4,7 +4,7 @@ F_load = −(L⁺ n⁺ + L⁻ n⁻), so that in the ordered packing a load adds 
 same orientation straight below it. A vertical unit load has L⁺ = L⁻ = 1/(2 n_y).
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -16,30 +16,26 @@ from ..arithmetic.carried import Carrying
 from ..arithmetic.systems import Balls, NumberSystem, zeros
 from ..lattice.branch import Branch, Site, per_direction
 from ..lattice.layers import Region, Rows
-from . import plain
+from .local import level, vertical_square
 from .sweep import Forces, Loads, straight_down
 
 Components = tuple[Any, ...]
 
 
-def components(fx: Any, fy: Any, n_x: Any, n_y: Any) -> Components:
-    """Turn a Cartesian load (fx, fy) into (L⁺, L⁻).
+def components(force: Sequence[Any], n_x: Any, up: Any) -> Components:
+    """Turn a Cartesian load into (L^a), n^1 − n^d along x; ``up`` is the vertical part of the n^a.
 
     >>> from fractions import Fraction
-    >>> components(0, -1, Fraction(3, 5), Fraction(4, 5))
+    >>> components((0, -1), Fraction(3, 5), Fraction(4, 5))
     (Fraction(5, 8), Fraction(5, 8))
     """
-    return (-(fx / n_x) - fy / n_y) / 2, (fx / n_x - fy / n_y) / 2
-
-
-def components_of_spheres(fx: Any, fy: Any, fz: Any, n_x: Any, root: Any) -> Components:
-    """Turn a Cartesian load into (L^1, L^2, L^3), n^1 − n^3 along x; ``root`` is √(1 + 2φ).
-
-    Of a force straight down all are 1/|Σ n^a| = 1/√(3 + 6φ).
-    """
-    three = flint.arb(3).sqrt()
-    down, x, y = -fz / (three * root), fx / (2 * n_x), fy / (2 * three * n_x)
-    return down + y - x, down - 2 * y, down + y + x
+    d = len(force)
+    found = [-force[-1] / (d * up)] * d
+    for k, (part, row) in enumerate(zip(force, level(d), strict=False), 1):
+        # k (k + 1) (1 − φ) is the square of the level vector, and 1 − φ = 2 n_x²
+        size = n_x * (2 if k == 1 else flint.arb(2 * k * (k + 1)).sqrt())
+        found = [of - h * part / size if h else of for of, h in zip(found, row, strict=True)]
+    return tuple(found)
 
 
 def on_rows(
@@ -109,8 +105,8 @@ class LoadSpec:
     """A load of unit magnitude: "surface", "bulk", "point" (on ``at``) or "file" (``single``).
 
     ``angle_deg`` turns the load away from straight down, positive towards +i; in three dimensions
-    towards +x. ``single`` holds {(i, j): (fx, fy)} in units of the magnitude, or (fx, fy, fz).
-    ``height`` and ``width`` are the packing's; in three dimensions a row has W² beads.
+    and more towards +x. ``single`` holds {(i, j): (fx, fy)} in units of the magnitude, or (fx, fy,
+    …, fz). ``height`` and ``width`` are the packing's; in d dimensions a row has W^(d−1) beads.
     """
 
     kind: str
@@ -139,18 +135,9 @@ class LoadSpec:
             forces: dict[Site, Components] = {
                 site: tuple(map(exact.number, force)) for site, force in self.single.items()
             }
-            single: dict[Site, Components]
-            if self.dimension == 2:
-                nx, ny = plain.axes(n_x, exact)
-                unit = components(sin, -cos, nx, ny)
-                single = {site: components(fx, fy, nx, ny) for site, (fx, fy) in forces.items()}
-            else:
-                nx, root = exact.number(n_x), exact.root(3 - 4 * n_x**2)
-                unit = components_of_spheres(sin, 0 * sin, -cos, nx, root)
-                single = {
-                    site: components_of_spheres(fx, fy, fz, nx, root)
-                    for site, (fx, fy, fz) in forces.items()
-                }
+            nx, up = exact.number(n_x), exact.root(vertical_square(self.dimension, n_x))
+            unit = components((sin, *[0 * sin] * (self.dimension - 2), -cos), nx, up)
+            single = {site: components(force, nx, up) for site, force in forces.items()}
         return Strength(
             tuple(map(system.from_ball, unit)),
             {site: tuple(map(system.from_ball, load)) for site, load in single.items()},

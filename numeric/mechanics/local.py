@@ -49,10 +49,29 @@ def cosine(n_x: Fraction) -> Fraction:
     return 1 - 2 * n_x**2
 
 
+def vertical_square(dimension: int, n_x: Fraction) -> Fraction:
+    """Give the square of the vertical component of the base vectors: n_y², or n_z² of three."""
+    return 1 - Fraction(2 * (dimension - 1), dimension) * n_x**2
+
+
 def metric(dimension: int, phi: Fraction, scalar: Callable[[Fraction], Any]) -> Metric:
     """Round what φ decides, each number once."""
     cross = -phi / ((1 - phi) * (1 + (dimension - 1) * phi))
     return Metric(scalar(phi), scalar(1 / (1 - phi)), scalar(cross))
+
+
+def level(dimension: int) -> tuple[tuple[int, ...], ...]:
+    """Give d − 1 level vectors as whole numbers of n^1 … n^d: n^1 − n^d, 2 n^2 − n^1 − n^d, ….
+
+    They are perpendicular; the square of number k = 1 … d − 1 is k (k + 1) (1 − φ).
+
+    >>> level(2), level(4)
+    (((1, -1),), ((1, 0, 0, -1), (-1, 2, 0, -1), (-1, -1, 3, -1)))
+    """
+    rows = [(1, *(0,) * (dimension - 2), -1)]
+    for k in range(2, dimension):
+        rows.append((*(-1,) * (k - 1), k, *(0,) * (dimension - k - 1), -1))
+    return tuple(rows)
 
 
 def total(values: Iterable[Any]) -> Any:
@@ -85,10 +104,12 @@ def solved(
     size = len(matrix)
     rows = [list(row) for row in matrix]
     found = [list(right) for right in rights]
+    inverses = []
     for k in range(size):
         rows[k][k] = 1 + rows[k][k]
+        inverses.append(1 / rows[k][k])
         for i in range(k + 1, size):
-            factor = rows[i][k] / rows[k][k]
+            factor = rows[i][k] * inverses[k]
             for x in found:
                 x[i] = x[i] - factor * x[k]
             for c in range(k + 1, size):
@@ -97,7 +118,7 @@ def solved(
         for k in reversed(range(size)):
             for c in range(k + 1, size):
                 x[k] = x[k] - rows[k][c] * x[c]
-            x[k] = x[k] / rows[k][k]
+            x[k] = x[k] * inverses[k]
     det = rows[0][0]
     for k in range(1, size):
         det = det * rows[k][k]
@@ -153,8 +174,8 @@ def rest(
     for a in range(d):
         across = _across(a, rise, own, under[a], both[a], m)
         across[a] = more[a] - squares[a]
-        length = 2 + both[a]
-        dn.append(tuple(x / length for x in m.raised(tuple(across))))
+        inverse = 1 / (2 + both[a])
+        dn.append(tuple(x * inverse for x in m.raised(tuple(across))))
     return Rest(plus(own, rise), tuple(dn), (discriminant, det, *step))
 
 
@@ -205,14 +226,14 @@ def balance(
     """
     d = len(F)
     g = tuple(one[1] for one in above)
-    turn = _turned([of if linear else of + change for of, change, _, _ in above],
+    turn = turned([of if linear else of + change for of, change, _, _ in above],
                    [one[2] for one in above])  # fmt: skip
     if compensated:
         turn = plus(turn, tuple(one[3] for one in above))
-    turn = less(turn, _turned(F, dn))
+    turn = less(turn, turned(F, dn))
     det = None
     if not linear:  # (1 + D) h = s, written for h − s, which is small of second order
-        small = _turned(plus(g, turn), dn)
+        small = turned(plus(g, turn), dn)
         (away,), det = solved([[dn[a][b] for a in range(d)] for b in range(d)], (small,))
         turn = less(turn, tuple(away))
     found = plus(g, turn)
@@ -222,7 +243,7 @@ def balance(
     return Balanced(found, plus(less(g, less(found, part)), less(turn, part)), det)
 
 
-def _turned(forces: Sequence[Any], dn: Sequence[Vector]) -> Vector:
+def turned(forces: Sequence[Any], dn: Sequence[Vector]) -> Vector:
     """Give Σ_a f_a δn^a."""
     return tuple([dot(tuple(forces), of) for of in zip(*dn, strict=True)])
 

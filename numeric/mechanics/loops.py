@@ -9,7 +9,7 @@ values: first all quantities, then the errors of all.
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from force_diffusion.numeric.arithmetic.compiling import borrowed, compiled
+from force_diffusion.numeric.arithmetic.compiling import borrowed, compiled, inner
 from force_diffusion.numeric.arithmetic.systems import Array
 
 if TYPE_CHECKING:
@@ -21,23 +21,23 @@ if TYPE_CHECKING:
     def balance(F: Array, block: Array, g: Array, lost: Array, run: Array, m: Array) -> bool:
         """Recorded from ``local.balance``."""
 
+    def rest_errors(rho: Array, block: Array, run: Array, m: Array) -> bool:
+        """Recorded from ``defects``."""
+
+    def balance_errors(F: Array, block: Array, g: Array, run: Array, m: Array) -> bool:
+        """Recorded from ``defects``."""
+
     def order(F: Array, shares: Array, run: Array, m: Array) -> bool:
         """Recorded from ``kernels``."""
 
     def gap(rho: Array, block: Array, gaps: Array, run: Array, m: Array) -> bool:
         """Recorded from ``local.gap``."""
 
-    def relative(radii: Array, rho: Array, run: Array, m: Array) -> bool:
-        """Recorded from ``disorder.radii``."""
-
-    def scaled(radii: Array, rho: Array, run: Array, m: Array) -> bool:
-        """Recorded from a product."""
-
 
 _ALL = 0x7FFF_FFFF_FFFF_FFFF  # all bits of a double but its sign
 
 
-@compiled
+@inner
 def _piece(at: int, n: int, own: int, link: Array, turn: Array) -> tuple[int, int]:
     """Find where bead ``at`` of a layer has its neighbour, and how many after it have theirs there.
 
@@ -91,21 +91,7 @@ def runs(
     return count
 
 
-@compiled
-def deviations(radii: Array, rho: Array, m: Array) -> None:
-    """Give δr/r, (packings, PARTS, beads), of radii, or of deviates, (packings, 1, beads).
-
-    ``m`` holds their origin and r, or of deviates σ/r alone.
-    """
-    run = np.array([0, rho.shape[2]])
-    for k in range(len(rho)):
-        if len(m) == PARTS:
-            scaled(radii[k], rho[k], run, m)
-        else:
-            relative(radii[k], rho[k], run, m)
-
-
-@compiled
+@inner
 def _largest(words: Array, top: int) -> int:
     """Give the largest of absolute values and ``top``, all as the bits of doubles."""
     for i in range(len(words)):
@@ -129,6 +115,8 @@ def deposit(
     for k in range(len(rho)):
         for r in range(len(runs)):
             good &= rest(rho[k], block[k], runs[r], m)
+            if PARTS == 2:
+                rest_errors(rho[k], block[k], runs[r], m)
             for q in range(most.shape[1]):
                 own = words[k, q, runs[r, 0] : runs[r, 0] + runs[r, -1]]
                 most[k, q] = _largest(own, most[k, q])
@@ -159,6 +147,8 @@ def sweep_down(F: Array, block: Array, g: Array, lost: Array, runs: Array, m: Ar
     for k in range(len(g)):
         for r in range(len(runs)):
             good &= balance(F, block[k], g[k], lost, runs[r], m)
+            if PARTS == 2:
+                balance_errors(F, block[k], g[k], runs[r], m)
     return good
 
 

@@ -22,6 +22,7 @@ from ..arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem, zeros
 from ..disorder.radii import RadiusError
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
 from ..lattice.layers import Layer, Region, Rows, bead_of
+from . import defects
 from .local import balance, metric, nested, rest
 from .work import Work
 
@@ -41,7 +42,7 @@ class NotStandingError(ForceDiffusionError, ValueError):
     def __init__(self, site: tuple[int, ...]) -> None:
         """Name the bead."""
         why = "the two contacts below it are parallel"
-        if len(site) == 3:
+        if len(site) > 2:
             why = "the contacts below it lie in one plane"
         super().__init__(f"bead {site}: {why}")
         self.site = site
@@ -56,7 +57,7 @@ def radii_named(region: Region) -> Iterator[None]:
         if region.dimension == 2:
             raise
         i, j = error.site
-        raise RadiusError(bead_of((i, j), region.side), error.reason) from None
+        raise RadiusError(bead_of((i, j), region.side, region.dimension), error.reason) from None
 
 
 @dataclass(frozen=True)
@@ -167,7 +168,10 @@ def deposit(
         looks = [region.look(layers[j - 1], layer, one) for one in down]
         under = [tuple([_moved(look, v) for v in c[-1]]) for look in looks]
         radii = tuple([_moved(look, rho[j - 1]) for look in looks])
-        found = rest(under, rho[j], radii, m, system.sqrt, linear=linear)
+        if system is CARRYING and not linear:
+            found = defects.rest(under, rho[j], radii, m)
+        else:
+            found = rest(under, rho[j], radii, m, system.sqrt, linear=linear)
         _check_rest(found.holds, layer, region, system, partial(nested, under, radii, m))
         c.append(found.c)
         dn.append(found.dn)
@@ -225,7 +229,7 @@ def sweep_down(
         for a in range(d):
             if j == top:
                 none = zeros(system, layer.count)
-                above.append((none, none, (none,) * d, none))
+                above.append((none, none, (none,) * d, np.zeros(layer.count)))
                 continue
             own = region.look(layers[j + 1], layer, up[a], zero)
             packed = region.look(deposited[j + 1], layer, up[a], zero)
@@ -243,7 +247,10 @@ def sweep_down(
         )
         here = partial(region.here, source=deposited[j], layer=layer)
         below = [tuple([_moved(here, x) for x in dn[a][j]]) for a in range(d)]
-        found = balance(above, F, below, linear=linear, compensated=compensated)
+        if system is CARRYING and not linear:
+            found = defects.balance(above, F, below)
+        else:
+            found = balance(above, F, below, linear=linear, compensated=compensated)
         if not linear:
             check_standing(found.det, layer, region, system)
         if work is not None:
@@ -358,11 +365,10 @@ NESTED = (
     "its supports are too close to hold it up, and one is much larger than the other; less "
     "disorder or a larger spacing would help"
 )
-STEEP = {
-    2: f"the line through its supports is steeper than n⁺ or n⁻{REMEDY}",
-    3: "the plane through its supports is steeper than a base vector, or they lie crosswise"
-    + REMEDY,
-}
+STEEP = f"the line through its supports is steeper than n⁺ or n⁻{REMEDY}"
+STEEP_PLANE = (
+    f"the plane through its supports is steeper than a base vector, or they lie crosswise{REMEDY}"
+)
 
 
 def _check_rest(
@@ -380,7 +386,7 @@ def _check_rest(
     for number, values in enumerate(holds):
         good, bad = system.signs(values)
         if bad.any():
-            why, first = STEEP[region.dimension], tuple(np.argwhere(bad)[0])
+            why, first = STEEP if region.dimension == 2 else STEEP_PLANE, tuple(np.argwhere(bad)[0])
             if not number:
                 why = NESTED if any(system.signs(one)[0][first] for one in close()) else APART
             raise UnbuildableError(_site(bad, layer, region), why)

@@ -6,6 +6,8 @@ Import it only for work that repays loading the compiler.
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import lru_cache
+from operator import add
 from typing import Any
 
 import numpy as np
@@ -15,10 +17,9 @@ from ..arithmetic.compiling import on_all_cores
 from ..arithmetic.systems import FLOAT64, Array
 from ..disorder import compiled as drawing
 from ..disorder.radii import ArrayRadii, DrawnRadii, Radii
-from ..lattice.branch import PerBranch, per_direction
-from ..lattice.layers import LazyRows, Region, Rows
+from ..lattice.layers import Region, Rows
 from .kernels import Deposition, Descent, kernels, numbers, told
-from .problem import Problem, Solved, rounded
+from .problem import Problem, Solved
 from .sweep import Loads, SolvedPacking
 
 
@@ -87,11 +88,20 @@ class Drawing:
 
     def _scaled(self, values: Array, *of: Fraction) -> Array:
         """Give δr/r of radii, of their origin and r; or of deviates, of σ/r."""
-        m = numbers([(CARRYING if self.carried else FLOAT64).scalar(one) for one in of],
-                    carried=self.carried)  # fmt: skip
+        m = _constants(*of, carried=self.carried)
         rho = self._memory(len(values))
-        kernels(self.region.dimension, carried=self.carried).deviations(values, rho, m)
+        loops = kernels(self.region.dimension, carried=self.carried)
+        loop, run = loops.relative if len(of) > 1 else loops.scaled, np.array([0, rho.shape[-1]])
+        for one, found in zip(values, rho, strict=True):
+            loop(one, found, run, m)
         return rho
+
+
+@lru_cache(maxsize=8)
+def _constants(*of: Fraction, carried: bool) -> Array:
+    """Give numbers as kernels take them."""
+    system = CARRYING if carried else FLOAT64
+    return numbers([system.scalar(one) for one in of], carried=carried)
 
 
 class Sweeps:
@@ -173,10 +183,10 @@ class Sweeps:
 
     def swept(self, rho: Array, block: Array) -> SolvedPacking:
         """Tell a packing as ``sweep`` would, for the NumPy sweep of forces."""
-        values, errors = _told(self.phi, self._deposit, rho)
-        if errors is None:
-            return values
-        return replace(_paired(values, errors), system=CARRYING, memory=None)
+        parts = self.phi, self.region, rho, block, self._deposit.most
+        if not self.carried:
+            return told(*parts)
+        return replace(told(*parts, Carried), system=CARRYING, memory=None)
 
     def told(self, rho: Array, block: Array, descent: Descent | None, g: Array | None) -> Solved:
         """Tell what was solved row by row, with what rounding left if that is known."""
@@ -200,59 +210,28 @@ def tell(
 
     Changes are rounded in place: no sweep goes on from them.
     """
-    values, errors = _told(phi, deposition, rho)
-    if errors is None:
-        forces = None
+    region, most = deposition.region, deposition.most
+    parts = phi, region, rho, deposition.block[: len(rho)], most
+    forces = left = None
+    if not deposition.carried:
         if g is not None and descent is not None:
             of = descent.beads_below
             forces = descent.told(descent.F[:, of], g[..., of])
-        return Solved(FLOAT64, values, forces, None)
-    found = rounded(Solved(FLOAT64, _paired(values, errors), None, None))
-    d, most = deposition.region.dimension, deposition.most
+        return Solved(FLOAT64, told(*parts), forces, None)
+    d = region.dimension
     moved, turned = most[:, d + d * d : 2 * d + d * d], most[:, 2 * d + d * d :]
     sizes = Sizes(float(moved.max()), float(turned.max()))
-    if g is None or descent is None:
-        return replace(found, sizes=sizes)
-    largest, off, left = descent.settled(g)
-    near, rest = descent.nearest
-    sizes |= Sizes(changed=off, force=descent.bounds[1] + largest)
-    g = g[..., descent.beads_below]
-    forces = replace(descent.told(near, g[:, :d], largest), left=left)
-    assert found.rest is not None
-    own = replace(found.rest, forces=descent.told(rest, g[:, d:]))
-    return replace(found, forces=forces, rest=own, sizes=sizes)
+    if g is not None and descent is not None:
+        largest, off, after = descent.settled(g)
+        near, rest = descent.nearest
+        sizes |= Sizes(changed=off, force=descent.bounds[1] + largest)
+        g = g[..., descent.beads_below]
+        forces = descent.told(near, g[:, :d], largest, after)
+        left = descent.told(rest, g[:, d:])
+    beside = Solved(FLOAT64, told(*parts, _left), left, None)
+    return Solved(FLOAT64, told(*parts, add), forces, None, beside, sizes)
 
 
-def _told(
-    phi: Fraction, deposition: Deposition, rho: Array
-) -> tuple[SolvedPacking, SolvedPacking | None]:
-    """Tell packings row by row: values, and errors if they are carried."""
-    region, parts = deposition.region, rho.shape[1]
-    block, most, each = deposition.block[: len(rho)], deposition.most, deposition.quantities
-    found = [
-        told(phi, region, rho[:, k], block[:, of], most[:, of], carried=deposition.carried)
-        for k, of in enumerate(slice(k * each, (k + 1) * each) for k in range(parts))
-    ]
-    return found[0], found[1] if parts == 2 else None
-
-
-def _paired(values: SolvedPacking, errors: SolvedPacking) -> SolvedPacking:
-    """Put values and errors together, row by row."""
-
-    def pair(a: Any, b: Any) -> Any:
-        if isinstance(a, tuple):
-            return tuple(pair(*both) for both in zip(a, b, strict=True))
-        return Carried(a, b)
-
-    def rows(a: Sequence[Any], b: Sequence[Any]) -> LazyRows[Any]:
-        return LazyRows(len(a), lambda j: pair(a[j], b[j]))
-
-    def each(a: PerBranch[Any], b: PerBranch[Any]) -> PerBranch[Any]:
-        return per_direction([rows(x, y) for (_, x), (_, y) in zip(a, b, strict=True)])
-
-    return replace(
-        values,
-        rho=rows(values.rho, errors.rho),
-        c=each(values.c, errors.c),
-        dn=each(values.dn, errors.dn),
-    )
+def _left(value: Array, error: Array) -> Any:
+    """Give what one rounding leaves of a value and its error."""
+    return Carried(value, error).nearest[1]

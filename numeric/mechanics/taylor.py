@@ -115,7 +115,7 @@ def solve(
         supported = {}
         for (i, j), (fx, fy) in loads.items():
             column(i, j, width)
-            up, um = components(fx, fy, n_x, n_y)
+            up, um = components((fx, fy), n_x, n_y)
             supported[i, j] = (system.number(up), system.number(um))
         packing = deposit(cosine(n_x), region, tuple(rows), system)
         contact_forces = sweep_down(

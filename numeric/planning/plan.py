@@ -1,26 +1,36 @@
 """What a plan is: a problem, steps, what is left out, and the ways to the answer."""
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from importlib.util import find_spec
 from typing import Any
 
 from ..arithmetic.carried import Pairs
 from ..arithmetic.decimals import bound_string, short
-from ..arithmetic.systems import (
-    FLOAT64,
-    Balls,
-    NumberSystem,
-)
-from ..disorder.radii import ArrayRadii, MeasuredRadii
-from ..mechanics.problem import Problem
+from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
+from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii
+from ..mechanics.engine import worth_compiling
+from ..mechanics.images import sees_images
+from ..mechanics.physicality import PHYSICAL
+from ..mechanics.problem import Problem, Route
+from ..mechanics.work import ESTIMATE
 from ..quantities.base import Quantity, has_theory
 from ..scene.scene import Scene
 from ..theory.critical_height import critical_height
 from ..theory.expected import ExpectedTension, expected_tension, expected_tension_of_spheres
-from . import budget
+from .memory import size
 
 CERTIFY = "certify"
+# How plans call the way to the numbers.
+ALGORITHMS = {
+    Route.ORDERED: "closed form",
+    Route.LINE_SUMS: "line sums",
+    Route.FIRST_ORDER: "first-order sweep",
+    Route.EXACT: "exact sweep in deviation form",
+    Route.UNILATERAL: "beads move until no contact pulls",
+}
+_WHOLE = "spheres are always swept in whole layers"
 
 
 @dataclass(frozen=True)
@@ -67,18 +77,26 @@ class Method:
 
 @dataclass(frozen=True)
 class Candidate:
-    """A method that was looked at: its expected error and memory, or why it is out.
+    """A method that was looked at, and its plan, or why it is out.
 
     ``error``: relative to the largest change, expected (balls: bounded) before anything runs.
     """
 
     algorithm: str
-    arithmetic: str
-    certified: bool
-    repeated: int
+    method: Method
     error: Fraction
     out: str
     plan: "Plan | None"
+
+    @property
+    def arithmetic(self) -> str:
+        """What the arithmetic is called."""
+        return self.method.system.name
+
+    @property
+    def certified(self) -> bool:
+        """Whether the error would be a rigorous bound."""
+        return self.method.certified
 
     def data(self) -> dict[str, Any]:
         """Give what JSON can hold of it."""
@@ -86,7 +104,7 @@ class Candidate:
             "algorithm": self.algorithm,
             "arithmetic": self.arithmetic,
             "certified": self.certified,
-            "repeated": self.repeated,
+            "repeated": self.method.repeated,
             "expected_error": bound_string(self.error),
             "memory_bytes": None if self.plan is None else self.plan.memory,
             "out": self.out,
@@ -121,23 +139,40 @@ class Choice:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Plan:
-    """What will be done; ``choice`` says what a tolerance led to, None without one."""
+    """What will be done.
+
+    ``why_segments``: why the packing is swept part by part, if it is. ``choice`` says what a
+    tolerance led to, None without one.
+    """
 
     scene: Scene
     quantity: Quantity
     problem: Problem
     tolerance: Fraction | None
     method: Method
-    steps: tuple[Step, ...]
     skipped: tuple[Skipped, ...]
     memory: int
-    sees_images: bool
+    why_segments: str = ""
     choice: Choice | None = None
 
     @property
     def system(self) -> NumberSystem:
         """The arithmetic of the answer."""
         return self.method.system
+
+    @cached_property
+    def sees_images(self) -> bool:
+        """Whether the answer is that of the periodic strip, and not of the slab."""
+        unilateral = self.problem.route == Route.UNILATERAL
+        return unilateral or sees_images(self.problem, self.quantity.lowest_layer)
+
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
+        """What is done for all realisations, each step with its reason."""
+        steps = steps_of(self.quantity, self.problem, self.method)
+        if not self.problem.segment:
+            return steps
+        return _repeated(steps, self.problem, self.quantity, self.why_segments)
 
     @cached_property
     def tension(self) -> ExpectedTension | None:
@@ -151,7 +186,7 @@ class Plan:
         if not known or problem.width is None or not has_theory(problem):
             return None
         phi, std = float(1 - 2 * problem.n_x**2), float(problem.radii.relative_std())
-        if problem.dimension == 3:
+        if problem.dimension > 2:
             return expected_tension_of_spheres(problem.height, problem.width, phi, std, load.kind)
         plus, minus = map(float, problem.load.strength(problem.n_x, FLOAT64).unit)
         return expected_tension(problem.height, problem.width, phi, std, load.kind, (plus, minus))
@@ -192,26 +227,16 @@ class Plan:
     def data(self) -> dict[str, Any]:
         """Give what JSON can hold of it; seconds of steps are not known before it runs."""
         tension = self.tension
+        expected = None
+        if tension is not None:
+            contacts = float(f"{tension.contacts:.3g}")
+            expected = {"expected_contacts": contacts, "height_of_one": tension.height_of_one}
         return {
-            "plan": [
-                {
-                    "step": step.step,
-                    "reason": step.reason,
-                    "beads": step.beads,
-                    "arithmetic": step.arithmetic,
-                    "seconds": None,
-                }
-                for step in self.steps
-            ],
-            "skipped": [{"effect": s.effect, "reason": s.reason} for s in self.skipped],
+            "plan": [asdict(step) | {"seconds": None} for step in self.steps],
+            "skipped": [asdict(skipped) for skipped in self.skipped],
             "memory_bytes": self.memory,
             "sees_images": self.sees_images,
-            "tension": None
-            if tension is None
-            else {
-                "expected_contacts": float(f"{tension.contacts:.3g}"),
-                "height_of_one": tension.height_of_one,
-            },
+            "tension": expected,
             "notes": self.notes,
             "choice": None if self.choice is None else self.choice.data(),
         }
@@ -221,6 +246,126 @@ class Plan:
         return "\n".join([*plan_lines(self.data()), *map("Note: {}".format, self.notes)])
 
     __repr__ = __str__
+
+
+def steps_of(quantity: Quantity, problem: Problem, method: Method) -> tuple[Step, ...]:
+    """List what is done for all realisations."""
+    n, arithmetic = problem.realisations, method.system.name
+    one = _solving(quantity, problem, method)
+    steps = [replace(step, beads=step.beads * n, arithmetic=arithmetic) for step in one]
+    if problem.route != Route.ORDERED:
+        steps.append(_judging(one, problem, method))
+    return tuple(steps)
+
+
+def _solving(quantity: Quantity, problem: Problem, method: Method) -> list[Step]:
+    """List the steps of one realisation."""
+    if problem.route == Route.ORDERED:
+        return [Step("closed form", "the ordered packing is known: nothing is swept", 0)]
+    source = "draw radii" if isinstance(problem.radii, DrawnRadii) else "read radii"
+    if problem.route == Route.LINE_SUMS:
+        beads = quantity.line_beads(problem.load)
+        return [
+            Step(source, "only the beads on the diagonals that the answer depends on", beads),
+            Step("line sums", "to first order the answer is a sum down a few diagonals", beads),
+        ]
+    if problem.route == Route.UNILATERAL:
+        beads, why = problem.region.beads, "every bead may move"
+        return [
+            Step(source, why, beads),
+            Step("relax", f"{problem.protocol}: contacts that pull open, others close", beads),
+        ]
+    beads, exact = problem.region.beads, problem.route == Route.EXACT
+    steps = [Step(source, _why_region(problem), beads)]
+    if exact:
+        quick = worth_compiling(problem, method.system) and find_spec("numba") is not None
+        by = ", by compiled code" if quick else ""
+        why = f"exact positions, as deviations in line-sum coordinates{by}"
+        steps.append(Step("deposit", why, beads))
+    else:
+        steps.append(Step("line sums", "displacements to first order, layer by layer", beads))
+    if problem.needs_forces:
+        visited = problem.force_rows[1:].beads
+        steps.append(Step("balance forces", _why_forces(problem), visited))
+    if exact:
+        steps.append(Step(PHYSICAL, "gaps, overlaps and signs, always", beads))
+    return steps
+
+
+def _judging(one: list[Step], problem: Problem, method: Method) -> Step:
+    """Give the last step, which says how accurate the answer is."""
+    if problem.route == Route.UNILATERAL:
+        why = "Kantorovich's theorem in balls: beads touch exactly, forces and gaps are positive"
+        return Step(CERTIFY, why, 0, method.system.name)
+    if method.longer is None:
+        why = "balls enclose the answer; bits are added, and all is done again, until it fits"
+        return Step(CERTIFY, why, 0, method.system.name)
+    if method.carries and method.repeated == problem.realisations:
+        why = "the sweep carried the rounding error of every number along"
+        return Step(ESTIMATE, why, 0, method.system.name)
+    passes = 1 if method.repeated == problem.realisations else 2
+    visits = sum(step.beads for step in one if step.step != PHYSICAL)
+    longer = method.longer.name
+    again = "their rounding errors carried along" if method.carries else "a longer significand"
+    return Step(
+        ESTIMATE,
+        f"the first realisations again with {again}",
+        passes * method.repeated * visits,
+        longer
+        if passes == 1
+        else method.system.name
+        if method.carries
+        else f"{method.system.name}, then {longer}",
+    )
+
+
+def _why_region(problem: Problem) -> str:
+    if problem.dimension > 2:
+        return f"{_WHOLE}, up to the highest load or bead asked for"
+    if problem.region.beads == (problem.width or 0) * (problem.height + 1):
+        return "the answer depends on every bead"
+    return "only the beads that the answer depends on: the triangles below what is asked"
+
+
+def _why_forces(problem: Problem) -> str:
+    if problem.dimension > 2:
+        return _WHOLE
+    if problem.load.loaded is not None:
+        return "only beads in the downward cone of the load carry force"
+    if problem.contact is not None:
+        return "only beads above the contact decide its force"
+    return "every bead passes its load on"
+
+
+def _repeated(
+    found: tuple[Step, ...], problem: Problem, quantity: Quantity, because: str
+) -> tuple[Step, ...]:
+    """Say what a sweep by segments does twice, and why."""
+    k, all_layers = problem.segment, problem.region.top + 1
+    counts = quantity.name == "histogram"
+    down = 1 + (problem.every > 1)
+    times = 1 + down * (1 + counts)
+    often = {2: "twice", 3: "three times", 5: "five times"}[times]
+    again = "again" if down == 1 else f"twice again, {problem.every} segments at a time,"
+    why = (
+        f"{often}, {k} of {all_layers} layers at a time, because {because}: on the way up every "
+        f"{k * problem.every}-th layer is kept, and those between are deposited {again} on the "
+        f"way down{', and once more to count' if counts else ''}"
+    )
+    drawn = f"{often}, on the way up and down"
+    why_again = {
+        "draw radii": (drawn, times),
+        "read radii": (drawn, times),
+        "deposit": (why, times),
+    }
+    if counts:
+        two = "twice: the bins lie between the smallest and the largest change"
+        why_again["balance forces"] = two, 2
+    changed = []
+    for step in found:
+        reason, passes = why_again.get(step.step, (step.reason, 1))
+        changed.append(replace(step, reason=reason, beads=passes * step.beads))
+    return tuple(changed)
 
 
 def plan_lines(data: dict[str, Any]) -> list[str]:
@@ -233,7 +378,7 @@ def plan_lines(data: dict[str, Any]) -> list[str]:
     lines.append("What is left out")
     lines += [f"  {s['effect']}: {s['reason']}" for s in data["skipped"]] or ["  nothing"]
     lines += _choice_lines(data["choice"]) if data["choice"] else []
-    lines.append(f"Memory: about {budget.size(data['memory_bytes'])}")
+    lines.append(f"Memory: about {size(data['memory_bytes'])}")
     if data["tension"]:
         expected, one = data["tension"]["expected_contacts"], data["tension"]["height_of_one"]
         low = "at no height allowed" if one is None else f"from a height of about {one} on"
@@ -256,7 +401,7 @@ def _choice_lines(choice: dict[str, Any]) -> list[str]:
     ]
     for one in choice["candidates"]:
         mark = "*" if one == chosen else ""
-        memory = "" if one["memory_bytes"] is None else budget.size(one["memory_bytes"])
+        memory = "" if one["memory_bytes"] is None else size(one["memory_bytes"])
         lines.append(
             f"  {mark:2}{one['algorithm']:<31}{one['arithmetic']:<22}{one['repeated'] or '':>8} "
             f"{one['expected_error']:>9} {memory:>9}  {one['out']}".rstrip()

@@ -11,12 +11,11 @@ from ..lattice.layers import Region, Rows
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
-from . import budget
-from .plan import Method, Step
+from .memory import COMPILED, INTERPRETER, NAMES, PLAN_LAYER, TEXT, size
+from .plan import Method
 
-# Bytes of a bead of a segment (δr, positions, δn, forces, with their errors, and what is gathered),
-# and of one that is kept on the way up, by dimension; of a number of the answer.
-_BEAD, _KEPT, _NUMBER = {2: 260, 3: 410}, {2: 32, 3: 48}, 20
+# Bytes of a number of the answer.
+_NUMBER = 20
 # Bytes from which on fewer layers are kept, and found once more on the way down; the fewest layers
 # of a segment then.
 _MANY, _FEWEST = 600_000_000, 16
@@ -55,7 +54,9 @@ def division(widest: int, height: int, dimension: int, limit: int) -> Division:
 
     That is with a layer kept below every segment, if it takes no more than ``limit``.
     """
-    bead, kept = _BEAD[dimension], _KEPT[dimension]
+    # of a bead of a segment: δr, c, δn with their errors, forces, and what is gathered; of one that
+    # is kept on the way up: c
+    bead, kept = 16 * (1 + dimension + dimension**2) + 74 * dimension, 16 * dimension
     k = max(2, 2 * round(math.sqrt(kept / bead * (height + 1)) / 2))
     usual = widest * (bead * (k + _BESIDE) + kept * (height // k + 1))
     if usual <= min(limit, _MANY):
@@ -92,40 +93,15 @@ def memory(problem: Problem, quantity: Quantity, *, text: bool) -> int:
     found = _divided(problem, _MANY if problem.every == 1 else 0)
     return (
         found.bytes
-        + rows * (quantity.numbers * (_NUMBER + text * budget.TEXT) + text * budget.NAMES)
-        + len(problem.region.rows) * budget.PLAN_LAYER
-        + budget.INTERPRETER
-        + budget.COMPILED
+        + rows * (quantity.numbers * (_NUMBER + text * TEXT) + text * NAMES)
+        + len(problem.region.rows) * PLAN_LAYER
+        + INTERPRETER
+        + COMPILED
     )
 
 
-def steps(
-    found: tuple[Step, ...], problem: Problem, quantity: Quantity, needed: int, limit: int
-) -> tuple[Step, ...]:
-    """Say in the steps of a plan what is done twice, and why."""
-    k, all_layers = problem.segment, problem.region.top + 1
-    sizes = f"{budget.size(needed)} of memory would be needed and {budget.size(limit)} may be used"
+def why(needed: int, limit: int) -> str:
+    """Say why a packing of so many bytes is swept by segments."""
     if needed <= limit:
-        sizes = f"{budget.size(needed)} of memory that was not used before take longer"
-    counts = quantity.name == "histogram"
-    last = ", and once more to count" if counts else ""
-    down = 1 + (problem.every > 1)
-    times = 1 + down * (1 + counts)
-    often = {2: "twice", 3: "three times", 5: "five times"}[times]
-    again = "again" if down == 1 else f"twice again, {problem.every} segments at a time,"
-    why = (
-        f"{often}, {k} of {all_layers} layers at a time, because {sizes}: on the way up every "
-        f"{k * problem.every}-th layer is kept, and those between are deposited {again} on the "
-        f"way down{last}"
-    )
-    changed = []
-    for step in found:
-        if step.step in {"draw radii", "read radii", "deposit"}:
-            reason = why if step.step == "deposit" else f"{often}, on the way up and down"
-            changed.append(replace(step, reason=reason, beads=times * step.beads))
-        elif step.step == "balance forces" and counts:
-            reason = "twice: the bins lie between the smallest and the largest change"
-            changed.append(replace(step, reason=reason, beads=2 * step.beads))
-        else:
-            changed.append(step)
-    return tuple(changed)
+        return f"{size(needed)} of memory that was not used before take longer"
+    return f"{size(needed)} of memory would be needed and {size(limit)} may be used"

@@ -1,4 +1,8 @@
-"""Where a scene's radii and loads come from; files are read here."""
+"""Where a scene's radii and loads come from, and whether float64 holds them; files are read here.
+
+A change is about δr/r times the load. Below 1e-308 hardware floats round it to zero without a
+word, which would then pass for an answer without error. A tolerance asks for balls.
+"""
 
 from fractions import Fraction
 
@@ -8,57 +12,43 @@ from ..arithmetic.decimals import short
 from ..arithmetic.systems import Array
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii, Radii
 from ..lattice.branch import Site
-from ..lattice.layers import Rows, full_layer, site_of
+from ..lattice.layers import Rows, full_layer
+from ..lattice.naming import Naming
 from ..mechanics.loads import LoadSpec
 from ..scene.scene import Scene
-from ..scene.sections import GivenRadii
+from ..scene.sections import GivenRadii, SceneError
 from ..scene.tables import TableError, read_array, read_loads, read_radii
 
 # Powers of two by which a unit of length may differ from r.
 FARTHEST_UNIT = 100
+# δr/r may be as small as this; where it meets a load or a unit of length, their product a bit less.
+LEAST, LEAST_PRODUCT = Fraction(1, 10**300), Fraction(1, 10**305)
+# Sums over a packing (i up to 2^60) must stay below 1e308.
+MOST = Fraction(10**280)
+WAY_OUT = "give a tolerance: balls, its arithmetic, have no such limit"
 
 
 def load_of(scene: Scene) -> LoadSpec:
-    """Give the load. Raises ``TableError``."""
+    """Give the load; one beside a pressure as loads on single beads. Raises ``TableError``."""
     load, packing = scene.load, scene.packing
+    naming, top, d = Naming(packing.dimension, packing.width), packing.height, packing.dimension
+    at = None if load.at is None else naming.site(load.at)
     single: dict[Site, tuple[Fraction, ...]] = {}
     if load.file is not None:
         single = read_loads(
             scene.folder / load.file,
             magnitude=load.magnitude,
             width=packing.width,
-            height=packing.height,
-            dimension=packing.dimension,
+            height=top,
+            dimension=d,
         )
-    if packing.dimension == 3:
-        return _load_of_spheres(scene, single)
-    if load.pressure and load.at is not None:  # loads on single beads, one by one
-        assert packing.width is not None
-        down = Fraction(load.pressure) / load.magnitude
-        top = packing.height
-        single = {(i, top): (Fraction(0), -down) for i in range(top % 2, 2 * packing.width, 2)}
-        site = int(load.at[0]), int(load.at[1])
-        single[site] = Fraction(0), single.get(site, (Fraction(0),))[-1] - 1
-        return LoadSpec("file", top, packing.width, Fraction(0), None, single)
-    at = None if load.at is None else (int(load.at[0]), int(load.at[1]))
-    return LoadSpec(load.kind, packing.height, packing.width, load.angle_deg, at, single)
-
-
-def _load_of_spheres(scene: Scene, single: dict[Site, tuple[Fraction, ...]]) -> LoadSpec:
-    """Give the load in three dimensions, beads as sites in rows of W²."""
-    load, width, top = scene.load, scene.packing.width, scene.packing.height
-    assert width is not None
-    if load.at is None:
-        return LoadSpec(load.kind, top, width**2, load.angle_deg, single=single, dimension=3)
-    p, q, j = map(int, load.at)
-    at = site_of((p, q, j), width)
-    if not load.pressure:
-        return LoadSpec(load.kind, top, width**2, load.angle_deg, at, dimension=3)
-    down = -Fraction(load.pressure) / load.magnitude
-    none = Fraction(0)
-    single = {(i, top): (none, none, down) for i in full_layer(top, width**2).sites()}
-    single[at] = none, none, single.get(at, (none,))[-1] - 1
-    return LoadSpec("file", top, width**2, single=single, dimension=3)
+    if not load.pressure or at is None:
+        return LoadSpec(load.kind, top, naming.row, load.angle_deg, at, single, d)
+    assert naming.row is not None
+    level, down = (Fraction(0),) * (d - 1), -Fraction(load.pressure) / load.magnitude
+    single = {(i, top): (*level, down) for i in full_layer(top, naming.row).sites()}
+    single[at] = (*level, single.get(at, level)[-1] - 1)
+    return LoadSpec("file", top, naming.row, single=single, dimension=d)
 
 
 def _of_array(values: Array, origin: Fraction, radius: Fraction) -> ArrayRadii:
@@ -82,19 +72,14 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
     """Give the radii of the beads of ``rows``; without rows, of all. Raises ``TableError``."""
     disorder, packing = scene.disorder, scene.packing
     assert disorder is not None
+    naming = Naming(packing.dimension, packing.width)
     if isinstance(disorder, GivenRadii):
-        assert packing.width is not None
-        beads = packing.width ** (packing.dimension - 1)
-        values = disorder.values.reshape(-1, packing.height + 1, beads)
+        values = disorder.values.reshape(-1, packing.height + 1, naming.row or 0)
         origin = packing.radius if disorder.delta_r is None else Fraction(0)
         return _of_array(values, origin, packing.radius)
     if disorder.file is None:
         assert disorder.relative_std is not None
-        width = packing.width
-        if width is not None and packing.dimension == 3:
-            width *= width
-        return DrawnRadii(disorder.kind, disorder.relative_std, disorder.seed, width)
-
+        return DrawnRadii(disorder.kind, disorder.relative_std, disorder.seed, naming.row)
     path = scene.folder / disorder.file
     if path.suffix == ".npy":
         values = read_array(path, packing.shape)
@@ -122,10 +107,46 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
         dimension=packing.dimension,
     )
     if packing.width is None:
-        missing = (
-            (i, layer.j) for layer in rows for i in layer.sites() if (i, layer.j) not in measured
+        for site in ((i, layer.j) for layer in rows for i in layer.sites()):
+            if site not in measured:
+                raise TableError(f"disorder.file: {disorder.file}: bead {site} is missing")
+    return MeasuredRadii(measured, naming.row)
+
+
+def refuse_beyond_floats(scene: Scene, radii: Radii, load: LoadSpec) -> None:
+    """Raise ``SceneError`` where float64 would overflow, or round what is asked for to zero."""
+    disorder, given = radii.relative_std(), scene.disorder
+    key, what = "relative_std", ""
+    value: Fraction | str | None = disorder
+    if isinstance(radii, MeasuredRadii):
+        assert given is not None
+        disorder = radii.least
+        key, value = "file", given.file
+        what = f"a delta_r/r of {short(disorder)}; "
+    elif isinstance(radii, ArrayRadii):
+        key = given.name if isinstance(given, GivenRadii) else "file"
+    if disorder and disorder < LEAST:
+        why = f"{what}in float64 it must be zero or at least 1e-300: {WAY_OUT}"
+        raise SceneError(f"disorder.{key}", value, why)
+    least = LEAST_PRODUCT / (disorder or 1)
+
+    def allowed() -> str:
+        return (
+            f"must lie between {short(least)} and {short(MOST)} in float64 where delta_r/r is "
+            f"{short(disorder)}: choose another unit, or {WAY_OUT}"
         )
-        for site in missing:
-            raise TableError(f"disorder.file: {disorder.file}: bead {site} is missing")
-    width = packing.width
-    return MeasuredRadii(measured, None if width is None else width ** (packing.dimension - 1))
+
+    key, unit = "load.magnitude", scene.load.magnitude
+    if scene.ask.quantity == "positions":
+        key, unit = "packing.radius", scene.packing.radius
+    if not least <= unit <= MOST:
+        raise SceneError(key, unit, allowed())
+    for site, force in load.single.items() if key == "load.magnitude" else ():
+        size = max(map(abs, force))
+        if size and not (least <= size <= MOST and least <= size * unit <= MOST):
+            bead = Naming(load.dimension, scene.packing.width).bead(site)
+            raise SceneError(
+                "load.file" if scene.load.file else "load.pressure",
+                scene.load.file or scene.load.pressure,
+                f"the load on bead {bead} is {short(size)} times load.magnitude, which {allowed()}",
+            )

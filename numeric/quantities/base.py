@@ -17,11 +17,11 @@ import numpy as np
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
-from ..lattice.branch import PerAxis, PerBranch
+from ..lattice.branch import PerBranch, per_direction
 from ..lattice.layers import LazyRows, Region, Rows, pick, standing_on_base, whole
 from ..lattice.naming import Block, Naming
-from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
+from ..mechanics.local import level, total, vertical_square
 from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.sweep import Forces
 from ..scene.scene import Scene
@@ -75,10 +75,10 @@ class Table:
         return len(next(iter(self.numbers.values()), []))
 
     def sorted(self) -> "Table":
-        """Give the rows by realisation, j, i (or p, q) and branch, as numbers, "+" before "-"."""
+        """Give the rows by realisation, j, i (or p, q, …) and branch as numbers, "+" before "-"."""
         if self.in_order:
             return self
-        names = ("branch", "q", "p", "i", "j", "realisation")
+        names = ("branch", *"tsqp", "i", "j", "realisation")
         keys = [self.index[name] for name in names if name in self.index]
         if not keys:
             return self
@@ -142,7 +142,7 @@ class Quantity(ABC):
 
     @property
     def by_layers(self) -> bool:
-        """Whether whole layers are solved, whatever is asked: in three dimensions."""
+        """Whether whole layers are solved, whatever is asked: in three dimensions and more."""
         return self.naming.dimension > 2
 
     @property
@@ -404,34 +404,32 @@ def has_theory(problem: Problem) -> bool:
     load, drawn = problem.load, isinstance(problem.radii, DrawnRadii)
     if not drawn or load.loaded is not None:
         return False
-    if problem.dimension == 3:
-        return not load.angle_deg and problem.side > problem.height + 1
+    if problem.dimension > 2:
+        spheres = problem.dimension == 3 and not load.angle_deg
+        return spheres and problem.side > problem.height + 1
     return problem.width is None or problem.width > problem.height
 
 
 def slope(problem: Problem, system: NumberSystem) -> Any:
     """Give the vertical component of the base vectors: n_y, or in three dimensions n_z."""
-    if problem.dimension == 3:
-        return system.root(1 - Fraction(4, 3) * problem.n_x**2)
-    return plain.axes(problem.n_x, system)[1]
+    return system.root(vertical_square(problem.dimension, problem.n_x))
 
 
 def cartesian(
     components: Sequence[Array], problem: Problem, system: NumberSystem, *, raised: bool
 ) -> tuple[Array, ...]:
-    """Give (x, y), or (x, y, z), of v = Σ v^a n^a; or of a vector with v_a = n^a·v.
+    """Give (x, y), or (x, y, …, z), of v = Σ v^a n^a; or of a vector with v_a = n^a·v.
 
-    The last is up; in three dimensions x is along n^1 − n^3.
+    The last is up; x is along n^1 − n^d, y along 2 n^2 − n^1 − n^d, and so on.
     """
     nx, up = system.scalar(problem.n_x), slope(problem, system)
-    x, rise = components[0] - components[-1], components[0] + components[1]
-    if len(components) == 2:
-        return (x * nx, rise * up) if raised else (x / (2 * nx), rise / (2 * up))
-    a, b, c = components
-    y, rise = (2 * b - a - c) * system.root(Fraction(1, 3)), rise + c
-    if raised:
-        return x * nx, y * nx, rise * up
-    return x / (2 * nx), y / (2 * nx), rise / (3 * up)
+    found = []
+    for k, row in enumerate(level(len(components)), 1):
+        along = total(v if h == 1 else h * v for h, v in zip(row, components, strict=True) if h)
+        across = along if k == 1 else along * system.root(Fraction(2, k * (k + 1)))
+        found.append(across * nx if raised else across / (2 * nx))
+    rise = total(components)
+    return (*found, rise * up if raised else rise / (len(components) * up))
 
 
 def first_order_std(problem: Problem) -> PerBranch[Sequence[Fraction]] | None:
@@ -449,7 +447,7 @@ def first_order_std(problem: Problem) -> PerBranch[Sequence[Fraction]] | None:
     def over(j: int) -> int:
         return height - j if load.kind == "bulk" else 1
 
-    if problem.dimension == 3:
+    if problem.dimension > 2:  # of three, as there is theory
         root = math.sqrt(3 * (1 + 2 * phi))
 
         @cache
@@ -457,7 +455,7 @@ def first_order_std(problem: Problem) -> PerBranch[Sequence[Fraction]] | None:
             return Fraction(std_of_spheres(load.kind, height, j, phi) * (over(j) / root)) * std
 
         found = LazyRows(height, alike)
-        return PerAxis(found, found, found)
+        return per_direction([found] * problem.dimension)
     plus, minus = map(float, load.strength(problem.n_x, FLOAT64).unit)
 
     def of(side: int) -> LazyRows[Fraction]:

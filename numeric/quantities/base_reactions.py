@@ -1,6 +1,7 @@
 """What the base bears."""
 
 from ..arithmetic.systems import Array, zeros
+from ..lattice.branch import axis_names
 from ..lattice.layers import Layer, Region, Rows, full_layer
 from ..mechanics.problem import Problem, Route, Solved
 from .base import Listed, Table, cartesian
@@ -30,7 +31,7 @@ class BaseReactions(Listed):
             cartesian(of, problem, solved.system, raised=True)
             for of in on_base(problem, solved, layer)
         )
-        axes = "xyz"[: len(F)]
+        axes = axis_names(len(F))
         changes = {f"change_{axis}": of for axis, of in zip(axes, change, strict=True)}
         total = {f"f{axis}": a + b for axis, a, b in zip(axes, F, change, strict=True)}
         return Table(self.naming.beads([layer]), total | changes, tuple(changes))

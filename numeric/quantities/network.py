@@ -55,7 +55,13 @@ class NetworkQuantity(Listed):
         """Give the rows of one network."""
         raise NotImplementedError
 
-    def labels(self) -> dict[str, list[Any]]:
+    squares = False  # covariances are known on the lattice only
+
+    def members(self, problem: Problem) -> int:
+        """Give 0: how many contacts a group has differs from packing to packing."""
+        return 0
+
+    def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Give columns that name the groups of samples of which an ensemble has statistics."""
         raise NotImplementedError
 
@@ -65,7 +71,7 @@ class NetworkQuantity(Listed):
 
     def ordered(self, problem: Problem) -> Array:
         """Give the ordered force of each group, exact floats; 0 where forces differ anyway."""
-        return np.zeros(len(next(iter(self.labels().values()), [None])))
+        return np.zeros(len(next(iter(self.labels(problem).values()), [None])))
 
     def mean_force(self, problem: Problem) -> float:
         """Give the mean force of the ordered packing, as in ``NetworkProfile``; 0 if unknown."""
@@ -95,7 +101,7 @@ class NetworkContact(NetworkQuantity):
     name = "contact"
     statistics = True
 
-    def labels(self) -> dict[str, list[Any]]:
+    def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """There is one group."""
         assert self.scene.contact is not None
         i, j, branch = self.scene.contact
@@ -125,7 +131,7 @@ class NetworkContact(NetworkQuantity):
     def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
         """Give its row."""
         return Table(
-            {name: np.array(values) for name, values in self.labels().items()},
+            {name: np.array(values) for name, values in self.labels(problem).items()},
             {"force": column([self._force(network, system)], system)},
             ("force",),
         )
@@ -137,7 +143,7 @@ class NetworkResponse(NetworkQuantity):
     name = "response"
     statistics = True
 
-    def labels(self) -> dict[str, list[Any]]:
+    def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Name the beads but those of the surface, which bear nothing."""
         assert self.width is not None
         sites = [(2 * q + j % 2, j) for j in range(self.height) for q in range(self.width)]
@@ -225,7 +231,7 @@ class NetworkHistogram(NetworkQuantity):
     name = "histogram"
     statistics = True
 
-    def labels(self) -> dict[str, list[Any]]:
+    def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """There is one group, which needs no name."""
         return {}
 
@@ -249,7 +255,7 @@ class NetworkProfile(NetworkQuantity):
     merged = True
     statistics = True
 
-    def labels(self) -> dict[str, list[Any]]:
+    def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Name the layers; two beads of the surface may touch."""
         return {"j": list(range(self.height + 1))}
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..arithmetic.carried import NONE, Sizes
 from ..arithmetic.systems import Array
-from ..lattice.branch import AxisContact, Contact, direction
+from ..lattice.branch import Axis, AxisContact, Branch, Contact
 from ..mechanics.kept import Kept
 from ..mechanics.physicality import Physicality
 from .base import Columns, Table
@@ -82,9 +82,11 @@ class Part:
             lower, upper = found.between
             found.between = tuple(lower), tuple(upper)
         if found.first_tensile is not None:
-            *site, name = said["first_tensile"]
-            make: Any = Contact if len(site) == 2 else AxisContact
-            found.first_tensile = make(*site, direction(name))
+            *lower, name = said["first_tensile"]
+            if name.isdigit():
+                found.first_tensile = AxisContact(tuple(lower[0]), Axis(name))
+            else:
+                found.first_tensile = Contact(lower[0], lower[1], Branch(name))
 
         def columns(kind: str, of: list[str]) -> dict[str, Array]:
             columns = {name: kept.get(f"{kind}{number} {name}") for name in of}
@@ -98,8 +100,6 @@ class Part:
 def joined(parts: Sequence[Part]) -> Part:
     """Put parts together, that of the lowest layers first; their columns are used up."""
     first = parts[0]
-    if len(parts) == 1:
-        return first
     tables = [part.table for part in parts if part.table.rows] or [first.table]
 
     def column_by_column(columns: Sequence[Columns]) -> dict[str, Array]:

@@ -6,6 +6,7 @@ from functools import lru_cache
 
 from ..arithmetic.systems import Array, NumberSystem, array, from_floats, zeros
 from ..lattice import regions
+from ..lattice.branch import axis_names
 from ..lattice.layers import Layer, Region, Rows, pick, whole
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved
@@ -59,7 +60,7 @@ class Positions(Listed):
             rows = [Layer(j, i, 1)] if j in layers else []
         r, index = system.number(self.scene.packing.radius), self.naming.beads(rows)
         moved = cartesian(self._line_sums(solved, rows), problem, system, raised=False)
-        axes = "xyz"[: len(moved)]
+        axes = axis_names(len(moved))
         change = {f"d{axis}": of * r for axis, of in zip(axes, moved, strict=True)}
         home = self._ordered(problem, rows, index, system)
         place = zip(axes, home, change.values(), strict=True)
@@ -84,8 +85,8 @@ class Positions(Listed):
         """Give the positions of beads in the ordered packing."""
         r = system.number(self.scene.packing.radius)
         if self.by_layers:
-            p, q, j = index.values()
-            home = [from_floats(system, 2.0 * one) for one in (p, q, j - p - q)]
+            *columns, j = index.values()
+            home = [from_floats(system, 2.0 * one) for one in (*columns, j - sum(columns))]
             return [one * r for one in cartesian(home, problem, system, raised=True)]
         x = [_ordered(row.sites(), self.scene.spacing, system) for row in rows]
         step = slope(problem, system) * r

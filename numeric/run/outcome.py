@@ -267,7 +267,7 @@ def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
             "other loads press these contacts more"
         )
     if found.first_tensile is not None:
-        data["first_tensile"] = found.first_tensile._asdict()
+        data["first_tensile"] = found.first_tensile.named()
         if problem.realisations > 1:
             data["first_tensile"]["realisation"] = found.first_tensile_in
     return data

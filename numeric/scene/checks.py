@@ -1,9 +1,11 @@
 """What the keys of a scene say about each other."""
 
+import math
 from fractions import Fraction
 from typing import Any
 
 from ..arithmetic.decimals import decimal_string, short
+from ..lattice.branch import bead_names, directions
 from .combinations import refusal
 from .sections import (
     Ask,
@@ -84,15 +86,15 @@ def _check_effects(effects: Effects, packing: Packing) -> None:
 def _check_packing(p: Packing) -> None:
     if p.radius <= 0:
         raise SceneError("packing.radius", p.radius, "must be greater than 0")
-    flat = p.dimension == 2
-    widest = 12 if flat else Fraction(32, 3)
+    flat, widest = p.dimension == 2, 8 + Fraction(8, p.dimension)  # −1/d < φ = 1 − s²/8r² < 1/2
     if not 4 * p.radius**2 < p.s**2 < widest * p.radius**2 or p.s < 0:
+        most = f"{math.sqrt(widest):.6f}"[:6]
         ratio = decimal_string(p.s / p.radius, None)
         ratio = ratio if len(ratio) <= 15 else f"about {short(p.s / p.radius)}"
         raise SceneError(
             "packing.spacing",
             p.s,
-            f"must lie strictly between 2 r and {'2√3 r = 3.4641…' if flat else '3.2659…'} r "
+            f"must lie strictly between 2 r and {'2√3 r = ' if flat else ''}{most}… r "
             f"(it is {ratio} r), or beads of the ordered packing overlap",
         )
     if p.width is not None and p.width <= p.height and not p.allow_images:
@@ -106,14 +108,17 @@ def _check_packing(p: Packing) -> None:
 
 
 def _check_bead(packing: Packing, key: str, at: Any, highest: int) -> None:
-    """Check a bead (p, q, j) in three dimensions."""
-    if len(at) < 3 or not all(isinstance(number, int) for number in at[:3]):
-        raise SceneError(key, at, "must begin with a bead, [p, q, j], in three dimensions")
-    if not 0 <= at[2] <= highest:
+    """Check a bead (p, q, …, j) in three dimensions or more."""
+    d, names = packing.dimension, bead_names(packing.dimension)
+    if len(at) < d or not all(isinstance(number, int) for number in at[:d]):
+        form = f"[{', '.join(names)}]"
+        raise SceneError(key, at, f"must begin with a bead, {form}, in {d} dimensions")
+    if not 0 <= at[d - 1] <= highest:
         raise SceneError(key, at, f"j must be from 0 to {highest}")
     assert packing.width is not None
-    if not all(0 <= number < packing.width for number in at[:2]):
-        raise SceneError(key, at, f"p and q must be from 0 to {packing.width - 1}")
+    if not all(0 <= number < packing.width for number in at[: d - 1]):
+        columns = " and ".join(names[:-1])
+        raise SceneError(key, at, f"{columns} must be from 0 to {packing.width - 1}")
 
 
 def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
@@ -191,7 +196,8 @@ def _check_load(load: Load, packing: Packing) -> None:
             raise SceneError("load.at", None, 'is required with kind = "point", as at = [k, l]')
         count = packing.dimension
         if len(load.at) != count:
-            allowed = "must be a bead, [k, l]" if count == 2 else "must be a bead, [p, q, l]"
+            names = "k" if count == 2 else ", ".join(bead_names(count)[:-1])
+            allowed = f"must be a bead, [{names}, l]"
             raise SceneError("load.at", load.at, allowed)
         _check_load_site(packing, load.at)
     elif load.at is not None:
@@ -245,8 +251,8 @@ def _check_at(ask: Ask, packing: Packing) -> None:
                 "ask.at", None, 'is required with quantity = "contact", as at = [i, j, "+"]'
             )
         return
-    if packing.dimension == 3:
-        _check_at_three(ask, packing)
+    if packing.dimension > 2:
+        _check_at_axes(ask, packing)
         return
     if forms[ask.quantity] == 3:
         if (
@@ -266,12 +272,14 @@ def _check_at(ask: Ask, packing: Packing) -> None:
     _check_site(packing, "ask.at", ask.at, packing.height)
 
 
-def _check_at_three(ask: Ask, packing: Packing) -> None:
-    contact = ask.quantity == "contact"
+def _check_at_axes(ask: Ask, packing: Packing) -> None:
+    contact, d = ask.quantity == "contact", packing.dimension
     assert ask.at is not None
-    right = len(ask.at) == 4 and ask.at[3] in {"1", "2", "3"} if contact else len(ask.at) == 3
+    bead, axes = ", ".join(bead_names(d)), [f'"{axis.value}"' for axis in directions(d)]
+    right = len(ask.at) == d + contact and (not contact or f'"{ask.at[-1]}"' in axes)
     if not right:
-        form = 'a contact, [p, q, j, "1"], "2" or "3", (p, q, j) its lower' if contact else "a"
-        end = " bead" if contact else " bead, [p, q, j]"
-        raise SceneError("ask.at", ask.at, f"must be {form}{end}, in three dimensions")
+        others = f"{', '.join(axes[1:-1])} or {axes[-1]}"
+        form = f"a contact, [{bead}, {axes[0]}], {others}, ({bead}) its lower bead"
+        form = form if contact else f"a bead, [{bead}]"
+        raise SceneError("ask.at", ask.at, f"must be {form}, in {d} dimensions")
     _check_bead(packing, "ask.at", ask.at, packing.height - contact)

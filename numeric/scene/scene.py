@@ -32,7 +32,7 @@ class Scene(Sections):
     @property
     def contact(self) -> Contact | None:
         """The one contact of two dimensions that is asked for, or None."""
-        if self.ask.at is None or self.ask.quantity == "positions" or self.packing.dimension == 3:
+        if self.ask.at is None or self.ask.quantity == "positions" or self.packing.dimension > 2:
             return None
         i, j, branch = self.ask.at
         return Contact(int(i), int(j), Branch(branch))
@@ -40,7 +40,7 @@ class Scene(Sections):
     @property
     def site(self) -> Site | None:
         """The one bead of two dimensions that is asked for, or None."""
-        if self.ask.at is None or self.ask.quantity != "positions" or self.packing.dimension == 3:
+        if self.ask.at is None or self.ask.quantity != "positions" or self.packing.dimension > 2:
             return None
         i, j = self.ask.at
         return int(i), int(j)

@@ -18,6 +18,7 @@ from ..arithmetic.decimals import decimal_string, exact, short
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.foreign import finite
 from ..arithmetic.systems import Array
+from ..lattice.branch import Axis
 from .combinations import QuantityName
 
 
@@ -133,8 +134,8 @@ class Packing(Section):
     neighbours in a layer, 2 r < s < 2√3 r, by default 3 r; both in any one unit of length.
     ``allow_images`` says that a periodic strip as narrow as W ≤ M is meant.
 
-    ``dimension`` = 3: beads rest on three others, layers of W × W beads are periodic both ways, and
-    2 r < s < √(32/3) r.
+    ``dimension`` = d from 3 to 5: beads rest on d others, layers of W^(d−1) beads, W × W of three
+    dimensions, are periodic every way, and 2 r < s < √(8 + 8/d) r, that is √(32/3) r of three.
     """
 
     section = "packing"
@@ -142,7 +143,7 @@ class Packing(Section):
     width: Whole | None = Field(default=None, ge=1, le=10**12)
     radius: Number = Fraction(1)
     spacing: Number | None = None
-    dimension: Whole = Field(default=2, ge=2, le=3)
+    dimension: Whole = Field(default=2, ge=2, le=len(Axis))
     allow_images: bool = False
 
     @property
@@ -152,7 +153,7 @@ class Packing(Section):
 
     @property
     def shape(self) -> tuple[int | None, ...]:
-        """Of an array of its beads: (M + 1, W), or in three dimensions (M + 1, W, W)."""
+        """Of an array of its beads: (M + 1, W), or in three dimensions (M + 1, W, W), and so on."""
         return (self.height + 1, *[self.width] * (self.dimension - 1))
 
 
@@ -185,9 +186,9 @@ def radii_array(value: object) -> Array:
         raise ValueError("must be an array of real numbers, all rows equally long") from None
     if not values.size:
         raise ValueError(f"is empty: its shape is {values.shape}")
-    if values.ndim not in (2, 3, 4):
+    if not 2 <= values.ndim <= len(Axis) + 1:
         raise ValueError(
-            "must be an array of shape (layers, W) or, of spheres, (layers, W, W); "
+            "must be an array of shape (layers, W) or, of spheres, (layers, W, W) and so on; "
             "with an axis before it for several packings"
         )
     finite(values)

@@ -14,8 +14,9 @@ from ..arithmetic.decimals import parse, short
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.foreign import ForeignFileError, opened, read_numbers
 from ..arithmetic.systems import Array
-from ..lattice.branch import Site
-from ..lattice.layers import bead_of, full_layer, site_of
+from ..lattice.branch import Site, axis_names, bead_names
+from ..lattice.layers import full_layer, site_of
+from ..lattice.naming import Naming
 from .sections import radii_array
 
 Bead = tuple[int, ...]
@@ -77,7 +78,7 @@ def _lines(path: Path, file: TextIO) -> Iterator[str]:
 
 
 def _parsed(where: str, header: list[str], row: list[str]) -> tuple[Bead, list[Fraction]]:
-    """Read a bead (i, j) or (p, q, j), and the numbers after it."""
+    """Read a bead (i, j) or (p, q, …, j), and the numbers after it."""
     count, coordinates = header.index("j") + 1, []
     for name, text in zip(header[:count], row, strict=False):
         if not _WHOLE.fullmatch(text.strip()):
@@ -127,17 +128,18 @@ def _on_lattice(
 
 
 def _site(where: str, bead: Bead, width: int | None, height: int) -> Site:
-    """Give the place of a bead (i, j) in its layer, or of (p, q, j) in a row of W²."""
+    """Give the place of a bead (i, j) in its layer, or of (p, q, …, j) in a row of W^(d−1)."""
     *columns, j = bead
     if len(columns) == 1 and (columns[0] + j) % 2:
         raise TableError(f"{where}: bead {bead}: i + j must be even")
-    name, end = ("i", 2 * (width or 0)) if len(columns) == 1 else ("p, q", width or 0)
+    *names, _ = bead_names(len(bead))
+    name, end = ", ".join(names), (2 if len(columns) == 1 else 1) * (width or 0)
     if not 0 <= j <= height or (width is not None and not all(0 <= n < end for n in columns)):
         across = "" if width is None else f"0 <= {name} < {end}, "
         raise TableError(
             f"{where}: bead {bead} lies outside the packing: {across}0 <= j <= {height}"
         )
-    return (columns[0], j) if len(columns) == 1 else site_of((columns[0], columns[1], j), end)
+    return (columns[0], j) if len(columns) == 1 else site_of(bead, end)
 
 
 @_named("disorder.file")
@@ -158,7 +160,7 @@ def read_radii(
     packing's file must name each of its beads once. Raises ``TableError``.
     """
     rho: dict[Site, Fraction] = {}
-    names = ["i", "j"] if dimension == 2 else ["p", "q", "j"]
+    names = bead_names(dimension)
     headers = [[*names, "delta_r"], [*names, "r"]] + [["x", "y", "r"]] * (dimension == 2)
     bead: Bead
     for where, header, row in _rows(path, *headers):
@@ -184,9 +186,7 @@ def read_radii(
     beads = None if width is None else width ** (dimension - 1)
     if beads is not None and len(rho) < beads * (height + 1):
         every = ((i, j) for j in range(height + 1) for i in full_layer(j, beads).sites())
-        bead = site = next(one for one in every if one not in rho)
-        if dimension == 3:
-            bead = bead_of(site, width or 0)
+        bead = Naming(dimension, width).bead(next(one for one in every if one not in rho))
         raise TableError(f"{path.name}: bead {bead} is missing")
     if abs(mean := math.fsum(map(float, rho.values())) / max(len(rho), 1)) > 0.5:
         raise TableError(
@@ -228,7 +228,7 @@ def read_loads(
     Raises ``TableError``.
     """
     loads: dict[Site, tuple[Fraction, ...]] = {}
-    header = ["i", "j", "fx", "fy"] if dimension == 2 else ["p", "q", "j", "fx", "fy", "fz"]
+    header = [*bead_names(dimension), *(f"f{axis}" for axis in axis_names(dimension))]
     for where, _, row in _rows(path, header):
         bead, force = _parsed(where, header, row)
         site = _site(where, bead, width, height)

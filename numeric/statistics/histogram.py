@@ -1,6 +1,7 @@
 """Counting changes of forces into bins whose edges are exact decimals."""
 
 import math
+from bisect import bisect_right
 from fractions import Fraction
 from typing import Any
 
@@ -79,21 +80,8 @@ def _count(values: Array, edges: list[Fraction], system: Balls) -> list[int]:
     bounds = [system.number(edge) for edge in edges]
     counts = [0] * (len(edges) - 1)
     for value in values:
-        if not bounds[0] <= value < bounds[-1]:
+        at = bisect_right(bounds, value)  # which a comparison that is open may have led astray
+        if not (0 < at < len(bounds) and bounds[at - 1] <= value < bounds[at]):
             raise UndecidedError(f"the ball {value} lies across the edge of a bin")
-        counts[_place(value, bounds)] += 1
+        counts[at - 1] += 1
     return counts
-
-
-def _place(value: Any, bounds: list[Any]) -> int:
-    """Find the bin of a ball by bisection; every comparison must be certain."""
-    low, high = 0, len(bounds) - 1
-    while high - low > 1:
-        middle = (low + high) // 2
-        if value >= bounds[middle]:
-            low = middle
-        elif value < bounds[middle]:
-            high = middle
-        else:
-            raise UndecidedError(f"the ball {value} lies across the edge of a bin")
-    return low

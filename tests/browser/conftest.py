@@ -72,8 +72,7 @@ def _make(folder: Path) -> None:
     from force_diffusion.derivations.export.page import sections
     from force_diffusion.numeric.arithmetic import processes
     from force_diffusion.numeric.figures import names
-    from force_diffusion.numeric.studies.cost import rows
-    from force_diffusion.numeric.studies.stability import forms
+    from force_diffusion.numeric.studies import timing
     from force_diffusion.numeric.studies.stability import stability as tables
     from force_diffusion.symbolic.search import mutants
 
@@ -88,7 +87,6 @@ def _make(folder: Path) -> None:
         patch.setattr(names, "FIGURES", {name: names.FIGURES[name] for name in "12"})
         patch.setattr(tables, "cases", lambda: islice(every_case(), 3))
         patch.setattr(tables, "strips", lambda: (s for s in every_strip() if s.height == 4))
-        patch.setattr(forms, "ENOUGH_SECONDS", 0.0)
-        patch.setattr(rows, "LEAST_RUNS", 1)
-        patch.setattr(rows, "ENOUGH_SECONDS", 0.0)
+        patch.setattr(timing, "LEAST_RUNS", 1)
+        patch.setattr(timing, "ENOUGH_SECONDS", 0.0)
         assert main(["report", "--out", str(folder / "out")]) == 0

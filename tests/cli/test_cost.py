@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from force_diffusion.derivations.export.manifest import read_manifest
 from force_diffusion.numeric.accuracy.accuracy import ToleranceError
-from force_diffusion.numeric.studies.cost import rows
+from force_diffusion.numeric.studies import timing
 
 import force_diffusion as fd
 from force_diffusion.__main__ import main
@@ -32,8 +32,8 @@ PROFILE = SCENE.replace('"contact_forces"', '"profile"\nrealisations = 4')
 
 @pytest.fixture(autouse=True)
 def _one_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(rows, "LEAST_RUNS", 1)
-    monkeypatch.setattr(rows, "ENOUGH_SECONDS", 0.0)
+    monkeypatch.setattr(timing, "LEAST_RUNS", 1)
+    monkeypatch.setattr(timing, "ENOUGH_SECONDS", 0.0)
 
 
 def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.studies.stability import forms
+from force_diffusion.numeric.studies import timing
 from force_diffusion.numeric.studies.stability import stability as tables
 from force_diffusion.numeric.studies.stability.enclosures import strips
 from force_diffusion.numeric.studies.stability.floats import cases
@@ -27,7 +27,8 @@ def _few(monkeypatch: pytest.MonkeyPatch) -> None:
     balls = [strip for strip in strips() if strip.height <= 32]
     fallen = [strip for strip in strips() if strip.height == 512][-4:-3]
     monkeypatch.setattr(tables, "cases", lambda: iter(some[:4]))
-    monkeypatch.setattr(forms, "ENOUGH_SECONDS", 0.0)
+    monkeypatch.setattr(timing, "ENOUGH_SECONDS", 0.0)
+    monkeypatch.setattr(timing, "LEAST_RUNS", 1)
     monkeypatch.setattr(tables, "strips", lambda: iter(balls + fallen))
 
 

@@ -16,7 +16,7 @@ from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.physicality import Physicality
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError
 from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.planning import budget, segments
+from force_diffusion.numeric.planning import memory, segments
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.quantities.answer import answer
@@ -232,7 +232,7 @@ def test_a_plan_that_the_memory_does_not_hold_is_made_of_segments() -> None:
     text = str(parts)
     assert "twice" in text
     assert f"{parts.problem.segment} of 2000 layers at a time" in text
-    assert f"{budget.size(whole.memory)} of memory would be needed and 400 MB may be used" in text
+    assert f"{memory.size(whole.memory)} of memory would be needed and 400 MB may be used" in text
     with pytest.raises(SceneError, match="width = 2002: this scene would need"):
         plan(asked, memory_limit=2 * 10**8)
 
@@ -267,7 +267,7 @@ def test_with_a_tolerance_it_is_refused_and_said_that_without_it_runs(said: str)
     inside = {"tolerance": "=1e-8"} if said == "in the scene" else {}
     asked = scene(wanted | {"ask": {"quantity": "profile"} | inside})
     beside = None if inside else Fraction(1, 10**8)
-    advice = f"without the tolerance it would take about {budget.size(without.memory)}$"
+    advice = f"without the tolerance it would take about {memory.size(without.memory)}$"
     with pytest.raises(SceneError, match=advice):
         plan(asked, beside, memory_limit=4 * 10**8)
     assert not plan(asked, beside, memory_limit=4 * 10**9).problem.segment

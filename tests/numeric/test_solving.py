@@ -6,6 +6,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
+import mpmath
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.systems import Array
@@ -15,6 +16,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 import force_diffusion as fd
+from tests.numeric.mechanics.plain_packing import PlainPacking
 
 
 def balance(solution: fd.Solution, weights: Array) -> float:
@@ -207,6 +209,37 @@ def test_spheres_are_those_of_a_scene() -> None:
                 assert solution.change[axis, j, p, q] == row["change"]
 
 
+@pytest.mark.parametrize("d", [3, 4, 5])
+def test_any_dimension_is_that_of_first_principles(d: int) -> None:
+    """A packing as a vector of each bead, placed and balanced by itself (in 30 digits)."""
+    width, n_x = 2, Fraction(13, 20)
+    shape = (3, *[width] * (d - 1))
+    delta = 1e-2 * np.random.default_rng(d).uniform(-1, 1, shape)
+    solution = fd.solve(
+        delta_r=delta, spacing=4 * n_x, dimension=d, allow_images=True, load=fd.BulkLoad()
+    )
+    with mpmath.workdps(30):
+        phi = 1 - 2 * n_x**2
+        rho = {(*at[1:], at[0]): Fraction(float(x)) for at, x in np.ndenumerate(delta)}
+        plain = PlainPacking(d, 2, width, phi, rho)
+        straight = mpmath.sqrt(sum(sum(plain.n, mpmath.matrix(d, 1)).apply(lambda x: x * x)))
+        places = {}
+        for j, *columns in np.ndindex(*shape):
+            bead = (*columns, j - sum(columns))
+            places[j, *columns] = plain.at(bead)
+            if j:
+                forces = plain.below(bead, lambda _: [1 / straight] * d)
+                for axis, force in enumerate(forces):
+                    at = [x - (a == axis) for a, x in enumerate(columns)]
+                    found = solution.force[axis, j - 1, *[x % width for x in at]]
+                    assert found == pytest.approx(float(force), rel=1e-14)
+        apart = places[2, *[1] * (d - 1)] - places[0, *[0] * (d - 1)]
+        ours = solution.position[2, *[1] * (d - 1)] - solution.position[0, *[0] * (d - 1)]
+        assert np.linalg.norm(ours) == pytest.approx(float(mpmath.norm(apart)), rel=1e-14)
+        up = (sum(plain.n, mpmath.matrix(d, 1)).T * apart)[0] / straight
+        assert ours[-1] == pytest.approx(float(up), rel=1e-14)
+
+
 def test_a_batch_of_spheres_is_its_packings() -> None:
     batch = 1 + np.random.default_rng(4).uniform(-1e-4, 1e-4, (2, 3, 4, 4))
     together = fd.solve(batch, radius=1, dimension=3)
@@ -232,7 +265,8 @@ def test_four_axes_can_only_be_spheres() -> None:
         ((2, 3, 4, 4), 2, r"shape \(2, 3, 4, 4\): discs take \(layers, W\)"),
         ((1, 4, 4), 3, "at least 2 layers"),
         ((5, 4, 4), 3, r"5 layers of 4 × 4 beads.*images; if that is.*allow_images=True"),
-        ((3, 4), 4, "^dimension = 4: must be 2, of discs, or 3, of spheres"),
+        ((3, 4), 4, r"spheres in 4 dimensions take \(layers, W, W, W\)"),
+        ((3, 4), 6, "^dimension = 6: must be 2, of discs, 3, of spheres, or more, at most 5"),
         ((3, 4), "3", '^dimension = "3": must be 2'),
         ((3, 4), True, "^dimension = true: must be 2"),
     ],

@@ -24,20 +24,8 @@ from ...scene.sections import SceneError
 from .of_profile import study_ensemble
 from .reference import BEYOND, CertifiedReference, IncomparableError
 from .result import CostStudy
-from .rows import (
-    Notice,
-    Reference,
-    Way,
-    marked,
-    measured,
-    row,
-)
-from .ways import (
-    answer,
-    systems,
-    why_not_plain,
-    with_geometry,
-)
+from .rows import Reference, Way, marked
+from .ways import Notice, answer, measured, systems, why_not_plain, with_geometry
 
 _FAILURES = (UnbuildableError, UndecidedError, NotStandingError, RadiusError, IncomparableError)
 
@@ -84,22 +72,23 @@ def _study_one(scene: Scene, notice: Notice) -> CostStudy:
     nothing = Decimal(0)
     rows: list[Way] = []
     skipped = list(_never(scene))
+    exact = plan.problem.route == Route.EXACT
 
     def measure(
         way: str, system: NumberSystem, work: Callable[[], Table], model: CertifiedReference | None
     ) -> None:
         notice(f"{way}, {system.name}")
         try:
-            table, seconds, peak = measured(work)
+            table, costs = measured(work, system)
             error, bound = true.error(table), true.bound(table)
             rounding = error if model is None else model.error(table, true.largest)
         except _FAILURES as failed:
             skipped.append(Skipped(f"{way}, {system.name}", str(failed)))
             return
         wrong = nothing if model is None else true.error(model.table)
-        rows.append(row(way, system.name, seconds, peak, error, (wrong, rounding, None), bound))
+        rows.append(Way(way, system.name, None, error, wrong, rounding, None, bound, **costs))
 
-    if plan.problem.route == Route.EXACT:
+    if exact:
         if scene.effects.stop_at_tension:
             skipped.append(Skipped("first-order line sums", "they do not stop at tension"))
         else:
@@ -110,7 +99,7 @@ def _study_one(scene: Scene, notice: Notice) -> CostStudy:
     else:
         reason = "the scene asks for the first-order theory"
         skipped.append(Skipped("exact, deviation form", reason))
-    own = "exact, deviation form" if plan.problem.route == Route.EXACT else "first-order line sums"
+    own = "exact, deviation form" if exact else "first-order line sums"
     why = why_not_plain(plan)
     if why is not None:
         skipped.append(Skipped("exact, plain form", why))

@@ -9,9 +9,9 @@ import flint
 
 from ...accuracy.accuracy import ToleranceError
 from ...arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
-from ...arithmetic.systems import MOST_BITS, Balls, as_ball
+from ...arithmetic.systems import MOST_BITS, Balls, as_ball, largest_of
 from ...mechanics.sweep import NotStandingError
-from ...planning.expected_error import initial_bits
+from ...planning.methods import initial_bits
 from ...planning.plan import Plan
 from ...quantities.base import Table
 from ...scene.sections import SceneError
@@ -43,10 +43,8 @@ class CertifiedReference:
                 why = f"at {self.system.bits} bits: {error}"
                 continue
             with self.system.active():
-                self.largest, radius = flint.arb(0), flint.arb(0)
-                for value in self._entries(self.table):
-                    self.largest = self.largest.max(value.abs_lower())
-                    radius = radius.max(value.rad())
+                self.largest = largest_of(v.abs_lower() for v in self._entries(self.table))
+                radius = largest_of(v.rad() for v in self._entries(self.table))
                 if not radius.is_zero() and not self.largest > 0:
                     why = f"at {self.system.bits} bits no change can be told from zero"
                     continue
@@ -66,22 +64,16 @@ class CertifiedReference:
         """Bound the distance of a table from the enclosure, relative to the largest change."""
         if any(len(table.numbers[n]) != len(self.table.numbers[n]) for n in self.table.small):
             raise IncomparableError("it stopped at another contact than the reference")
-        worst = flint.arb(0)
         with self.system.active():
-            for value, ball in zip(self._entries(table), self._entries(self.table), strict=True):
-                worst = worst.max((exactly(value) - ball).abs_upper())
+            pairs = zip(self._entries(table), self._entries(self.table), strict=True)
+            worst = largest_of((exactly(value) - ball).abs_upper() for value, ball in pairs)
             return decimal((worst / (largest or self.largest)).upper())
 
     def bound(self, table: Table) -> Decimal | None:
         """Give what a table in balls certifies of itself; None for other arithmetic."""
         with self.system.active():
             radii = [v.rad() for v in self._entries(table) if isinstance(v, flint.arb)]
-            if not radii:
-                return None
-            worst = flint.arb(0)
-            for radius in radii:
-                worst = worst.max(radius)
-            return decimal((worst / self.largest).upper())
+            return decimal((largest_of(radii) / self.largest).upper()) if radii else None
 
 
 def exactly(value: Any) -> Any:

@@ -1,24 +1,8 @@
 """The rows of a cost study: what is measured of each way to answer, and which none other beats."""
 
-import math
-import tracemalloc
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
-from statistics import median
-from time import process_time
-from typing import TypeVar
-
-from ...arithmetic.systems import FLOAT64, LONGDOUBLE
-
-LEAST_RUNS, MOST_RUNS, ENOUGH_SECONDS = 3, 15, 0.2
-# After so many seconds no further run is timed: slow rows scatter little, and a study stays short.
-LONG_SECONDS = 2.0
-# Of a run in which the processor's clock did not tick; it is drawn as a power of ten.
-TICK = 1e-6
-T = TypeVar("T")
-Notice = Callable[[str], None]
-"""Called with the name of each way before it is measured."""
 
 
 @dataclass(frozen=True)
@@ -63,46 +47,6 @@ class Reference:
     what: str
     arithmetic: str
     radius: Decimal
-
-
-def measured(work: Callable[[], T]) -> tuple[T, list[float], int]:
-    """Run once, tracing memory, as a warm-up; then several times by the processor's clock.
-
-    Gives the result, the seconds of each timed run and the peak of traced memory in bytes.
-    """
-    tracemalloc.start()
-    try:
-        result = work()
-        peak = tracemalloc.get_traced_memory()[1]
-    finally:
-        tracemalloc.stop()
-    seconds: list[float] = []
-    while math.fsum(seconds) < LONG_SECONDS and (
-        len(seconds) < LEAST_RUNS
-        or (len(seconds) < MOST_RUNS and math.fsum(seconds) < ENOUGH_SECONDS)
-    ):
-        start = process_time()
-        work()
-        seconds.append(max(process_time() - start, TICK))
-    return result, seconds, peak
-
-
-def row(
-    way: str,
-    arithmetic: str,
-    seconds: Sequence[float],
-    peak: int,
-    error: Decimal,
-    parts: tuple[Decimal | None, Decimal | None, Decimal | None],
-    bound: Decimal | None = None,
-    realisations: int | None = None,
-) -> Way:
-    """Make a row; ``parts`` are model, rounding and sampling error."""
-    return Way(
-        way, arithmetic, realisations, error, *parts, bound,
-        median(seconds), min(seconds), max(seconds), len(seconds), peak,
-        arithmetic not in {FLOAT64.name, LONGDOUBLE.name},
-    )  # fmt: skip
 
 
 def marked(rows: Sequence[Way]) -> tuple[Way, ...]:

@@ -1,20 +1,23 @@
-"""Ways to answer a scene: any plan in any number system, also in the plain form, as one table."""
+"""Ways to answer a scene: any plan in any number system, also in the plain form; what they take."""
 
 import math
-from collections.abc import Iterator, Sequence
+import tracemalloc
+from collections.abc import Callable, Iterator, Sequence
+from statistics import median
+from typing import Any, TypeVar
 
-from ...arithmetic.systems import (
-    FLOAT64,
-    LONGDOUBLE,
-    Balls,
-    BigFloat,
-    NumberSystem,
-)
-from ...mechanics.engine import packings
+from ...arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
 from ...mechanics.problem import Route
+from ...mechanics.work import Work
 from ...planning.plan import Plan
+from ...quantities.answer import answer as whole_answer
 from ...quantities.base import Table
 from ...scene.scene import Scene
+from ..timing import in_turn
+
+T = TypeVar("T")
+Notice = Callable[[str], None]
+"""Called with the name of each way before it is measured."""
 
 DIGITS = (20, 30, 50, 100, 300)
 
@@ -37,15 +40,34 @@ def with_geometry(scene: Scene, geometry: str) -> Scene:
 def answer(
     plan: Plan, system: NumberSystem, realisations: Sequence[int], *, plainly: bool = False
 ) -> Table:
-    """Answer a plan's question for some realisations; units as in the scene's own answer.
+    """Answer a plan's question for some realisations, and nothing beside it.
 
     Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
-    with system.active():
-        gatherer = plan.quantity.gatherer(plan.problem, system)
-        for solved, chunk in packings(plan.problem, realisations, system, plainly=plainly):
-            gatherer.add(solved, chunk, plan.quantity.all_layers)
-        return gatherer.table().sorted()
+    problem, work = plan.problem, Work(repeating=True)  # what is physical was judged before
+    return whole_answer(plan.quantity, problem, realisations, system, work, plainly=plainly).table
+
+
+def measured(work: Callable[[], T], system: NumberSystem) -> tuple[T, dict[str, Any]]:
+    """Run once, tracing memory, as a warm-up; then several times by the processor's clock.
+
+    Gives the result, and of the work, in this arithmetic, what ``Way`` has of seconds and memory.
+    """
+    tracemalloc.start()
+    try:
+        result = work()
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    (seconds,) = in_turn(work)
+    return result, {
+        "seconds": median(seconds),
+        "seconds_min": min(seconds),
+        "seconds_max": max(seconds),
+        "runs": len(seconds),
+        "peak_bytes": peak,
+        "peak_is_bound": system not in (FLOAT64, LONGDOUBLE),
+    }
 
 
 def why_not_plain(plan: Plan) -> str | None:

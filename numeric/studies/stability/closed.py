@@ -6,6 +6,8 @@ from fractions import Fraction
 
 from ... import closed_forms
 
+FORMS = "surface_variance", "bulk_variance", "surface_diffusion", "bulk_diffusion"
+
 
 @dataclass(frozen=True)
 class ClosedFormRow:
@@ -22,16 +24,11 @@ def closed_form_rows() -> Iterator[ClosedFormRow]:
     phi = Fraction(1) - 2 * Fraction(3, 4) ** 2
     for height in (10, 1000, 10**6, 10**9):
         for j in sorted({0, 1, 2, height // 2, height - 2, height - 1}):
-            for name in ("surface_variance", "bulk_variance"):
+            for name in FORMS:
                 form = getattr(closed_forms, name)
-                exact = form(Fraction(height), Fraction(j), phi, Fraction(1), Fraction(1))
-                rounded = form(float(height), float(j), float(phi), 1.0, 1.0)
-                yield ClosedFormRow(name, height, j, _relative(rounded, exact))
-            z = j / height
-            for name in ("surface_diffusion", "bulk_diffusion"):
-                form = getattr(closed_forms, name)
-                exact = form(Fraction(height), Fraction(z), phi, Fraction(1), Fraction(1))
-                rounded = form(float(height), z, float(phi), 1.0, 1.0)
+                at = j if name.endswith("variance") else j / height
+                exact = form(Fraction(height), Fraction(at), phi, Fraction(1), Fraction(1))
+                rounded = form(float(height), float(at), float(phi), 1.0, 1.0)
                 yield ClosedFormRow(name, height, j, _relative(rounded, exact))
 
 

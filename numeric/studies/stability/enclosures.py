@@ -17,16 +17,8 @@ from ...disorder.radii import DrawnRadii, rows_of
 from ...lattice.layers import whole
 from ...mechanics.sweep import NotStandingError, UnbuildableError
 from ...theory.critical_height import critical_height
-from .forms import (
-    SEED,
-    Changes,
-    bits_lost,
-    changes,
-    deviation_form,
-    plain_form,
-    relative_radius,
-    timed,
-)
+from ..timing import usually
+from .forms import SEED, bits_lost, changes, deviation_form, plain_form, relative_radius
 
 DIGITS = 50
 GOAL = math.ceil(DIGITS * math.log2(10))
@@ -59,10 +51,10 @@ class Enclosed:
     width: int
     relative_std: float
     critical_height: float
-    bits: int | None
-    bits_lost: float | None
-    error: float | None
-    seconds: float | None
+    bits: int | None = None
+    bits_lost: float | None = None
+    error: float | None = None
+    seconds: float | None = None
     note: str = ""
 
 
@@ -79,28 +71,15 @@ def enclose(strip: Strip) -> Enclosed:
     """Find the precision that leaves 50 digits, and time it there."""
     rows = whole(WIDTH, strip.height).rows
     radii = DrawnRadii("uniform", strip.relative_std, SEED, WIDTH)
-
-    def row(
-        bits: int | None = None,
-        lost: float | None = None,
-        error: float | None = None,
-        seconds: float | None = None,
-        note: str = "",
-    ) -> Enclosed:
-        highest = critical_height(strip.relative_std)
-        return Enclosed(
-            strip.form, strip.height, WIDTH, float(strip.relative_std), float(f"{highest:.4g}"),
-            bits, lost, error, seconds, note,
-        )  # fmt: skip
-
+    std, highest = float(strip.relative_std), critical_height(strip.relative_std)
+    row = partial(Enclosed, strip.form, strip.height, WIDTH, std, float(f"{highest:.4g}"))
     bits = GOAL + SPARE + FIRST_GUESS[strip.form] * strip.height
     while bits <= MOST_BITS:
         system = Balls(bits)
         with system.active():
-            rho = rows_of(radii, rows, [0], system)
-            solve = partial(_solved, strip.form, rho, system)
+            solve = partial(_solved, strip.form, rows_of(radii, rows, [0], system), system)
             try:
-                values, seconds = timed(solve)
+                values, seconds = usually(solve)
             except (UndecidedError, NotStandingError):
                 bits *= 2
                 continue
@@ -119,7 +98,7 @@ def enclose(strip: Strip) -> Enclosed:
     return row(note=f"not enclosed: up to {MOST_BITS} bits are tried")
 
 
-def _solved(form: str, rho: Sequence[Array], system: NumberSystem) -> Changes:
+def _solved(form: str, rho: Sequence[Array], system: NumberSystem) -> Array:
     if form == POSITIONS:
         return plain_form(N_X, rho, system)
     return changes(deviation_form(N_X, rho, system)[1])

@@ -9,32 +9,29 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from typing import Any, TypeVar
+from statistics import median
+from typing import Any
 
-import flint
+import numpy as np
 
 from ...arithmetic.errors import UndecidedError
-from ...arithmetic.systems import FLOAT64, Balls
+from ...arithmetic.systems import FLOAT64, Array, Balls, largest_of
 from ...disorder.radii import DrawnRadii, MeasuredRadii, Radii, rows_of
 from ...lattice.layers import whole
 from ...mechanics.physicality import Physicality
 from ...mechanics.sweep import NotStandingError, UnbuildableError
 from ...theory.critical_height import critical_height
+from ..timing import in_turn, usually
 from .forms import (
     SEED,
-    Changes,
     bits_lost,
     changes,
     deviation_form,
-    flat,
-    in_turn,
     largest,
     plain_form,
     relative_radius,
-    timed,
 )
 
-T = TypeVar("T")
 _FAILURES = (UnbuildableError, UndecidedError, NotStandingError)
 
 
@@ -65,17 +62,17 @@ class Comparison:
     width: int
     relative_std: float
     spacing: str
-    error: float | None
-    seconds: float | None
-    plain_error: float | None
-    plain_seconds: float | None
-    ball_error: float | None
-    ball_bits: int
-    ball_bits_lost: float | None
-    ball_seconds: float | None
-    tensile: int | None
-    overlaps: int | None
-    note: str
+    error: float | None = None
+    seconds: float | None = None
+    plain_error: float | None = None
+    plain_seconds: float | None = None
+    ball_error: float | None = None
+    ball_bits: int = 0
+    ball_bits_lost: float | None = None
+    ball_seconds: float | None = None
+    tensile: int | None = None
+    overlaps: int | None = None
+    note: str = ""
 
 
 def cases() -> Iterator[Case]:
@@ -120,57 +117,49 @@ def measure(case: Case) -> Comparison:
     # The scale drops out before anything is rounded: s/r and δr/r are exact rationals.
     n_x = (case.spacing * case.radius) / (4 * case.radius)
     rows, radii = whole(case.width, case.height).rows, _radii(case)
+    values: dict[str, Array] = {}
+    found: dict[str, Any] = {}
     with FLOAT64.active():
         rho = rows_of(radii, rows, [0], FLOAT64)
-        deviate = partial(deviation_form, n_x, rho, FLOAT64)
-        go_plainly = partial(plain_form, n_x, rho, FLOAT64)
-        own, why = _tried(deviate)
-        plainly, plain_why = _tried(go_plainly)
-        seconds, plain_seconds = _timed(
-            None if own is None else deviate, None if plainly is None else go_plainly
-        )
-    note = why or (f"plain form: {plain_why}" if plain_why else "")
+        forms: dict[str, Callable[[], Any]] = {
+            "": partial(deviation_form, n_x, rho, FLOAT64),
+            "plain_": partial(plain_form, n_x, rho, FLOAT64),
+        }
+        try:
+            values[""] = changes(forms[""]()[1])
+        except _FAILURES as failed:
+            found["note"] = str(failed)
+        try:
+            values["plain_"] = forms["plain_"]()
+        except _FAILURES as failed:
+            found.setdefault("note", f"plain form: {failed}")
+        times = in_turn(*[forms[name] for name in values])
+        for name, all_runs in zip(values, times, strict=True):
+            found[f"{name}seconds"] = _short(median(all_runs))
     system = Balls(case.bits)
-    error = plain_error = ball_error = lost = tensile = overlaps = ball_seconds = None
     with system.active():
         exact = rows_of(radii, rows, [0], system)
-        enclose = partial(deviation_form, n_x, exact, system)
-        found, ball_why = _tried(partial(timed, enclose))
-        if found is None:
-            note = ball_why
+        try:
+            (solved, forces), seconds = usually(partial(deviation_form, n_x, exact, system))
+        except _FAILURES as failed:
+            found["note"] = str(failed)
         else:
-            (solved, forces), ball_seconds = found
             reference = changes(forces)
-            radius = relative_radius(reference)
-            lost = bits_lost(radius, case.bits)
-            ball_error = float(radius)
-            size = largest(reference)
-            error = None if own is None else _error(changes(own[1]), reference, size)
-            plain_error = None if plainly is None else _error(plainly, reference, size)
-            physical = Physicality()
+            radius, size = relative_radius(reference), largest(reference)
+            lost, physical = bits_lost(radius, case.bits), Physicality()
             physical.look_at_gaps(solved)
             physical.look_at_forces(forces)
-            tensile, overlaps = physical.tensile, physical.overlaps
+            found["ball_error"] = _short(float(radius))
+            found["ball_bits_lost"] = None if lost is None else round(lost, 1)
+            found["ball_seconds"] = _short(seconds)
+            found["tensile"], found["overlaps"] = physical.tensile, physical.overlaps
+            for name, own in values.items():
+                found[f"{name}error"] = _short(_error(own, reference, size))
+    note = found.pop("note", "") or _remark(case)
     return Comparison(
         case.group, case.height, case.width, float(case.relative_std),
-        f"{float(case.spacing):.14g}",
-        _short(error), _short(seconds), _short(plain_error), _short(plain_seconds),
-        _short(ball_error), case.bits, None if lost is None else round(lost, 1),
-        _short(ball_seconds), tensile, overlaps, note or _remark(case),
+        f"{float(case.spacing):.14g}", ball_bits=case.bits, note=note, **found,
     )  # fmt: skip
-
-
-def _tried(work: Callable[[], T]) -> tuple[T | None, str]:
-    try:
-        return work(), ""
-    except _FAILURES as error:
-        return None, str(error)
-
-
-def _timed(*works: Callable[[], object] | None) -> list[float | None]:
-    """Time the forms that give an answer, in turn; None for one that does not."""
-    medians = iter(in_turn(*[work for work in works if work is not None]))
-    return [None if work is None else next(medians) for work in works]
 
 
 def _remark(case: Case) -> str:
@@ -182,15 +171,13 @@ def _remark(case: Case) -> str:
     return ""
 
 
-def _short(value: float | None) -> float | None:
-    return None if value is None or math.isinf(value) else float(f"{value:.3g}")
+def _short(value: float) -> float | None:
+    return float(f"{value:.3g}") if math.isfinite(value) else None
 
 
-def _error(values: Changes, reference: Changes, size: Any) -> float:
+def _error(values: Array, reference: Array, size: Any) -> float:
     """Give the largest distance from the enclosure over the largest |change|."""
-    worst = flint.arb(0)
-    for value, ball in zip(flat(values), flat(reference), strict=True):
-        if not math.isfinite(value):
-            return math.inf
-        worst = worst.max((flint.arb(float(value)) - ball).abs_upper())
-    return float((worst / size).upper()) if size > 0 else math.inf
+    if not np.isfinite(values).all() or not size > 0:
+        return math.inf
+    pairs = zip(values.tolist(), reference, strict=True)
+    return float((largest_of((value - ball).abs_upper() for value, ball in pairs) / size).upper())

@@ -18,30 +18,47 @@ if TYPE_CHECKING:
 
 Measured = Comparison | Enclosed | ClosedFormRow
 FLOATS, ENCLOSURES, CLOSED_FORMS = "rows", "enclosures", "closed_forms"
-FILES = {
-    FLOATS: "stability.csv",
-    ENCLOSURES: "stability_balls.csv",
-    CLOSED_FORMS: "closed_forms.csv",
-}
 
-HEADS = {
-    FLOATS: (
-        "Both forms in float64, and balls; errors of change relative to the largest, against an "
-        "enclosure\nof all contact forces; ratio: seconds of the deviation form / of the plain "
-        "form.\n"
-        "group       M    W   sigma/r  s/r             deviation form       plain form         "
-        "ratio   balls: lost bits, time  pulling overlaps"
+
+@dataclass(frozen=True)
+class _Table:
+    """A table: its file, what it is of, what measures its rows, and those that text shows."""
+
+    file: str
+    title: str
+    measured: Callable[[], Iterator[Measured]]
+    shown: Callable[[list[tables.Row]], list[tables.Row]] = lambda rows: rows
+
+
+def _worst(rows: list[tables.Row]) -> list[tables.Row]:
+    """Give the row with the largest error of each form and height."""
+    groups: dict[tuple[str, int], list[tables.Row]] = {}
+    for row in rows:
+        groups.setdefault((row["form"], row["height"]), []).append(row)
+    return [max(group, key=lambda row: float(row["relative_error"])) for group in groups.values()]
+
+
+TABLES = {
+    FLOATS: _Table(
+        "stability.csv",
+        "Deviation form in float64, the plain form beside it (plain_…), and balls; errors of "
+        "change relative to the largest, against an enclosure of all contact forces.",
+        lambda: map(measure, cases()),
     ),
-    ENCLOSURES: (
+    ENCLOSURES: _Table(
+        "stability_balls.csv",
         f"Balls in positions and in line-sum coordinates, at the precision that leaves {DIGITS} "
-        "digits.\n"
-        "balls in      M    W   sigma/r        M*  lost bits  per layer  of bits  certified error"
-        "   seconds"
+        "digits.",
+        lambda: map(enclose, strips()),
     ),
-    CLOSED_FORMS: (
-        "Closed forms of Eqs. 13 and 14 in float64, against exact rationals: largest errors."
+    CLOSED_FORMS: _Table(
+        "closed_forms.csv",
+        "Closed forms of Eqs. 13 and 14 in float64, against exact rationals: largest errors.",
+        closed_form_rows,
+        _worst,
     ),
 }
+FILES = {name: table.file for name, table in TABLES.items()}
 
 
 @dataclass(frozen=True)
@@ -85,16 +102,16 @@ class StabilityStudy:
 
     def __str__(self) -> str:
         """Give the tables."""
-        return "\n\n".join(
-            "\n".join([HEADS[table], *_table_lines(table, self.rows(table))])
-            for table in self.measured
-        )
+        return "\n\n".join("\n".join(self._lines(name)) for name in self.measured)
+
+    def _lines(self, name: str) -> list[str]:
+        table = TABLES[name]
+        return [table.title, *tables.text_table(table.shown(self.rows(name)))]
 
     def _repr_html_(self) -> str:
         """Show the tables in a notebook."""
         return "".join(
-            tables.html_table(self.rows(table), HEADS[table].splitlines()[:1])
-            for table in self.measured
+            tables.html_table(self.rows(table), [TABLES[table].title]) for table in self.measured
         )
 
 
@@ -103,9 +120,8 @@ def stability(
 ) -> StabilityStudy:
     """Measure what stability costs: errors, lost bits and times with and without it.
 
-    Takes about 40 s; ``only`` names the tables to be measured. ``notice`` is told the lines of
-    the tables as they come, those of the closed forms last. Raises ``ForceDiffusionError`` for a
-    table that there is not.
+    Takes about 40 s; ``only`` names the tables to be measured. ``notice`` is told of
+    every row that is measured. Raises ``ForceDiffusionError`` for a table that there is not.
 
     >>> import force_diffusion as fd
     >>> found = fd.stability(only=["closed_forms"])
@@ -113,81 +129,24 @@ def stability(
     True
     """
     if not callable(notice):
-        told = f"stability takes a function that is told lines, not {type(notice).__name__}"
+        told = f"stability takes a function that is told words, not {type(notice).__name__}"
         raise TypeError(told)
     for name in only:
         if name not in FILES:
             raise ForceDiffusionError(f'there is no table "{name}"; there are {", ".join(FILES)}')
     found: dict[str, tuple[Measured, ...]] = {}
-    for name in FILES:
+    for name, table in TABLES.items():
         if name not in only:
             continue
-        notice(("\n" if found else "") + HEADS[name])
         rows = []
-        for row in _measured(name):
+        for row in table.measured():
             rows.append(row)
-            if name != CLOSED_FORMS:
-                notice(_line(name, asdict(row)))
-        if name == CLOSED_FORMS:  # of which the worst are told, once all are known
-            for line in _closed_form_lines([asdict(row) for row in rows]):
-                notice(line)
+            notice(f"{table.file}: row {len(rows)}")
         found[name] = tuple(rows)
     return StabilityStudy(found)
-
-
-def _measured(name: str) -> Iterator[Measured]:
-    if name == FLOATS:
-        return map(measure, cases())
-    return map(enclose, strips()) if name == ENCLOSURES else closed_form_rows()
 
 
 def csv_rows(data: dict[str, Any], command: str) -> dict[str, list[dict[str, Any]]]:
     """Give the rows of each CSV file; each ends with the command behind it."""
     own = {"command": command}
     return {file: [row | own for row in data[name]] for name, file in FILES.items()}
-
-
-def _table_lines(name: str, rows: list[tables.Row]) -> list[str]:
-    if name == CLOSED_FORMS:
-        return list(_closed_form_lines(rows))
-    return [_line(name, row) for row in rows]
-
-
-def _line(name: str, row: dict[str, Any]) -> str:
-    return _float_line(row) if name == FLOATS else _ball_line(row)
-
-
-def _number(value: float | None, spec: str = "7.1e") -> str:
-    width = int(spec.split(".", maxsplit=1)[0])
-    return f"{'--':>{width}}" if value is None else f"{value:{spec}}"
-
-
-def _float_line(row: dict[str, Any]) -> str:
-    own, plain = row["seconds"], row["plain_seconds"]
-    ratio = own / plain if own and plain else None
-    return (
-        f"{row['group']:<10}{row['height']:5}{row['width']:5}  {row['relative_std']:8.1e}  "
-        f"{row['spacing']:<15} {_number(row['error'])} {_number(own, '8.1e')}s  "
-        f"{_number(row['plain_error'], '8.1e')} {_number(plain, '8.1e')}s {_number(ratio, '5.1f')} "
-        f"{_number(row['ball_bits_lost'], '7.1f')} of {row['ball_bits']:<4} "
-        f"{_number(row['ball_seconds'], '8.1e')}s  {row['tensile']!s:>6} {row['overlaps']!s:>8}"
-        f"  {row['note']}"
-    ).rstrip()
-
-
-def _ball_line(row: dict[str, Any]) -> str:
-    lost = row["bits_lost"]
-    each = None if lost is None else lost / row["height"]
-    return (
-        f"{row['form']:<10}{row['height']:6}{row['width']:5}  {row['relative_std']:8.1e}  "
-        f"{row['critical_height']:8.4g}  {_number(lost, '9.1f')}  {_number(each, '9.3f')}  "
-        f"{row['bits'] or '--':>7}  {_number(row['error'], '15.1e')}  "
-        f"{_number(row['seconds'], '8.1e')}s  {row['note']}"
-    ).rstrip()
-
-
-def _closed_form_lines(rows: list[dict[str, Any]]) -> Iterator[str]:
-    for height, form in sorted({(row["height"], row["form"]) for row in rows}):
-        here = [row for row in rows if (row["height"], row["form"]) == (height, form)]
-        worst = max(here, key=lambda row: float(row["relative_error"]))
-        yield f"{form:<18} M = {height:<11} {worst['relative_error']:.1e} at j = {worst['j']}"

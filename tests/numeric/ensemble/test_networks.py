@@ -104,6 +104,17 @@ def test_where_none_comes_to_rest_within_the_limits_the_status_is_3() -> None:
     assert e.value.exit_status == 3
 
 
+def test_a_contact_that_opens_in_all_packings_has_no_ratio() -> None:
+    scene = fd.Scene(
+        packing=fd.Packing(height=5, width=8, spacing=2.5),
+        disorder=fd.Disorder(kind="uniform", relative_std=0.06, seed=202),
+        effects=fd.Effects(contacts="unilateral"),
+        ask=fd.Ask(quantity="contact", at=[7, 1, "-"]),
+    )
+    (row,) = fd.ensemble(scene, 2).data()["results"]["contact"]
+    assert (row["mean"], row["std"], row["std_over_mean"]) == ("0", "0", "")
+
+
 def test_a_histogram_counts_every_force() -> None:
     found = fd.ensemble(strip("histogram", bins=10), 4)
     assert found.bins is not None

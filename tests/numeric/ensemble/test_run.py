@@ -5,7 +5,7 @@ import random
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -21,7 +21,7 @@ from force_diffusion.numeric.ensemble.measure import Measurement
 from force_diffusion.numeric.ensemble.result import Ensemble
 from force_diffusion.numeric.ensemble.run import RealisationError
 from force_diffusion.numeric.ensemble.scene_key import ensemble_key
-from force_diffusion.numeric.ensemble.store import Store, StoreError, open_store
+from force_diffusion.numeric.ensemble.store import About, Store, StoreError, open_store
 from force_diffusion.numeric.ensemble.sums import Block, measured, why_left_out
 from force_diffusion.numeric.ensemble.workers import (
     Pool,
@@ -336,15 +336,19 @@ def test_every_quantity_can_be_kept(name: str, tmp_path: Path) -> None:
 def test_a_block_is_written_once() -> None:
     class Counted(Store):
         def __init__(self) -> None:
-            self.first: list[int] = []
+            self.first, self.about = list[int](), About({}, ())
+
+        def blocks(self, m: Measurement) -> list[Block]:
+            return []
+
+        def begin(self, end: int, blocks: Sequence[Block]) -> None:
+            pass
 
         def put(self, block: Block) -> None:
             self.first.append(block.first)
 
-    one = run._Run(M, 150, None, None, 0.9, lambda done, width: None)
     counted = Counted()
-    one.store = counted
-    one.finish(here)
+    run.run(M, 150, here, store=counted)
     assert counted.first == [0, 32, 48, 64, 96, 128, 144, 148]
 
 

@@ -40,7 +40,10 @@ ALL = pytest.mark.parametrize("name", CASES)
 def changes(m: Measurement, realisations: range) -> list[Array]:
     """The changes (groups, members) of single realisations, each solved alone."""
     with FLOAT64.active():
-        alone = [m.changes(solve(m.problem, [k], FLOAT64, Work()), 1)[1] for k in realisations]
+        alone = [
+            m.quantity.changes(m.problem, solve(m.problem, [k], FLOAT64, Work()), 1)[1]
+            for k in realisations
+        ]
     return [g[:, 0] for g in alone]
 
 
@@ -168,7 +171,7 @@ def test_estimates_are_those_of_the_changes_as_fractions(name: str) -> None:
     # scatter over packings
     a = [[sum(group) / m.members for group in packing] for packing in g]
     b = [[sum(v * v for v in group) / m.members for group in packing] for packing in g]
-    x = b if m.quantity == "profile" else a
+    x = b if m.quantity.name == "profile" else a
     for k in range(m.groups):
         own, square = [p[k] for p in a], [p[k] for p in b]
         root = math.sqrt(N)

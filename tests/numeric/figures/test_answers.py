@@ -307,3 +307,12 @@ def test_branches_that_agree_are_both_seen() -> None:
     first, second = (container.lines[0] for container in figure.axes[0].containers)
     assert first.get_markersize() > 1.4 * second.get_markersize()
     assert first.get_zorder() <= second.get_zorder()
+
+
+@pytest.mark.parametrize("dimension", [3, 4, 5])
+def test_a_profile_of_any_dimension_is_drawn(dimension: int) -> None:
+    packing = fd.Packing(height=3, width=7, dimension=dimension)
+    figure = scene("profile", packing=packing).run().plot()
+    sizes = [container.lines[0].get_markersize() for container in figure.axes[0].containers]
+    assert len(sizes) == dimension
+    assert sizes == sorted(sizes, reverse=True)

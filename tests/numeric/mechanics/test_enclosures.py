@@ -164,8 +164,8 @@ def rational_strength(spec: LoadSpec, n: tuple[Fraction, Fraction], system: Seri
     return Strength(
         (system.number(Fraction(0)), system.number(Fraction(0))),
         {
-            site: tuple(system.number(c) for c in components(fx, fy, *n))  # type: ignore[misc]
-            for site, (fx, fy) in spec.single.items()
+            site: tuple(system.number(c) for c in components(force, *n))  # type: ignore[misc]
+            for site, force in spec.single.items()
         },
     )
 

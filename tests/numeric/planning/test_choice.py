@@ -195,7 +195,9 @@ def test_what_only_balls_decide_is_left_to_them() -> None:
 def test_the_order_is_fixed() -> None:
     """What may answer comes first: float64, pairs, balls; the others are listed with why."""
     found = candidates(basic(tolerance="=1e-6", realisations=9))
-    possible = [(way.arithmetic.partition(",")[0], way.repeated) for way in found if not way.out]
+    possible = [
+        (way.arithmetic.partition(",")[0], way.method.repeated) for way in found if not way.out
+    ]
     assert possible == [("float64", 4), ("float64", 9), ("float64 pairs", 9), ("arb balls", 0)]
     found = candidates(basic(tolerance="=1e-20", realisations=9))
     assert [bool(way.out) for way in found] == [False, False, True, True]
@@ -226,7 +228,9 @@ def test_a_change_about_as_small_as_its_error_is_within_the_stated_bound() -> No
     sections["disorder"] = {"kind": "two-point", "relative_std": "=2e-16", "seed": 611859}
     true, plan = reference(sections), planned(sections)
     assert plan.choice is not None
-    (way,) = (c for c in plan.choice.candidates if c.arithmetic == "float64" and c.repeated == 6)
+    (way,) = (
+        c for c in plan.choice.candidates if c.arithmetic == "float64" and c.method.repeated == 6
+    )
     outcome = run(only(plan, way))
     assert outcome.plan.system is FLOAT64
     assert_kept(outcome, true, plan.choice.tolerance)

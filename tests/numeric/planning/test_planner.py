@@ -14,8 +14,8 @@ from force_diffusion.numeric.lattice.layers import Layer
 from force_diffusion.numeric.mechanics import first_order
 from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.planning import choice
-from force_diffusion.numeric.planning.budget import FLOAT_BEADS
+from force_diffusion.numeric.planning import methods
+from force_diffusion.numeric.planning.memory import float_bead
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.run import run
 from hypothesis import given, settings
@@ -257,7 +257,7 @@ def test_clocks_do_not_overlap(geometry: str, quantity: str, tolerance: str | No
 
 def test_precisions_that_failed_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     sections = basic(quantity="contact", at=[2, 2, "+"], tolerance="=1e-40")
-    monkeypatch.setattr(choice, "initial_bits", lambda tolerance, height: 24)
+    monkeypatch.setattr(methods, "initial_bits", lambda tolerance, height: 24)
     plan = planned(sections)
     outcome = run(plan)
     passes = outcome.work.arithmetic
@@ -292,7 +292,7 @@ def test_a_bead_drawn_alone_is_the_one_in_its_row(
 
 def test_memory_knows_what_is_solved_together() -> None:
     one, batch = (planned(basic(quantity="profile", realisations=n)) for n in (1, 1000))
-    assert batch.memory > one.memory + 900 * one.problem.region.beads * FLOAT_BEADS[2]
+    assert batch.memory > one.memory + 900 * one.problem.region.beads * float_bead(2)
 
 
 @pytest.mark.parametrize("quantity", ["contact", "histogram", "profile", "response"])

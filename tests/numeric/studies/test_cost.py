@@ -10,7 +10,7 @@ import pytest
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.scene.sections import SceneError
-from force_diffusion.numeric.studies.cost import rows as measuring
+from force_diffusion.numeric.studies import timing
 from force_diffusion.numeric.studies.cost.cost import cost
 from force_diffusion.numeric.studies.cost.reference import BEYOND, decimal
 from force_diffusion.numeric.studies.cost.result import CostStudy, csv_rows
@@ -24,8 +24,8 @@ from tests.numeric.scenes import basic, scene
 
 @pytest.fixture(autouse=True)
 def _one_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(measuring, "LEAST_RUNS", 1)
-    monkeypatch.setattr(measuring, "ENOUGH_SECONDS", 0.0)
+    monkeypatch.setattr(timing, "LEAST_RUNS", 1)
+    monkeypatch.setattr(timing, "ENOUGH_SECONDS", 0.0)
 
 
 def profile(geometry: str = "exact", **ask: Any) -> dict[str, dict[str, Any]]:
@@ -281,8 +281,8 @@ def test_a_line_joins_ensembles_by_their_size() -> None:
 
 def test_a_clock_that_did_not_tick_tells_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
     """As where a machine is crowded, or counts in steps of 15 ms."""
-    monkeypatch.setattr(measuring, "process_time", lambda: 0.0)
-    monkeypatch.setattr(measuring, "MOST_RUNS", 3)
+    monkeypatch.setattr(timing, "process_time", lambda: 0.0)
+    monkeypatch.setattr(timing, "MOST_RUNS", 3)
     study = cost(scene(basic(2, 4)))
     assert all(row.seconds > 0 for row in study.ways)
     pytest.importorskip("matplotlib")

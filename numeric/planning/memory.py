@@ -2,12 +2,14 @@
 
 from ..arithmetic.carried import Pairs
 from ..arithmetic.systems import FLOAT64, NumberSystem
+from ..lattice.layers import Region
+from ..quantities.base import Quantity
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
 
-# Bytes that a bead takes while it is solved, by dimension, a packing whose rows are listed, and a
-# line of a file; measured, rounded up. The rest is the interpreter with its libraries.
-FLOAT_BEADS, BALL_BEAD, LISTED, FILE_LINE = {2: 310, 3: 490}, 2200, 3500, 600
+# Bytes of a bead of balls, a packing whose rows are listed, and a line of a file; measured, rounded
+# up. The rest is the interpreter with its libraries.
+BALL_BEAD, LISTED, FILE_LINE = 2200, 3500, 600
 # Bytes of a layer: in the plan, and while it is solved in memory.
 PLAN_LAYER, SOLVED_LAYER = 150, 750
 # What a row of the answer takes: its names, a number, and that as text.
@@ -17,29 +19,45 @@ INTERPRETER = 85_000_000
 COMPILED = 120_000_000
 
 
+def float_bead(dimension: int) -> int:
+    """Give the bytes of a bead while it is solved in float64; measured up to d = 3, rounded up.
+
+    δr, c and δn are 1 + d + d² numbers, with their errors; forces, loads and gaps a few times d.
+    """
+    return 16 * (1 + dimension + dimension**2) + 99 * dimension
+
+
 class TooLargeError(SceneError):
     """A scene needs more memory than there is."""
 
 
 def memory(
-    *, beads: int, rows: int, numbers: int, listed: int, layers: int, system: NumberSystem,
-    dimension: int, file: bool, text: bool,
-) -> int:  # fmt: skip
+    quantity: Quantity,
+    region: Region,
+    beads: int,
+    realisations: int,
+    system: NumberSystem,
+    *,
+    text: bool,
+) -> int:
     """Estimate the bytes at the peak.
 
-    ``beads`` are those solved at once, ``layers`` the rows of the plan, ``rows`` those of the
-    answer with so many ``numbers`` each, which become ``text`` or not, of ``listed`` packings;
-    ``file`` says whether the radii are held in memory.
+    ``beads`` are those solved at once, ``region`` is that of the plan; the rows of the answer
+    become ``text`` or not.
     """
-    each = FLOAT_BEADS[dimension] if system is FLOAT64 else 3 * FLOAT_BEADS[dimension]
-    if system.dtype is object and not isinstance(system, Pairs):
+    scene, big = quantity.scene, system.dtype is object
+    each = float_bead(scene.packing.dimension) * (1 if system is FLOAT64 else 3)
+    if big and not isinstance(system, Pairs):
         each = BALL_BEAD * max(64 + system.bits, 128) // 128
-    row = NAMES + numbers * (FLOAT_NUMBER + TEXT * text)
+    if scene.disorder is not None and scene.disorder.file is not None:
+        each += FILE_LINE
+    row = BALL_ROW if big else NAMES + quantity.numbers * (FLOAT_NUMBER + TEXT * text)
+    listed = 0 if quantity.merged or realisations == 1 else realisations
     return (
-        beads * (each + (FILE_LINE if file else 0))
-        + rows * (BALL_ROW if system.dtype is object else row)
+        beads * each
+        + quantity.answer_rows(region, realisations) * row
         + listed * LISTED
-        + layers * (PLAN_LAYER + SOLVED_LAYER)
+        + len(region.rows) * (PLAN_LAYER + SOLVED_LAYER)
         + INTERPRETER
     )
 
