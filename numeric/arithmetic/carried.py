@@ -262,10 +262,10 @@ class Sizes:
     def unseen(self, height: int) -> tuple[float, float]:
         """Allow for what the carried errors leave out: of forces, and of displacements.
 
-        These are the roundings of the errors themselves, a few in each layer, and products of two
-        errors: a changed direction changes how all others go on.
+        These are the roundings of the errors themselves, a few in each layer, some more of a low
+        packing, and products of two errors: a changed direction changes how all others go on.
         """
-        unit = height * 2.0**-52
+        unit = (height + 4) * 2.0**-52
         again = height**2 * self.turned
         force = self.changed * (unit + again) + self.force * self.turned * again
         moved = self.moved * (unit + again) + self.turned * again

@@ -18,6 +18,7 @@ from numba.extending import intrinsic
 from .machine import cores, user_cache
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
 
 
 CODES = user_cache() or Path(__file__).parent / "__pycache__"
@@ -33,20 +34,18 @@ def compiled(function: Function) -> Function:
     A compiled function calls only those of its own file: the copy on disk is made anew where that
     file has changed, and no other is looked at.
     """
-    return _made(function)
+    try:
+        return cast(Function, numba.njit(cache=True, **OPTIONS)(function))
+    except RuntimeError:  # no place to write to
+        return cast(Function, numba.njit(**OPTIONS)(function))
 
 
 def inner(function: Function) -> Function:
-    """Compile a function that compiled ones of its own file call, and nobody else: in less time."""
-    return _made(function, no_cpython_wrapper=True)
+    """Compile a function that compiled ones of its own file call, and nobody else.
 
-
-def _made(function: Function, **options: Any) -> Function:
-    options |= {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
-    try:
-        return cast(Function, numba.njit(cache=True, **options)(function))
-    except RuntimeError:  # no place to write to
-        return cast(Function, numba.njit(**options)(function))
+    Kept on disk is what calls it, of which it has become a part.
+    """
+    return cast(Function, numba.njit(no_cpython_wrapper=True, **OPTIONS)(function))
 
 
 def _borrowed_code(typing: Any, array: Any) -> Any:

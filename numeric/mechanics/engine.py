@@ -192,7 +192,7 @@ def _solved(
             beads = rho if sweeps is None else sweeps.rows(rho)
             packing = deposit(problem.phi, region, beads, own, work, linear=linear)
             if system is FLOAT64 and not linear:
-                _by_numpy[problem.dimension, carried] += _work(region, n, 1, carried=carried)
+                _by_numpy[problem.dimension] += _work(region, n, 1, carried=carried)
         else:
             work.did_rows("deposited", region.rows, region.beads * n)
     if sweeps is not None and block is not None:
@@ -249,8 +249,8 @@ def _loads(problem: Problem, system: NumberSystem) -> Loads | None:
     return problem.load.on(problem.force_rows, strength, system)
 
 
-_by_numpy: Counter[tuple[int, bool]] = Counter()
-"""Work that NumPy did so far in each dimension, without errors and with them."""
+_by_numpy: Counter[int] = Counter()
+"""Work that NumPy did so far in each dimension."""
 
 
 def _work(region: Region, packings: int, calls: int, *, carried: bool) -> int:
@@ -273,9 +273,9 @@ def worth_compiling(
 
 def compiles(problem: Problem, system: NumberSystem, *, carried: bool = False) -> bool:
     """Say whether compiled sweeps are taken: for much work in float64, where numba is."""
-    kernels, own = sys.modules.get(f"{__package__}.kernels"), (problem.dimension, carried)
-    before = _by_numpy[own]
-    if kernels is not None and own in kernels.LOADED:
+    kernels, d = sys.modules.get(f"{__package__}.kernels"), problem.dimension
+    before = _by_numpy[d]
+    if kernels is not None and d in kernels.LOADED:
         before = COMPILED_FROM if carried else int(COMPILED_FROM * (1 - ONCE_LOADED))
     if not worth_compiling(problem, system, carried=carried, before=before):
         return False

@@ -177,11 +177,11 @@ def _measure(found: Gaps, packing: "SolvedPacking", steps: Steps, phi: Fraction,
 
 
 @lru_cache(maxsize=64)
-def _pairs(region: Region, steps: Steps, *, carried: bool) -> tuple[Array, Array]:
+def _pairs(region: Region, steps: Steps) -> tuple[Array, Array]:
     """Give the runs of ``loops.gaps`` of one kind of pairs, and each layer's first one."""
     from . import kernels
 
-    runs = kernels.pairs_of(region, [steps], kernels.MOST, carried=carried)
+    runs = kernels.pairs_of(region, [steps], kernels.MOST)
     return runs, np.searchsorted(runs[:, 0], region.starts)
 
 
@@ -194,15 +194,14 @@ class _Compiled:
         assert packing.memory is not None
         self.kernels, self.packing, region = kernels, packing, packing.region
         self.m = kernels.constants(region.dimension, packing.phi, carried=False)
-        self.carried = packing.memory.carried
         self.gaps = np.empty((1, kernels.MOST + 1))
-        self.loop = kernels.kernels(region.dimension, carried=self.carried).gaps
+        self.loop = kernels.kernels(region.dimension).gaps
 
     def measure(self, found: Gaps, steps: Steps, phi: Fraction, layers: range) -> None:
         """Take in the gaps of one kind of pairs."""
         packing, region = self.packing, self.packing.region
         assert packing.memory is not None
-        runs, first = _pairs(region, steps, carried=self.carried)
+        runs, first = _pairs(region, steps)
         of_layer = first[layers.start : layers.stop + 1]
         square = square_of(phi, steps)
         m = np.array([*self.m, *steps, float(square), float(square - 4)])

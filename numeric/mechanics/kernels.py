@@ -42,35 +42,34 @@ MOST = 512
 
 
 class Kernels(NamedTuple):
-    """The compiled loops of one dimension, with or without errors."""
+    """The compiled loops of one dimension."""
 
     runs: Callable[..., int]
-    relative: Callable[..., bool]
-    scaled: Callable[..., bool]
     deposit: Callable[..., bool]
     straight_down: Callable[..., None]
     sweep_down: Callable[..., bool]
     settle: Callable[..., None]
     gaps: Callable[..., float]
+    relative: Callable[..., bool]
+    relative_errors: Callable[..., bool]
+    scaled: Callable[..., bool]
+    scaled_errors: Callable[..., bool]
 
 
-def source(dimension: int, *, carried: bool) -> str:
+def source(dimension: int) -> str:
     """Put together the source of all kernels of one dimension."""
-    names = (
-        f"D, PARTS, NONE, RESOLUTION, TOGETHER = {dimension}, {1 + carried}, {NONE}, "
-        f"{RESOLUTION!r}, {MOST}"
-    )
+    names = f"D, NONE, RESOLUTION, TOGETHER = {dimension}, {NONE}, {RESOLUTION!r}, {MOST}"
     loops = Path(__file__).with_name("loops.py").read_text(encoding="utf-8")
     recorded = [
         _rest(dimension),
-        _balance(dimension),
         _rest_errors(dimension),
+        _balance(dimension),
         _balance_errors(dimension),
-        _order(dimension, carried=carried),
         _gap(dimension),
-        _relative(carried=carried),
-        _scaled(carried=carried),
     ]
+    for carried in (False, True):
+        recorded += [_order(dimension, carried=carried), _relative(carried=carried)]
+        recorded.append(_scaled(carried=carried))
     imports = (
         "from math import inf, sqrt\nfrom force_diffusion.numeric.arithmetic.compiling import "
         "alone, fma, pitch, placed, taken"
@@ -81,22 +80,22 @@ def source(dimension: int, *, carried: bool) -> str:
     return module(recorded, f"{loops}\n\n{imports}\n{names}", Kernels._fields)
 
 
-LOADED: set[tuple[int, bool]] = set()
-"""Dimensions, and whether errors are carried, whose loops are compiled in this process."""
+LOADED: set[int] = set()
+"""Dimensions whose loops are compiled in this process."""
 
 
-@lru_cache(maxsize=8)
-def kernels(dimension: int, *, carried: bool = False) -> Kernels:
+@lru_cache(maxsize=4)
+def kernels(dimension: int) -> Kernels:
     """Give the compiled loops; what an earlier run compiled is kept where that is possible."""
-    text = source(dimension, carried=carried)
+    text = source(dimension)
     name = f"force_diffusion_sweeps_{hashlib.sha256(text.encode()).hexdigest()[:24]}"
     found = ModuleType(name)
     found.__file__ = _kept(text, name)
     made = Path(found.__file__).parent.glob(f"__pycache__/{name}.sweep_down*")
     if not any(made) and sys.stderr is not None and sys.stderr.isatty():
-        print("compiling the sweeps for this machine, once: about 3 s", file=sys.stderr, flush=True)
+        print("compiling the sweeps for this machine, once: about 4 s", file=sys.stderr, flush=True)
     sys.modules[name] = found  # machine code that was kept asks for it
-    LOADED.add((dimension, carried))
+    LOADED.add(dimension)
     exec(compile(text, found.__file__, "exec"), vars(found))
     return Kernels(*(vars(found)[field] for field in Kernels._fields))
 
@@ -117,10 +116,12 @@ def _kept(text: str, name: str) -> str:
 class _Recording:
     """Names of quantities of beads, and of constants, that carry errors or not.
 
-    ``arrays`` says how many quantities each array has, whose errors lie behind them.
+    ``arrays`` says how many quantities each array has, whose errors lie behind them. Code of
+    numbers that carry errors fills in these alone, once the values are there.
     """
 
     def __init__(self, name: str, arrays: dict[str, int], constants: int, *, carried: bool) -> None:
+        name += "_errors" * carried
         self.code, self.carried, self.arrays = Code(name, list(arrays)), carried, arrays
         self.constants: list[Any] = [self.code.constant() for _ in range(constants)]
         if carried:
@@ -137,84 +138,78 @@ class _Recording:
         """Give quantities that lie one behind the other."""
         return tuple(self.take(array, first + k, place) for k in range(count))
 
-    def give(self, array: str, first: int, place: int | None, values: Sequence[Any]) -> None:
-        """Put quantities there."""
-        for row, value in enumerate(values, first):
-            self.code.gives(array, row, place, value.value if self.carried else value)
-            if self.carried:
-                self.code.gives(array, self.arrays[array] + row, place, value.error)
+    def values(self, array: str, first: int, count: int, place: int) -> tuple[Any, ...]:
+        """Give such quantities without their errors."""
+        return tuple(self.code.takes(array, first + k, place) for k in range(count))
 
-    def demand(self, value: Any, condition: str) -> None:
-        """Let the code say False where a condition does not hold."""
-        self.code.demand(value.value if self.carried else value, condition)
+    def turns(self, d: int, place: int) -> list[tuple[Any, ...]]:
+        """Give δn of the contacts below the beads at a place."""
+        return [self.several("block", d + a * d, d, place) for a in range(d)]
+
+    def give(self, array: str, first: int, place: int | None, found: Sequence[Any]) -> None:
+        """Put quantities there, or their errors."""
+        behind = self.arrays[array] if self.carried else 0
+        for row, one in enumerate(found, first + behind):
+            error = one.error if isinstance(one, Carried) else one
+            self.code.gives(array, row, place, error)
 
 
 def _sqrt(value: Any) -> Any:
     return value.sqrt()
 
 
-def _rest(d: int) -> Code:
-    of = _Recording("rest", {"rho": 1, "block": d + d * d}, 3, carried=False)
+def _supported(of: _Recording, d: int) -> tuple[Any, ...]:
+    """Give what a bead rests on, as ``local.rest`` takes it."""
     own, *supports = range(1 + d)
     under = [of.several("block", 0, d, place) for place in supports]
     rho_under = tuple(of.take("rho", 0, place) for place in supports)
-    rho, m = of.take("rho", 0, own), local.Metric(*of.constants)
+    return under, of.take("rho", 0, own), rho_under, local.Metric(*of.constants)
+
+
+def _rest(d: int) -> Code:
+    of = _Recording("rest", {"rho": 1, "block": d + d * d}, 3, carried=False)
+    under, rho, rho_under, m = _supported(of, d)
     found = local.rest(under, rho, rho_under, m, _sqrt, linear=False)
-    of.demand(1 + rho, POSITIVE)
-    for value in found.holds:
-        of.demand(value, POSITIVE)
-    of.give("block", 0, own, [*found.c, *(x for v in found.dn for x in v)])
+    for value in (1 + rho, *found.holds):
+        of.code.demand(value, POSITIVE)
+    of.give("block", 0, 0, [*found.c, *(x for v in found.dn for x in v)])
     return of.code
 
 
 def _rest_errors(d: int) -> Code:
-    of = _Recording("rest_errors", {"rho": 1, "block": d + d * d}, 3, carried=True)
-    own, *supports = range(1 + d)
-    under = [of.several("block", 0, d, place) for place in supports]
-    rho_under = tuple(of.take("rho", 0, place) for place in supports)
-    rho, m = of.take("rho", 0, own), local.Metric(*of.constants)
-    c, *dn = (tuple(of.code.takes("block", row + b, own) for b in range(d))
-              for row in range(0, d + d * d, d))  # fmt: skip
-    moved, off = defects.rest_errors(c, dn, under, rho, rho_under, m)
-    for row, error in enumerate((*moved, *(x for v in off for x in v)), d + d * d):
-        of.code.gives("block", row, own, error)
+    of = _Recording("rest", {"rho": 1, "block": d + d * d}, 3, carried=True)
+    c, *dn = (of.values("block", row, d, 0) for row in range(0, d + d * d, d))
+    moved, off = defects.rest_errors(c, dn, *_supported(of, d))
+    of.give("block", 0, 0, [*moved, *(x for v in off for x in v)])
     return of.code
 
 
-def _balance_errors(d: int) -> Code:
-    of = _Recording("balance_errors", {"F": d, "block": d + d * d, "g": d}, 0, carried=True)
-    own, here, _ = range(3)
-    above = []
-    for a in range(d):
-        up, over, _ = (3 * (a + 1) + k for k in range(3))
-        dn = of.several("block", d + a * d, d, over)
-        above.append((of.take("F", a, up), of.take("g", a, up), dn))
-    below = [of.several("block", d + a * d, d, here) for a in range(d)]
-    g = tuple(of.code.takes("g", a, own) for a in range(d))
-    off = defects.balance_errors(g, above, of.several("F", 0, d, own), below)
-    for row, error in enumerate(off, d):
-        of.code.gives("g", row, own, error)
-    return of.code
+def _borne(of: _Recording, d: int) -> list[tuple[Any, ...]]:
+    """Give what the contacts above a bead bear, and their δn."""
+    ups = range(3, 3 * (d + 1), 3)
+    turns = [of.several("block", d + a * d, d, up + 1) for a, up in enumerate(ups)]
+    return [(of.take("F", a, up), of.take("g", a, up), turns[a]) for a, up in enumerate(ups)]
 
 
 def _balance(d: int) -> Code:
     of = _Recording("balance", {"F": d, "block": d + d * d, "g": d, "lost": d}, 0, carried=False)
     own, here, new = range(3)
-    above = []
-    for a in range(d):
-        up, over, old = (3 * (a + 1) + k for k in range(3))
-        dn = of.several("block", d + a * d, d, over)
-        lost = of.code.takes("lost", a, old)
-        above.append((of.take("F", a, up), of.take("g", a, up), dn, lost))
-    below = [of.several("block", d + a * d, d, here) for a in range(d)]
-    F = of.several("F", 0, d, own)
-    found = local.balance(above, F, below, linear=False, compensated=True)
-    of.demand(found.det * found.det, POSITIVE)
+    above = [(*one, of.take("lost", a, 3 * a + 5)) for a, one in enumerate(_borne(of, d))]
+    F, dn = of.several("F", 0, d, own), of.turns(d, here)
+    found = local.balance(above, F, dn, linear=False, compensated=True)
+    of.code.demand(found.det * found.det, POSITIVE)
     for value in found.g:
-        of.demand(value, FINITE)
+        of.code.demand(value, FINITE)
     of.give("g", 0, own, found.g)
-    for a, value in enumerate(found.lost):
-        of.code.gives("lost", a, new, value)
+    of.give("lost", 0, new, found.lost)
+    return of.code
+
+
+def _balance_errors(d: int) -> Code:
+    of = _Recording("balance", {"F": d, "block": d + d * d, "g": d}, 0, carried=True)
+    own, here = range(2)
+    F, dn = of.several("F", 0, d, own), of.turns(d, here)
+    of.give("g", 0, own, defects.balance_errors(of.values("g", 0, d, own), _borne(of, d), F, dn))
     return of.code
 
 
@@ -239,8 +234,7 @@ def _gap(d: int) -> Code:
 def _relative(*, carried: bool) -> Code:
     of = _Recording("relative", {"radii": 1, "rho": 1}, 2, carried=carried)
     radii = of.code.takes("radii", 0, 0)
-    found = relative(Carried(radii) if carried else radii, *of.constants)
-    of.give("rho", 0, 0, [found])
+    of.give("rho", 0, 0, [relative(Carried(radii) if carried else radii, *of.constants)])
     return of.code
 
 
@@ -320,10 +314,10 @@ def links_of(
 
 def runs_of(
     dimension: int, layers: Array, links: Sequence[Array], turns: Sequence[Array],
-    nothing: Sequence[int], most: int, *, carried: bool,
+    nothing: Sequence[int], most: int,
 ) -> Array:  # fmt: skip
     """Give the table ``loops.runs``, the lowest layer first; ``links`` and ``turns`` by place."""
-    cut = kernels(dimension, carried=carried).runs
+    cut = kernels(dimension).runs
     own = np.stack(links, 1), np.stack(turns), np.array(nothing)
     count, found = 3 * len(layers) * turns[0].size, np.empty((0, 0), np.int64)
     while len(found) <= count:
@@ -332,33 +326,22 @@ def runs_of(
     return found[:count]
 
 
-def rows_of(values: Array, starts: Array, counts: Array, lowest: int = 0) -> LazyRows[Any]:
-    """Give the rows of (…, beads), of which those below ``lowest`` have nothing to say."""
-
-    def row(j: int) -> Array:
-        return values[..., starts[j] : starts[j] + counts[j]] if j >= lowest else np.empty(0)
-
-    return LazyRows(len(counts), row)
-
-
-def pairs_of(
-    region: Region, steps: Sequence[tuple[int, ...]], most: int, *, carried: bool
-) -> Array:
+def pairs_of(region: Region, steps: Sequence[tuple[int, ...]], most: int) -> Array:
     """Give runs of beads and of those that lie so many steps on, where all of them are there."""
     d, rows = region.dimension, region.rows
     both = [(0,) * d, *steps]
     links = [links_of(region, rows, rows, region.starts, one) for one in both]
     turns = [turns_of(region, one) for one in both]
     layers, nothing = layers_of(region, rows, region.starts), [-1] * len(both)
-    return runs_of(d, layers, links, turns, nothing, most, carried=carried)
+    return runs_of(d, layers, links, turns, nothing, most)
 
 
 # Packings of one shape are often solved one after the other: their tables stay.
 @lru_cache(maxsize=4)
-def _supports(region: Region, *, carried: bool) -> Array:
+def _supports(region: Region) -> Array:
     """Give the runs of ``loops.deposit``. Raise ``LookupError`` where a support is lacking."""
     steps = [region.step(a, -1) for a in range(region.dimension)]
-    found = pairs_of(region, steps, max(region.widest, 1), carried=carried)
+    found = pairs_of(region, steps, max(region.widest, 1))
     before = np.append(0, np.cumsum(found[:, -1]))
     held = np.diff(before[np.searchsorted(found[:, 0], region.starts[1:])])
     lacking = held != region.rows.counts[1:]
@@ -378,7 +361,7 @@ class Deposition:
         self.region, self.carried = region, carried
         d = region.dimension
         self.constants = constants(d, phi, carried=carried)
-        self.runs = _supports(region, carried=carried)
+        self.runs = _supports(region)
         self.counts = region.rows.counts
         self.quantities = d + d * d
         fits = block is not None and block.shape[1:] == self.shape
@@ -404,7 +387,7 @@ class Deposition:
         if len(self.block) < batch:
             self.block = memory(batch, parts * self.quantities, beads)
         d, block = self.region.dimension, self.block[:batch]
-        loop = kernels(d, carried=self.carried)
+        loop = kernels(d)
         self.most = np.zeros((batch, parts * self.quantities))
         for k in range(parts):
             own = slice(k * self.quantities, k * self.quantities + d)
@@ -453,12 +436,12 @@ def told(
         rows(row, rho, 0),
         per_direction([rows(row, block, a) for a in range(d)]),
         per_direction([rows(turned, a) for a in range(d)]),
-        Memory(rho[:, 0], block[:, :each], most[:, :each], carried=rho.shape[1] > 1),
+        Memory(rho[:, 0], block[:, :each], most[:, :each]),
     )
 
 
 @lru_cache(maxsize=4)
-def _loads(region: Region, own: Region, lowest: int, *, carried: bool) -> Array:
+def _loads(region: Region, own: Region, lowest: int) -> Array:
     """Give the runs of ``loops.sweep_down`` for the beads ``own`` of a region, above ``lowest``."""
     rows, d, starts, wide = own.rows, region.dimension, own.starts, own.widest
     turn = np.arange(len(rows)) % 2 * wide  # where a layer loses
@@ -471,7 +454,7 @@ def _loads(region: Region, own: Region, lowest: int, *, carried: bool) -> Array:
         turns += [turns_of(region, one)] * 3
     ends = [padded(1, size)[1] - NONE for size in (own.beads, region.beads)]
     nothing, layers = [*ends, 2 * wide] * (1 + d), layers_of(region, rows, starts)
-    found = runs_of(d, layers, links, turns, nothing, max(wide, 1), carried=carried)
+    found = runs_of(d, layers, links, turns, nothing, max(wide, 1))
     first = np.searchsorted(found[:, 0], starts[lowest])
     return np.ascontiguousarray(found[first:][::-1])
 
@@ -492,7 +475,7 @@ class Descent:
         empty = np.flatnonzero(self.counts[1:] == 0)
         self.lowest = int(empty[-1]) + 2 if len(empty) else 1
         self.beads = int(self.starts[-1] - self.starts[1])  # that pass forces on
-        self.runs = _loads(region, own, self.lowest, carried=carried)
+        self.runs = _loads(region, own, self.lowest)
         self.lost = np.empty((0, 0))
         fits = g is not None and g.shape[1:] == self.shape
         self.g = g if g is not None and fits else memory(1, self.shape[0], int(self.starts[-1]))
@@ -528,8 +511,7 @@ class Descent:
                     shares[a, of], shares[d + a, of] = share.value, share.error
                 elif share is not None:
                     shares[a, of] = share
-        loop = kernels(d, carried=self.carried)
-        loop.straight_down(self.F, shares, self.runs, np.empty(0))
+        kernels(d).straight_down(self.F, shares, self.runs, np.empty(0))
 
     def settled(self, g: Array) -> tuple[float, float, float]:
         """Round changes that carry errors once, in place; rests take the place of errors.
@@ -538,7 +520,7 @@ class Descent:
         """
         d, of = self.region.dimension, self.beads_below
         most = np.zeros(2 * d + 1)
-        loop, words = kernels(d, carried=True).settle, g.view(np.int64)
+        loop, words = kernels(d).settle, g.view(np.int64)
         loop(g, words, of.start, of.stop - of.start, most.view(np.int64))
         return float(most[:d].max()), float(most[d : 2 * d].max()), float(most[-1])
 
@@ -552,7 +534,7 @@ class Descent:
         if len(self.g) < batch:
             self.g = memory(batch, rows, int(self.starts[-1]))
         g, runs = self.g[:batch], self.runs
-        loop = kernels(self.region.dimension, carried=self.carried)
+        loop = kernels(self.region.dimension)
         if above is not None:
             runs = runs[runs[:, 0] < self.starts[top]]
 
@@ -588,8 +570,14 @@ class Descent:
         """
         d = self.region.dimension
 
-        def rows(values: Array) -> LazyRows[Any]:
-            return rows_of(values, self.starts - self.starts[self.lowest], self.counts, self.lowest)
+        starts = self.starts - self.starts[self.lowest]
+
+        def row(values: Array, j: int) -> Array:
+            there = self.counts[j] if j >= self.lowest else 0
+            return values[..., starts[j] : starts[j] + there]
+
+        def rows(values: Array) -> LazyRows[Array]:
+            return LazyRows(len(self.counts), partial(row, values))
 
         changes = [g[0, a] if len(g) == 1 else g[:, a] for a in range(d)]
         return Forces(

@@ -2,8 +2,8 @@
 
 Beads lie row after row, each quantity in one flat array. A *run* is as many neighbouring beads as
 have their neighbours side by side, too: a kernel works on it in place, several beads at a time.
-``D`` is the dimension; ``PARTS`` is 2 where numbers carry their errors, which then lie behind the
-values: first all quantities, then the errors of all.
+``D`` is the dimension. Where numbers carry their errors, these lie behind the values: first all
+quantities, then the errors of all, which are filled in once the values are.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -13,13 +13,16 @@ from force_diffusion.numeric.arithmetic.compiling import borrowed, compiled, inn
 from force_diffusion.numeric.arithmetic.systems import Array
 
 if TYPE_CHECKING:
-    D, PARTS, NONE, RESOLUTION, TOGETHER = 2, 1, 32, 0.0, 512
+    D, NONE, RESOLUTION, TOGETHER = 2, 32, 0.0, 512
 
     def rest(rho: Array, block: Array, run: Array, m: Array) -> bool:
         """Recorded from ``local.rest``."""
 
     def balance(F: Array, block: Array, g: Array, lost: Array, run: Array, m: Array) -> bool:
         """Recorded from ``local.balance``."""
+
+    def order_errors(F: Array, shares: Array, run: Array, m: Array) -> bool:
+        """Recorded from ``kernels``."""
 
     def rest_errors(rho: Array, block: Array, run: Array, m: Array) -> bool:
         """Recorded from ``defects``."""
@@ -105,7 +108,7 @@ def deposit(
 ) -> bool:  # fmt: skip
     """Deposit packings; say whether every bead rests.
 
-    ``rho`` is (packings, PARTS, beads); ``block``, (packings, PARTS (D + D²), …), has the c of the
+    ``rho`` is (packings, parts, beads); ``block``, (packings, parts (D + D²), …), has the c of the
     lowest layer; filled in are those of all others, and behind them the δn of contacts below. The
     places of ``runs``, the lowest layer first: the beads, and their supports. ``words`` are the
     bits of the block, and ``most``, (packings, quantities), keeps the largest absolute values.
@@ -115,7 +118,7 @@ def deposit(
     for k in range(len(rho)):
         for r in range(len(runs)):
             good &= rest(rho[k], block[k], runs[r], m)
-            if PARTS == 2:
+            if rho.shape[1] > 1:
                 rest_errors(rho[k], block[k], runs[r], m)
             for q in range(most.shape[1]):
                 own = words[k, q, runs[r, 0] : runs[r, 0] + runs[r, -1]]
@@ -125,20 +128,22 @@ def deposit(
 
 @compiled
 def straight_down(F: Array, shares: Array, runs: Array, m: Array) -> None:
-    """Carry loads straight down: fill in the ordered forces ``F``, (PARTS D, …) as ``shares``.
+    """Carry loads straight down: fill in the ordered forces ``F``, (parts D, …) as ``shares``.
 
     ``runs`` are those of ``sweep_down``.
     """
     for r in range(len(runs)):
         order(F, shares, runs[r], m)
+        if len(F) > D:
+            order_errors(F, shares, runs[r], m)
 
 
 @compiled
 def sweep_down(F: Array, block: Array, g: Array, lost: Array, runs: Array, m: Array) -> bool:
     """Sweep packings down; say if all is in order.
 
-    ``F`` (PARTS D, …) are the ordered forces, ``block`` is that of ``deposit``; filled is ``g``,
-    (packings, PARTS D, …), alike. ``lost`` is for what the sums of a layer and the one above have
+    ``F`` (parts D, …) are the ordered forces, ``block`` is that of ``deposit``; filled is ``g``,
+    (packings, parts D, …), alike. ``lost`` is for what the sums of a layer and the one above have
     lost, which take turns. The places of ``runs``, the highest layer first: the beads
     among those that forces reach, in the block, and where they lose; and of each upper bead these.
     """
@@ -147,7 +152,7 @@ def sweep_down(F: Array, block: Array, g: Array, lost: Array, runs: Array, m: Ar
     for k in range(len(g)):
         for r in range(len(runs)):
             good &= balance(F, block[k], g[k], lost, runs[r], m)
-            if PARTS == 2:
+            if len(F) > D:
                 balance_errors(F, block[k], g[k], runs[r], m)
     return good
 
@@ -156,7 +161,7 @@ def sweep_down(F: Array, block: Array, g: Array, lost: Array, runs: Array, m: Ar
 def settle(g: Array, words: Array, at: int, n: int, most: Array) -> None:
     """Round numbers that carry their errors once, and put what that leaves in place of the errors.
 
-    ``g`` is (packings, PARTS D, …). ``most``, (PARTS D,), keeps what was largest before, and at its
+    ``g`` is (packings, parts D, …). ``most``, (parts D,), keeps what was largest before, and at its
     end, (1,), what of all that is left.
     """
     g, words = borrowed(g), borrowed(words)

@@ -173,7 +173,7 @@ class Solved:
             memory = packing.memory
             if memory is not None:
                 rho, block, most = memory.rho[part], memory.block[part], memory.most[part]
-                memory = Memory(rho, block, most, memory.carried)
+                memory = Memory(rho, block, most)
             packing = replace(
                 packing,
                 rho=of(packing.rho),

@@ -82,14 +82,12 @@ class SolvedPacking:
 class Memory:
     """What compiled loops fill: ``rho`` (batch, beads); ``block`` (batch, d + d², …), c and δn.
 
-    ``carried``: they are those that carry errors, too. ``most``: how large each quantity of the
-    block is at the most, (batch, d + d²).
+    ``most``: how large each quantity of the block is at the most, (batch, d + d²).
     """
 
     rho: Array
     block: Array
     most: Array
-    carried: bool
 
 
 Loads = PerBranch[tuple[Array | None, ...]]

@@ -90,10 +90,11 @@ class Drawing:
         """Give δr/r of radii, of their origin and r; or of deviates, of σ/r."""
         m = _constants(*of, carried=self.carried)
         rho = self._memory(len(values))
-        loops = kernels(self.region.dimension, carried=self.carried)
-        loop, run = loops.relative if len(of) > 1 else loops.scaled, np.array([0, rho.shape[-1]])
-        for one, found in zip(values, rho, strict=True):
-            loop(one, found, run, m)
+        k, run = kernels(self.region.dimension), np.array([0, rho.shape[-1]])
+        both = (k.relative, k.relative_errors) if len(of) > 1 else (k.scaled, k.scaled_errors)
+        for loop in both[: 1 + self.carried]:
+            for one, found in zip(values, rho, strict=True):
+                loop(one, found, run, m)
         return rho
 
 

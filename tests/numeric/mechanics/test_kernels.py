@@ -170,8 +170,8 @@ def test_gaps_are_those_of_numpy(phi: Fraction, case: tuple[Region, Rows], seed:
 
 def test_the_code_on_disk_follows_each_of_its_sources(monkeypatch: pytest.MonkeyPatch) -> None:
     """Another rest of a bead, another loop, another way to compile: another file."""
-    usual = kernels.source(2, carried=False)
-    assert usual == kernels.source(2, carried=False)
+    usual = kernels.source(2)
+    assert usual == kernels.source(2)
     taken = local.rest
 
     def other(*arguments: Any, **keywords: Any) -> Any:
@@ -179,7 +179,7 @@ def test_the_code_on_disk_follows_each_of_its_sources(monkeypatch: pytest.Monkey
         return found._replace(c=tuple(x + x for x in found.c))
 
     monkeypatch.setattr(local, "rest", other)
-    assert kernels.source(2, carried=False) != usual
+    assert kernels.source(2) != usual
     monkeypatch.undo()
     read = Path.read_text
     for name in ("loops.py", Path(compiling.__file__).name):
@@ -188,7 +188,7 @@ def test_the_code_on_disk_follows_each_of_its_sources(monkeypatch: pytest.Monkey
             return read(path, *a, **k) + ("# new" if path.name == name else "")
 
         monkeypatch.setattr(Path, "read_text", changed)
-        assert kernels.source(2, carried=False) != usual
+        assert kernels.source(2) != usual
         monkeypatch.undo()
 
 
@@ -325,15 +325,13 @@ def test_without_numba_the_engine_takes_the_numpy_sweeps(monkeypatch: pytest.Mon
 
 @pytest.mark.long(sample=1)
 @pytest.mark.skipif(platform.machine() not in {"x86_64", "AMD64"}, reason="other instructions")
-@pytest.mark.parametrize("carried", [False, True])
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_several_beads_are_taken_at_a_time(dimension: int, carried: bool) -> None:
+def test_several_beads_are_taken_at_a_time(dimension: int) -> None:
     """LLVM stops doing so without a word where it has to compare too many addresses."""
-    scope = vars(sys.modules[kernels.kernels(dimension, carried=carried).deposit.__module__])
+    scope = vars(sys.modules[kernels.kernels(dimension).deposit.__module__])
     values, run = numba.float64[:, ::1], numba.int64[::1]
     loops = [("rest", 2, "sqrtpd"), ("balance", 4, "divpd")]
-    if carried:
-        loops += [("rest_errors", 2, "divpd"), ("balance_errors", 3, "divpd")]
+    loops += [("rest_errors", 2, "divpd"), ("balance_errors", 3, "divpd")]
     for name, arrays, packed in loops:
         made = numba.njit(error_model="numpy")(scope[name].py_func)
         made.compile((values,) * arrays + (run, numba.float64[::1]))
