@@ -50,6 +50,30 @@ def plain(row: Mapping[str, Any]) -> Row:
     return {n: float(value) if isinstance(value, Decimal) else value for n, value in row.items()}
 
 
+def text_table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Give rows as lines of text below their names: words to the left, numbers to the right.
+
+    >>> print("\\n".join(text_table([{"way": "a", "error": 1e-9}, {"way": "bc", "error": None}])))
+    way  error
+    a    1e-09
+    bc
+    """
+    names = list(rows[0]) if rows else []
+    lines = [names, *([_text(row[name]) for name in names] for row in rows)]
+    adjusted = []
+    for name, column in zip(names, zip(*lines, strict=True), strict=True):
+        width = max(map(len, column))
+        words = any(isinstance(row[name], str) and row[name][:1].isalpha() for row in rows)
+        adjusted.append([one.ljust(width) if words else one.rjust(width) for one in column])
+    return ["  ".join(line).rstrip() for line in zip(*adjusted, strict=True)]
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.3g}"
+    return "" if value is None else str(value)
+
+
 def html_table(
     rows: Sequence[Mapping[str, Any]], words: Iterable[str], count: int | None = None
 ) -> str:

@@ -45,7 +45,7 @@ def cascade(
     with output(out, "cascade", names, overwrite) as folder:
         with noticing() as notice:
             found = fd.cascade(
-                notice if as_json else _printed,
+                notice,
                 heights=height or (8, 12, 16),
                 packings=packings,
                 protocol=protocol.value,
@@ -60,12 +60,7 @@ def cascade(
                     **drawn(found.plot, "cascade", "Cascades", command),
                 }
             )
-    if as_json:
-        print(json.dumps(data, indent=2))
-
-
-def _printed(line: str) -> None:
-    print(line, flush=True)
+    print(json.dumps(data, indent=2) if as_json else found)
 
 
 def register(app: typer.Typer) -> None:

@@ -1,8 +1,6 @@
 """The command ``stability``: a thin layer over ``fd.stability``."""
 
 import json
-from collections.abc import Callable
-from itertools import count
 from pathlib import Path
 from typing import Annotated
 
@@ -34,7 +32,7 @@ def stability(
     names = ["stability.json", *study.FILES.values(), *images("stability")]
     with output(out, "stability", names, overwrite) as folder:
         with noticing() as notice:
-            found = fd.stability(_counted(notice) if as_json else _printed)
+            found = fd.stability(notice)
         data = {"command": command, **found.data()}
         if folder:
             tables = study.csv_rows(data, command)
@@ -45,18 +43,7 @@ def stability(
                     **drawn(found.plot, "stability", "The cost of stability", command),
                 }
             )
-    if as_json:
-        print(json.dumps(data, indent=2))
-
-
-def _printed(line: str) -> None:
-    print(line, flush=True)
-
-
-def _counted(notice: Callable[[str], None]) -> Callable[[str], None]:
-    """Tell how many lines have come."""
-    lines = count(1)
-    return lambda _: notice(f"stability: line {next(lines)}")
+    print(json.dumps(data, indent=2) if as_json else found)
 
 
 def register(app: typer.Typer) -> None:

@@ -32,6 +32,7 @@ _HEAD = r"""\documentclass[10pt]{article}
 \setlength{\parindent}{0pt}
 \setlength{\parskip}{4pt plus 1pt}
 \setlength{\emergencystretch}{4em}
+\setcounter{secnumdepth}{0} % equations have numbers, their sections have none
 \renewcommand{\labelitemi}{$\bullet$}
 \makeatletter\@beginparpenalty=10000\makeatother % no page ends between a heading and its list
 \newcommand{\heading}[1]{\par\vskip 0pt plus 4\baselineskip\penalty-200
@@ -42,6 +43,8 @@ _HEAD = r"""\documentclass[10pt]{article}
 \date{}
 \begin{document}
 \maketitle
+\tableofcontents
+\clearpage
 """
 
 READING = (
@@ -63,10 +66,14 @@ READING = (
 
 
 def statement_latex(derivation: Derivation, columns: int = 1) -> str:
-    """The printed equation as one numbered display, ready to paste into text of 1 or 2 columns."""
+    """The printed equation as one numbered display, ready to paste into text of 1 or 2 columns.
+
+    Its label is ``eq:fd13`` of Eq. 13, and so on.
+    """
     relation = RELATIONS[derivation.relation]
     body = latex_body(derivation.printed, relation, column_width(columns))
-    return f"\\begin{{equation}}\n{body}\n\\end{{equation}}\n"
+    label = f"\\label{{eq:fd{derivation.number}}}"
+    return f"\\begin{{equation}}{label}\n{body}\n\\end{{equation}}\n"
 
 
 def fragment_name(derivation: Derivation) -> str:
@@ -165,7 +172,7 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
     ]
     return "".join(
         [
-            f"\\section*{{Eq.\\ ({derivation.number}): {prose_latex(derivation.title)}}}\n",
+            f"\\section{{Eq.\\ ({derivation.number}): {prose_latex(derivation.title)}}}\n",
             _numbered(derivation),
             f"\\input{{{fragment_name(derivation).removesuffix('.tex')}}}%\n",
             f"Verdict: \\textbf{{{_verdict(found)}}}. Coq: {_coq(found)}."

@@ -9,7 +9,7 @@ import flint
 
 from ..arithmetic.decimals import short
 from ..arithmetic.errors import UndecidedError
-from ..arithmetic.systems import MOST_BITS, Balls, midpoint
+from ..arithmetic.systems import MOST_BITS, Balls, largest_of, midpoint
 from ..mechanics.sweep import NotStandingError
 from ..mechanics.work import Work
 from ..planning.methods import initial_bits
@@ -30,13 +30,11 @@ def most_digits(system: Balls) -> int:
 
 def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:
     """Judge an answer in balls; ``floor`` is the size below which a change counts as zero."""
-    largest, radius = flint.arb(0), flint.arb(0)
-    for name in table.small:
-        for value in table.numbers[name]:
-            if not value.is_finite():
-                return Accuracy(math.inf, True, system.name, float(system.bits))
-            largest = largest.max(value.abs_lower())
-            radius = radius.max(value.rad())
+    values = [value for name in table.small for value in table.numbers[name]]
+    if not all(value.is_finite() for value in values):
+        return Accuracy(math.inf, True, system.name, float(system.bits))
+    largest = largest_of(value.abs_lower() for value in values)
+    radius = largest_of(value.rad() for value in values)
     if radius == 0 and largest == 0:
         return Accuracy(0.0, True, system.name, 0.0)
     note = ""

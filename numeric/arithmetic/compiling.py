@@ -45,8 +45,7 @@ def inner(function: Function) -> Function:
 
     Kept on disk is what calls it, of which it has become a part.
     """
-    options = OPTIONS | {"no_cpython_wrapper": True}
-    return cast(Function, numba.njit(**options)(function))
+    return cast(Function, numba.njit(**OPTIONS | {"no_cpython_wrapper": True})(function))
 
 
 def _borrowed_code(typing: Any, array: Any) -> Any:

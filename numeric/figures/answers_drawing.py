@@ -13,24 +13,12 @@ from ..planning.plan import Plan
 from ..quantities.base import first_order_std
 from ..scene.sections import SceneError
 from ..unilateral.network import Network
+from . import specification as spec
 from .elements import base, cone, point_load, surface_load
-from .specification import (
-    EQUAL,
-    RELATIVE_HEIGHT,
-    Axis,
-    Beads,
-    Chains,
-    Element,
-    Line,
-    Panel,
-    Picture,
-    Points,
-    alike,
-)
 
 Columns = Mapping[str, Array]
-NESTED = (5.2, 3.4, 1.8)
-"""Sizes of markers that may lie on each other."""
+NESTED = 0.66
+"""By so much markers that may lie on each other are smaller than the last ones."""
 
 
 def of_first(columns: Columns) -> dict[str, Array]:
@@ -63,7 +51,7 @@ def _theory(plan: Plan) -> PerBranch[Array] | None:
 
 def contact_forces(
     plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
-) -> Picture:
+) -> spec.Picture:
     """Draw force chains on the ordered lattice: a line as thick as the force of its contact.
 
     Of an ensemble, which has no one packing, lines are as thick as σ_f. Under unilateral contacts
@@ -76,7 +64,7 @@ def contact_forces(
         rows = of_first(columns)
         ends, what = _contacts(plan, rows), "force" if "force" in rows else "std"
         panel = _chains(plan, ends, rows[what], "f" if what == "force" else r"\sigma_f")
-    return Picture([panel], _height(ends), page=True)
+    return spec.Picture([panel], _height(ends), page=True)
 
 
 def _at_rest(plan: Plan, network: Network) -> tuple[Array, Array, Array]:
@@ -108,7 +96,7 @@ def _unwrapped(plan: Plan, i: Array) -> Array:
 
 def _chains(
     plan: Plan, ends: Array, forces: Array, what: str, surface: Array | None = None
-) -> Panel:
+) -> spec.Panel:
     """Draw lines between the ends of contacts, the base and the load.
 
     ``surface``: the beads of the surface where they rest, (W, 2); else they are on the lattice.
@@ -117,7 +105,7 @@ def _chains(
     left, right = float(ends[..., 0].min()), float(ends[..., 0].max())
     load, M = plan.scene.load, plan.problem.height
     top = float(ends[..., 1].max())
-    elements: list[Element] = [Chains(ends, forces, _shown(forces, what))]
+    elements: list[spec.Element] = [spec.Chains(ends, forces, _shown(forces, what))]
     low = float(ends[..., 1].min())
     if low < 2:  # else layers further below are left out
         elements.append(base(left, right))
@@ -128,15 +116,15 @@ def _chains(
         top = max(top, y) + 10
     elif load.kind == "surface":
         if surface is None:
-            i = np.arange(ceil(left / (2 * nx)), right / (2 * nx) + EQUAL)
+            i = np.arange(ceil(left / (2 * nx)), right / (2 * nx) + spec.EQUAL)
             i = i[(i - M) % 2 == 0]
             surface = np.stack([2 * nx * i, np.full(len(i), 2 * ny * M)], axis=1)
         elements += surface_load(surface, tan(radians(plan.problem.load.angle_deg)))
         top = max(top, float(surface[:, 1].max())) + 5
-    return Panel(
+    return spec.Panel(
         elements,
-        Axis(low=left - 1, high=right + 1),
-        Axis(low=low - 1.5, high=top + 1),
+        spec.Axis(low=left - 1, high=right + 1),
+        spec.Axis(low=low - 1.5, high=top + 1),
         legend="below",
         columns=3,
         scaled=True,
@@ -147,8 +135,8 @@ def _chains(
 def _shown(forces: Array, what: str) -> list[tuple[float, str]]:
     """Choose the forces that the legend shows, and name them."""
     mean, largest, smallest = (float(v) for v in (forces.mean(), forces.max(), forces.min()))
-    if alike(forces):
-        if largest - smallest < EQUAL * largest:
+    if spec.alike(forces):
+        if largest - smallest < spec.EQUAL * largest:
             return [(mean, f"all, ${what}={mean:.3g}$")]
         shown = [(mean, f"mean, ${what}={mean:.3g}$")]
         for name, force in (("smallest", smallest), ("largest", largest)):
@@ -177,7 +165,7 @@ def _height(points: Array) -> float:
 
 def positions(
     plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
-) -> Picture:
+) -> spec.Picture:
     """Draw the beads where they lie, each with its radius, as dark as it is displaced."""
     rows = of_first(columns)
     sites = list(zip(rows["i"].tolist(), rows["j"].tolist(), strict=True))
@@ -186,42 +174,44 @@ def positions(
         radii = unit * (1 + plan.problem.radii.at(sites, 0, FLOAT64))
     centres, away = np.stack([rows["x"], rows["y"]], axis=-1), np.hypot(rows["dx"], rows["dy"])
     name = r"displacement $(\delta x^2+\delta y^2)^{1/2}$"
-    beads = Beads(centres, radii, away, name, most=float(away.max()) or 1.0)
-    panel = Panel([beads], Axis("$x$"), Axis("$y$"), scaled=True)
-    return Picture([panel], _height(centres / unit) + 0.4, page=True)
+    beads = spec.Beads(centres, radii, away, name, most=float(away.max()) or 1.0)
+    panel = spec.Panel([beads], spec.Axis("$x$"), spec.Axis("$y$"), scaled=True)
+    return spec.Picture([panel], _height(centres / unit) + 0.4, page=True)
 
 
-def profile(plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]) -> Picture:
+def profile(
+    plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
+) -> spec.Picture:
     """Draw σ_f over the relative height, with its standard errors, beside Eq. 13 or 14.
 
     Under unilateral contacts, for which there is no theory, ⟨f⟩ stands beside it.
     """
     M, theory, load = plan.problem.height, _theory(plan), plan.problem.load
     z, layers, what = columns["j"] / M, np.arange(M) / M, r"$\sigma_f$"
-    elements: list[Line | Points] = []
+    elements: list[spec.Line | spec.Points] = []
     if plan.problem.route == Route.UNILATERAL:
         for c, (name, symbol) in enumerate((("std", r"$\sigma_f$"), ("mean", r"$⟨f⟩$"))):
             error = columns.get(f"{name}_error")
-            elements.append(Points(z, floats(columns[name]), c, symbol, error))
+            elements.append(spec.Points(z, floats(columns[name]), c, symbol, error))
         what = "force"
     else:
         if theory is not None and load.angle_deg:
             for dashes, (own, exact) in zip("-:", theory, strict=True):
                 name = f"exact at finite $M$, $f^{own}$"
-                elements.append(Line(layers, exact, dashes=dashes, name=name))
+                elements.append(spec.Line(layers, exact, dashes=dashes, name=name))
         elif theory is not None:
-            elements.append(Line(layers, theory.plus, name="exact at finite $M$"))
+            elements.append(spec.Line(layers, theory.plus, name="exact at finite $M$"))
             if plan.problem.dimension == 2:
                 name = f"Eq. ({14 if load.kind == 'bulk' else 13}), printed"
                 printed = theory.plus * _printed_over_exact(plan)
-                elements.append(Line(layers, printed, "black", "--", name))
+                elements.append(spec.Line(layers, printed, "black", "--", name))
         for c, own in enumerate(plan.quantity.branches):
             rows = columns["branch"] == own
             error = errors["std"][rows] if "std" in errors else None
             std, name = floats(columns["std"])[rows], f"simulated, $f^{own}$"
-            elements.append(Points(z[rows], std, c, name, error, NESTED[c]))
+            elements.append(spec.Points(z[rows], std, c, name, error, 5.2 * NESTED**c))
         what = what if load.loaded is None else r"$\sigma$ of the change"
-    return Picture([Panel(elements, RELATIVE_HEIGHT, Axis(what, 0))], 2.8)
+    return spec.Picture([spec.Panel(elements, spec.RELATIVE_HEIGHT, spec.Axis(what, 0))], 2.8)
 
 
 def _printed_over_exact(plan: Plan) -> Array:
@@ -236,7 +226,7 @@ def _printed_over_exact(plan: Plan) -> Array:
 
 def histogram(
     plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
-) -> Picture:
+) -> spec.Picture:
     """Draw P of the changes, with the Gaussian of theory where there is one.
 
     All contacts together have a Gaussian a layer. Errors are drawn where they are known: of one
@@ -265,27 +255,29 @@ def histogram(
     if not np.isfinite(density).all():
         allowed = "has no density to be drawn: all changes are alike, or nearly"
         raise SceneError("ask.quantity", plan.quantity.name, allowed)
-    elements: list[Line | Points] = [
-        Points(((low + high) / 2)[full], density, 0, "simulated", error)
+    elements: list[spec.Line | spec.Points] = [
+        spec.Points(((low + high) / 2)[full], density, 0, "simulated", error)
     ]
     own, least = r"\sigma_f" if contact is not None else r"\sigma", None
     if theory is not None:
         v, ratio = np.linspace(low[0], high[-1], 321), (theory / unit)[:, None]
         gauss = np.exp(-((v / ratio) ** 2) / 2) / ratio / sqrt(2 * np.pi)
         name = "Gaussian of theory" if contact is not None else "theory: a Gaussian a layer"
-        elements.append(Line(v, gauss.mean(axis=0), "black", name=name, width=1.0))
+        elements.append(spec.Line(v, gauss.mean(axis=0), "black", name=name, width=1.0))
         least = 0.3 / count.sum() / (high - low).max()
     change = "f" if free else r"f-f^{\rm ordered}"
-    panel = Panel(
+    panel = spec.Panel(
         elements,
-        Axis(f"$({change})\\,/\\,{own}$" if unit != 1 else f"${change}$"),
-        Axis(f"${own}\\,P$" if unit != 1 else "$P$", least, log=True),
+        spec.Axis(f"$({change})\\,/\\,{own}$" if unit != 1 else f"${change}$"),
+        spec.Axis(f"${own}\\,P$" if unit != 1 else "$P$", least, log=True),
         legend="" if free else "lower center",
     )
-    return Picture([panel], 2.8)
+    return spec.Picture([panel], 2.8)
 
 
-def response(plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]) -> Picture:
+def response(
+    plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
+) -> spec.Picture:
     """Draw p, the vertical force that a bead gets from both its upper contacts, and the contacts.
 
     Of one packing these are as thick as their force, of several as σ of it; p is the mean then.
@@ -304,19 +296,22 @@ def response(plan: Plan, columns: Columns, errors: Columns, networks: Sequence[N
     shades = np.array(list(found.values()))
     left = cone(centres, shades, _apex(plan), name, "bottom", float(shades.max()))
     forces, what = rows["force" if one else "force_std"], "f" if one else r"\sigma_f"
-    return Picture([left, _chains(plan, _contacts(plan, rows), forces, what)], 2.9, page=True)
+    return spec.Picture([left, _chains(plan, _contacts(plan, rows), forces, what)], 2.9, page=True)
 
 
 def base_reactions(
     plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
-) -> Picture:
+) -> spec.Picture:
     """Draw what the base bears along it: forces above, their changes, if there are any, below."""
     rows = of_first(columns)
     panels = [
-        Panel(
-            [Points(rows["i"], rows[name + side], c, f"${side}$") for c, side in enumerate("xy")],
-            Axis("bead $i$ of the base" if name == names[-1] else ""),
-            Axis("reaction of the base" if name == "f" else "its change"),
+        spec.Panel(
+            [
+                spec.Points(rows["i"], rows[name + side], c, f"${side}$")
+                for c, side in enumerate("xy")
+            ],
+            spec.Axis("bead $i$ of the base" if name == names[-1] else ""),
+            spec.Axis("reaction of the base" if name == "f" else "its change"),
             legend="below",
             columns=2,
         )
@@ -324,11 +319,11 @@ def base_reactions(
         for name in names
     ]
     if len(panels) == 1:
-        return Picture(panels, 2.5)
-    return Picture(panels, 3.7, mosaic="a;b", share="x")
+        return spec.Picture(panels, 2.5)
+    return spec.Picture(panels, 3.7, mosaic="a;b", share="x")
 
 
-DRAWN: dict[str, Callable[[Plan, Columns, Columns, Sequence[Network]], Picture]] = {
+DRAWN: dict[str, Callable[[Plan, Columns, Columns, Sequence[Network]], spec.Picture]] = {
     "contact_forces": contact_forces,
     "positions": positions,
     "profile": profile,

@@ -129,14 +129,15 @@ def begun(
     ):
         allowed = f"must be a whole number from {LEAST_REALISATIONS} on"
         raise SceneError("realisations", realisations, allowed)
-    if not isinstance(heights, Iterable) or isinstance(heights, str):
+    listed = isinstance(heights, Iterable) and not isinstance(heights, str)
+    layers = tuple(heights) if listed else ()
+    if not layers:
         raise SceneError("heights", heights, "must be a list of whole numbers, such as [16, 32]")
     chosen = _chosen(str(name), spacing, relative_std)
     with drawing():  # or leave before anything is solved
         entry = FIGURES[str(name)]
         options = Options(
-            tuple(heights), realisations or entry.realisations, seed, frozenset(beside), *chosen,
-            notice,
+            layers, realisations or entry.realisations, seed, frozenset(beside), *chosen, notice
         )  # fmt: skip
         data = import_module(f".{entry.module}", __package__).figure(options)
     notice(f"{entry.file}: drawing")

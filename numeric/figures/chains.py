@@ -11,16 +11,16 @@ import numpy as np
 
 from ..mechanics.physicality import Physicality
 from ..theory.critical_height import critical_height
+from . import specification as spec
 from .elements import base, surface_load
 from .packings import Medium, Options, centres, forces_of, planned, solved
-from .specification import Axis, Chains, Figure, Panel, Picture, Table, alike, table
 
 HEIGHT, WIDTH = 24, 64
 MEDIUM = Medium(std=5e-3)
 SHOWN = 34  # beads of a layer that are drawn
 
 
-def contacts(o: Options, medium: Medium) -> tuple[Table, float | None]:
+def contacts(o: Options, medium: Medium) -> tuple[spec.Table, float | None]:
     """Solve one packing: lower bead (i, j), branch, both ends in units of r, f over its mean.
 
     Gives the smallest gap between beads, too.
@@ -48,10 +48,10 @@ def contacts(o: Options, medium: Medium) -> tuple[Table, float | None]:
                 force = float((F[q] + g[q]) / F[q])
                 rows.append((own, j - 1, branch, x, y, x_high, float(upper[1][q]), force))
     names = "i j branch x_low y_low x_high y_high force"
-    return table(names, rows), physical.smallest_gap
+    return spec.table(names, rows), physical.smallest_gap
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """Contacts as lines, pressing ones dark, pulling ones vermillion."""
     o.notice("chains")
     medium = o.medium(MEDIUM)
@@ -64,22 +64,22 @@ def figure(o: Options) -> Figure:
     loaded = surface[(surface[:, 0] > 0) & (surface[:, 0] < right)]
     f = r"$f=\langle f\rangle$"
     keys = [(1.0, f), (3.0, r"$f=3\langle f\rangle$"), (-1.0, r"pulling, $f=-\langle f\rangle$")]
-    if alike(forces):
+    if spec.alike(forces):
         keys = [(1.0, f)]
         for name, force in (("smallest", forces.min()), ("largest", forces.max())):
             keys.append((float(force), rf"{name}, ${100 * (force - 1):+.2g}\%$"))
-    panel = Panel(
-        [Chains(ends, forces, keys), base(0, right), *surface_load(loaded)],
-        Axis(low=0, high=right),
-        Axis(low=-1.5, high=top + 5),
+    panel = spec.Panel(
+        [spec.Chains(ends, forces, keys), base(0, right), *surface_load(loaded)],
+        spec.Axis(low=0, high=right),
+        spec.Axis(low=-1.5, high=top + 5),
         legend="below",
         columns=3,
         scaled=True,
         bare=True,
     )
     tensile, critical = int((forces < 0).sum()), critical_height(Fraction(medium.std))
-    return Figure(
-        Picture([panel], 2.75, page=True),
+    return spec.Figure(
+        spec.Picture([panel], 2.75, page=True),
         tables={"chains": found},
         facts={
             "height": HEIGHT,
@@ -93,5 +93,5 @@ def figure(o: Options) -> Figure:
             "smallest_force": float(forces.min()),
             "smallest_gap": smallest_gap,
         },
-        says=[f"{tensile} of {len(forces)} contacts pull at M = {HEIGHT}, M* = {critical:.3g}"],
+        words=[f"{tensile} of {len(forces)} contacts pull at M = {HEIGHT}, M* = {critical:.3g}"],
     )

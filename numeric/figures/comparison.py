@@ -21,23 +21,19 @@ from ..arithmetic.systems import Array
 from ..planning.plan import Plan
 from ..statistics.bands import Estimate, averaged, log_relative_std, simultaneous
 from ..theory.critical_height import critical_height
+from . import specification as spec
 from .models.q_model import weight_variance
 from .names import LEAST_REALISATIONS
-from .packings import LEVEL, PAPER, Medium, Notice, Options, band_of_spread, moments, planned
-from .specification import (
-    RELATIVE_HEIGHT,
-    Area,
-    Axis,
-    Comparison,
-    Element,
-    Figure,
-    Line,
-    Panel,
-    Picture,
-    Points,
-    Rule,
-    Table,
-    table,
+from .packings import (
+    LEVEL,
+    PAPER,
+    Medium,
+    Notice,
+    Options,
+    band_of_spread,
+    by_layer,
+    moments,
+    planned,
 )
 
 NOTEWORTHY = 0.01
@@ -56,7 +52,7 @@ class Height:
     """
 
     height: int
-    alone: Comparison
+    alone: spec.Comparison
     printed: Array
     correction: Estimate
 
@@ -108,7 +104,7 @@ class Height:
             )
         return words
 
-    def columns(self, realisations: int) -> Table:
+    def columns(self, realisations: int) -> spec.Table:
         """Columns of the CSV file: σ/⟨f⟩ plain; times M^(-3/2) it is what is drawn."""
         return {
             "height": np.full(self.height, self.height),
@@ -127,28 +123,28 @@ class Height:
         step = -(-self.height // MARKED)
         return slice(number * step // 3, None, step)
 
-    def over_height(self, c: int, unit: float) -> list[Element]:
+    def over_height(self, c: int, unit: float) -> list[spec.Element]:
         """Simulation, exact curve and, if it matters, the corrected one, over M^(3/2)."""
         unit, exact, some = unit * self.height**1.5, self.alone.theory, self.marked(c)
         low, high = self.alone.band.limits
         simulated = self.alone.band.value[some] / unit
-        found: list[Element] = [
-            Line(self.z, exact / unit, c),
-            Area(self.z, low / unit, high / unit, c),
-            Points(self.z[some], simulated, c, f"simulated, $M={self.height}$"),
+        found: list[spec.Element] = [
+            spec.Line(self.z, exact / unit, c),
+            spec.Area(self.z, low / unit, high / unit, c),
+            spec.Points(self.z[some], simulated, c, f"simulated, $M={self.height}$"),
         ]
         if self.largest > NOTEWORTHY:
-            found.append(Line(self.z, exact * self.factor / unit, c, ":"))
+            found.append(spec.Line(self.z, exact * self.factor / unit, c, ":"))
         return found
 
-    def over_theory(self, c: int) -> list[Element]:
+    def over_theory(self, c: int) -> list[spec.Element]:
         """Simulation over the exact curve, less 1, in %: all of a band has to hold zero."""
         some, exact = self.marked(c), self.alone.theory
         low, high = (100 * (edge / exact - 1) for edge in self.alone.band.limits)
         off = 100 * (self.alone.band.value / exact - 1)
         return [
-            Area(self.z, low, high, c, alpha=0.18, edges=0.5),
-            Points(self.z[some], off[some], c, size=2.6),
+            spec.Area(self.z, low, high, c, alpha=0.18, edges=0.5),
+            spec.Points(self.z[some], off[some], c, size=2.6),
         ]
 
 
@@ -158,15 +154,13 @@ def averages(
     """Average g = f/F − 1 and g² over the contacts of each layer; shapes (realisations, M)."""
     ensemble = _ensemble(M, len(realisations), seed, geometry, medium)
     what = f"figure 3, M = {M}" + ("" if geometry == "exact" else ", first order")
-    return moments(
-        ensemble, realisations, notice, what, over=lambda change: change.mean(axis=3).mean(axis=1).T
-    )
+    return moments(ensemble, notice, what, by_layer, realisations.start)
 
 
 def _ensemble(M: int, realisations: int, seed: int, geometry: str, medium: Medium) -> Plan:
     """Plan packings of W = 2M: then no exact force sees an image."""
     return planned(
-        "profile", height=M, width=2 * M, seed=seed, geometry=geometry,
+        "profile", height=M, seed=seed, geometry=geometry,
         realisations=realisations, std=medium.std, spacing=medium.spacing,
     )  # fmt: skip
 
@@ -184,7 +178,7 @@ def simulated(M: int, o: Options) -> Height:
     start, n, medium = M << 32, o.realisations, o.medium()  # heights share no radii
     found = averages(M, range(start, start + n), o.seed, "exact", o.notice, medium)
     exact, printed = curves(M, medium)
-    alone = Comparison(f"M = {M}: exact finite-M curve", band_of_spread(*found, o.seed), exact)
+    alone = spec.Comparison(f"M = {M}: exact finite-M curve", band_of_spread(*found, o.seed), exact)
     apart = range(start + n, start + n + max(n // 8, LEAST_REALISATIONS // 2))
     (log, influence), (first, first_influence) = (
         log_relative_std(*averages(M, apart, o.seed, geometry, o.notice, medium))
@@ -193,7 +187,7 @@ def simulated(M: int, o: Options) -> Height:
     return Height(M, alone, printed, averaged(log - first, influence - first_influence))
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """Simulation, exact finite-M curves and the printed curve; below, their ratio.
 
     Raises ``SceneError`` and what the sweeps raise near M*.
@@ -203,16 +197,21 @@ def figure(o: Options) -> Figure:
         _ensemble(M, o.realisations, o.seed, "exact", medium)
     found = [simulated(M, o) for M in o.heights]
     critical, q_model = critical_height(Fraction(medium.std)), "q-model" in o.models
-    parts = [one.columns(o.realisations) for one in found]
-    columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    columns = spec.stacked([one.columns(o.realisations) for one in found])
     loads = [(M, *row) for M in o.heights for row in enumerate(weight_variance(M).tolist())]
     panels = [_theory_and_simulation(found, medium), _ratio(found)]
-    return Figure(
-        Picture([*panels, _shapes(found)], 3.5, page=True, mosaic="ac;bc", share="x", rows=(2.6, 1))
+    return spec.Figure(
+        spec.Picture(
+            [*panels, _shapes(found)], 3.5, page=True, mosaic="ac;bc", share="x", rows=(2.6, 1)
+        )
         if q_model
-        else Picture(panels, 3.5, mosaic="a;b", share="x", rows=(2.6, 1)),
+        else spec.Picture(panels, 3.5, mosaic="a;b", share="x", rows=(2.6, 1)),
         tables={"figure3": columns}
-        | ({"figure3_q_model": table("height depth weight_variance", loads)} if q_model else {}),
+        | (
+            {"figure3_q_model": spec.table("height depth weight_variance", loads)}
+            if q_model
+            else {}
+        ),
         facts={
             "simultaneous_level": LEVEL,
             "spacing_over_r": float(medium.spacing),
@@ -220,57 +219,57 @@ def figure(o: Options) -> Figure:
             "critical_height": critical,
             "heights": [one.facts(o.realisations) for one in found],
         },
-        says=[one.says(critical) for one in found],
+        words=[one.says(critical) for one in found],
         comparisons=[one.alone for one in found],
     )
 
 
-def _theory_and_simulation(found: Sequence[Height], medium: Medium) -> Panel:
+def _theory_and_simulation(found: Sequence[Height], medium: Medium) -> spec.Panel:
     power = -math.floor(math.log10(medium.std))
     z, unit = np.linspace(0, 1, 201), 10.0**-power
     form, phi = closed_forms.surface_diffusion, float(medium.phi)
     printed = np.sqrt([form(1, v, phi, medium.std, 1.0) for v in z]) / unit
-    return Panel(
+    return spec.Panel(
         [
-            Line(z, printed, "black", "--", "Eq. (13), printed", 1.0),
-            Line(name="exact at finite $M$"),
-            *(element for c, one in enumerate(found) for element in one.over_height(c, unit)),
-            Area(name=f"{LEVEL:.0%} band"),
+            spec.Line(z, printed, "black", "--", "Eq. (13), printed", 1.0),
+            spec.Line(name="exact at finite $M$"),
+            *(one.over_height(c, unit) for c, one in enumerate(found)),
+            spec.Area(name=f"{LEVEL:.0%} band"),
         ],
-        Axis(low=0, high=1),
-        Axis(rf"$10^{{{power}}}\,M^{{-3/2}}\,\sigma_f/\langle f\rangle$", 0),
+        spec.Axis(low=0, high=1),
+        spec.Axis(rf"$10^{{{power}}}\,M^{{-3/2}}\,\sigma_f/\langle f\rangle$", 0),
         legend="lower left",
     )
 
 
-def _ratio(found: Sequence[Height]) -> Panel:
+def _ratio(found: Sequence[Height]) -> spec.Panel:
     edges = [edge / one.alone.theory - 1 for one in found for edge in one.alone.band.limits]
     widest = 115 * max(float(np.abs(edge).max()) for edge in edges)
-    return Panel(
-        [Rule("y", 0), *(element for c, one in enumerate(found) for element in one.over_theory(c))],
-        RELATIVE_HEIGHT,
-        Axis(r"sim./exact $-\,1$ (%)", -widest, widest),
+    return spec.Panel(
+        [spec.Rule("y", 0), *(one.over_theory(c) for c, one in enumerate(found))],
+        spec.RELATIVE_HEIGHT,
+        spec.Axis(r"sim./exact $-\,1$ (%)", -widest, widest),
     )
 
 
-def _shapes(found: Sequence[Height]) -> Panel:
+def _shapes(found: Sequence[Height]) -> spec.Panel:
     z = np.linspace(0, 1, 201)
-    elements: list[Element] = []
+    elements: list[spec.Element] = []
     for c, one in enumerate(found):
         std, depth = np.sqrt(weight_variance(one.height)), np.arange(one.height + 1)
         here, shape = 1 - depth / one.height, std / std[-1]
         some = slice(None, None, max(1, one.height // MARKED))
         elements += [
-            Line(here, shape, c),
-            Points(here[some], shape[some], c, f"$q$-model, $M={one.height}$"),
+            spec.Line(here, shape, c),
+            spec.Points(here[some], shape[some], c, f"$q$-model, $M={one.height}$"),
         ]
-    return Panel(
+    return spec.Panel(
         [
-            Line(z, np.sqrt((1 - z) ** 2 * (2 * z + 1)), "black", name="Eq. (13), printed"),
-            Line(z, np.sqrt(1 - z), "0.45", ":", r"Brownian, $\sqrt{1-z}$"),
+            spec.Line(z, np.sqrt((1 - z) ** 2 * (2 * z + 1)), "black", name="Eq. (13), printed"),
+            spec.Line(z, np.sqrt(1 - z), "0.45", ":", r"Brownian, $\sqrt{1-z}$"),
             *elements,
         ],
-        RELATIVE_HEIGHT,
-        Axis(r"$\sigma(z)\,/\,\sigma(0)$", 0, 1.04),
+        spec.RELATIVE_HEIGHT,
+        spec.Axis(r"$\sigma(z)\,/\,\sigma(0)$", 0, 1.04),
         legend="lower left",
     )

@@ -10,9 +10,9 @@ which is Brownian; the forces, Eq. 13, are not.
 import numpy as np
 
 from ..arithmetic.systems import Array
+from . import specification as spec
 from .comparison import curves
 from .packings import PAPER, Medium, Options
-from .specification import RELATIVE_HEIGHT, Area, Axis, Element, Figure, Line, Panel, Picture, table
 
 HEIGHT = 16
 
@@ -25,18 +25,18 @@ def displacement_std(height: int, medium: Medium = PAPER) -> tuple[Array, Array]
     return np.sqrt(np.where(j > 0, x, 0)), np.sqrt(np.where(j > 0, y, 0))
 
 
-def cloud(z: Array, std: Array, colour: int) -> list[Element]:
+def cloud(z: Array, std: Array, colour: int) -> list[spec.Element]:
     """Shade a normal distribution of the given width at each height, with its ±σ and ±2σ."""
     return [
         *(
-            Area(z, -n * std, n * std, colour, alpha, sideways=True)
+            spec.Area(z, -n * std, n * std, colour, alpha, sideways=True)
             for n, alpha in ((2, 0.18), (1, 0.3))
         ),
-        *(Line(sign * std, z, colour) for sign in (-1, 1)),
+        *(spec.Line(sign * std, z, colour) for sign in (-1, 1)),
     ]
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """Both distributions as clouds, as wide at each height as they are there."""
     o.notice("figure 2")
     M, medium = HEIGHT, o.medium()
@@ -46,39 +46,39 @@ def figure(o: Options) -> Figure:
     sides = (-1, 1)
     left = [
         *cloud(z, y / y[-1], 0),
-        *(Line(sign * np.sqrt(fine), fine, "black", ":") for sign in sides),
+        *(spec.Line(sign * np.sqrt(fine), fine, "black", ":") for sign in sides),
     ]
     narrowing = (1 - fine) * np.sqrt(1 + 2 * fine)
     right = [
         *cloud(z, np.append(force, 0) / printed[0], 1),
-        *(Line(sign * narrowing, fine, "black", "--") for sign in sides),
-        *(Line(sign * np.sqrt(1 - fine), fine, "black", ":") for sign in sides),
-        Line(name=rf"$\pm\sigma$, exact at $M={M}$"),
-        Line(name="Eq. (13), printed", colour="black", dashes="--"),
-        Line(name="Brownian", colour="black", dashes=":"),
-        Area(name=r"within $\pm\sigma$", alpha=0.45),
-        Area(name=r"within $\pm2\sigma$", alpha=0.18),
+        *(spec.Line(sign * narrowing, fine, "black", "--") for sign in sides),
+        *(spec.Line(sign * np.sqrt(1 - fine), fine, "black", ":") for sign in sides),
+        spec.Line(name=rf"$\pm\sigma$, exact at $M={M}$"),
+        spec.Line(name="Eq. (13), printed", colour="black", dashes="--"),
+        spec.Line(name="Brownian", colour="black", dashes=":"),
+        spec.Area(name=r"within $\pm\sigma$", alpha=0.45),
+        spec.Area(name=r"within $\pm2\sigma$", alpha=0.18),
     ]
     ticks = (-2, -1, 0, 1, 2)
-    displaced = Axis(r"$\delta y_{ij}\,/\,\sigma_{\delta y}(M)$", -2.3, 2.3, ticks=ticks)
-    forces = Axis(r"$(f_{ij}-\langle f\rangle)\,/\,\sigma_f(0)$", -2.3, 2.3, ticks=ticks)
+    displaced = spec.Axis(r"$\delta y_{ij}\,/\,\sigma_{\delta y}(M)$", -2.3, 2.3, ticks=ticks)
+    forces = spec.Axis(r"$(f_{ij}-\langle f\rangle)\,/\,\sigma_f(0)$", -2.3, 2.3, ticks=ticks)
     panels = [
-        Panel(left, displaced, RELATIVE_HEIGHT),
-        Panel(right, forces, Axis(low=0, high=1), legend="below", columns=3),
+        spec.Panel(left, displaced, spec.RELATIVE_HEIGHT),
+        spec.Panel(right, forces, spec.Axis(low=0, high=1), legend="below", columns=3),
     ]
     geometry = zip(range(M + 1), x.tolist(), y.tolist(), strict=True)
     columns = (z[:-1], force, printed, brownian)
     widths = zip(range(M), *(column.tolist() for column in columns), strict=True)
-    return Figure(
-        Picture(panels, 2.75, share="y"),
+    return spec.Figure(
+        spec.Picture(panels, 2.75, share="y"),
         tables={
-            "figure2_geometry": table("j sigma_x_over_sigma_r sigma_y_over_sigma_r", geometry),
-            "figure2_forces": table("j z exact_finite_M printed brownian", widths),
+            "figure2_geometry": spec.table("j sigma_x_over_sigma_r sigma_y_over_sigma_r", geometry),
+            "figure2_forces": spec.table("j z exact_finite_M printed brownian", widths),
         },
         facts={
             "height": M,
             "spacing_over_r": float(medium.spacing),
             "relative_std": medium.std,
         },
-        says=[f"exact first-order widths at M = {M}"],
+        words=[f"exact first-order widths at M = {M}"],
     )

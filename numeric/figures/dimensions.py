@@ -11,8 +11,8 @@ import numpy as np
 from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..mechanics.any_dimension import force_weights, squared, together
+from . import specification as spec
 from .packings import Options
-from .specification import RELATIVE_HEIGHT, Axis, Figure, Line, Panel, Picture, Points, table
 
 HEIGHT = 24
 DIMENSIONS = (2, 3, 4)
@@ -31,7 +31,7 @@ def printed(dimension: int, z: Array) -> Array:
     return np.sqrt([form(dimension, HEIGHT, at, float(PHI), 1.0, 1.0) for at in z])
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """Points and curves over M^(3/2)."""
     found = {}
     for d in DIMENSIONS:
@@ -40,17 +40,19 @@ def figure(o: Options) -> Figure:
     z, fine, unit = np.arange(HEIGHT) / HEIGHT, np.linspace(0, 1, 101), HEIGHT**1.5
     leading = {d: printed(d, z) for d in DIMENSIONS}
     ratios = {d: float(found[d][0] / leading[d][0]) for d in DIMENSIONS}
-    panel = Panel(
+    panel = spec.Panel(
         [
-            Line(name="Eq. (B11), leading order"),
-            *(Line(fine, printed(d, fine) / unit, c) for c, d in enumerate(DIMENSIONS)),
+            spec.Line(name="Eq. (B11), leading order"),
             *(
-                Points(z, found[d] / unit, c, f"$d={d}$, exact at $M={HEIGHT}$")
+                (
+                    spec.Line(fine, printed(d, fine) / unit, c),
+                    spec.Points(z, found[d] / unit, c, f"$d={d}$, exact at $M={HEIGHT}$"),
+                )
                 for c, d in enumerate(DIMENSIONS)
             ),
         ],
-        RELATIVE_HEIGHT,
-        Axis(r"$M^{-3/2}\,(\sigma_f/\langle f\rangle)\,/\,(\sigma_{\delta r}/r)$", 0),
+        spec.RELATIVE_HEIGHT,
+        spec.Axis(r"$M^{-3/2}\,(\sigma_f/\langle f\rangle)\,/\,(\sigma_{\delta r}/r)$", 0),
         legend="upper right",
     )
     rows = [
@@ -59,13 +61,13 @@ def figure(o: Options) -> Figure:
         for j in range(HEIGHT)
     ]
     told = ", ".join(f"{ratio:.3f} for d = {d}" for d, ratio in ratios.items())
-    return Figure(
-        Picture([panel], 2.6),
-        tables={"figureB11": table("dimension j z exact_finite_M printed", rows)},
+    return spec.Figure(
+        spec.Picture([panel], 2.6),
+        tables={"figureB11": spec.table("dimension j z exact_finite_M printed", rows)},
         facts={
             "height": HEIGHT,
             "phi": float(PHI),
             "exact_over_printed_at_base": list(ratios.values()),
         },
-        says=[f"M = {HEIGHT}: exact over leading σ_f at the base: {told}"],
+        words=[f"M = {HEIGHT}: exact over leading σ_f at the base: {told}"],
     )

@@ -10,7 +10,9 @@ from math import asin, degrees, radians, sqrt, tan
 import numpy as np
 
 from .. import closed_forms
+from ..arithmetic.systems import Array
 from ..scene.sections import SurfaceLoad
+from . import specification as spec
 from .packings import (
     N_X,
     PAPER_STD,
@@ -21,7 +23,6 @@ from .packings import (
     of_ensembles,
     planned,
 )
-from .specification import Axis, Comparison, Figure, Line, Panel, Picture, Rule
 
 HEIGHT = 24
 ANGLES = (-40, -30, -20, -10, 0, 10, 20, 30, 40)
@@ -45,46 +46,47 @@ def theory(angle: float) -> tuple[float, float]:
     return sqrt(plus / HEIGHT), sqrt(minus / HEIGHT)
 
 
-def simulated(o: Options) -> Comparison:
+def over_layers(change: Array) -> Array:
+    """Average over all contacts of a branch; (realisations, branches)."""
+    return np.asarray(change.mean(axis=3).mean(axis=0).T)
+
+
+def simulated(o: Options) -> spec.Comparison:
     """Simulate all angles, each on radii of its own: f⁺ at all of them, then f⁻."""
     found = []
     for place, angle in enumerate(ANGLES):
         ensemble = planned(
-            "profile", height=HEIGHT, width=2 * HEIGHT, seed=o.seed, realisations=o.realisations,
+            "profile", height=HEIGHT, seed=o.seed, realisations=o.realisations,
             load=SurfaceLoad(angle_deg=Fraction(angle)),
         )  # fmt: skip
-        numbers, what = range(place << 32, (place << 32) + o.realisations), f"{angle} degrees"
-        found.append(
-            moments(
-                ensemble, numbers, o.notice, f"figure B2, {what}",
-                over=lambda change: change.mean(axis=3).mean(axis=0).T,
-            )
-        )  # fmt: skip
+        what = f"figure B2, {angle} degrees"
+        found.append(moments(ensemble, o.notice, what, over_layers, place << 32))
     mean, square = (
         np.stack(parts, axis=2).reshape(o.realisations, -1) for parts in zip(*found, strict=True)
     )
     exact = np.array([theory(angle) for angle in ANGLES]).T.ravel()
     what = f"M = {HEIGHT}, {len(ANGLES)} angles, both branches: Eq. B2"
-    return Comparison(what, band_of_spread(mean, square, o.seed), exact)
+    return spec.Comparison(what, band_of_spread(mean, square, o.seed), exact)
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """σ_f/⟨f⟩ of both branches over the angle of the load, up to that of the contacts."""
     found, count = simulated(o), len(ANGLES)
     fine = np.linspace(-0.93 * LIMIT, 0.93 * LIMIT, 161)
     curves = np.array([theory(angle) for angle in fine]).T
     halves = slice(0, count), slice(count, None)
-    panel = Panel(
+    rms = r"$\sigma_f/\langle f\rangle$, r.m.s. over layers"
+    panel = spec.Panel(
         [
-            *(Line(fine, curves[b], b, name=f"$f^{s}$, Eq. (B2)") for b, s in enumerate("+-")),
+            *(spec.Line(fine, curves[b], b, name=f"$f^{s}$, Eq. (B2)") for b, s in enumerate("+-")),
             *(
                 found.points(ANGLES, b, f"$f^{s}$, simulated", rows=halves[b])
                 for b, s in enumerate("+-")
             ),
-            *(Rule("x", edge, dashes=":") for edge in (-LIMIT, LIMIT)),
+            *(spec.Rule("x", edge, dashes=":") for edge in (-LIMIT, LIMIT)),
         ],
-        Axis("angle of the load from the vertical (degrees)", -52, 52),
-        Axis(r"$\sigma_f/\langle f\rangle$, r.m.s. over layers", None, 6 * curves.max(), log=True),
+        spec.Axis("angle of the load from the vertical (degrees)", -52, 52),
+        spec.Axis(rms, None, 6 * curves.max(), log=True),
         legend="upper center",
         columns=2,
     )  # fmt: skip
@@ -94,10 +96,9 @@ def figure(o: Options) -> Figure:
         "t": [ratio(angle) for angle in (*ANGLES, *ANGLES)],
         **found.columns(),
     }
-    return Figure(
-        Picture([panel], 2.6),
+    return spec.Figure(
+        spec.Picture([panel], 2.6),
         tables={"figureB2": table},
         facts=of_ensembles(o, PAPER_STD, height=HEIGHT) | found.fact(),
-        says=[found.verdict()],
         comparisons=[found],
     )

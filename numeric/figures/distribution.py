@@ -17,8 +17,8 @@ from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..mechanics.problem import Solved
 from ..quantities.base import ContactQuantity
+from . import specification as spec
 from .packings import Medium, Options, forces_of, gathered, impulses, planned
-from .specification import Axis, Figure, Line, Panel, Picture, Points, table
 
 # Excess kurtosis of the radii.
 KURTOSIS = {"uniform": -1.2, "normal": 0.0, "two-point": -2.0}
@@ -62,7 +62,7 @@ class Sample:
 def simulated(o: Options, medium: Medium) -> list[Sample]:
     """Draw one contact from each realisation, and test."""
     found = [
-        _deviates(case, range(number << 32, (number << 32) + o.realisations), o, medium)
+        _deviates(case, number << 32, o, medium)
         for number, case in enumerate(CASES)  # samples share no radii
     ]
     o.notice("P(f): tests")
@@ -73,14 +73,12 @@ def simulated(o: Options, medium: Medium) -> list[Sample]:
     ]
 
 
-def _deviates(
-    case: tuple[str, int], realisations: range, o: Options, medium: Medium
-) -> tuple[Array, float]:
+def _deviates(case: tuple[str, int], start: int, o: Options, medium: Medium) -> tuple[Array, float]:
     """Give the deviates, and Σw⁴/(Σw²)² of the weights of the radii."""
     kind, M = case
     plan = planned(
         "contact", at=(0, 0, "+"), height=M, width=None, seed=o.seed, kind=kind,
-        realisations=len(realisations), std=medium.std, spacing=medium.spacing,
+        realisations=o.realisations, std=medium.std, spacing=medium.spacing,
     )  # fmt: skip
     quantity = plan.quantity
     assert isinstance(quantity, ContactQuantity)
@@ -89,7 +87,7 @@ def _deviates(
         F, g = quantity.changes(plan.problem, answer, number)
         return (g[0, :, 0] / F[0, 0],)
 
-    (found,) = gathered(plan, realisations, o.notice, f"P(f), {kind} radii, M = {M}", each)
+    (found,) = gathered(plan, o.notice, f"P(f), {kind} radii, M = {M}", each, start)
     std = np.sqrt(closed_forms.surface_variance(M, 0, float(medium.phi), medium.std, 1.0))
     weights = forces_of(impulses(plan)).change.plus[1][:, 0]
     return found / std, float((weights**4).sum() / (weights**2).sum() ** 2)
@@ -119,7 +117,7 @@ def _anderson_darling(samples: Array, axis: int) -> Array:
     return np.asarray(-n - ((2 * np.arange(1, n + 1) - 1) / n * both).sum(axis=axis))
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """P(f) of one contact at the base, for several radii and heights; two of them drawn."""
     medium = o.medium()
     found = simulated(o, medium)
@@ -130,11 +128,11 @@ def figure(o: Options) -> Figure:
         for one in found
         for k, value in enumerate(one.deviates.tolist())
     ]
-    return Figure(
-        Picture([_histogram(one, c) for c, one in enumerate(drawn)], 2.6, page=True),
+    return spec.Figure(
+        spec.Picture([_histogram(one, c) for c, one in enumerate(drawn)], 2.6, page=True),
         tables={
-            "pf": table("radii height realisation deviate", rows),
-            "pf_tests": table(" ".join(facts[0]), [one.values() for one in facts]),
+            "pf": spec.table("radii height realisation deviate", rows),
+            "pf_tests": spec.table(" ".join(facts[0]), [one.values() for one in facts]),
         },
         facts={
             "spacing_over_r": float(medium.spacing),
@@ -142,7 +140,7 @@ def figure(o: Options) -> Figure:
             "level_of_both_tests_together": LEVEL,
             "samples": facts,
         },
-        says=[
+        words=[
             f"{one.kind} radii, M = {one.height}: Gaussian "
             f"{'rejected' if fact['gaussian_rejected'] else 'not rejected'} "
             f"(Kolmogorov–Smirnov p = {one.smirnov:.2g}, Anderson–Darling p = {one.anderson:.2g})"
@@ -151,21 +149,21 @@ def figure(o: Options) -> Figure:
     )
 
 
-def _histogram(one: Sample, c: int) -> Panel:
+def _histogram(one: Sample, c: int) -> spec.Panel:
     edges, v = np.linspace(-4, 4, 41), np.linspace(-4, 4, 321)
     counts, _ = np.histogram(one.deviates, edges)
     some, unit = counts > 0, len(one.deviates) * (edges[1] - edges[0])
     middle = ((edges[1:] + edges[:-1]) / 2)[some]
-    return Panel(
+    return spec.Panel(
         [
-            Line(v, np.exp(-(v**2) / 2) / np.sqrt(2 * np.pi), "black", name="Gaussian"),
-            Points(
+            spec.Line(v, np.exp(-(v**2) / 2) / np.sqrt(2 * np.pi), "black", name="Gaussian"),
+            spec.Points(
                 middle, counts[some] / unit, c, f"{one.kind} radii, $M={one.height}$",
                 np.sqrt(counts[some]) / unit,
             ),
         ],
-        Axis(r"$(f-\langle f\rangle)\,/\,\sigma_f$", -4, 4),
-        Axis(r"$\sigma_f\,P(f)$", 8e-5, 1, log=True),
+        spec.Axis(r"$(f-\langle f\rangle)\,/\,\sigma_f$", -4, 4),
+        spec.Axis(r"$\sigma_f\,P(f)$", 8e-5, 1, log=True),
         legend="lower center",  # below the curve
         legend_title=f"Kolmogorov–Smirnov {_p(one.smirnov)}\nAnderson–Darling {_p(one.anderson)}",
     )  # fmt: skip

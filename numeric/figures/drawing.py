@@ -1,6 +1,6 @@
 """What a ``Picture`` says, drawn in the house style. Needs matplotlib (the extra ``plots``)."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import matplotlib as mpl
@@ -11,13 +11,16 @@ from matplotlib.collections import LineCollection, PatchCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch
-from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
+from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 from . import specification as spec
 from . import style
 
+PLAIN = 5e-4
+"""Numbers from here to its inverse are not written with powers of ten."""
+_SCIENTIFIC = LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf))
 PRESSING, PULLING = "0.12", style.VERMILLION
 
 
@@ -58,7 +61,9 @@ def draw(picture: spec.Picture) -> Figure:
 
 def _draw(axes: Axes, panel: spec.Panel) -> list[Artist]:
     """Draw a panel; give the keys of its legend."""
-    keys = [key for element in panel.elements for key in _PUT[type(element)](axes, element)]
+    lists = [one if isinstance(one, Sequence) else [one] for one in panel.elements]
+    elements = [element for one in lists for element in one]
+    keys = [key for element in elements for key in _PUT[type(element)](axes, element)]
     if isinstance(axes, Axes3D):
         axes.set_proj_type("ortho")
         axes.view_init(elev=22, azim=-90)
@@ -97,13 +102,17 @@ def _scale(axes: Axes, letter: str, axis: spec.Axis) -> None:
         limits(axis.low, axis.high)
     part = getattr(axes, f"{letter}axis")
     low, high = getattr(axes, f"get_{letter}lim")()
-    if axis.log and high < 50 * low:  # less than two powers of ten: these alone say too little
-        part.set_major_locator(LogLocator(10, (1, 2, 5)))
-        part.set_major_formatter(ScalarFormatter())
+    if axis.log and high < 1000 * low:  # so few powers of ten alone say too little
+        part.set_major_locator(LogLocator(10, (1, 2, 5) if high > 10 * low else range(1, 10)))
+        part.set_major_formatter(_short if low > PLAIN and high < 1 / PLAIN else _SCIENTIFIC)
         part.set_minor_formatter(NullFormatter())
     if axis.ticks is not None:
         part.set_ticks(axis.ticks, [f"{tick:g}".replace("-", "−") for tick in axis.ticks])
         axes.minorticks_off()
+
+
+def _short(value: float, _: Any) -> str:
+    return f"{value:g}"
 
 
 def _colour(colour: spec.Colour) -> str:

@@ -15,6 +15,7 @@ from ..arithmetic.systems import Array
 from ..lattice.branch import PerAxis
 from ..mechanics.problem import Solved
 from ..scene.sections import PointLoad
+from . import specification as spec
 from .elements import across_cone, base_vectors, point_load_in_space
 from .packings import (
     PAPER_STD,
@@ -26,7 +27,6 @@ from .packings import (
     of_ensembles,
     planned,
 )
-from .specification import Axis, Beads, Comparison, Figure, Line, Panel, Picture, Points
 
 APEX, LAYER = 10, 4
 ROWS = (0, 1, 2)
@@ -50,7 +50,7 @@ def theory() -> Array:
     return np.sqrt([float(form(steps, APEX, float(PHI), 1.0, 1.0)) for steps in places(0)])
 
 
-def cone() -> Panel:
+def cone() -> spec.Panel:
     """σ(p) over σ/r by Eq. B19 on legs and faces, in space; the face behind is left out."""
     steps = [
         (a, b, layers - a - b)
@@ -62,11 +62,11 @@ def cone() -> Panel:
     form = closed_forms.spheres_response
     shades = np.sqrt([float(form(own, APEX, float(PHI), 1.0, 1.0)) for own in steps])
     centres = -2 * np.array(steps) @ base_vectors(float(PHI))
-    beads = Beads(
+    beads = spec.Beads(
         centres, shades=shades, bar=SCATTER, side="left", most=float(shades.max()), size=5.5
     )
     layer = across_cone(float(PHI), APEX - LAYER, 0, f"layer $j={LAYER}$, of (b)")
-    return Panel(
+    return spec.Panel(
         [beads, layer, *point_load_in_space(float(PHI), APEX)],
         legend="lower right",
         scaled=True,
@@ -102,42 +102,42 @@ def squares(answer: Solved, number: int) -> tuple[Array]:
     return (each,)
 
 
-def simulated(o: Options) -> tuple[Comparison, Array]:
+def simulated(o: Options) -> tuple[spec.Comparison, Array]:
     """Simulate; σ(p)/f_load along the face, and inside, where theory says nothing."""
     ensemble = planned(
-        "response", height=APEX, width=2 * APEX, seed=o.seed, realisations=o.realisations,
+        "response", height=APEX, seed=o.seed, realisations=o.realisations,
         load=PointLoad(at=(0, 0, APEX)), dimension=3,
     )  # fmt: skip
-    (square,) = gathered(ensemble, range(o.realisations), o.notice, "figure B19", squares)
+    (square,) = gathered(ensemble, o.notice, "figure B19", squares)
     band = band_of_means(square[:, :FACE], o.seed, 0.5)
-    face = Comparison(f"l = {APEX}, j = {LAYER}: Eq. B19", band, theory() * PAPER_STD)
+    face = spec.Comparison(f"l = {APEX}, j = {LAYER}: Eq. B19", band, theory() * PAPER_STD)
     return face, np.sqrt(square.mean(axis=0)[FACE:])
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """σ(p) over σ/r, against the place in the row; logarithmic, for the inside to be seen."""
     face, inside = simulated(o)
     share = float(inside.max() / face.theory.min())
     row, q = np.array([(row, q) for _, q, row in BEADS]).T
-    panel = Panel(
+    panel = spec.Panel(
         [
-            Line(q[:FACE], face.theory / PAPER_STD, 0, name="Eq. (B19), exact"),
+            spec.Line(q[:FACE], face.theory / PAPER_STD, 0, name="Eq. (B19), exact"),
             face.points(q[:FACE], 0, "face of the cone", unit=PAPER_STD),
             *(
-                Points(
+                spec.Points(
                     (q + row / 2)[row == own], inside[row[FACE:] == own] / PAPER_STD, own,
                     f"{own} step{'s' * (own > 1)} inside",
                 )
                 for own in ROWS[1:]
             ),
         ],
-        Axis("place along the row", ticks=q[:FACE].tolist()),
-        Axis(SCATTER, log=True),
+        spec.Axis("place along the row", ticks=q[:FACE].tolist()),
+        spec.Axis(SCATTER, log=True),
         legend="center right",
     )  # fmt: skip
     rest = len(inside)
-    return Figure(
-        Picture([cone(), panel], 2.7, page=True),
+    return spec.Figure(
+        spec.Picture([cone(), panel], 2.7, page=True),
         tables={
             "figureB19": {
                 "row": row,
@@ -153,7 +153,7 @@ def figure(o: Options) -> Figure:
             **face.fact(),
             "largest_inside_over_face": share,
         },
-        says=[
+        words=[
             f"{face.verdict()}; inside of the cone σ(p) is at most {share:.1g} of that on its faces"
         ],
         comparisons=[face],

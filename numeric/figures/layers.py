@@ -9,6 +9,7 @@ import numpy as np
 from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..mechanics.problem import Solved
+from . import specification as spec
 from .packings import (
     PAPER_STD,
     PHI,
@@ -19,7 +20,6 @@ from .packings import (
     of_ensembles,
     planned,
 )
-from .specification import Axis, Comparison, Element, Figure, Line, Panel, Picture, table
 
 HEIGHT = 24
 LOWER = (2, 8, 14)
@@ -49,47 +49,43 @@ def products(answer: Solved, number: int) -> tuple[Array]:
     return (np.stack([(change[low] * change[up]).mean(axis=1) for low, up in PAIRS], axis=1),)
 
 
-def simulated(o: Options) -> Comparison:
+def simulated(o: Options) -> spec.Comparison:
     """Solve packings; covariances of ``PAIRS``."""
-    ensemble = planned(
-        "profile", height=HEIGHT, width=2 * HEIGHT, seed=o.seed, realisations=o.realisations
-    )
-    (product,) = gathered(ensemble, range(o.realisations), o.notice, "figure B12", products)
+    ensemble = planned("profile", height=HEIGHT, seed=o.seed, realisations=o.realisations)
+    (product,) = gathered(ensemble, o.notice, "figure B12", products)
     form = closed_forms.layers_covariance
     exact = np.array([form(HEIGHT, *pair, float(PHI), PAPER_STD, 1.0) for pair in PAIRS])
-    return Comparison(f"M = {HEIGHT}: Eq. B12", band_of_means(product, o.seed), exact)
+    return spec.Comparison(f"M = {HEIGHT}: Eq. B12", band_of_means(product, o.seed), exact)
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """The covariance over the height of the upper contact, a curve for each lower one."""
     found = simulated(o)
-    panel: list[Element] = []
+    panel: list[spec.Element] = []
     for c, j in enumerate(LOWER):
         rows = np.array([lower == j for lower, _ in PAIRS])
         z, fine = np.array(UPPER[j]) / HEIGHT, np.linspace(j / HEIGHT, 1, 101)
         panel += [
-            Line(z, found.theory[rows] / UNIT, c),
-            Line(fine, leading(j / HEIGHT, fine), "0.55", "--"),
-            found.points(z, c, f"lower contact at $z={j}/{HEIGHT}$", unit=UNIT, rows=rows),
+            spec.Line(fine, leading(j / HEIGHT, fine), "0.55", "--"),
+            *found.drawn(z, c, f"lower contact at $z={j}/{HEIGHT}$", unit=UNIT, rows=rows),
         ]
     panel += [
-        Line(name=f"Eq. (B12), exact at $M={HEIGHT}$"),
-        Line(name=r"its leading order, $M\to\infty$", colour="0.55", dashes="--"),
+        spec.Line(name=f"Eq. (B12), exact at $M={HEIGHT}$"),
+        spec.Line(name=r"its leading order, $M\to\infty$", colour="0.55", dashes="--"),
     ]
-    return Figure(
-        Picture(
+    return spec.Figure(
+        spec.Picture(
             [
-                Panel(
+                spec.Panel(
                     panel,
-                    Axis("height of the upper contact $z'$", 0, 1),
-                    Axis(r"covariance $/\,M^3(\sigma/r)^2(1-\phi^2)^{-2}$", 0, 2.6),
+                    spec.Axis("height of the upper contact $z'$", 0, 1),
+                    spec.Axis(r"covariance $/\,M^3(\sigma/r)^2(1-\phi^2)^{-2}$", 0, 2.6),
                     legend="upper right",
                 )
             ],
             2.8,
         ),
-        tables={"figureB12": table("j l", PAIRS) | found.columns("covariance_", UNIT)},
+        tables={"figureB12": spec.table("j l", PAIRS) | found.columns("covariance_", UNIT)},
         facts=of_ensembles(o, PAPER_STD, height=HEIGHT) | found.fact(),
-        says=[found.verdict()],
         comparisons=[found],
     )

@@ -12,19 +12,9 @@ import numpy as np
 from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..scene.sections import BulkLoad, SurfaceLoad
-from .packings import Options, moments, of_ensembles, planned
+from . import specification as spec
+from .packings import Options, by_layer, moments, of_ensembles, planned
 from .shifts import STD, columns, cosine, facts, shift
-from .specification import (
-    RELATIVE_HEIGHT,
-    Axis,
-    Comparison,
-    Figure,
-    Line,
-    Panel,
-    Picture,
-    Rule,
-    table,
-)
 
 HEIGHT = 12
 SPACINGS = (Fraction(12, 5), Fraction(3))
@@ -48,59 +38,54 @@ def leading(load: str, z: Array, phi: float) -> Array:
     return np.asarray(rising / ((1 - phi**2) * (1 + phi)))
 
 
-def simulated(o: Options, spacing: Fraction, load: str) -> Comparison:
+def simulated(o: Options, spacing: Fraction, load: str) -> spec.Comparison:
     """Solve all packings exactly and to first order."""
     number, loaded, _ = LOADS[load]
     where = f"{load} load, s = {float(spacing):g} r"
 
     def changed(geometry: str) -> Array:
         ensemble = planned(
-            "profile", height=HEIGHT, width=2 * HEIGHT, seed=o.seed, std=STD,
+            "profile", height=HEIGHT, seed=o.seed, std=STD,
             realisations=o.realisations, geometry=geometry, spacing=spacing, load=loaded(),
         )  # fmt: skip
-        mean, _ = moments(
-            ensemble, range(o.realisations), o.notice, f"figure B5, {where}, {geometry}",
-            over=lambda change: change.mean(axis=3).mean(axis=1).T,
-        )  # fmt: skip
-        return mean
+        return moments(ensemble, o.notice, f"figure B5, {where}, {geometry}", by_layer)[0]
 
     exact = theory(load, HEIGHT, spacing)
     return shift(f"{where}: Eq. {number}", changed, exact, o.seed)
 
 
-def panel(load: str, found: list[Comparison]) -> Panel:
+def panel(load: str, found: list[spec.Comparison]) -> spec.Panel:
     """Shifts over M, a colour a spacing."""
     z, fine = np.arange(HEIGHT) / HEIGHT, np.linspace(0, 1, 201)
     phis = [cosine(spacing) for spacing in SPACINGS]
-    return Panel(
+    return spec.Panel(
         [
-            Line(name=f"Eq. ({LOADS[load][0]}), exact at $M={HEIGHT}$"),
-            Line(name=r"$M\to\infty$", dashes="--"),
-            *(Line(fine, leading(load, fine, phi), c, "--") for c, phi in enumerate(phis)),
-            *(Line(z, one.theory / HEIGHT, c) for c, one in enumerate(found)),
+            spec.Line(name=f"Eq. ({LOADS[load][0]}), exact at $M={HEIGHT}$"),
+            spec.Line(name=r"$M\to\infty$", dashes="--"),
+            *(spec.Line(fine, leading(load, fine, phi), c, "--") for c, phi in enumerate(phis)),
             *(
-                one.points(z, c, rf"$\phi={phi:g}$, simulated", unit=HEIGHT)
+                one.drawn(z, c, rf"$\phi={phi:g}$, simulated", unit=HEIGHT)
                 for c, (one, phi) in enumerate(zip(found, phis, strict=True))
             ),
-            Rule("y", 0),
+            spec.Rule("y", 0),
         ],
-        RELATIVE_HEIGHT,
-        Axis(r"$(\langle f\rangle/f_{0}-1)\,/\,M(\sigma_{\delta r}/r)^2$"),
+        spec.RELATIVE_HEIGHT,
+        spec.Axis(r"$(\langle f\rangle/f_{0}-1)\,/\,M(\sigma_{\delta r}/r)^2$"),
         title=f"{load} load",
         legend="upper left",
     )
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """Shifts of the mean under both loads, at two spacings."""
     found = [simulated(o, *case) for case in CASES]
     layers = [(load, float(s), cosine(s), j) for s, load in CASES for j in range(HEIGHT)]
-    return Figure(
-        Picture([panel("surface", found[::2]), panel("bulk", found[1::2])], 2.6, page=True,
+    return spec.Figure(
+        spec.Picture([panel("surface", found[::2]), panel("bulk", found[1::2])], 2.6, page=True,
                 share="y"),
-        tables={"figureB5": table("load spacing phi j", layers) | columns("shift", found)},
+        tables={"figureB5": spec.table("load spacing phi j", layers) | columns("shift", found)},
         facts=of_ensembles(o, STD, height=HEIGHT) | facts(found),
-        says=[
+        words=[
             f"{one.verdict()}; no shift at all would be "
             f"{one.deviation(np.zeros(HEIGHT)):.1f} of it off"
             for one in found

@@ -11,9 +11,9 @@ import numpy as np
 from ..arithmetic.systems import Array
 from ..mechanics.problem import Solved
 from ..scene.sections import PointLoad
+from . import specification as spec
 from .packings import Options, forces_of, gathered, of_ensembles, planned
 from .shifts import STD, columns, cosine, facts, shift
-from .specification import Axis, Comparison, Figure, Line, Panel, Picture, Rule, table
 
 APEX, LAYER = 8, 2
 SPACINGS = (Fraction(11, 5), Fraction(3))
@@ -44,7 +44,7 @@ def beside(answer: Solved, number: int) -> tuple[Array]:
     return (np.asarray((plus[:, 1:] + minus[:, ::-1][:, 1:]) / 2),)
 
 
-def simulated(o: Options, spacing: Fraction) -> Comparison:
+def simulated(o: Options, spacing: Fraction) -> spec.Comparison:
     """Solve all packings exactly and to first order."""
     where, ordered = f"s = {float(spacing):g} r", 1 / (2 * np.sqrt((1 + cosine(spacing)) / 2))
 
@@ -54,35 +54,36 @@ def simulated(o: Options, spacing: Fraction) -> Comparison:
             load=PointLoad(at=(0, APEX)), realisations=o.realisations, spacing=spacing,
         )  # fmt: skip
         what = f"figure B9, {where}, {geometry}"
-        return gathered(ensemble, range(o.realisations), o.notice, what, beside)[0]
+        return gathered(ensemble, o.notice, what, beside)[0]
 
     return shift(f"{where}: Eq. B9", changed, theory(spacing), o.seed, ordered)
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """The mean response in one layer between the legs of the cone, at two spacings."""
     found = [simulated(o, spacing) for spacing in SPACINGS]
-    panel = Panel(
+    panel = spec.Panel(
         [
-            Line(name="Eq. (B9)"),
-            *(Line(OFFSETS, one.theory, c) for c, one in enumerate(found)),
+            spec.Line(name="Eq. (B9)"),
             *(
-                one.points(OFFSETS, c, rf"$\phi={cosine(spacing):g}$, simulated")
+                one.drawn(OFFSETS, c, rf"$\phi={cosine(spacing):g}$, simulated")
                 for c, (one, spacing) in enumerate(zip(found, SPACINGS, strict=True))
             ),
-            Rule("y", 0),
-            *(Rule("x", leg, dashes=":") for leg in (-REACH, REACH)),
+            spec.Rule("y", 0),
+            *(spec.Rule("x", leg, dashes=":") for leg in (-REACH, REACH)),
         ],
-        Axis(r"$i-k$ of a contact $f^{+}$ inside of the cone"),
-        Axis(r"$\langle f^{+}\rangle/(f^{\rm load}/2n_y)\;/\;(\sigma_{\delta r}/r)^2$", -2.3, 3),
+        spec.Axis(r"$i-k$ of a contact $f^{+}$ inside of the cone"),
+        spec.Axis(
+            r"$\langle f^{+}\rangle/(f^{\rm load}/2n_y)\;/\;(\sigma_{\delta r}/r)^2$", -2.3, 3
+        ),
         legend="upper center",
     )
     places = [(float(s), cosine(s), int(offset)) for s in SPACINGS for offset in OFFSETS]
-    return Figure(
-        Picture([panel], 2.6),
-        tables={"figureB9": table("spacing phi offset", places) | columns("mean", found)},
+    return spec.Figure(
+        spec.Picture([panel], 2.6),
+        tables={"figureB9": spec.table("spacing phi offset", places) | columns("mean", found)},
         facts=of_ensembles(o, STD, apex=APEX, layer=LAYER) | facts(found),
-        says=[
+        words=[
             f"{one.verdict()}; no mean response would be "
             f"{one.deviation(np.zeros(len(OFFSETS))):.1f} of it off"
             for one in found

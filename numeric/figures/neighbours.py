@@ -10,8 +10,8 @@ from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..lattice.branch import Branch
 from ..mechanics.problem import Solved
+from . import specification as spec
 from .packings import PAPER, PAPER_STD, PHI, Options, band_of_means, gathered, of_ensembles, planned
-from .specification import Axis, Comparison, Figure, Line, Panel, Picture, table
 
 HEIGHT, LAYER = 32, 16
 WINDOWS = (1, 2, 3, 5, 8, 14)
@@ -53,42 +53,44 @@ def window_means(answer: Solved, number: int) -> tuple[Array]:
     return (np.stack([square.mean(axis=1) for square in each], axis=1),)
 
 
-def simulated(o: Options) -> Comparison:
+def simulated(o: Options) -> spec.Comparison:
     """Average neighbours of one layer in windows at every place; σ of contacts, then of beads."""
-    ensemble = planned(
-        "profile", height=HEIGHT, width=2 * HEIGHT, seed=o.seed, realisations=o.realisations
-    )
-    (square,) = gathered(ensemble, range(o.realisations), o.notice, "figure B7", window_means)
+    ensemble = planned("profile", height=HEIGHT, seed=o.seed, realisations=o.realisations)
+    (square,) = gathered(ensemble, o.notice, "figure B7", window_means)
     exact = [form(N) if N >= 3 else np.nan for form in (contacts, beads) for N in WINDOWS]
     what = f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8"
-    return Comparison(what, band_of_means(square, o.seed, 0.5), np.sqrt(exact), KNOWN)
+    return spec.Comparison(what, band_of_means(square, o.seed, 0.5), np.sqrt(exact), KNOWN)
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """σ of the mean over N, on logarithmic axes."""
     found, every, count = simulated(o), np.array(WINDOWS), len(WINDOWS)
     halves = slice(0, count), slice(count, None)
     names = ("contacts of one branch, Eq. (B7)", "beads, vertical force, Eq. (B8)")
-    panel = Panel(
+    panel = spec.Panel(
         [
-            *(Line(every, found.theory[halves[b]], b, name=name) for b, name in enumerate(names)),
-            *(found.points(every, b, rows=halves[b]) for b in (0, 1)),
-            Line(
+            *(
+                (
+                    spec.Line(every, found.theory[halves[b]], b, name=name),
+                    found.points(every, b, rows=halves[b]),
+                )
+                for b, name in enumerate(names)
+            ),
+            spec.Line(
                 every, found.band.value[0] / np.sqrt(every), dashes=":",
                 name="independent contacts",
             ),
         ],
-        Axis("number of neighbours $N$", log=True, ticks=(1, 2, 5, 10)),
-        Axis(r"$\sigma$ of the mean over $N$, relative", log=True),
+        spec.Axis("number of neighbours $N$", log=True, ticks=(1, 2, 5, 10)),
+        spec.Axis(r"$\sigma$ of the mean over $N$, relative", log=True),
         legend="lower left",
     )  # fmt: skip
     windows = [(of, N) for of in ("contacts", "beads") for N in WINDOWS]
     columns = found.columns("sigma_")
     exact = {"sigma_exact_first_order": np.where(KNOWN, found.theory.astype(object), "")}
-    return Figure(
-        Picture([panel], 2.6),
-        tables={"figureB7": table("of N", windows) | columns | exact},
+    return spec.Figure(
+        spec.Picture([panel], 2.6),
+        tables={"figureB7": spec.table("of N", windows) | columns | exact},
         facts=of_ensembles(o, PAPER_STD, height=HEIGHT, layer=LAYER) | found.fact(),
-        says=[found.verdict()],
         comparisons=[found],
     )

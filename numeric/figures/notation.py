@@ -9,8 +9,8 @@ from math import sqrt
 import numpy as np
 
 from ..arithmetic.systems import Array
+from . import specification as spec
 from .packings import N_X, SPACING, Options, centres, planned, solved
-from .specification import Arrow, Axis, Beads, Element, Figure, Line, Panel, Picture, Words, table
 
 HEIGHT, WIDTH, STD = 3, 16, 0.06
 SHOWN = range(9)  # columns i of the detail
@@ -46,10 +46,10 @@ def beside(place: Array, right: float, up: float) -> tuple[float, float]:
     return float(place[0] + right), float(place[1] + up)
 
 
-def names() -> list[Element]:
+def names() -> list[spec.Element]:
     """Name what the text names."""
-    found: list[Element] = [
-        Words(*beside(at(*site), 0, -0.45 * (site == (4, 2))), words, size=7)
+    found: list[spec.Element] = [
+        spec.Words(*beside(at(*site), 0, -0.45 * (site == (4, 2))), words, size=7)
         for site, words in NAMED.items()
     ]
     middle, left, right, edge = at(4, 2), at(2, 0), at(4, 0), at(7, 1)
@@ -57,42 +57,42 @@ def names() -> list[Element]:
         word = rf"$\hat{{\mathbf{{n}}}}^{{{name}}}$"
         tip = beside(middle, side * NX, NY)
         found += [
-            Arrow(beside(middle, 0, 0), tip, colour=colour, width=1.3),
-            Words(*beside(middle, side * 1.45, -0.12), word, colour),
+            spec.Arrow(beside(middle, 0, 0), tip, colour=colour, width=1.3),
+            spec.Words(*beside(middle, side * 1.45, -0.12), word, colour),
         ]
     for x, y in (left, right):
-        found.append(Line([x, x], [y, y - 1.6], "black", (0, (2, 2)), width=0.5))
+        found.append(spec.Line([x, x], [y, y - 1.6], "black", (0, (2, 2)), width=0.5))
     return [
         *found,
-        Arrow(beside(left, 0, -1.45), beside(right, 0, -1.45), style="<->"),
-        Words(*beside((left + right) / 2, 0, -1.6), "$s$", align=("center", "top")),
-        Arrow(beside(edge, 0, 0), beside(edge, 1, 0), style="->"),
-        Words(*beside(edge, 0.5, 0.12), "$r$", align=("center", "bottom")),
-        Arrow((3.0, 4.85), beside((at(1, 3) + at(2, 2)) / 2, 0, 0), "contact", size=5),
-        Words(*beside(at(8, 0), -0.2, -1.6), "base, $j=0$", align=("right", "center")),
+        spec.Arrow(beside(left, 0, -1.45), beside(right, 0, -1.45), style="<->"),
+        spec.Words(*beside((left + right) / 2, 0, -1.6), "$s$", align=("center", "top")),
+        spec.Arrow(beside(edge, 0, 0), beside(edge, 1, 0), style="->"),
+        spec.Words(*beside(edge, 0.5, 0.12), "$r$", align=("center", "bottom")),
+        spec.Arrow((3.0, 4.85), beside((at(1, 3) + at(2, 2)) / 2, 0, 0), "contact", size=5),
+        spec.Words(*beside(at(8, 0), -0.2, -1.6), "base, $j=0$", align=("right", "center")),
     ]
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """Ordered beads black, the disordered ones grey."""
     found = beads(o)
     _, _, *columns, radii = np.array(found).T
     ordered, displaced = np.stack(columns[:2], axis=1), np.stack(columns[2:], axis=1)
-    panel = Panel(
+    panel = spec.Panel(
         [
-            Line([-2, 14], [0, 0], "black", (0, (1, 1.5)), width=0.6),
-            Beads(displaced, radii, face="0.87", edge="0.55", width=0.7),
-            Beads(ordered, face="none", edge="black", width=1.1, above=True),
+            spec.Line([-2, 14], [0, 0], "black", (0, (1, 1.5)), width=0.6),
+            spec.Beads(displaced, radii, face="0.87", edge="0.55", width=0.7),
+            spec.Beads(ordered, face="none", edge="black", width=1.1, above=True),
             *names(),
         ],
-        Axis(low=0.9, high=11.9),
-        Axis(low=-2.45, high=5.15),
+        spec.Axis(low=0.9, high=11.9),
+        spec.Axis(low=-2.45, high=5.15),
         scaled=True,
         bare=True,
     )
-    return Figure(
-        Picture([panel], 2.4),
-        tables={"figure1": table("i j x_ordered y_ordered x y radius", found)},
+    return spec.Figure(
+        spec.Picture([panel], 2.4),
+        tables={"figure1": spec.table("i j x_ordered y_ordered x y radius", found)},
         facts={"relative_std": STD, "height": HEIGHT, "spacing_over_r": float(SPACING)},
-        says=[f"{len(found)} beads of an exact packing at σ/r = {STD}"],
+        words=[f"{len(found)} beads of an exact packing at σ/r = {STD}"],
     )

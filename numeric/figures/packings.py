@@ -85,8 +85,8 @@ def planned(
     quantity: Any,
     *,
     height: int,
-    width: int | None,
     seed: int,
+    width: int | None = 0,
     realisations: int = 1,
     std: float = PAPER_STD,
     kind: Any = "uniform",
@@ -96,8 +96,11 @@ def planned(
     spacing: Fraction = SPACING,
     dimension: int = 2,
 ) -> Plan:
-    """Plan an ensemble. Raises ``SceneError`` where a number is out of range or too large."""
-    narrow = width is not None
+    """Plan an ensemble. Raises ``SceneError`` where a number is out of range or too large.
+
+    A ``width`` of 0 is 2M: then no exact force sees an image. None is the infinite slab.
+    """
+    width, narrow = 2 * height if width == 0 else width, width is not None
     scene = Scene(
         packing=Packing(
             height=height, width=width, spacing=spacing, dimension=dimension, allow_images=narrow
@@ -126,24 +129,25 @@ def solved(
 
 def gathered(
     ensemble: Plan,
-    realisations: range,
     notice: Notice,
     what: str,
     each: Callable[[Solved, int], tuple[Array, ...]],
+    start: int = 0,
 ) -> tuple[Array, ...]:
-    """Solve realisations; join what ``each`` gives of them, arrays of (realisations, …)."""
-    found = [each(*solution) for solution in solved(ensemble, realisations, notice, what)]
+    """Solve all realisations from ``start`` on; join what ``each`` gives, (realisations, …)."""
+    numbers = range(start, start + ensemble.scene.ask.realisations)
+    found = [each(*solution) for solution in solved(ensemble, numbers, notice, what)]
     return tuple(np.concatenate(parts) for parts in zip(*found, strict=True))
 
 
 def moments(
     ensemble: Plan,
-    realisations: range,
     notice: Notice,
     what: str,
     over: Callable[[Array], Array],
+    start: int = 0,
 ) -> tuple[Array, Array]:
-    """Solve realisations of a profile; give averages of g/F and of its square.
+    """Solve all realisations of a profile; give averages of g/F and of its square.
 
     ``over`` takes (M, branches, realisations, contacts) to averages, (realisations, L).
     """
@@ -155,8 +159,13 @@ def moments(
         change = (g / F[:, None]).reshape(problem.height, problem.dimension, number, -1)
         return over(change), over(change**2)
 
-    mean, square = gathered(ensemble, realisations, notice, what, each)
+    mean, square = gathered(ensemble, notice, what, each, start)
     return mean, square
+
+
+def by_layer(change: Array) -> Array:
+    """Average over all contacts of a layer; (realisations, M)."""
+    return np.asarray(change.mean(axis=3).mean(axis=1).T)
 
 
 def band_of_means(values: Array, seed: int, power: float = 1.0) -> Band:

@@ -20,24 +20,10 @@ from ..planning.plan import Plan
 from ..quantities import response as quantities
 from ..scene.sections import PointLoad
 from ..statistics.bands import averaged, simultaneous
+from . import specification as spec
 from .elements import cone
 from .models.double_y import Profile, profiles
-from .packings import LEVEL, Medium, Options, gathered, planned
-from .specification import (
-    Area,
-    Axis,
-    Comparison,
-    Element,
-    Figure,
-    Line,
-    Panel,
-    Picture,
-    Points,
-    Rule,
-    Table,
-    Words,
-    table,
-)
+from .packings import LEVEL, Medium, Options, gathered, of_ensembles, planned
 
 APEX = 24  # the loaded bead is (0, APEX)
 MEDIUM = Medium(std=1e-4)  # far below M*
@@ -46,6 +32,8 @@ SITES = [(i, j) for j in range(APEX) for i in range(-(APEX - j), APEX - j + 1, 2
 """The beads of the cone, legs included, layer by layer from the base up."""
 COLUMN, LAYER = np.array(SITES).T
 LEG = np.abs(COLUMN) == APEX - LAYER
+ORDERED = np.where(LEG, 0.5, 0.0)
+"""The mean in the ordered packing."""
 ON_CUTS = np.concatenate([np.flatnonzero(j == LAYER) for j in CUTS])
 VARIANCE = r"$\sigma^2_{\rm ensemble}(p)\,/\,(f^{\rm load}\sigma_{\delta r}/r)^2$"
 
@@ -55,44 +43,26 @@ class Response:
     """The response on ``SITES``, in units of the load; shapes (sites,).
 
     ``variance`` and ``one_contact`` (upper contacts "+", the bead's upper right) are exact to first
-    order, in (σ/r)²; ``mean`` and ``simulated`` variances are those of the ensemble.
+    order, in (σ/r)², ``printed`` is Eq. 16; ``mean`` and ``simulated`` variances are those of the
+    ensemble. ``cuts`` compares σ on the beads of ``ON_CUTS``.
     """
 
     medium: Medium
-    realisations: int
     variance: Array
     one_contact: Array
+    printed: Array
     mean: Array
+    standard_error: Array
     simulated: Array
-    cuts: Comparison
+    cuts: spec.Comparison
 
-    @property
-    def ordered(self) -> Array:
-        """The mean in the ordered packing."""
-        return np.where(LEG, 0.5, 0.0)
-
-    @property
-    def printed(self) -> Array:
-        """Eq. 16, in (σ/r)²."""
-        return np.asarray(1.5 / float(1 - self.medium.phi**2) ** 2 * (APEX + LAYER))
-
-    @property
-    def standard_error(self) -> Array:
-        """Of the simulated mean."""
-        return self.medium.std * np.sqrt(self.simulated / (self.realisations - 1))
-
-    def limits(self) -> tuple[Array, Array]:
-        """Give the band of the variance on the cuts."""
-        low, high = self.cuts.band.limits
-        return low**2, high**2
-
-    def table(self) -> Table:
+    def table(self) -> spec.Table:
         """One row a bead."""
         return {
             "i": COLUMN,
             "j": LAYER,
             "on_cone": LEG.astype(int),
-            "mean_ordered": self.ordered,
+            "mean_ordered": ORDERED,
             "mean_simulated": self.mean,
             "mean_standard_error": self.standard_error,
             "variance_exact_first_order": self.variance,
@@ -101,25 +71,10 @@ class Response:
             "variance_upper_plus_contact": self.one_contact,
         }
 
-    def facts(self) -> dict[str, Any]:
-        """Verdicts, and what the paper says of apex and base."""
-        deviation = self.cuts.deviation()
-        below, base = (APEX - 2, APEX - 2 == LAYER), (1, LAYER == 1)
-        exact, printed = (
-            [float(values[rows][len(values[rows]) // 2]) for _, rows in (below, base)]
-            for values in (self.variance, self.printed)
-        )
-        return {
-            "apex": APEX,
-            "realisations": self.realisations,
-            "spacing_over_r": float(self.medium.spacing),
-            "relative_std": self.medium.std,
-            "simultaneous_level": LEVEL,
-            "exact_first_order_inside": deviation <= 1,
-            "largest_deviation_in_half_widths": deviation,
-            "variance_below_apex_over_base_exact": exact[0] / exact[1],
-            "variance_below_apex_over_base_printed": printed[0] / printed[1],
-        }
+    def below_apex_over_base(self, variance: Array) -> float:
+        """Variance below the apex over that at the base, beside the legs and in the middle."""
+        below, base = variance[APEX - 2 == LAYER], variance[LAYER == 1]
+        return float(below[1] / base[len(base) // 2])
 
 
 def simulated(o: Options) -> Response:
@@ -130,28 +85,26 @@ def simulated(o: Options) -> Response:
         load=PointLoad(at=(0, APEX)), realisations=o.realisations,
     )  # fmt: skip
     (change,) = gathered(
-        ensemble, range(o.realisations), o.notice, "figure 4",
+        ensemble, o.notice, "figure 4",
         lambda answer, number: (np.concatenate(vertical(ensemble, answer, number), axis=1),),
     )  # fmt: skip
-    rest = medium.phi, 1, 1
-    exact = np.array([bead_response(i, j, 0, APEX, *rest) for i, j in SITES], dtype=float)
-    one_contact = np.array(
-        [contact_response(i, j, 0, APEX, "+", *rest) for i, j in SITES], dtype=float
-    )
+    phi, square = medium.phi, change.var(axis=0) / medium.std**2
+    exact = np.array([bead_response(i, j, 0, APEX, phi, 1, 1) for i, j in SITES], dtype=float)
+    one = [float(contact_response(i, j, 0, APEX, "+", phi, 1, 1)) for i, j in SITES]
     cut = np.take(change, ON_CUTS, axis=1) / medium.std
     variance = cut.var(axis=0)
     influence = (cut - cut.mean(axis=0)) ** 2 / (2 * variance) - 0.5
     band = simultaneous(averaged(np.log(variance) / 2, influence), LEVEL, o.seed)
+    what = f"apex l = {APEX}: exact first-order fluctuation"
     return Response(
-        medium,
-        o.realisations,
-        exact,
-        one_contact,
-        np.where(LEG, 0.5, 0.0) + change.mean(axis=0),
-        change.var(axis=0) / medium.std**2,
-        Comparison(
-            f"apex l = {APEX}: exact first-order fluctuation", band, np.sqrt(exact[ON_CUTS])
-        ),
+        medium=medium,
+        variance=exact,
+        one_contact=np.array(one),
+        printed=1.5 / float(1 - phi**2) ** 2 * (APEX + LAYER),
+        mean=ORDERED + change.mean(axis=0),
+        standard_error=medium.std * np.sqrt(square / (o.realisations - 1)),
+        simulated=square,
+        cuts=spec.Comparison(what, band, np.sqrt(exact[ON_CUTS])),
     )
 
 
@@ -172,10 +125,10 @@ def vertical(ensemble: Plan, answer: Solved, number: int) -> tuple[Array, ...]:
     return tuple(found)
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """Maps of mean and fluctuation, line cuts, and the double Y where it is asked for."""
     found = simulated(o)
-    low, high = found.limits()
+    low, high = (edge**2 for edge in found.cuts.band.limits)
     order = np.argsort(ON_CUTS)  # as the other file has them
     cuts = {name: np.asarray(column)[ON_CUTS[order]] for name, column in found.table().items()}
     cuts |= {"band_low": low[order], "band_high": high[order]}
@@ -190,20 +143,26 @@ def figure(o: Options) -> Figure:
         _cuts(found),
     ]
     tables = {"figure4": found.table(), "figure4_cuts": cuts}
-    facts = found.facts()
-    picture = Picture(panels, 3.4, page=True, mosaic="ac;bc", columns=(0.85, 1.1))
+    facts: dict[str, Any] = {
+        **of_ensembles(o, found.medium.std, apex=APEX, spacing_over_r=float(found.medium.spacing)),
+        **found.cuts.fact(),
+        "exact_first_order_inside": found.cuts.deviation() <= 1,
+        "variance_below_apex_over_base_exact": found.below_apex_over_base(found.variance),
+        "variance_below_apex_over_base_printed": found.below_apex_over_base(found.printed),
+    }
+    picture = spec.Picture(panels, 3.4, page=True, mosaic="ac;bc", columns=(0.85, 1.1))
     if double_y:
         panels.append(_double_y(double_y, found.medium))
-        picture = Picture(panels, 4.7, page=True, mosaic="ab;cd", rows=(1, 1.05))
+        picture = spec.Picture(panels, 4.7, page=True, mosaic="ab;cd", rows=(1, 1.05))
         own = [row for one in double_y for row in one.rows()]
-        tables["figure4_double_y"] = table(" ".join(own[0]), [row.values() for row in own])
+        tables["figure4_double_y"] = spec.table(" ".join(own[0]), [row.values() for row in own])
         facts["double_y"] = [one.facts() for one in double_y]
-    return Figure(picture, tables, facts, [found.cuts.verdict()], [found.cuts])
+    return spec.Figure(picture, tables, facts, [found.cuts])
 
 
-def _cuts(found: Response) -> Panel:
-    elements: list[Element] = []
-    low, high = found.limits()
+def _cuts(found: Response) -> spec.Panel:
+    elements: list[spec.Element] = []
+    low, high = (edge**2 for edge in found.cuts.band.limits)
     for c, j in enumerate(CUTS):
         here, band = j == LAYER, j == LAYER[ON_CUTS]
         printed = float(found.printed[here][0])
@@ -211,49 +170,49 @@ def _cuts(found: Response) -> Panel:
         inside, reach = slice(1, -1), 1 - j / APEX
         for rows in (inside, slice(0, 1), slice(-1, None)):
             elements += [
-                Area(x[rows], low[band][rows], high[band][rows], c, 0.2),
-                Line(x[rows], exact[rows], c),
+                spec.Area(x[rows], low[band][rows], high[band][rows], c, 0.2),
+                spec.Line(x[rows], exact[rows], c),
             ]
         elements += [
-            Points(x, found.simulated[here], c, size=2.6),
-            Line([-reach, reach], [printed, printed], "black", "--", width=0.8),
-            Words(reach, printed, f"$j={j}$", c, ("left", "center"), (3, -1)),
+            spec.Points(x, found.simulated[here], c, size=2.6),
+            spec.Line([-reach, reach], [printed, printed], "black", "--", width=0.8),
+            spec.Words(reach, printed, f"$j={j}$", c, ("left", "center"), (3, -1)),
         ]
     lower = CUTS[2]
     own = (lower == LAYER) & ~LEG
     elements += [
-        Words(0, 5, "legs of the cone", "0.3"),
-        Line(name="exact first order"),
-        Line(name="Eq. (16), printed", colour="black", dashes="--"),
-        Points(name="simulated", size=2.6),
-        Area(name=f"{LEVEL:.0%} band of all", alpha=0.2),
-        Line(COLUMN[own] / APEX, found.one_contact[own], 2, ":", f"one contact, $j={lower}$"),
+        spec.Words(0, 5, "legs of the cone", "0.3"),
+        spec.Line(name="exact first order"),
+        spec.Line(name="Eq. (16), printed", colour="black", dashes="--"),
+        spec.Points(name="simulated", size=2.6),
+        spec.Area(name=f"{LEVEL:.0%} band of all", alpha=0.2),
+        spec.Line(COLUMN[own] / APEX, found.one_contact[own], 2, ":", f"one contact, $j={lower}$"),
     ]
-    return Panel(
+    return spec.Panel(
         elements,
-        Axis("horizontal position $i/l$", -1.08, 1.4),
-        Axis(VARIANCE, 0),
+        spec.Axis("horizontal position $i/l$", -1.08, 1.4),
+        spec.Axis(VARIANCE, 0),
         legend="below",
         columns=5,
     )
 
 
-def _double_y(found: tuple[Profile, ...], medium: Medium) -> Panel:
+def _double_y(found: tuple[Profile, ...], medium: Medium) -> spec.Panel:
     dashes, slope = ("-", (0, (5, 2)), (0, (1, 1.2))), float(medium.n_x) / medium.n_y
-    return Panel(
+    return spec.Panel(
         [
             *(
-                Line(
+                spec.Line(
                     np.repeat(one.edges, 2), np.pad(np.repeat(one.density, 2), 1), c, dashes[c],
                     one.name, 1.0,
                 )
                 for c, one in enumerate(found)
             ),
-            Rule("x", -slope, dashes=(0, (1, 1.5))),
-            Rule("x", slope, dashes=(0, (1, 1.5)), name="the packing's cone"),
+            spec.Rule("x", -slope, dashes=(0, (1, 1.5))),
+            spec.Rule("x", slope, dashes=(0, (1, 1.5)), name="the packing's cone"),
         ],
-        Axis("horizontal position $x/H$", -3, 3),
-        Axis(r"mean response $H\,p(x)\,/\,f^{\rm load}$", 0),
+        spec.Axis("horizontal position $x/H$", -3, 3),
+        spec.Axis(r"mean response $H\,p(x)\,/\,f^{\rm load}$", 0),
         legend="upper center",
         legend_title="double Y",
     )  # fmt: skip

@@ -11,18 +11,8 @@ import numpy as np
 
 from .. import closed_forms
 from ..mechanics import taylor
+from . import specification as spec
 from .packings import Notice, Options
-from .specification import (
-    RELATIVE_HEIGHT,
-    Axis,
-    Figure,
-    Line,
-    Panel,
-    Picture,
-    Points,
-    Rule,
-    table,
-)
 from .stress import DIRECTIONS, HEIGHT, Direction, cosine, over_height
 
 ZERO, ONE = Fraction(0), Fraction(1)
@@ -53,7 +43,12 @@ def measured(n: Direction, sign: str, notice: Notice) -> list[Fraction]:
     return found
 
 
-def figure(o: Options) -> Figure:
+def name(n: Direction, sign: str) -> str:
+    """Name a case in the legend."""
+    return rf"$L^{sign}$ at $\phi={float(cosine(n)):g}$, Taylor"
+
+
+def figure(o: Options) -> spec.Figure:
     """Changes over M, against z."""
     found = {case: measured(*case, o.notice) for case in CASES}
     agree = all(values == theory(*case) for case, values in found.items())
@@ -63,30 +58,29 @@ def figure(o: Options) -> Figure:
         for j, (value, exact) in enumerate(zip(values, theory(n, sign), strict=True))
     ]
     z, dashes = np.arange(HEIGHT) / HEIGHT, {"+": "-", "-": ":"}
-    panel = Panel(
+    panel = spec.Panel(
         [
-            *(Line(z, over_height(theory(n, s)), c, dashes[s]) for c, (n, s) in enumerate(CASES)),
             *(
-                Points(
-                    z, over_height(values), c,
-                    rf"$L^{sign}$ at $\phi={float(cosine(n)):g}$, Taylor",
+                (
+                    spec.Line(z, over_height(theory(n, sign)), c, dashes[sign]),
+                    spec.Points(z, over_height(found[n, sign]), c, name(n, sign)),
                 )
-                for c, ((n, sign), values) in enumerate(found.items())
+                for c, (n, sign) in enumerate(CASES)
             ),
-            Line(name="Eq. (B15), $L^+$"),
-            Line(name="Eq. (B15), $L^-$", dashes=":"),
-            Rule("y", 0),
+            spec.Line(name="Eq. (B15), $L^+$"),
+            spec.Line(name="Eq. (B15), $L^-$", dashes=":"),
+            spec.Rule("y", 0),
         ],
-        RELATIVE_HEIGHT,
-        Axis(r"change of $\langle f^+\rangle/L^\pm$ over $M(\sigma_{\delta r}/r)^2$"),
+        spec.RELATIVE_HEIGHT,
+        spec.Axis(r"change of $\langle f^+\rangle/L^\pm$ over $M(\sigma_{\delta r}/r)^2$"),
         legend="below",
         columns=2,
     )  # fmt: skip
-    return Figure(
-        Picture([panel], 3.2),
-        tables={"figureB15": table("phi load j shift_taylor shift_closed_form", rows)},
+    return spec.Figure(
+        spec.Picture([panel], 3.2),
+        tables={"figureB15": spec.table("phi load j shift_taylor shift_closed_form", rows)},
         facts={"height": HEIGHT, "equal_as_fractions": agree},
-        says=[
+        words=[
             f"M = {HEIGHT}: Eq. B15 {'equals' if agree else 'does not equal'} the Taylor "
             "coefficients, as fractions"
         ],

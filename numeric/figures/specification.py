@@ -177,12 +177,14 @@ Element = Line | Points | Area | Rule | Words | Arrow | Beads | Chains
 
 @dataclass(frozen=True)
 class Panel:
-    """One panel; ``legend`` is its place, "below" under the whole figure, "" nowhere.
+    """One panel, of elements or lists of them.
+
+    ``legend`` is its place, "below" under the whole figure, "" nowhere.
 
     ``scaled``: both axes alike; ``bare``: no axes. ``spatial``: in three dimensions.
     """
 
-    elements: Sequence[Element]
+    elements: Sequence[Element | Sequence[Element]]
     x: Axis = Axis()
     y: Axis = Axis()
     title: str = ""
@@ -213,6 +215,11 @@ class Picture:
 def table(names: str, rows: Iterable[Iterable[Any]]) -> Table:
     """Give the columns of rows, by names with spaces between them."""
     return dict(zip(names.split(), zip(*rows, strict=True), strict=True))
+
+
+def stacked(parts: Sequence[Table]) -> Table:
+    """Put tables of the same columns below each other."""
+    return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
 @dataclass(frozen=True)
@@ -246,6 +253,13 @@ class Comparison:
         found, (low, high) = self.band.value[rows], (edge[rows] for edge in self.band.limits)
         return Points(x, found / unit, series, name, np.array([found - low, high - found]) / unit)
 
+    def drawn(
+        self, x: Any, series: int, name: str = "", *, unit: float = 1.0, rows: Any = ...
+    ) -> list[Element]:
+        """Give theory as a line, and what was simulated."""
+        line = Line(x, self.theory[rows] / unit, series)
+        return [line, self.points(x, series, name, unit=unit, rows=rows)]
+
     def columns(self, name: str = "", unit: float = 1.0) -> Table:
         """Give columns of a CSV file, over ``unit``: what was simulated, its band, theory."""
         low, high = self.band.limits
@@ -259,10 +273,18 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Figure:
-    """A figure: its picture, its CSV files by name, verdicts and parameters, verdicts in words."""
+    """A figure: its picture, its CSV files by name, verdicts and parameters, verdicts in words.
+
+    Words that are not given are those of the comparisons.
+    """
 
     picture: Picture
     tables: Mapping[str, Table]
     facts: Mapping[str, Any]
-    says: Sequence[str]
     comparisons: Sequence[Comparison] = ()
+    words: Sequence[str] = ()
+
+    @property
+    def says(self) -> list[str]:
+        """What was found, in words."""
+        return list(self.words) or [one.verdict() for one in self.comparisons]

@@ -11,8 +11,8 @@ import numpy as np
 from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..scene.sections import BulkLoad, SurfaceLoad
+from . import specification as spec
 from .packings import PAPER_STD, PHI, Options, band_of_spread, moments, of_ensembles, planned
-from .specification import RELATIVE_HEIGHT, Axis, Comparison, Figure, Line, Panel, Picture, table
 
 
 class Case(NamedTuple):
@@ -50,58 +50,52 @@ def leading(load: str, z: Array) -> Array:
     )
 
 
-def simulated(o: Options, place: int, case: Case) -> Comparison:
+def over_contacts(change: Array) -> Array:
+    """Average over all contacts of a layer at once; (realisations, M)."""
+    return np.asarray(change.mean(axis=(1, 3)).T)
+
+
+def simulated(o: Options, place: int, case: Case) -> spec.Comparison:
     """Simulate a case, each on radii of its own."""
     M, (number, load) = case.height, LOADS[case.load]
     ensemble = planned(
-        "profile", height=M, width=2 * M, seed=o.seed, realisations=o.realisations, load=load(),
-        dimension=3,
+        "profile", height=M, seed=o.seed, realisations=o.realisations, load=load(), dimension=3
     )  # fmt: skip
-    what, numbers = f"{case.load} load, M = {M}", range(place << 32, (place << 32) + o.realisations)
-    found = moments(
-        ensemble, numbers, o.notice, f"figure B13, {what}",
-        over=lambda change: change.mean(axis=(1, 3)).T,
-    )  # fmt: skip
-    return Comparison(f"{what}: Eq. {number}", band_of_spread(*found, o.seed), exact(case))
+    what = f"{case.load} load, M = {M}"
+    found = moments(ensemble, o.notice, f"figure B13, {what}", over_contacts, place << 32)
+    return spec.Comparison(f"{what}: Eq. {number}", band_of_spread(*found, o.seed), exact(case))
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """Points with bands, the exact curves, and the leading orders, over M^(3/2)."""
     found = [simulated(o, place, case) for place, case in enumerate(CASES)]
     fine, unit = np.linspace(0, 1, 101), [PAPER_STD * case.height**1.5 for case in CASES]
-    panel = Panel(
+    panel = spec.Panel(
         [
-            Line(name="Eqs. (B13), (B14), exact"),
-            Line(name=r"$M\to\infty$", dashes="--"),
+            spec.Line(name="Eqs. (B13), (B14), exact"),
+            spec.Line(name=r"$M\to\infty$", dashes="--"),
             *(
-                Line(case.z, one.theory / unit[c], c)
+                one.drawn(case.z, c, f"{case.load}, $M={case.height}$", unit=unit[c])
                 for c, (case, one) in enumerate(zip(CASES, found, strict=True))
             ),
-            *(
-                one.points(case.z, c, f"{case.load}, $M={case.height}$", unit=unit[c])
-                for c, (case, one) in enumerate(zip(CASES, found, strict=True))
-            ),
-            *(Line(fine, leading(load, fine) / PAPER_STD, dashes="--") for load in LOADS),
+            *(spec.Line(fine, leading(load, fine) / PAPER_STD, dashes="--") for load in LOADS),
         ],
-        RELATIVE_HEIGHT,
-        Axis(r"$M^{-3/2}\,(\sigma_f/\langle f\rangle)\,/\,(\sigma_{\delta r}/r)$", 0),
+        spec.RELATIVE_HEIGHT,
+        spec.Axis(r"$M^{-3/2}\,(\sigma_f/\langle f\rangle)\,/\,(\sigma_{\delta r}/r)$", 0),
         legend="upper right",
     )
-    parts = [one.columns() for one in found]
-    columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     layers = [(*case, j, z) for case in CASES for j, z in enumerate(case.z.tolist())]
     printed = [leading(case.load, case.z) * case.height**1.5 for case in CASES]
-    return Figure(
-        Picture([panel], 2.8),
+    return spec.Figure(
+        spec.Picture([panel], 2.8),
         tables={
-            "figureB13": table("load M j z", layers)
-            | columns
+            "figureB13": spec.table("load M j z", layers)
+            | spec.stacked([one.columns() for one in found])
             | {"printed": np.concatenate(printed)}
         },
         facts={
             **of_ensembles(o, PAPER_STD, cases=[case._asdict() for case in CASES]),
             "largest_deviation_in_half_widths": [one.deviation() for one in found],
         },
-        says=[one.verdict() for one in found],
         comparisons=found,
     )

@@ -12,19 +12,8 @@ import numpy as np
 from .. import closed_forms
 from ..arithmetic.systems import Series
 from ..mechanics import taylor
+from . import specification as spec
 from .packings import Notice, Options
-from .specification import (
-    RELATIVE_HEIGHT,
-    Axis,
-    Element,
-    Figure,
-    Line,
-    Panel,
-    Picture,
-    Points,
-    Rule,
-    table,
-)
 
 HEIGHT = 8
 DIRECTIONS = ((Fraction(3, 5), Fraction(4, 5)), (Fraction(4, 5), Fraction(3, 5)))
@@ -78,28 +67,28 @@ def over_height(values: list[Fraction]) -> list[float]:
     return [float(value) / HEIGHT for value in values]
 
 
-def panel(load: str, found: dict[tuple[str, Direction], list[Fraction]]) -> Panel:
+def panel(load: str, found: dict[tuple[str, Direction], list[Fraction]]) -> spec.Panel:
     """Shifts over M under one load, a colour a direction."""
     z, fine = np.arange(HEIGHT) / HEIGHT, np.linspace(0, 1, 101)
-    elements: list[Element] = []
+    elements: list[spec.Element] = []
     for c, n in enumerate(DIRECTIONS):
         phi = float(cosine(n))
         limit = (1 + phi) * fine - 2 * phi if load == "surface" else fine - phi
         name = rf"$\phi={phi:g}$, Taylor coefficients"
         elements += [
-            Line(fine, 4 * limit / (1 - phi**2) ** 2, c, "--"),
-            Line(z, over_height(theory(load, n)), c),
-            Points(z, over_height(found[load, n]), c, name),
+            spec.Line(fine, 4 * limit / (1 - phi**2) ** 2, c, "--"),
+            spec.Line(z, over_height(theory(load, n)), c),
+            spec.Points(z, over_height(found[load, n]), c, name),
         ]
-    return Panel(
+    return spec.Panel(
         [
-            Line(name=f"Eq. ({LOADS[load][0]}), exact at $M={HEIGHT}$"),
-            Line(name=r"$M\to\infty$", dashes="--"),
+            spec.Line(name=f"Eq. ({LOADS[load][0]}), exact at $M={HEIGHT}$"),
+            spec.Line(name=r"$M\to\infty$", dashes="--"),
             *elements,
-            Rule("y", 0),
+            spec.Rule("y", 0),
         ],
-        RELATIVE_HEIGHT,
-        Axis(
+        spec.RELATIVE_HEIGHT,
+        spec.Axis(
             r"change of $\sigma_{xx}/\sigma_{yy}$ over $M(\sigma_{\delta r}/r)^2$"
             if load == "surface"
             else ""
@@ -109,7 +98,7 @@ def panel(load: str, found: dict[tuple[str, Direction], list[Fraction]]) -> Pane
     )
 
 
-def figure(o: Options) -> Figure:
+def figure(o: Options) -> spec.Figure:
     """Shifts under both loads, in two directions."""
     found = {case: measured(*case, o.notice) for case in CASES}
     agree = {load: all(found[load, n] == theory(load, n) for n in DIRECTIONS) for load in LOADS}
@@ -118,11 +107,11 @@ def figure(o: Options) -> Figure:
         for (load, n), values in found.items()
         for j, (value, exact) in enumerate(zip(values, theory(load, n), strict=True))
     ]
-    return Figure(
-        Picture([panel(load, found) for load in LOADS], 2.6, page=True, share="y"),
-        tables={"figureB10": table("load phi j shift_taylor shift_closed_form", rows)},
+    return spec.Figure(
+        spec.Picture([panel(load, found) for load in LOADS], 2.6, page=True, share="y"),
+        tables={"figureB10": spec.table("load phi j shift_taylor shift_closed_form", rows)},
         facts={"height": HEIGHT, "equal_as_fractions": all(agree.values())},
-        says=[
+        words=[
             f"M = {HEIGHT}: Eq. {LOADS[load][0]} {'equals' if same else 'does not equal'} the "
             "Taylor coefficients, as fractions"
             for load, same in agree.items()

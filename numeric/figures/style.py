@@ -9,15 +9,13 @@ import io
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, Literal
+from typing import Any
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.backend_bases import RendererBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
@@ -28,7 +26,6 @@ BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = (
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",
 )  # fmt: skip
 _COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
-Dashes = Literal["-", "--", ":"]
 _MARKERS = ("o", "s", "^", "D", "v", "P")
 _RC: dict[Any, Any] = {
     "font.family": "STIXGeneral",
@@ -63,27 +60,6 @@ _RC: dict[Any, Any] = {
 def series(number: int) -> tuple[str, str]:
     """Give colour and marker of the n-th series."""
     return _COLOURS[number % len(_COLOURS)], _MARKERS[number % len(_MARKERS)]
-
-
-def line(colour: str, dashes: Dashes, name: str) -> Line2D:
-    """Give a line for a legend."""
-    return Line2D([], [], color=colour, linestyle=dashes, label=name)
-
-
-def points(
-    axes: Axes, x: Any, y: Any, error: Any, look: tuple[str, str], name: str | None = None
-) -> None:
-    """Draw what was simulated, with error bars; ``look`` is that of a ``series``."""
-    colour, marker = look
-    axes.errorbar(
-        x, y, error, fmt=marker, color=colour, mfc="white", ms=3.2, mew=0.7, elinewidth=0.7,
-        label=name,
-    )  # fmt: skip
-
-
-def shade(colour: str, name: str, alpha: float = 0.25) -> Patch:
-    """Give a patch for a legend."""
-    return Patch(facecolor=colour, alpha=alpha, lw=0, label=name)
 
 
 @contextmanager

@@ -5,9 +5,9 @@ and adds nothing but the measured cost.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from time import monotonic
 
 from ..arithmetic.errors import ForceDiffusionError
@@ -80,7 +80,7 @@ def _plan(
     text: bool,
 ) -> Plan:
     """Plan a scene with this very tolerance."""
-    asked = _asked(quantity_of(scene), limit, tolerance, text=text)
+    asked = _Asked(quantity_of(scene), tolerance, limit, text)
     problem = asked.problem
     if problem.route == Route.ORDERED:  # exactly known, whatever is asked
         bits = initial_bits(tolerance or Fraction(1, 2**60), problem.height)
@@ -93,21 +93,125 @@ def _plan(
     return choose(asked.plan, problem, algorithm, tolerance, certified=certified)
 
 
-@dataclass(frozen=True)
+@dataclass
 class _Asked:
-    """A scene's question as a problem, of which any method makes a plan in ``limit`` bytes."""
+    """A scene's question, as a problem of which any method makes a plan in ``limit`` bytes.
+
+    ``skipped``: effects that are left out, each with the reason, once there is a problem.
+    """
 
     quantity: Quantity
-    problem: Problem
-    skipped: tuple[Skipped, ...]
     tolerance: Fraction | None
     limit: int
     text: bool
+    skipped: dict[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.scene = self.quantity.scene
+        geometry, disorder = self.scene.effects.geometry, self.scene.disorder
+        self.unilateral = self.scene.effects.contacts == "unilateral"
+        # Whether it is plain without reading any file that nothing is disordered.
+        self.ordered = not self.unilateral and (
+            disorder is None
+            or geometry == "ordered"
+            or (disorder.kind not in ("file", "given") and not disorder.relative_std)
+        )
+        # Whether closed forms or line sums give the one answer.
+        self.single = self.quantity.single and (self.ordered or geometry == "first-order")
+
+    @cached_property
+    def problem(self) -> Problem:
+        """Which beads are solved, by which theory.
+
+        Raises ``SceneError`` for a scene that is too large, before a single row of beads is made,
+        and ``TableError``.
+        """
+        self._refuse_beads()
+        scene, quantity, load = self.scene, self.quantity, load_of(self.scene)
+        if not quantity.needs_forces:
+            if "load" in scene.model_fields_set:
+                self.skipped["load"] = "positions follow from the radii alone"
+        elif not scene.load.angle_deg and scene.load.kind != "file":
+            self.skipped["load at an angle"] = "the load points straight down"
+        rows, region = Rows(), Region(load.width, Rows())
+        if not self.single:
+            rows, region = quantity.beads(load)
+        unloaded = not region.rows or (quantity.needs_forces and load.loaded == [])
+        radii, route = self._theory(region, unloaded=unloaded and not self.single)
+        realisations = scene.ask.realisations
+        if realisations > 1 and route == Route.ORDERED:
+            why = "without disorder all realisations are the same: one is solved"
+            self.skipped["realisations"] = why
+            realisations = 1
+        return Problem(
+            scene.n_x,
+            radii,
+            load,
+            route,
+            region,
+            rows,
+            quantity.needs_forces,
+            scene.contact,
+            scene.site,
+            scene.effects.stop_at_tension,
+            realisations,
+            scene.effects.protocol if self.unilateral else "",
+            scene.effects.most_events,
+            scene.effects.most_seconds,
+        )
+
+    def _refuse_beads(self) -> None:
+        """Refuse what surely takes too much memory, with the least of plans."""
+        quantity, packing = self.quantity, self.scene.packing
+        beads = 5 * packing.height if self.single else quantity.most_beads()
+        if self.ordered and packing.dimension == 2:
+            beads = 0
+        layers = 0 if quantity.single and not beads else packing.height + 1
+        nothing, rows = Region(packing.width, Rows()), layers * PLAN_LAYER
+        needed = memory(quantity, nothing, beads, 1, FLOAT64, text=self.text)
+        if needed + rows > self.limit and segments.suits(self.scene, self.tolerance):
+            height = packing.height
+            widest = min(packing.width or 2 * height + 2, -(-2 * beads // (height + 1)))
+            needed = min(needed, segments.division(widest, height, packing.dimension, 0).bytes)
+        refuse_memory(self.scene, needed + rows, self.limit)
+
+    def _theory(self, region: Region, *, unloaded: bool) -> tuple[Radii, Route]:
+        """Give the radii and the route, and say what that leaves out."""
+        scene, skipped = self.scene, self.skipped
+        geometry = scene.effects.geometry
+        radii: Radii = Monodisperse()
+        if scene.disorder is not None and not self.ordered:
+            radii = radii_of(scene, region.rows)
+        if self.unilateral:
+            skipped["stop at tension"] = "contacts open before they pull"
+            return radii, Route.UNILATERAL
+        if not scene.effects.stop_at_tension:
+            skipped["stop at tension"] = "not asked for: tensile contacts are counted, not acted on"
+        if scene.packing.dimension == 2:
+            why = 'contacts = "unilateral" would let beads move where a contact pulls'
+            skipped["contacts that open"] = why
+        why = ""
+        if scene.disorder is None:
+            why = "the scene names none: all radii are equal"
+        elif geometry == "ordered":
+            why = 'geometry = "ordered" looks at the ordered packing only'
+        elif self.ordered:
+            why = "its relative_std is 0"
+        elif not radii.relative_std() and not self.single:
+            why = "every delta_r in the file is 0"
+        elif unloaded:
+            why = "no load reaches what is asked for: the forces are exactly zero"
+        if why:
+            skipped["disorder"] = why
+            return Monodisperse(), Route.ORDERED
+        if geometry == "exact":
+            return radii, Route.EXACT
+        skipped["nonlinear geometry"] = 'geometry = "first-order" sums the radii along diagonals'
+        return radii, Route.LINE_SUMS if self.single else Route.FIRST_ORDER
 
     def plan(self, method: Method) -> Plan:
         """Plan a method. Raises ``SceneError`` where it takes too much, or numbers can't hold."""
-        quantity, problem = self.quantity, self.problem
-        scene = quantity.scene
+        quantity, problem, scene = self.quantity, self.problem, self.scene
         if method.carries or method.system.dtype is not object:
             refuse_beyond_floats(scene, problem.radii, problem.load)
         needed, cut, because = self._memory(method), None, ""
@@ -118,7 +222,8 @@ class _Asked:
             needed = segments.memory(cut, quantity, text=self.text)
             problem = cut
         refuse_memory(scene, needed, self.limit)
-        return Plan(scene, quantity, problem, self.tolerance, method, self.skipped, needed, because)
+        skipped = tuple(Skipped(*one) for one in self.skipped.items())
+        return Plan(scene, quantity, problem, self.tolerance, method, skipped, needed, because)
 
     def _memory(self, method: Method) -> int:
         """Give the memory needed, of a whole packing."""
@@ -136,114 +241,3 @@ class _Asked:
             longest = method.longer
         compiler = COMPILED * worth_compiling(problem, method.system, carried=method.carries)
         return memory(quantity, region, at_once, n, longest, text=self.text) + compiler
-
-
-def _asked(quantity: Quantity, limit: int, tolerance: Fraction | None, *, text: bool) -> _Asked:
-    """Say which beads are solved, by which theory, and what is left out.
-
-    Raises ``SceneError`` for a scene that is too large, before a single row of beads is made, and
-    ``TableError``.
-    """
-    scene = quantity.scene
-    unilateral = scene.effects.contacts == "unilateral"
-    ordered = _is_ordered(scene) and not unilateral
-    single = quantity.single and (ordered or scene.effects.geometry == "first-order")
-    refuse_memory(
-        scene, _least_memory(quantity, tolerance, ordered=ordered, single=single, text=text), limit
-    )
-    load, skipped = load_of(scene), dict[str, str]()
-    if not quantity.needs_forces:
-        if "load" in scene.model_fields_set:
-            skipped["load"] = "positions follow from the radii alone"
-    elif not scene.load.angle_deg and scene.load.kind != "file":
-        skipped["load at an angle"] = "the load points straight down"
-    rows, region = (Rows(), Region(load.width, Rows())) if single else quantity.beads(load)
-    if unilateral:
-        skipped["stop at tension"] = "contacts open before they pull"
-        given = scene.disorder is not None
-        radii: Radii = radii_of(scene, region.rows) if given else Monodisperse()
-        route = Route.UNILATERAL
-    else:
-        unloaded = not region.rows or (quantity.needs_forces and load.loaded == [])
-        unloaded = unloaded and not single
-        radii, route = _theory(scene, region, skipped, single=single, unloaded=unloaded)
-    realisations = scene.ask.realisations
-    if realisations > 1 and route == Route.ORDERED:
-        skipped["realisations"] = "without disorder all realisations are the same: one is solved"
-        realisations = 1
-    problem = Problem(
-        scene.n_x,
-        radii,
-        load,
-        route,
-        region,
-        rows,
-        quantity.needs_forces,
-        scene.contact,
-        scene.site,
-        scene.effects.stop_at_tension,
-        realisations,
-        scene.effects.protocol if unilateral else "",
-        scene.effects.most_events,
-        scene.effects.most_seconds,
-    )
-    left_out = tuple(Skipped(*one) for one in skipped.items())
-    return _Asked(quantity, problem, left_out, tolerance, limit, text)
-
-
-def _is_ordered(scene: Scene) -> bool:
-    """Say whether it is plain without reading any file that nothing is disordered."""
-    disorder = scene.disorder
-    if disorder is None or scene.effects.geometry == "ordered":
-        return True
-    drawn = disorder.kind not in ("file", "given")
-    return drawn and not disorder.relative_std
-
-
-def _least_memory(
-    quantity: Quantity, tolerance: Fraction | None, *, ordered: bool, single: bool, text: bool
-) -> int:
-    """Give what a scene surely takes, with the least of plans."""
-    scene, packing = quantity.scene, quantity.scene.packing
-    beads = 5 * packing.height if single else quantity.most_beads()
-    if ordered and packing.dimension == 2:
-        beads = 0
-    layers = 0 if quantity.single and not beads else packing.height + 1
-    needed = memory(quantity, Region(packing.width, Rows()), beads, 1, FLOAT64, text=text)
-    if segments.suits(scene, tolerance):
-        height = packing.height
-        widest = min(packing.width or 2 * height + 2, -(-2 * beads // (height + 1)))
-        needed = min(needed, segments.division(widest, height, packing.dimension, 0).bytes)
-    return needed + layers * PLAN_LAYER
-
-
-def _theory(
-    scene: Scene, region: Region, skipped: dict[str, str], *, single: bool, unloaded: bool
-) -> tuple[Radii, Route]:
-    """Give the radii and the route where contacts stay closed; add what that leaves out."""
-    if not scene.effects.stop_at_tension:
-        skipped["stop at tension"] = "not asked for: tensile contacts are counted, not acted on"
-    if scene.packing.dimension == 2:
-        why = 'contacts = "unilateral" would let beads move where a contact pulls'
-        skipped["contacts that open"] = why
-    radii: Radii = Monodisperse()
-    geometry, why = scene.effects.geometry, ""
-    if scene.disorder is None:
-        why = "the scene names none: all radii are equal"
-    elif geometry == "ordered":
-        why = 'geometry = "ordered" looks at the ordered packing only'
-    elif _is_ordered(scene):
-        why = "its relative_std is 0"
-    else:
-        radii = radii_of(scene, region.rows)
-        if not radii.relative_std() and not single:
-            why = "every delta_r in the file is 0"
-        elif unloaded:
-            why = "no load reaches what is asked for: the forces are exactly zero"
-    if why:
-        skipped["disorder"] = why
-        return Monodisperse(), Route.ORDERED
-    if geometry == "exact":
-        return radii, Route.EXACT
-    skipped["nonlinear geometry"] = 'geometry = "first-order" sums the radii along diagonals'
-    return radii, Route.LINE_SUMS if single else Route.FIRST_ORDER

@@ -72,13 +72,13 @@ def answer(
     asked = _Asked(quantity, problem, realisations, system, work, longer)
     counts = problem.segments > 1 and isinstance(quantity, Histogram) and not quantity.single
     networks: list[Network] = []
-    store = Kept() if kept is None else kept
     with system.active(), asked.own.active():
         sweep: Sweep = _Whole(asked, plainly, networks)
         if problem.segment:
             from ..mechanics.segments import Segments
 
             (realisation,) = realisations
+            store = Kept() if kept is None else kept
             sweep = Segments(problem, realisation, work, store, again=counts)
         part = _swept(asked, sweep, kept, counts=counts)
         table = named(quantity, part.table)
@@ -226,7 +226,7 @@ def _swept(asked: _Asked, sweep: Sweep, kept: Kept | None, *, counts: bool) -> P
                 part.keep(kept, number)
             sweep.leave(number)
         parts.insert(0, part)
-    found = joined(parts)
+    found = parts[0] if len(parts) == 1 else joined(parts)
     return found.extremes() if counts else found
 
 

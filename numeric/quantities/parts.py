@@ -100,8 +100,6 @@ class Part:
 def joined(parts: Sequence[Part]) -> Part:
     """Put parts together, that of the lowest layers first; their columns are used up."""
     first = parts[0]
-    if len(parts) == 1:
-        return first
     tables = [part.table for part in parts if part.table.rows] or [first.table]
 
     def column_by_column(columns: Sequence[Columns]) -> dict[str, Array]:

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from decimal import Decimal
-from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -147,8 +146,7 @@ def stability_part(notice: Notice = lambda _: None) -> Part:
     )
 
     command = "force-diffusion stability --out stability"
-    lines = count(1)
-    found = stability(lambda _: notice(f"stability: line {next(lines)}"))
+    found = stability(notice)
     data = found.data()
     files = csv_rows(data, command)
     (svg,) = style.images(

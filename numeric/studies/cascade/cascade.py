@@ -38,9 +38,8 @@ JUST = Fraction(1, 10**6)
 CHANGES, MOVED = (0.01, 0.1), 1e-3
 HEAD = (
     "One contact pulls by a millionth of the load, and opens; means over packings, ± two "
-    "standard errors.\n"
-    "load      M    W packings      M/M*   first at j/M    forces >1%   forces >10%    beads moved"
-    "  new contacts   events"
+    "standard errors.\nShares: forces that changed by more than 1 % and 10 % of the mean, beads "
+    "that moved, contacts that are new."
 )
 
 
@@ -72,10 +71,11 @@ class Cascade:
 
 @dataclass(frozen=True)
 class CascadeStudy:
-    """What opened contacts changed, packing by packing."""
+    """What opened contacts changed, packing by packing; which did not come to rest, and why."""
 
     cascades: tuple[Cascade, ...]
     protocol: str
+    left_out: tuple[str, ...] = ()
 
     def rows(self) -> list[tables.Row]:
         """A row a packing, ready for a data frame."""
@@ -107,7 +107,14 @@ class CascadeStudy:
 
     def __str__(self) -> str:
         """Give the summary as a table."""
-        return "\n".join([HEAD, *map(_line, self.summary())])
+        return "\n".join([HEAD, *tables.text_table(self._shown()), *self.left_out])
+
+    def _shown(self) -> list[tables.Row]:
+        return [
+            {name: row[name] for name in ("load", "height", "width", "packings")}
+            | {name: f"{row[name]:.3f} ± {2 * row[f'{name}_error']:.3f}" for name in SHARES}
+            for row in self.summary()
+        ]
 
     __repr__ = __str__
 
@@ -122,7 +129,7 @@ def cascade(
     """Open one contact that barely pulls, and count what changes.
 
     For each of ``heights`` M, under a surface and a bulk load, ``packings`` strips of width 2M with
-    uniform disorder and s = 3 r. By default a minute. ``notice`` is told lines as they come. Raises
+    uniform disorder and s = 3 r. By default a minute. ``notice`` is told of every packing. Raises
     ``ForceDiffusionError`` for heights below 2 or fewer than two packings.
 
     >>> import force_diffusion as fd
@@ -136,14 +143,15 @@ def cascade(
         raise ForceDiffusionError(
             f'there is no protocol "{protocol}"; there are "linear-programs" and "event-driven"'
         )
-    notice(HEAD)
     found: list[Cascade] = []
+    left_out: list[str] = []
     for load in LOADS:
         for height in heights:
-            group = list(islice(_all_opened(load, height, protocol, notice), packings))
-            notice(_line(_summed(group)))
-            found += group
-    return CascadeStudy(tuple(found), protocol)
+            each = _all_opened(load, height, protocol, left_out)
+            for number, one in enumerate(islice(each, packings), start=1):
+                notice(f"cascade: {load} load, M = {height}, {number} of {packings}")
+                found.append(one)
+    return CascadeStudy(tuple(found), protocol, tuple(left_out))
 
 
 def _problem(load: str, height: int, number: int, std: Fraction, protocol: Protocol) -> Problem:
@@ -158,17 +166,17 @@ def _problem(load: str, height: int, number: int, std: Fraction, protocol: Proto
 
 
 def _all_opened(
-    load: str, height: int, protocol: Protocol, notice: Callable[[str], None]
+    load: str, height: int, protocol: Protocol, left_out: list[str]
 ) -> Iterator[Cascade]:
     """Give packing after packing, but those in which beads overlap before any contact pulls.
 
-    Those in which beads do not come to rest are told, and left out.
+    Those in which beads do not come to rest are ``left_out``, too, with the reason.
     """
     for number in count():
         try:
             found = _opened(load, height, number, protocol)
         except UnfinishedError as error:
-            notice(f"{load} load, M = {height}, packing {number} is left out: {error}")
+            left_out.append(f"{load} load, M = {height}, packing {number} is left out: {error}")
             continue
         if found is not None:
             yield found
@@ -230,14 +238,3 @@ def _summed(group: Sequence[Cascade]) -> tables.Row:
         row[name] = float(values.mean())
         row[f"{name}_error"] = float(values.std(ddof=1) / np.sqrt(len(values)))
     return row
-
-
-def _line(row: tables.Row) -> str:
-    def shown(name: str) -> str:
-        return f"{row[name]:5.3f} ± {2 * row[f'{name}_error']:5.3f}"
-
-    shares = "  ".join(shown(name) for name in SHARES[1:-1])
-    return (
-        f"{row['load']:<8}{row['height']:3}{row['width']:5}{row['packings']:9}  "
-        f"{shown('of_critical')}  {shares}  {row['events']:7.0f}"
-    )

@@ -11,7 +11,6 @@ from collections.abc import Iterator, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -24,6 +23,7 @@ from ...arithmetic.systems import (
     BigFloat,
     NumberSystem,
     array,
+    largest_of,
 )
 from ...planning import planner
 from ...planning.plan import Plan, Skipped
@@ -143,10 +143,11 @@ class _EstimatedReference:
         linear = self._scatter("first-order", apart)
         exact = self._scatter("exact", apart) if scene.effects.geometry == "exact" else linear
         ratio = exact.mean(axis=0) / linear.mean(axis=0)
-        self.mean = {"first-order": first, "exact": array_of(first, np.sqrt(ratio))}
-        self.best = self.mean[scene.effects.geometry]
         with EXACT.active():
-            self.largest = max((exactly(v) for v in self.best), key=float)
+            factors = [EXACT.from_float(float(root)) for root in np.sqrt(ratio)]
+            self.mean = {"first-order": first, "exact": first * np.array(factors, object)}
+            self.best = self.mean[scene.effects.geometry]
+            self.largest = largest_of(exactly(v) for v in self.best)
         share = np.array([float(v) for v in self.best]) / float(self.largest)
         root = math.sqrt(len(apart))
         # Standard errors of √ratio and of the root of a mean square, each relative to σ_f.
@@ -172,24 +173,13 @@ class _EstimatedReference:
     def off(self, found: Array, meant: Array) -> Decimal:
         """Give the largest |difference| over layers, relative to the largest σ_f."""
         with EXACT.active():
-            apart = [abs(exactly(a) - exactly(b)) for a, b in zip(found, meant, strict=True)]
-            return decimal((max(apart, key=float) / self.largest).upper())
+            pairs = zip(found, meant, strict=True)
+            apart = largest_of(abs(exactly(a) - exactly(b)) for a, b in pairs)
+            return decimal((apart / self.largest).upper())
 
     def rounding(self, name: str) -> Decimal:
         """Estimate the rounding error of σ_f, from one realisation with a longer significand."""
         longer: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
-        short, long = (answer(self.plans[name], s, [0]).numbers["std"] for s in (FLOAT64, longer))
-        with EXACT.active():
-            apart = [abs(exactly(a) - exactly(b)) for a, b in zip(short, long, strict=True)]
-            return decimal((max(apart, key=float) / self.largest).upper())
-
-
-def array_of(values: Array, factors: Array) -> Array:
-    """Multiply balls by float64 factors, each taken as exact; shape (M,)."""
-    with EXACT.active():
-        result: list[Any] = [
-            v * EXACT.from_float(float(f)) for v, f in zip(values, factors, strict=True)
-        ]
-    scaled = np.empty(len(result), dtype=object)
-    scaled[:] = result
-    return scaled
+        return self.off(
+            *(answer(self.plans[name], s, [0]).numbers["std"] for s in (FLOAT64, longer))
+        )

@@ -18,7 +18,10 @@ MEMORY = (
     "tracemalloc: what Python and NumPy allocate; with big numbers a lower bound (≥), since their "
     "limbs are allocated elsewhere"
 )
-ERRORS = "model_error", "rounding_error", "sampling_error"
+SHOWN = (
+    "way", "arithmetic", "realisations", "error", "model_error", "rounding_error",
+    "sampling_error", "certified_bound", "seconds", "seconds_min", "seconds_max", "runs",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -117,24 +120,22 @@ def csv_rows(data: dict[str, Any], command: str) -> list[dict[str, Any]]:
     return [{**row, **common} for row in data["rows"]]
 
 
+def _shown(row: dict[str, Any]) -> tables.Row:
+    """Give what text shows of a row."""
+    kilobytes = f"{row['peak_bytes'] / 1e3:.0f}"
+    return {
+        " ": "*" if row["pareto"] else " ",
+        **{name: row[name] for name in SHOWN},
+        "peak_kB": f"≥{kilobytes}" if row["peak_is_bound"] else kilobytes,
+    }
+
+
 def _lines(data: dict[str, Any]) -> list[str]:
     result = [
         f"Ways to '{data['quantity']}', measured errors relative to the largest |change|; "
         "* Pareto front of measured error and least time",
-        f"{'':2}{'way':<27}{'arithmetic':<20}{'N':>6} {'error':>9} {'model':>9} {'rounding':>9} "
-        f"{'sampling':>9} {'bound':>9}  {'median s':>9} {'min … max s':>19} "
-        f"{'runs':>4} {'peak kB':>9}",
+        *tables.text_table([_shown(row) for row in data["rows"]]),
     ]
-    for row in data["rows"]:
-        parts = [row["error"], *(row[k] for k in ERRORS), row["certified_bound"]]
-        shown = " ".join(f"{'' if part is None else part:>9}" for part in parts)
-        spread = f"{row['seconds_min']:.2e} … {row['seconds_max']:.2e}"
-        result.append(
-            f"{'* ' if row['pareto'] else '  '}{row['way']:<27}{row['arithmetic']:<20}"
-            f"{row['realisations'] or '':>6} {shown}  {row['seconds']:9.2e} {spread:>19} "
-            f"{row['runs']:>4} {'≥' if row['peak_is_bound'] else '':>2}"
-            f"{row['peak_bytes'] / 1e3:>7.0f}"
-        )
     reference = data["reference"]
     result.append(
         f"Reference: {reference['what']}, {reference['kind']}, radius {reference['radius']} "

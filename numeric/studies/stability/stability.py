@@ -20,84 +20,42 @@ Measured = Comparison | Enclosed | ClosedFormRow
 FLOATS, ENCLOSURES, CLOSED_FORMS = "rows", "enclosures", "closed_forms"
 
 
-def _number(value: float | None, spec: str = "7.1e") -> str:
-    width = int(spec.split(".", maxsplit=1)[0])
-    return f"{'--':>{width}}" if value is None else f"{value:{spec}}"
-
-
-def _float_line(row: tables.Row) -> str:
-    own, plain = row["seconds"], row["plain_seconds"]
-    ratio = own / plain if own and plain else None
-    return (
-        f"{row['group']:<10}{row['height']:5}{row['width']:5}  {row['relative_std']:8.1e}  "
-        f"{row['spacing']:<15} {_number(row['error'])} {_number(own, '8.1e')}s  "
-        f"{_number(row['plain_error'], '8.1e')} {_number(plain, '8.1e')}s {_number(ratio, '5.1f')} "
-        f"{_number(row['ball_bits_lost'], '7.1f')} of {row['ball_bits']:<4} "
-        f"{_number(row['ball_seconds'], '8.1e')}s  {row['tensile']!s:>6} {row['overlaps']!s:>8}"
-        f"  {row['note']}"
-    ).rstrip()
-
-
-def _ball_line(row: tables.Row) -> str:
-    lost = row["bits_lost"]
-    each = None if lost is None else lost / row["height"]
-    return (
-        f"{row['form']:<10}{row['height']:6}{row['width']:5}  {row['relative_std']:8.1e}  "
-        f"{row['critical_height']:8.4g}  {_number(lost, '9.1f')}  {_number(each, '9.3f')}  "
-        f"{row['bits'] or '--':>7}  {_number(row['error'], '15.1e')}  "
-        f"{_number(row['seconds'], '8.1e')}s  {row['note']}"
-    ).rstrip()
-
-
-def _worst_lines(rows: list[tables.Row]) -> Iterator[str]:
-    for height, form in sorted({(row["height"], row["form"]) for row in rows}):
-        here = [row for row in rows if (row["height"], row["form"]) == (height, form)]
-        worst = max(here, key=lambda row: float(row["relative_error"]))
-        yield f"{form:<18} M = {height:<11} {worst['relative_error']:.1e} at j = {worst['j']}"
-
-
 @dataclass(frozen=True)
 class _Table:
-    """A table: its file, its head, what measures its rows, and a row as a line of text.
-
-    Without a ``line`` the worst rows are told, once all are known.
-    """
+    """A table: its file, what it is of, what measures its rows, and those that text shows."""
 
     file: str
-    head: str
+    title: str
     measured: Callable[[], Iterator[Measured]]
-    line: Callable[[tables.Row], str] | None
+    shown: Callable[[list[tables.Row]], list[tables.Row]] = lambda rows: rows
 
-    def lines(self, rows: list[tables.Row]) -> list[str]:
-        """Give all lines of text, but for the head."""
-        return list(_worst_lines(rows) if self.line is None else map(self.line, rows))
+
+def _worst(rows: list[tables.Row]) -> list[tables.Row]:
+    """Give the row with the largest error of each form and height."""
+    groups: dict[tuple[str, int], list[tables.Row]] = {}
+    for row in rows:
+        groups.setdefault((row["form"], row["height"]), []).append(row)
+    return [max(group, key=lambda row: float(row["relative_error"])) for group in groups.values()]
 
 
 TABLES = {
     FLOATS: _Table(
         "stability.csv",
-        "Both forms in float64, and balls; errors of change relative to the largest, against an "
-        "enclosure\nof all contact forces; ratio: seconds of the deviation form / of the plain "
-        "form.\n"
-        "group       M    W   sigma/r  s/r             deviation form       plain form         "
-        "ratio   balls: lost bits, time  pulling overlaps",
+        "Deviation form in float64, the plain form beside it (plain_…), and balls; errors of "
+        "change relative to the largest, against an enclosure of all contact forces.",
         lambda: map(measure, cases()),
-        _float_line,
     ),
     ENCLOSURES: _Table(
         "stability_balls.csv",
         f"Balls in positions and in line-sum coordinates, at the precision that leaves {DIGITS} "
-        "digits.\n"
-        "balls in      M    W   sigma/r        M*  lost bits  per layer  of bits  certified error"
-        "   seconds",
+        "digits.",
         lambda: map(enclose, strips()),
-        _ball_line,
     ),
     CLOSED_FORMS: _Table(
         "closed_forms.csv",
         "Closed forms of Eqs. 13 and 14 in float64, against exact rationals: largest errors.",
         closed_form_rows,
-        None,
+        _worst,
     ),
 }
 FILES = {name: table.file for name, table in TABLES.items()}
@@ -144,16 +102,16 @@ class StabilityStudy:
 
     def __str__(self) -> str:
         """Give the tables."""
-        return "\n\n".join(
-            "\n".join([TABLES[name].head, *TABLES[name].lines(self.rows(name))])
-            for name in self.measured
-        )
+        return "\n\n".join("\n".join(self._lines(name)) for name in self.measured)
+
+    def _lines(self, name: str) -> list[str]:
+        table = TABLES[name]
+        return [table.title, *tables.text_table(table.shown(self.rows(name)))]
 
     def _repr_html_(self) -> str:
         """Show the tables in a notebook."""
         return "".join(
-            tables.html_table(self.rows(table), TABLES[table].head.splitlines()[:1])
-            for table in self.measured
+            tables.html_table(self.rows(table), [TABLES[table].title]) for table in self.measured
         )
 
 
@@ -162,9 +120,8 @@ def stability(
 ) -> StabilityStudy:
     """Measure what stability costs: errors, lost bits and times with and without it.
 
-    Takes about 40 s; ``only`` names the tables to be measured. ``notice`` is told the lines of
-    the tables as they come, those of the closed forms last. Raises ``ForceDiffusionError`` for a
-    table that there is not.
+    Takes about 40 s; ``only`` names the tables to be measured. ``notice`` is told of
+    every row that is measured. Raises ``ForceDiffusionError`` for a table that there is not.
 
     >>> import force_diffusion as fd
     >>> found = fd.stability(only=["closed_forms"])
@@ -172,7 +129,7 @@ def stability(
     True
     """
     if not callable(notice):
-        told = f"stability takes a function that is told lines, not {type(notice).__name__}"
+        told = f"stability takes a function that is told words, not {type(notice).__name__}"
         raise TypeError(told)
     for name in only:
         if name not in FILES:
@@ -181,15 +138,11 @@ def stability(
     for name, table in TABLES.items():
         if name not in only:
             continue
-        notice(("\n" if found else "") + table.head)
         rows = []
         for row in table.measured():
             rows.append(row)
-            if table.line is not None:
-                notice(table.line(asdict(row)))
+            notice(f"{table.file}: row {len(rows)}")
         found[name] = tuple(rows)
-        for line in table.lines([asdict(row) for row in rows]) if table.line is None else ():
-            notice(line)
     return StabilityStudy(found)
 
 

@@ -3,6 +3,7 @@
 Needs matplotlib (the extra ``plots``). Markers and lines say the same as colours.
 """
 
+from collections.abc import Iterator
 from itertools import pairwise
 from math import log10
 from typing import Any
@@ -82,26 +83,28 @@ def _ratios(axes: Axes, rows: Rows) -> None:
     axes.set_xlabel("σ/r")
 
 
-def _series(rows: Rows, form: str) -> dict[float, Rows]:
-    """Rows of one form by σ/r, each sorted by height."""
-    here = sorted((row for row in rows if row["form"] == form), key=lambda row: row["height"])
-    return {
-        s: [r for r in here if r["relative_std"] == s] for s in {r["relative_std"] for r in here}
-    }
+def _curves(axes: Axes, rows: Rows, key: str) -> Iterator[tuple[str, str, Rows]]:
+    """Draw a column over the height, a curve for each form and σ/r; give form, colour and rows."""
+    for form, colour, marker, dashes in FORMS:
+        own = sorted((row for row in rows if row["form"] == form), key=lambda row: row["height"])
+        for std in {row["relative_std"] for row in own}:
+            here = [row for row in own if row["relative_std"] == std]
+            x, y = [row["height"] for row in here], [row[key] for row in here]
+            axes.plot(x, y, dashes, marker=marker, color=colour, ms=3.2, mfc="white")
+            yield form, colour, here
 
 
 def _lost(axes: Axes, rows: Rows) -> None:
     axes.set_title("balls: bits lost in all", loc="left")
-    for form, colour, marker, dashes in FORMS:
-        for std, here in _series(rows, form).items():
-            x, y = [row["height"] for row in here], [row["bits_lost"] for row in here]
-            axes.plot(x, y, dashes, marker=marker, color=colour, ms=3.2, mfc="white")
-            if form == LINE_SUMS:
-                axes.annotate(
-                    f"σ/r = {std:.0e}".replace("e-0", "e-"), (x[-1], y[-1]), xytext=(6, 0),
-                    textcoords="offset points", fontsize=7.5, color=colour, va="center",
-                )  # fmt: skip
-                _mark_critical(axes, here)
+    for form, colour, here in _curves(axes, rows, "bits_lost"):
+        if form == LINE_SUMS:
+            last = here[-1]
+            axes.annotate(
+                f"σ/r = {last['relative_std']:.0e}".replace("e-0", "e-"),
+                (last["height"], last["bits_lost"]), xytext=(6, 0),
+                textcoords="offset points", fontsize=7.5, color=colour, va="center",
+            )  # fmt: skip
+            _mark_critical(axes, here)
     axes.set_xscale("log", base=2)
     axes.set_yscale("log")
     axes.set_xlim(3.4, 4100)
@@ -128,10 +131,7 @@ def _mark_critical(axes: Axes, rows: Rows) -> None:
 
 def _seconds(axes: Axes, rows: Rows) -> None:
     axes.set_title(f"the time of {DIGITS} certified digits", loc="left")
-    for form, colour, marker, dashes in FORMS:
-        for here in _series(rows, form).values():
-            x, y = [row["height"] for row in here], [row["seconds"] for row in here]
-            axes.plot(x, y, dashes, marker=marker, color=colour, ms=3.2, mfc="white")
+    list(_curves(axes, rows, "seconds"))
     axes.set_yscale("log")
     axes.set_ylabel("seconds")
     axes.set_xlabel(f"layers M (strips of {rows[0]['width']} beads a layer)")

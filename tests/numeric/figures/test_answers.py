@@ -236,3 +236,83 @@ def test_a_missing_library_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(MissingLibraryError, match=r"force-diffusion\[plots\]") as caught:
         outcome.plot()
     assert caught.value.exit_status == 3
+
+
+def legend(figure: Figure) -> list[str]:
+    return [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+def test_chains_that_differ_little_are_as_thick_as_they_exceed_the_smallest() -> None:
+    outcome = scene("contact_forces", std=1e-5).run()
+    forces = outcome.arrays["force"]
+    assert 0.99 * forces.max() < forces.min()
+    figure = outcome.plot()
+    widths = np.array(lines(figure)[0].get_linewidths())
+    assert widths.max() / widths.min() == pytest.approx(10)
+    assert np.diff(widths[np.argsort(forces)]).min() >= 0  # in the order of the forces
+    # linear: the mean force has the mean width
+    middle = np.interp(forces.mean(), (forces.min(), forces.max()), (widths.min(), widths.max()))
+    assert widths.mean() == pytest.approx(middle)
+    off = [100 * (edge / forces.mean() - 1) for edge in (forces.min(), forces.max())]
+    _, least, most = legend(figure)
+    assert (least, most) == tuple(
+        rf"{name}, ${value:+.2g}\%$"
+        for name, value in zip(("smallest", "largest"), off, strict=True)
+    )
+
+
+def test_of_equal_forces_none_is_thicker() -> None:
+    figure = scene("contact_forces", disorder=None).run().plot()
+    assert len(set(lines(figure)[0].get_linewidths())) == 1
+    assert legend(figure) == ["all, $f=0.756$"]
+
+
+def arrows(figure: Figure) -> np.ndarray[Any, Any]:
+    """Tips of all arrows, (arrows, 2)."""
+    return np.array([text.xy for text in figure.axes[0].texts if text.arrow_patch is not None])  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("angle", [0, 20])
+def test_an_arrow_stands_on_each_bead_of_the_surface(angle: int) -> None:
+    figure = scene("contact_forces", load=fd.SurfaceLoad(angle_deg=angle)).run().plot()
+    nx, ny = 0.75, np.sqrt(1 - 0.75**2)
+    tips = arrows(figure)
+    assert len(tips) == W + 1  # the last one is the first one again, a period away
+    tilt = np.radians(angle)
+    beads = tips + 1.1 * np.array([np.sin(tilt), -np.cos(tilt)])
+    assert beads[:, 1] == pytest.approx(np.full(W + 1, 2 * ny * M))
+    assert beads[:, 0] / (2 * nx) == pytest.approx(np.arange(M % 2, 2 * W + 1, 2))
+
+
+def test_arrows_stand_on_the_beads_of_a_packing_at_rest() -> None:
+    free = scene("contact_forces", std=0.03, effects=fd.Effects(contacts="unilateral")).run()
+    top = free.answer.networks[0].x[-W:]
+    beads = np.array([[float(v) for v in centre] for centre in top])
+    assert arrows(free.plot()) - beads == pytest.approx(np.tile((0, 1.1), (W, 1)))
+
+
+def test_a_packing_solved_in_its_upper_layers_alone_has_no_base() -> None:
+    stopping = fd.Effects(stop_at_tension=True)
+    whole, upper = (scene("contact_forces", std=std, effects=stopping) for std in (1e-4, 0.04))
+    assert len(whole.run().plot().axes[0].get_lines()) == 1
+    outcome = upper.run()
+    assert outcome.arrays["j"].min() > 0
+    axes = outcome.plot().axes[0]
+    assert not axes.get_lines()
+    assert axes.get_ylim()[0] > 0
+
+
+def test_branches_that_agree_are_both_seen() -> None:
+    figure = scene("profile", load=fd.SurfaceLoad()).run().plot()
+    first, second = (container.lines[0] for container in figure.axes[0].containers)
+    assert first.get_markersize() > 1.4 * second.get_markersize()
+    assert first.get_zorder() <= second.get_zorder()
+
+
+@pytest.mark.parametrize("dimension", [3, 4, 5])
+def test_a_profile_of_any_dimension_is_drawn(dimension: int) -> None:
+    packing = fd.Packing(height=3, width=7, dimension=dimension)
+    figure = scene("profile", packing=packing).run().plot()
+    sizes = [container.lines[0].get_markersize() for container in figure.axes[0].containers]
+    assert len(sizes) == dimension
+    assert sizes == sorted(sizes, reverse=True)
