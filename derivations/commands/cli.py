@@ -124,11 +124,20 @@ class _Commands(TyperGroup):
         return super().resolve_command(ctx, args)
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; of a wrong value say what typer says, without pydantic's first words."""
+        """Run the command; of a wrong value say what is allowed as of one in a scene."""
         try:
             return super().invoke(ctx)
         except typer.BadParameter as error:
-            error.message = error.message.removeprefix("Value error, ")
+            from pydantic import ValidationError
+
+            if isinstance(error.__cause__, ValidationError):
+                from force_diffusion.numeric.scene.sections import rule
+
+                first = error.__cause__.errors()[0]
+                said = rule(error.__cause__)
+                its_own = first["type"] == "value_error"  # names the value itself
+                given = repr(printable(str(first["input"])))
+                error.message = said if its_own else f"{given} {said}."
             raise
 
 

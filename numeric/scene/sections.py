@@ -349,11 +349,24 @@ def explained(error: ValidationError, model: type[Section], values: dict[str, An
         return SceneError(key, value, f"must be one of {', '.join(allowed)}{hint}")
     if key in _LISTS:
         return SceneError(key, values[name], _LISTS[key])
-    if kind == "value_error":
-        return SceneError(key, value, str(within))
     if kind in {"model_type", "model_attributes_type", "dict_type"}:
         return SceneError(key, value, f"must be a section, written [{key}]")
-    rule = first["msg"].lower().replace("input should", "must")
-    if kind == "int_type":
-        rule += ", written without point or exponent"
-    return SceneError(key, value, rule)
+    return SceneError(key, value, rule(error))
+
+
+def rule(error: ValidationError) -> str:
+    """Say what pydantic's first error asks of a value."""
+    first = error.errors()[0]
+    context: dict[str, Any] = first.get("ctx", {})
+    match first["type"]:
+        case "greater_than_equal":
+            return f"must be at least {context['ge']}"
+        case "less_than_equal":
+            return f"must be at most {context['le']}"
+        case "int_type" | "int_parsing" | "int_from_float":
+            return "must be a whole number, written without point or exponent"
+        case "float_type" | "float_parsing":
+            return "must be a number"
+        case "value_error":
+            return str(context["error"])
+    return first["msg"].lower().replace("input should", "must")

@@ -86,7 +86,7 @@ def test_json_of_a_sweep_is_one_list(scene: Path, capsys: pytest.CaptureFixture[
         (["--set", "disorder.file=a\\b.csv"], r"""say --set 'disorder.file="a\\b.csv"'"""),
         (["--set", "packing.height="], "is no value of TOML"),
         (["--set", f"packing.height=9{'9' * 5000}"], "is no value of TOML"),
-        (["--set", "packing.height=2,0"], "greater than or equal to 1"),
+        (["--set", "packing.height=2,0"], "at least 1"),
         (["--set", f"disorder.seed={','.join(map(str, range(1001)))}"], "1001 scenes"),
         (["--set", "disorder.seed=1", "--seed", "2"], "leave one out"),
     ],

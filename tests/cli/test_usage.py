@@ -51,6 +51,9 @@ WRONG = [
     (["show", "13", "--exact", "--case", "leg"], "Use interior, base, base+1 or surface"),
     (["show", "13", "--exact", "--as", "steps"], "steps"),
     (["list", "13"], "13"),
+    (["show", "13", "--columns", "3"], "'--columns': '3' must be at most 2."),
+    (["ensemble", "s.toml", "--until", "5%"], "'--until': '5%' must be a number."),
+    (["ensemble", "s.toml", "--workers", "1.5"], "'--workers': '1.5' must be a whole number, w"),
     (["run", "scene.toml", "--format", "xlsx"], "'--format': 'xlsx' is not one of 'csv', 'npz'"),
     (["dervie", "13"], "no command 'dervie'; did you mean derive? Use derive, certify"),
     (
