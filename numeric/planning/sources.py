@@ -25,7 +25,7 @@ FARTHEST_UNIT = 100
 LEAST, LEAST_PRODUCT = Fraction(1, 10**300), Fraction(1, 10**305)
 # Sums over a packing (i up to 2^60) must stay below 1e308.
 MOST = Fraction(10**280)
-WAY_OUT = "give a tolerance: balls, its arithmetic, have no such limit"
+WAY_OUT = "give run a tolerance: balls, its arithmetic, have no such limit"
 
 
 def load_of(scene: Scene) -> LoadSpec:
