@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, settings
 
 # Each run draws anew; a failure is replayed from .hypothesis, or with what is printed beside it.
 # .ci/run says which seed it has drawn: with it, and the same profile, all examples are the same.
-EXAMPLES = {"quick": 20, "ci": 200, "thorough": 10_000}
+EXAMPLES = {"quick": 20, "ci": 100, "thorough": 10_000}
 for profile, examples in EXAMPLES.items():
     settings.register_profile(
         profile,
@@ -20,10 +20,12 @@ for profile, examples in EXAMPLES.items():
     )
 settings.load_profile("quick")
 
-# A shell that starts the tests in the background has them ignore interrupts, and so would every
-# program that they start; some tests interrupt one.
-if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
-    signal.signal(signal.SIGINT, signal.default_int_handler)
+# A shell that starts the tests in the background has them ignore interrupts, and nohup the end of
+# a terminal; so would every program that they start, and some tests interrupt one.
+for name, usual in (("SIGINT", signal.default_int_handler), ("SIGHUP", signal.SIG_DFL)):
+    number = getattr(signal, name, None)  # Windows has no SIGHUP
+    if number is not None and signal.getsignal(number) is signal.SIG_IGN:
+        signal.signal(number, usual)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

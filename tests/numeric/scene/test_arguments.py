@@ -38,7 +38,7 @@ def test_wrong_types_for_a_figure(wrong: dict[str, Any]) -> None:
 
 
 def test_a_wrong_type_for_a_study() -> None:
-    with pytest.raises(TypeError, match="a function that is told lines, not int"):
+    with pytest.raises(TypeError, match="a function that is told words, not int"):
         fd.stability(5)  # type: ignore[arg-type]
 
 
