@@ -43,8 +43,10 @@ _HEAD = r"""\documentclass[10pt]{article}
 \date{}
 \begin{document}
 \maketitle
+\pagenumbering{roman} % pages are counted after the contents, however long these are
 \tableofcontents
 \clearpage
+\pagenumbering{arabic}
 """
 
 READING = (
