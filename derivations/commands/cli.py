@@ -16,7 +16,7 @@ from typing import Annotated, Any
 
 import typer
 from force_diffusion.derivations.export.prose import either
-from force_diffusion.numeric.arithmetic.errors import WRONG_INPUT, printable
+from force_diffusion.numeric.arithmetic.errors import WRONG_INPUT, printable, rule
 from typer.core import TyperGroup
 
 # Name: (module, what --help says: the first paragraph of the command's docstring).
@@ -131,8 +131,6 @@ class _Commands(TyperGroup):
             from pydantic import ValidationError
 
             if isinstance(error.__cause__, ValidationError):
-                from force_diffusion.numeric.scene.sections import rule
-
                 first = error.__cause__.errors()[0]
                 said = rule(error.__cause__)
                 its_own = first["type"] == "value_error"  # names the value itself

@@ -4,7 +4,10 @@ Every one of them derives from ``ForceDiffusionError``, which carries the exit s
 the command line ends.
 """
 
-from typing import ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
+
+if TYPE_CHECKING:
+    from pydantic import ValidationError
 
 WRONG_INPUT, NOT_REACHED = 2, 3
 
@@ -43,3 +46,21 @@ class UndecidedError(ForceDiffusionError, ArithmeticError):
     """Balls have grown so wide that a question stays open: more bits are needed."""
 
     exit_status = NOT_REACHED
+
+
+def rule(error: "ValidationError") -> str:
+    """Say what pydantic's first error asks of a value."""
+    first = error.errors()[0]
+    context: dict[str, Any] = first.get("ctx", {})
+    match first["type"]:
+        case "greater_than_equal":
+            return f"must be at least {context['ge']}"
+        case "less_than_equal":
+            return f"must be at most {context['le']}"
+        case "int_type" | "int_parsing" | "int_from_float":
+            return "must be a whole number, written without point or exponent"
+        case "float_type" | "float_parsing":
+            return "must be a number"
+        case "value_error":
+            return str(context["error"])
+    return first["msg"].lower().replace("input should", "must")

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
+from ..lattice.branch import ORDER
 from ..statistics.confidence import half_width
 from ..statistics.ratios import from_products
 from .measure import Measurement
@@ -47,7 +48,7 @@ class Estimates:
         if self.measurement.of_networks:
             return np.flatnonzero(self.sums.samples)
         labels = self.measurement.labels
-        names = ("component", "branch", *"tsqp", "i", "j")
+        names = ("component", *ORDER)
         keys = [labels[name] for name in names if name in labels]
         return np.lexsort(keys) if keys else np.arange(self.measurement.groups)
 

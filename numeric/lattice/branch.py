@@ -76,13 +76,19 @@ def direction(name: str) -> Direction:
     return Axis(name) if name.isdigit() else Branch(name)
 
 
+COLUMNS = "pqst"
+"""What the columns of a bead are called in three dimensions and more."""
+ORDER = ("branch", *reversed(COLUMNS), "i", "j")
+"""By what rows are sorted, the last first."""
+
+
 def bead_names(dimension: int) -> tuple[str, ...]:
     """Give what the numbers that name a bead are called, its layer last.
 
     >>> bead_names(2), bead_names(4)
     (('i', 'j'), ('p', 'q', 's', 'j'))
     """
-    return ("i", "j") if dimension == 2 else (*"pqst"[: dimension - 1], "j")
+    return ("i", "j") if dimension == 2 else (*COLUMNS[: dimension - 1], "j")
 
 
 def axis_names(dimension: int) -> str:

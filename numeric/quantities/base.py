@@ -17,7 +17,7 @@ import numpy as np
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
-from ..lattice.branch import PerBranch, per_direction
+from ..lattice.branch import ORDER, PerBranch, per_direction
 from ..lattice.layers import LazyRows, Region, Rows, pick, standing_on_base, whole
 from ..lattice.naming import Block, Naming
 from ..mechanics.loads import LoadSpec
@@ -78,7 +78,7 @@ class Table:
         """Give the rows by realisation, j, i (or p, q, …) and branch as numbers, "+" before "-"."""
         if self.in_order:
             return self
-        names = ("branch", *"tsqp", "i", "j", "realisation")
+        names = (*ORDER, "realisation")
         keys = [self.index[name] for name in names if name in self.index]
         if not keys:
             return self

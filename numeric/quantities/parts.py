@@ -12,7 +12,7 @@ import numpy as np
 
 from ..arithmetic.carried import NONE, Sizes
 from ..arithmetic.systems import Array
-from ..lattice.branch import Axis, AxisContact, Branch, Contact
+from ..lattice.branch import Axis, AxisContact, Branch, Contact, direction
 from ..mechanics.kept import Kept
 from ..mechanics.physicality import Physicality
 from .base import Columns, Table
@@ -83,10 +83,11 @@ class Part:
             found.between = tuple(lower), tuple(upper)
         if found.first_tensile is not None:
             *lower, name = said["first_tensile"]
-            if name.isdigit():
-                found.first_tensile = AxisContact(tuple(lower[0]), Axis(name))
+            along = direction(name)
+            if isinstance(along, Axis):
+                found.first_tensile = AxisContact(tuple(lower[0]), along)
             else:
-                found.first_tensile = Contact(lower[0], lower[1], Branch(name))
+                found.first_tensile = Contact(lower[0], lower[1], Branch(along))
 
         def columns(kind: str, of: list[str]) -> dict[str, Array]:
             columns = {name: kept.get(f"{kind}{number} {name}") for name in of}

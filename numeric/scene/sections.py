@@ -15,7 +15,7 @@ import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 from ..arithmetic.decimals import decimal_string, exact, short
-from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.errors import ForceDiffusionError, rule
 from ..arithmetic.foreign import finite
 from ..arithmetic.systems import Array
 from ..lattice.branch import Axis
@@ -352,21 +352,3 @@ def explained(error: ValidationError, model: type[Section], values: dict[str, An
     if kind in {"model_type", "model_attributes_type", "dict_type"}:
         return SceneError(key, value, f"must be a section, written [{key}]")
     return SceneError(key, value, rule(error))
-
-
-def rule(error: ValidationError) -> str:
-    """Say what pydantic's first error asks of a value."""
-    first = error.errors()[0]
-    context: dict[str, Any] = first.get("ctx", {})
-    match first["type"]:
-        case "greater_than_equal":
-            return f"must be at least {context['ge']}"
-        case "less_than_equal":
-            return f"must be at most {context['le']}"
-        case "int_type" | "int_parsing" | "int_from_float":
-            return "must be a whole number, written without point or exponent"
-        case "float_type" | "float_parsing":
-            return "must be a number"
-        case "value_error":
-            return str(context["error"])
-    return first["msg"].lower().replace("input should", "must")

@@ -18,7 +18,7 @@ import flint
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from ..arithmetic.errors import ForceDiffusionError, NotReachedError
+from ..arithmetic.errors import ForceDiffusionError, NotReachedError, rule
 from ..arithmetic.foreign import ForeignFileError, opened
 from ..arithmetic.machine import memory_limit
 from ..arithmetic.systems import in_flint
@@ -88,8 +88,8 @@ def _wrong(error: ValidationError) -> str:
     """Say in a line what of a file is wrong first."""
     first = error.errors()[0]
     words = {"model_type": "must be an object, {…}", "missing": "is missing"}
-    rule = words.get(first["type"], first["msg"].lower().replace("input should", "must"))
-    return f"{'.'.join(map(str, first['loc'])) or 'all of it'} {rule}"
+    wrong = words.get(first["type"]) or rule(error)
+    return f"{'.'.join(map(str, first['loc'])) or 'all of it'} {wrong}"
 
 
 def check_packings(path: str | Path) -> list[Verdict]:
