@@ -121,16 +121,24 @@ class Store:
         older = self.about.layout == OLDER
         if older or end not in self.about.ends:
             self.about = About(self.about.key, tuple(sorted({*self.about.ends, end})))
-            with self._transaction():
-                _write_about(self._database, self.about)
-                for block in blocks if older else ():
-                    self._write(block)
-                self._database.execute(f"PRAGMA user_version = {SCHEMA}")
+            self._put(blocks if older else (), self.about)
 
     def put(self, block: Block) -> None:
         """Write a block in one transaction, in place of its parts."""
-        with self._transaction():
-            self._write(block)
+        self._put((block,))
+
+    def _put(self, blocks: Sequence[Block], about: About | None = None) -> None:
+        self.check_it_is_there()
+        try:
+            with self._database:  # which commits all of it, or none, also when interrupted
+                self._database.execute("BEGIN IMMEDIATE")
+                for block in blocks:
+                    self._write(block)
+                if about is not None:
+                    _write_about(self._database, about)
+                    self._database.execute(f"PRAGMA user_version = {SCHEMA}")
+        except sqlite3.Error as error:
+            raise OSError(None, f"{error}", str(self.path)) from None
 
     def _write(self, block: Block) -> None:
         content = block.sums.to_bytes()
@@ -143,20 +151,6 @@ class Store:
         """Raise ``OSError`` where the file was deleted or replaced since it was opened."""
         if _identity(self.path) != self._file:
             raise OSError(None, "it was deleted or replaced meanwhile", str(self.path))
-
-    @contextmanager
-    def _transaction(self) -> Iterator[None]:
-        self.check_it_is_there()
-        try:
-            self._database.execute("BEGIN IMMEDIATE")
-            yield
-            self._database.execute("COMMIT")
-        except sqlite3.Error as error:
-            raise OSError(None, f"{error}", str(self.path)) from None
-        finally:
-            if self._database.in_transaction:
-                with suppress(sqlite3.Error):
-                    self._database.execute("ROLLBACK")
 
     def close(self) -> None:
         """Close the file, and let others have it."""
