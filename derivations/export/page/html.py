@@ -3,12 +3,13 @@
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
 
-from force_diffusion.derivations.export.prose import formula_latex, pieces
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import latex_body, width
 from markupsafe import Markup, escape
 from math_core import LatexToMathML
 from sympy import Basic
+
+from ..prose import formula_latex, pieces
 
 # A browser breaks no line within a formula: longer ones in a sentence are set in pieces.
 INLINE_POINTS = 110.0

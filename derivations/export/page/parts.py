@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any
 
-from force_diffusion.derivations.export.page.html import number, prose
-from force_diffusion.derivations.export.tables import csv_text
 from markupsafe import Markup
+
+from ..tables import csv_text
+from .html import number, prose
 
 ONE_COLUMN = 360.0
 """Points: narrower drawings are for one column."""

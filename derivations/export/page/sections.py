@@ -5,8 +5,8 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
-from force_diffusion.derivations.export.page.html import plain_number
-from force_diffusion.derivations.export.page.parts import Data, Figure, Part, Table, csv_data
+from .html import plain_number
+from .parts import Data, Figure, Part, Table, csv_data
 
 SCENE = Path(__file__).with_name("small.toml")
 Notice = Callable[[str], None]
