@@ -76,7 +76,7 @@ def _is_mathematics(word: str) -> bool:
     """Whether a word is a symbol or a formula rather than English."""
     if re.fullmatch(r"[b-zB-HJ-Z]", word):
         return True
-    if re.fullmatch(r"B\d+", word):  # an equation's number
+    if re.fullmatch(r"[BT]\d+", word):  # the name of an equation or of a theorem
         return False
     letters = re.findall(r"[A-Za-z]+", _INDEXED.sub("", _NAMES.sub("", word)))
     return bool(_SYMBOLIC.search(word)) and all(len(run) <= 2 for run in letters)
@@ -122,7 +122,12 @@ def _set_mathematics(word: str) -> str:
     return _NAMES.sub(r"\\\1 ", word)
 
 
-def _set_text(word: str) -> str:
+def text_latex(word: str) -> str:
+    r"""Characters as they are, in LaTeX for text.
+
+    >>> print(text_latex("50 % of f_load"))
+    50 \% of f\_load
+    """
     return "".join(
         _TEXT.get(character)
         or (character if character.isascii() else f"${_set_mathematics(character)}$")
@@ -191,7 +196,7 @@ def prose_latex(words: str) -> str:
     for before, formula, after in pieces(words):
         plain = len(formula) == 1 and formula[0].isdecimal()
         text = formula[0] if plain else f"${formula_latex(formula)}$" if formula else ""
-        done.append(f"{_set_text(before)}{text}{_set_text(after)}")
+        done.append(f"{text_latex(before)}{text}{text_latex(after)}")
     return _with_brackets(" ".join(done))
 
 
