@@ -22,10 +22,10 @@ from markdown_it.tree import SyntaxTreeNode as Node
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 from sympy import Basic, Eq
 
-from ..framework.catalogue import THEOREMS, modules
+from ..framework.catalogue import THEOREMS, modules, number_of
 from ..framework.loading import load
 from ..framework.record import Derivation, Outcome
-from .document import numbered, sentence, statement_latex
+from .document import sentence, statement_latex
 from .prose import phrase_latex, pieces, prose_latex, text_latex
 from .quoted import quoted
 from .terminal import relation_of
@@ -119,8 +119,8 @@ def _made(info: str, columns: int) -> str:
     match info.split(maxsplit=2):
         case ["{exact-forms}"]:
             return "\n".join(_forms(load(label), columns) for label in own_equations())
-        case ["{statement}", label] if label in own_equations():
-            derivation = load(label)
+        case ["{statement}", label] if number := number_of(label):
+            derivation = load(number)
             return f"({label})\n\n" + _shown(derivation.printed, derivation.relation, columns)
         case ["{step}", label, words] if label in modules():
             derivation = load(label)
@@ -287,8 +287,9 @@ class _Writer:
         kind, _, more = node.info.partition(" ")
         if kind == "{table}":
             return self._captioned(self.written(more).strip(), node.content)
-        if kind == "{statement}" and more in own_equations():
-            return numbered(load(more)) + statement_latex(load(more), COLUMNS)
+        if kind == "{statement}" and (number := number_of(more)):
+            shown = statement_latex(load(number), COLUMNS)
+            return f"\\renewcommand{{\\theequation}}{{{number}}}\n{shown}"
         return self.written(_made(node.info, COLUMNS))
 
     def _captioned(self, caption: str, markdown: str) -> str:
@@ -315,7 +316,7 @@ class _Writer:
     _tbody = _table
 
     def _tr(self, node: Node) -> str:
-        return " & ".join(self._all(cell) for cell in node.children) + " \\\\\n"
+        return " & ".join(self._all(cell) for cell in node.children) + " \\\\[2pt]\n"
 
 
 def _image(node: Node) -> str:

@@ -155,7 +155,7 @@ def _mutants(found: FoundMutants) -> str:
     )
 
 
-def numbered(derivation: Derivation) -> str:
+def _numbered(derivation: Derivation) -> str:
     """What lets the next display have its number."""
     number = derivation.number
     if isinstance(number, int):
@@ -176,7 +176,7 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
     return "".join(
         [
             f"\\section{{Eq.\\ ({derivation.number}): {prose_latex(derivation.title)}}}\n",
-            numbered(derivation),
+            _numbered(derivation),
             f"\\input{{{fragment_name(derivation).removesuffix('.tex')}}}%\n",
             f"Verdict: \\textbf{{{_verdict(found)}}}. Coq: {_coq(found)}."
             + (f" Rests on Eq{plural}.\\ {rests}.\n" if rests else "\n"),

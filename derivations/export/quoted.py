@@ -74,7 +74,8 @@ def _leading(label: str, which: str) -> sympy.Expr:
     number, factors = sympy.factor_list(sympy.cancel(above.LC() / below.LC()))
     found = [sympy.collect(factor, z) ** many for factor, many in factors]
     for place, factor in enumerate(found):  # 1 − φ rather than φ − 1
-        if sympy.Poly(factor, sy.phi).degree() == 1 and factor.subs(sy.phi, 0) == -1:
+        linear = sympy.Poly(factor, sy.phi).degree() == 1
+        if len(found) > 1 and linear and factor.subs(sy.phi, 0) == -1:
             number, found[place] = -number, -factor
     power = M ** (above.degree() - below.degree())
     return times(*(one for one in (number, power, *found) if one != 1))
