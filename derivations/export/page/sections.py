@@ -72,7 +72,7 @@ def cost_part(notice: Notice = lambda _: None) -> Part:
     from force_diffusion.numeric.figures import style
     from force_diffusion.numeric.run import read_scene
     from force_diffusion.numeric.studies.cost.cost import cost
-    from force_diffusion.numeric.studies.cost.result import csv_rows
+    from force_diffusion.numeric.studies.cost.table import csv_rows
 
     command = f"force-diffusion cost {SCENE.name} --out cost"
     found = cost(read_scene(SCENE), lambda way: notice(f"cost: {way}"))
