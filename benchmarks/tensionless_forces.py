@@ -16,9 +16,7 @@ from force_diffusion.numeric.arithmetic.systems import Array
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.statistics.ratios import moments
-from force_diffusion.numeric.unilateral.grains import Grains
-from force_diffusion.numeric.unilateral.network import UnfinishedError
-from force_diffusion.numeric.unilateral.relaxation import balanced, settle, start
+from force_diffusion.numeric.unilateral import Grains, UnfinishedError, balanced, settle, start
 from scipy.sparse.linalg import splu
 
 import force_diffusion as fd

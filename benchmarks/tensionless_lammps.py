@@ -22,8 +22,7 @@ from against_lammps import in_child
 from force_diffusion.numeric.arithmetic.systems import Array
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.planner import plan
-from force_diffusion.numeric.unilateral.grains import Grains
-from force_diffusion.numeric.unilateral.relaxation import balanced, settle, start
+from force_diffusion.numeric.unilateral import Grains, balanced, settle, start
 
 import force_diffusion as fd
 

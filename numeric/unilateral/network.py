@@ -62,6 +62,13 @@ class Network:
     frame: Frame
     kantorovich: float | None = None
 
+    @property
+    def rest(self) -> str:
+        """Say what is proved of where beads rest."""
+        if not self.events:
+            return "as deposited: no contact pulls"
+        return "a strict local minimum in the coordinates of beads that contacts hold"
+
     def pushes(self) -> Array:
         """Give the force of each contact on its first bead, (contacts, 2); the other way back."""
         d = self.x[self.pairs[:, 0]] - self.x[self.pairs[:, 1]]
