@@ -59,7 +59,7 @@ def measured(load: fd.Load, spacing: float, M: int, of_critical: float, packings
             packing=fd.Packing(height=M, width=2 * M, spacing=spacing),
             disorder=fd.Disorder(kind="uniform", relative_std=std, seed=number),
             load=load,
-            effects=fd.Effects(contacts="unilateral"),
+            effects=fd.Effects(contacts="unilateral", protocol="linear-programs"),
             ask=fd.Ask(quantity="contact_forces"),
         )
         problem = plan(scene).problem

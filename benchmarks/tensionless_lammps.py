@@ -124,7 +124,7 @@ def main() -> int:
     scene = fd.Scene(
         packing=fd.Packing(height=options.height, width=options.width, allow_images=True),
         disorder=fd.Disorder(kind="uniform", relative_std=options.relative_std, seed=options.seed),
-        effects=fd.Effects(contacts="unilateral"),
+        effects=fd.Effects(contacts="unilateral", protocol="linear-programs"),
         ask=fd.Ask(quantity="contact_forces"),
     )
     problem = plan(scene).problem

@@ -315,6 +315,7 @@ def _network_data(found: Network) -> dict[str, Any]:
         "energy_fall": found.fall,
         "smallest_gap": found.smallest_gap,
         "kantorovich": found.kantorovich,
+        "rung": found.rung,
         "rest": found.rest,
     }
 

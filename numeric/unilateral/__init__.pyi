@@ -7,4 +7,4 @@ from .network import UnfinishedError as UnfinishedError
 from .relaxation import balanced as balanced
 from .relaxation import packings as packings
 from .relaxation import settle as settle
-from .relaxation import start as start
+from .starts import start as start
