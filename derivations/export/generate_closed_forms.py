@@ -13,21 +13,22 @@ from types import ModuleType
 from typing import Any
 
 import sympy
-from force_diffusion.derivations import eq13_surface_diffusion as eq13
-from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.derivations import eq16_response as eq16
-from force_diffusion.derivations.beyond import t2_variance as t2
-from force_diffusion.derivations.beyond import t4_second_order as t4
-from force_diffusion.derivations.beyond import t5_stress as t5
-from force_diffusion.derivations.beyond import t6_correlations as t6
-from force_diffusion.derivations.beyond import t8_any_dimension as t8
-from force_diffusion.derivations.beyond import t9_spheres_response as t9
-from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.record import Piece
-from force_diffusion.derivations.framework.vocabulary import UNIT
-from force_diffusion.derivations.parts import cone
 from force_diffusion.symbolic.symbols import M, N, d, i, j, k, kappa, l, n_y, p, phi, r, sigma, z
 from force_diffusion.symbolic.variances.variance import ClosedForm
+
+from .. import eq13_surface_diffusion as eq13
+from .. import eq14_bulk_diffusion as eq14
+from .. import eq16_response as eq16
+from ..beyond import t2_variance as t2
+from ..beyond import t4_second_order as t4
+from ..beyond import t5_stress as t5
+from ..beyond import t6_correlations as t6
+from ..beyond import t8_any_dimension as t8
+from ..beyond import t9_spheres_response as t9
+from ..framework.catalogue import Number
+from ..framework.record import Piece
+from ..framework.vocabulary import UNIT
+from ..parts import cone
 
 TARGET = Path(__file__).parents[2] / "numeric" / "closed_forms.py"
 

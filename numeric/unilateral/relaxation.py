@@ -47,12 +47,11 @@ class Rung:
 
 
 _PROGRAMS = Rung("the deposited packing", "linear programs")
+_EVENTS = Rung("the deposited packing", "events")
 PROTOCOLS = {
     "linear-programs": (_PROGRAMS,),
-    "event-driven": (
-        Rung("the deposited packing", "events"),
-        Rung("beads dropped one by one", "events"),
-    ),
+    "event-driven": (_EVENTS,),
+    "event-ladder": (_EVENTS, Rung("beads dropped one by one", "events")),
     "ladder": (
         _PROGRAMS,
         Rung("beads dropped one by one", "linear programs"),
@@ -158,9 +157,9 @@ class Search:
         self.found = None
 
     def _nothing_left(self) -> UnfinishedError:
-        more = 'protocol = "ladder" tries more ways'
-        if self.problem.protocol == "ladder":
-            more = "none is known, and none is proved to be impossible"
+        more = "none is known, and none is proved to be impossible"
+        if len(self.refused) == 1:
+            more = 'protocol = "ladder", or "event-ladder", tries more ways'
         tried = "; ".join(f"{rung}: {error}" for rung, error in self.refused)
         return UnfinishedError(f"no packing was found ({more}). {tried}")
 

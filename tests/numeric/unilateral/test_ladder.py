@@ -59,7 +59,9 @@ def test_where_nothing_moves_no_rung_answered() -> None:
 def test_the_next_rung_is_tried_where_beads_slide() -> None:
     found = leaning(*SLIDES).run()
     assert rung(found) == f"linear programs from {DROPPED}"
-    with pytest.raises(UnfinishedError, match='protocol = "ladder" tries more ways') as raised:
+    with pytest.raises(
+        UnfinishedError, match='protocol = "ladder", or "event-ladder", tries more ways'
+    ) as raised:
         leaning(*SLIDES, protocol="linear-programs").run()
     assert "a stretched lattice: sliding: after 400 linear programs" in str(raised.value)
 
@@ -120,8 +122,10 @@ def test_beads_that_bear_loads_and_fall_through_the_base_are_told() -> None:
 def test_events_start_from_dropped_beads_where_the_deposited_overlap(
     std: float, seed: int, width: int
 ) -> None:
-    found = strip(std=std, seed=seed, width=width, protocol="event-driven").run()
+    found = strip(std=std, seed=seed, width=width, protocol="event-ladder").run()
     assert rung(found) == f"events from {DROPPED}"
+    with pytest.raises(UnfinishedError, match="and events start there"):
+        strip(std=std, seed=seed, width=width, protocol="event-driven").run()
 
 
 def test_pairs_that_are_held_apart_at_the_end_are_no_contacts() -> None:
