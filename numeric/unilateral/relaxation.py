@@ -27,6 +27,8 @@ from .starts import dropped, in_pockets, lattice_contacts, loads_of, must_hold, 
 
 # Gaps up to this, in units of r, may be contacts after the linear programs.
 NEARLY = 1e-5
+# Forces that are this small, as a share of the largest, are never told from zero.
+ZERO = 1e-60
 
 
 @dataclass(frozen=True)
@@ -313,6 +315,11 @@ def _certified(
     if not all(force > 0 for force in found.forces):
         if any(force < 0 for force in found.forces):
             raise UnfinishedError("a contact of the settled packing pulls")
+        largest = max(float(force.mid()) for force in found.forces)
+        if any(abs(force) < ZERO * largest for force in found.forces if not force > 0):
+            raise UnfinishedError(
+                f"degenerate: a contact bears less than {ZERO:g} of the largest force, if any"
+            )
         raise UndecidedError("the enclosures are too wide to tell whether all forces are positive")
     smallest = smallest_gap(found.x, known, contacts)
     assert problem.width is not None

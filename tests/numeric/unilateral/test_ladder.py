@@ -16,12 +16,14 @@ DROPPED = "beads dropped one by one"
 POCKETS = "pockets of the base"
 
 
-def leaning(seed: int, *packing: Any, bulk: bool = False, **effects: Any) -> fd.Scene:
+def leaning(
+    seed: int, *packing: Any, bulk: bool = False, kind: Any = "uniform", **effects: Any
+) -> fd.Scene:
     """Give a scene by (M, W, s, angle, σ/r)."""
     height, width, spacing, angle, std = packing
     return fd.Scene(
         packing=fd.Packing(height=height, width=width, spacing=spacing, allow_images=True),
-        disorder=fd.Disorder(kind="uniform", relative_std=std, seed=seed),
+        disorder=fd.Disorder(kind=kind, relative_std=std, seed=seed),
         load=(fd.BulkLoad if bulk else fd.SurfaceLoad)(angle_deg=angle),
         effects=fd.Effects(contacts="unilateral", **effects),
         ask=fd.Ask(quantity="contact_forces"),
@@ -128,15 +130,17 @@ def test_events_start_from_dropped_beads_where_the_deposited_overlap(
         strip(std=std, seed=seed, width=width, protocol="event-driven").run()
 
 
+def test_forces_that_are_zero_are_told_before_all_bits_are_tried() -> None:
+    """It ended after 8192 bits, as a tolerance that can't be reached."""
+    two_sizes = (1390, 6, 4, 3.274, 38.02, 0.06043)
+    with pytest.raises(UnfinishedError, match="degenerate: a contact bears less than 1e-60"):
+        leaning(*two_sizes, kind="two-point", protocol="linear-programs").run()
+    assert rung(leaning(*two_sizes, kind="two-point").run()) == f"linear programs from {DROPPED}"
+
+
 def test_pairs_that_are_held_apart_at_the_end_are_no_contacts() -> None:
     """It ended in a traceback: contacts were fewer than the coordinates of all beads."""
-    scene = fd.Scene(
-        packing=fd.Packing(height=5, width=6, spacing=3.009, allow_images=True),
-        disorder=fd.Disorder(kind="two-point", relative_std=0.02996, seed=73),
-        load=fd.SurfaceLoad(angle_deg=40.06),
-        effects=fd.Effects(contacts="unilateral", protocol="event-driven"),
-        ask=fd.Ask(quantity="contact_forces"),
-    )
+    scene = leaning(73, 5, 6, 3.009, 40.06, 0.02996, kind="two-point", protocol="event-driven")
     (network,) = scene.run().answer.networks
     assert network.events > 100
 
