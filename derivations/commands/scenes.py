@@ -195,7 +195,7 @@ def cost(
 ) -> None:
     """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
     from force_diffusion.numeric.scene.source import source_of
-    from force_diffusion.numeric.studies.cost.result import csv_rows
+    from force_diffusion.numeric.studies.cost.table import csv_rows
 
     command = shell_line(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
     names = ["cost.json", "cost.csv", *images("cost")]

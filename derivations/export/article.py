@@ -26,7 +26,7 @@ from ..framework.catalogue import THEOREMS, modules, number_of
 from ..framework.loading import load
 from ..framework.record import Derivation, Outcome
 from .document import sentence, statement_latex
-from .prose import phrase_latex, pieces, prose_latex, text_latex
+from .prose import phrase_latex, pieces, prose_latex, prose_markdown, text_latex
 from .quoted import quoted
 from .terminal import relation_of
 
@@ -47,7 +47,6 @@ _IMAGE = re.compile(r"^!\[([^]]*)\]\((\w+)\)\n\n", re.MULTILINE)
 _MADE = re.compile(r"^(> |)```(\{(?:statement|step|exact-forms)\}.*)\n(?:> |)```$", re.MULTILINE)
 _BEFORE_DISPLAY = re.compile(r"\n\n(?=\\renewcommand\{\\theequation\}|\\begin\{equation\*\})")
 _DASHES = re.compile(r"^[|-]+$", re.MULTILINE)
-_MARKED = re.compile(r"[\\`*_\[\]<$]")
 _LABEL = re.compile(r"\b(B\d+)\b")
 
 
@@ -139,15 +138,10 @@ def _display(latex: str) -> str:
     return f"$$\n{latex}\n$$\n\n"
 
 
-def _plain(words: str) -> str:
-    """Words as Markdown that says just these."""
-    return _MARKED.sub(r"\\\g<0>", words)
-
-
 def _forms(derivation: Derivation, columns: int) -> str:
     said = [
         f"### Eq. {derivation.number}: {derivation.title}\n\n*Assumed:* "
-        f"{_plain(sentence('; '.join(derivation.assumptions)))}\n\n"
+        f"{prose_markdown(sentence('; '.join(derivation.assumptions)))}\n\n"
     ]
     exact = derivation.exact() if derivation.exact else {}
     for name, form in exact.items():
