@@ -74,7 +74,7 @@ from force_diffusion.symbolic.symbols import (
     r,
     sigma,
 )
-from sympy import Eq, Integer
+from sympy import Eq, Integer, Rational
 
 
 def _symbol(name: str, over: str, words: str) -> sympy.Symbol:
@@ -119,17 +119,17 @@ def _over_beads(load: sympy.Expr | int) -> sympy.Expr:
 
 _BEADS_LOW = {
     "": ("j ≥ N + 2 and N ≥ 2", 0),
-    "N=j-1": ("N = j − 1 ≥ 2", -sympy.Rational(3, 2)),
+    "N=j-1": ("N = j − 1 ≥ 2", -Rational(3, 2)),
     "N=j": ("N = j ≥ 2", 1),
-    "N=j+1": ("N = j + 1 ≥ 3", sympy.Rational(1, 2)),
+    "N=j+1": ("N = j + 1 ≥ 3", Rational(1, 2)),
     "N>j+1": ("2 ≤ j ≤ N − 2", 0),
-    "base+1, N=2": ("j = 1 and N = 2", sympy.Rational(7, 2)),
+    "base+1, N=2": ("j = 1 and N = 2", Rational(7, 2)),
     "base+1": ("j = 1 and N ≥ 3", 3),
     "base": ("j = 0 and N ≥ 2", -2),
 }
 _LOADS_LOW = {
     "": ("j ≥ 3 and N ≥ 2", 0),
-    "base+2": ("j = 2 and N ≥ 2", -sympy.Rational(3, 2)),
+    "base+2": ("j = 2 and N ≥ 2", -Rational(3, 2)),
     "base+1": ("j = 1 and N ≥ 2", 4),
     "base": ("j = 0 and N ≥ 2", -3),
 }
@@ -143,18 +143,18 @@ class Average:
         name: of its exact forms.
         symbol: its variance.
         of: the mean.
-        form: that variance away from the base, in ``unit``.
-        unit: of all its forms.
+        printed: that variance away from the base.
+        scale: of what is added to it elsewhere, in ``UNIT``.
         share: of a bead beside a leg of the cone of a load: only 1/N of its pairs are.
         least: the smallest p and q for which all beads are inside of all cones.
-        low: what it has beyond ``form`` by the distance from the base, in words and in ``unit``.
+        low: where it has more next to the base, in words, and how much in ``scale``.
     """
 
     name: str
     symbol: sympy.Symbol
     of: sympy.Expr
-    form: sympy.Expr
-    unit: sympy.Expr
+    printed: sympy.Eq
+    scale: sympy.Expr
     share: sympy.Expr
     least: tuple[sympy.Expr, sympy.Expr]
     low: dict[str, tuple[str, sympy.Expr | int]]
@@ -185,8 +185,9 @@ class Average:
         """Layer, words and relations of the legs, value, domain: every site inside, once."""
         for layer, (words, added) in self.low.items():
             for beside, at, more in self._beside_legs(layer):
-                value = times(terms(self.form, added + more) if added + more else self.form,
-                              self.unit)  # fmt: skip
+                value = self.printed.rhs
+                if added + more:
+                    value = terms(value, times(sympy.factor((added + more) * self.scale), UNIT))
                 yield layer, beside, at, value, _where(*relations(words), *at, *self._inside)
 
     def exact(self) -> dict[str, ExactCase]:
@@ -225,33 +226,33 @@ class Average:
 
 
 _EACH = sympy.Sum(pushed(m, 0), (m, 0, N - 1))
-LOADS = Average(
-    "loads", OVER_LOADS, _EACH / N, formula("6(l + j) − 2N − 3 − (1 − φ²)/N"),
-    UNIT / 4, 1 / N, (Integer(1), N), _LOADS_LOW,
-)  # fmt: skip
-BEADS = Average(
-    "beads", OVER_BEADS, _over_beads(0) / N, formula("4(l + j) − 4 + 2φ²"),
-    UNIT / (4 * N**2), Integer(1), (N, Integer(1)), _BEADS_LOW,
-)  # fmt: skip
-BOTH = Average(
-    "both", OVER_BOTH, sympy.Sum(_over_beads(m), (m, 0, N - 1)) / N**2,
-    formula("4(l + j) − 4N/3 − 2 − (2/(3N))(1 − 3φ²)"),
-    UNIT / (4 * N**2), 1 / N, (N, N), _BEADS_LOW,
-)  # fmt: skip
-BLOCKS = (LOADS, BEADS, BOTH)
-MEANING = {symbol: of for one in BLOCKS for symbol, of in one.meaning.items()}
 
 
-def _printed(symbol: sympy.Symbol, change: str, prefactor: str) -> sympy.Eq:
-    unit = times(formula(prefactor), 1 / (1 - phi**2) ** 2)
+def _printed(symbol: sympy.Symbol, prefactor: sympy.Expr, change: str) -> sympy.Eq:
+    unit = 1 / times(prefactor, (1 - phi**2) ** 2)
     return equation(symbol, times(unit, formula(change), formula("(σ_δr/r)²")))
 
 
 PRINTED = (
-    _printed(OVER_LOADS, "6(l + j) − 2N − 3 − (1 − φ²)/N", "1/4"),
-    _printed(OVER_BEADS, "2(l + j) − 2 + φ²", "1/(2N²)"),
-    _printed(OVER_BOTH, "2(l + j) − 2N/3 − 1 − (1 − 3φ²)/(3N)", "1/(2N²)"),
+    _printed(OVER_LOADS, 4 * N, "6N(l + j) − 2N² − 3N − 1 + φ²"),
+    _printed(OVER_BEADS, 2 * N**2, "2(l + j) − 2 + φ²"),
+    _printed(OVER_BOTH, 6 * N**3, "6N(l + j) − 2N² − 3N − 1 + 3φ²"),
 )
+_SCALE = 1 / (4 * N**2)
+LOADS = Average(
+    "loads", OVER_LOADS, _EACH / N, PRINTED[0],
+    Rational(1, 4), 1 / N, (Integer(1), N), _LOADS_LOW,
+)  # fmt: skip
+BEADS = Average(
+    "beads", OVER_BEADS, _over_beads(0) / N, PRINTED[1],
+    _SCALE, Integer(1), (N, Integer(1)), _BEADS_LOW,
+)  # fmt: skip
+BOTH = Average(
+    "both", OVER_BOTH, sympy.Sum(_over_beads(m), (m, 0, N - 1)) / N**2, PRINTED[2],
+    _SCALE, 1 / N, (N, N), _BEADS_LOW,
+)  # fmt: skip
+BLOCKS = (LOADS, BEADS, BOTH)
+MEANING = {symbol: of for one in BLOCKS for symbol, of in one.meaning.items()}
 WHERE = _where(*relations("p ≥ N, q ≥ N, p + q ≥ 2N + 1, j ≥ N + 2"), N >= 2)
 """Where all three hold."""
 
@@ -391,7 +392,7 @@ B22 = Derivation(
 
 OF_PAIR = pushed(0, 0)
 """p of the bead below its own load; the next pair is one place to the right."""
-ROW = _printed(OVER_PAIRS, "(1 − φ)²/N + (2/N²)(2(l + j) − 1)", "1/4")
+ROW = _printed(OVER_PAIRS, 4 * N**2, "N(1 − φ)² + 4(l + j) − 2")
 OFF_AXIS = relations("p ≥ q + 3, q ≥ 1")
 SHORT = _where(*OFF_AXIS, *relations("2 ≤ N ≤ j − 2"))
 ROWS = {
@@ -415,12 +416,16 @@ def rows() -> dict[str, ExactCase]:
     """Rows of pairs that are longer than the beads are high above the base."""
     found = {}
     for name, (words, added) in ROWS.items():
-        value = terms(ROW.rhs, times(Integer(added), UNIT / (4 * N**2))) if added else ROW.rhs
+        value = terms(ROW.rhs, times(added * _SCALE, UNIT)) if added else ROW.rhs
         where = _where(*OFF_AXIS, *relations(words))
         line = Line(words, equation(OVER_PAIRS, value), _LONG_BY, where, ROW_MEANING)
         off_axis = (k - i >= 3, sympy.Ge(l - j, k - i + 2))
         found[name] = ExactCase(OVER_PAIRS, words, value, (*relations(words), *off_axis), line=line)
     return found
+
+
+def _rows() -> list[tuple[sympy.Expr, Where]]:
+    return [(one.expression, one.line.domain(0)) for one in rows().values() if one.line]
 
 
 @cache
@@ -449,7 +454,7 @@ def row_steps() -> Lines:
     lines.show("Further pairs are uncorrelated. All of it:", ROW, after=(near, spread))
     lines.claim_each(
         "from N = j + 3 on it is the same, but for the two layers next to the base",
-        ((OVER_PAIRS, one.expression, one.line.where) for one in rows().values() if one.line),
+        ((OVER_PAIRS, *one) for one in _rows()),
         _LONG_BY,
     )
     return lines
@@ -516,7 +521,7 @@ def _pairs_of_blocks(packing: SmallPacking) -> Iterator[tuple[str, Fraction, Fra
 
 def _pairs_of_rows(packing: SmallPacking) -> Iterator[tuple[str, Fraction, Fraction]]:
     forms = [(ROW.rhs, SHORT)]
-    forms += [(one.expression, one.line.domain(0)) for one in rows().values() if one.line]
+    forms += _rows()
     for words, at in _sites():
         for form, where in forms:
             if where.holds(at):
