@@ -145,6 +145,7 @@ _RATIOS: Mapping[int, tuple[tuple[Fraction | int, ...], ...]] = {
     1: ((1,),),
     2: tuple((one, 1 - one) for one in HEIGHTS),
     3: ((1, 1, 1), (2, 1, 1), (3, 1, 2), (1, 2, 3), (1, 100, 1), (1, 1, 100)),
+    4: ((1, 1, 1, 1), (2, 1, 1, 3), (1, 2, 3, 1)),
 }
 """How what is positive in a limit stands to each other, by how many there are."""
 

@@ -1,4 +1,4 @@
-"""Eqs. B1–B23 answer where they hold, and nowhere else: against all small exact packings."""
+"""Eqs. B1–B25 answer where they hold, and nowhere else: against all small exact packings."""
 
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
