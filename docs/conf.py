@@ -3,6 +3,7 @@
 import os
 import re
 import sys
+from importlib.metadata import version as installed
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import math_core
 from docutils import nodes
 
 project = "force-diffusion"
+release = installed(project)
 author = "the force-diffusion developers"
 copyright = f"2026, {author}"
 
@@ -22,7 +24,7 @@ extensions = [
 exclude_patterns = ["_build"]
 
 html_theme = "furo"
-html_title = "force-diffusion"
+html_title = f"force-diffusion {release}"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_copy_source = False

@@ -32,7 +32,7 @@ from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
 from .numeric.studies.cascade.cascade import CascadeStudy as CascadeStudy
 from .numeric.studies.cascade.cascade import cascade as cascade
 from .numeric.studies.cost.cost import cost as cost
-from .numeric.studies.cost.result import CostStudy as CostStudy
+from .numeric.studies.cost.table import CostStudy as CostStudy
 from .numeric.studies.stability.stability import StabilityStudy as StabilityStudy
 from .numeric.studies.stability.stability import stability as stability
 from .numeric.unilateral.checker import Verdict as Verdict

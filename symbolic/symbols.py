@@ -6,9 +6,10 @@ the indices of a bead (r, s); here the bead's are ``site_r`` and ``site_s``.
 
 from typing import Any
 
-from force_diffusion.symbolic.notation import Symbol, raised
 from sympy import Function, Matrix, Piecewise
 from sympy.printing.precedence import PRECEDENCE
+
+from .notation import Symbol, raised
 
 # geometry: radius, horizontal spacing (a length), base vectors' components and mutual cosine
 r = Symbol("r", positive=True)

@@ -114,6 +114,24 @@ def test_nothing_imports_a_room_by_its_folder() -> None:
             assert not heads & {"numeric", "symbolic", "derivations"}, path
 
 
+@pytest.mark.parametrize("folder", ["numeric", "symbolic", "derivations"])
+def test_imports_within_a_folder_are_relative(folder: str) -> None:
+    """Tools that don't know below which name the folders are installed follow these, too.
+
+    Files that also run as scripts, one for each equation and theorem, import by full names; so
+    does the source of loops, which is compiled in another place.
+    """
+    copied = ROOT / "numeric" / "mechanics" / "loops.py"
+    for path in sorted((ROOT / folder).rglob("*.py")):
+        runs_alone = path.parent == ROOT / "derivations" / "beyond" or (
+            path.parent == ROOT / "derivations" and path.name.startswith("eq")
+        )
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and not runs_alone and path != copied:
+                parts = (node.module or "").split(".")
+                assert node.level or parts[:2] != ["force_diffusion", folder], path
+
+
 def test_every_room_is_on_the_map() -> None:
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     for folder in ("numeric", "symbolic", "derivations"):

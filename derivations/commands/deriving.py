@@ -6,17 +6,18 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from force_diffusion.derivations.commands.output import output
-from force_diffusion.derivations.commands.progress import Silence, display
-from force_diffusion.derivations.export.terminal import tried_counts, tried_text
-from force_diffusion.derivations.framework.catalogue import Number, modules
-from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.numeric.arithmetic.errors import printable
 from force_diffusion.numeric.arithmetic.processes import Start, beside
 
+from ..export.terminal import tried_counts, tried_text
+from ..framework.catalogue import Number, modules
+from ..framework.loading import load, with_premises
+from .output import output
+from .progress import Silence, display
+
 if TYPE_CHECKING:
-    from force_diffusion.derivations.api.derived import Derived
-    from force_diffusion.derivations.framework.record import Derivation
+    from ..api.derived import Derived
+    from ..framework.record import Derivation
 
 WORTH_ANOTHER_PROCESS = 16
 """Equations from which on another process, which has to load SymPy, repays itself."""
@@ -31,7 +32,7 @@ def watched(
     numbers: "Iterable[Number | Derivation]", watch: Silence, start: Start | None = None
 ) -> "Derived":
     """Derive these equations under a display; ``start`` calls functions in another process."""
-    from force_diffusion.derivations.api.derived import derive_with
+    from ..api.derived import derive_with
 
     with watch.showing():
         return derive_with(start, numbers, watch.checking, watch.finished)
@@ -49,7 +50,7 @@ def derive(
     The output folder is looked at before the first proof, so that a wrong one costs no time. The
     document in it is also about the equations that an earlier run has left there.
     """
-    from force_diffusion.derivations.export.document import (
+    from ..export.document import (
         DOCUMENT,
         document,
         finding,

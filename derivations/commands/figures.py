@@ -9,10 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.derivations.commands.cli import shell_line
-from force_diffusion.derivations.commands.guard import about, say
-from force_diffusion.derivations.commands.output import Overwrite, out_option, output
-from force_diffusion.derivations.commands.shared import images, noticing, sourced, warn
 from force_diffusion.numeric.arithmetic import processes
 from force_diffusion.numeric.arithmetic.errors import printable
 from force_diffusion.numeric.figures.names import (
@@ -27,6 +23,11 @@ from force_diffusion.numeric.figures.names import (
 from force_diffusion.numeric.scene.combinations import answered, either
 
 import force_diffusion as fd
+
+from .cli import shell_line
+from .guard import about, say
+from .output import Overwrite, out_option, output
+from .shared import images, noticing, sourced, warn
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.figures.catalogue import PaperFigure

@@ -10,8 +10,12 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import sympy
-from force_diffusion.derivations.coq.files import Companion, Statement
-from force_diffusion.derivations.coq.words import (
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.mechanics.paths import BRANCH_COUNT, IN_CONE
+
+from ..framework.record import Derivation
+from .files import Companion, Statement
+from .words import (
     EXPANSION,
     FIXED,
     HEIGHT,
@@ -23,9 +27,6 @@ from force_diffusion.derivations.coq.words import (
     real,
     vector,
 )
-from force_diffusion.derivations.framework.record import Derivation
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.mechanics.paths import BRANCH_COUNT, IN_CONE
 
 
 def ranges(derivation: Derivation) -> Iterator[str]:

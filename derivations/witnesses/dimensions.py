@@ -8,7 +8,6 @@ from itertools import product
 from typing import Any
 
 import mpmath
-from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.numeric.arithmetic.systems import Series, zeros
 from force_diffusion.numeric.lattice.branch import PerAxis
 from force_diffusion.numeric.lattice.layers import whole
@@ -21,6 +20,8 @@ from force_diffusion.numeric.mechanics.any_dimension import (
     together,
 )
 from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
+
+from .draws import SmallPacking
 
 DIGITS, STRENGTH = 50, mpmath.mpf(10) ** -20
 

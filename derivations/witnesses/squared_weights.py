@@ -11,12 +11,13 @@ from itertools import product
 from typing import TYPE_CHECKING
 
 import sympy
-from force_diffusion.derivations.witnesses.both_sides import ExactSolution
-from force_diffusion.derivations.witnesses.draws import Site, SmallPacking
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, undecided
 from force_diffusion.symbolic.variances.variance import ClosedForm, packings, value_at
+
+from .both_sides import ExactSolution
+from .draws import Site, SmallPacking
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.mechanics.taylor import TaylorPacking

@@ -22,7 +22,7 @@ from ..mechanics import engine
 from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Work
-from ..quantities.network import NetworkQuantity
+from ..quantities.contacts_that_open import NetworkQuantity
 from ..statistics.moments import by_halves
 from ..unilateral.network import Relaxed, UnfinishedError
 from .measure import Measurement

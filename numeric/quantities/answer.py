@@ -17,7 +17,7 @@ from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import ESTIMATE, Work
-from ..statistics.histogram import counted, edges_between
+from ..statistics.bins import counted, edges_between
 from ..unilateral.network import Network, Relaxed, UnfinishedError
 from .base import RATIO, Quantity, Table
 from .histogram import Histogram

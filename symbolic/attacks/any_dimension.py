@@ -3,9 +3,10 @@
 from dataclasses import replace
 
 import sympy
-from force_diffusion.symbolic.attacks.attack import attack, told
-from force_diffusion.symbolic.kernel import limits, moments, rules
-from force_diffusion.symbolic.kernel.any_dimension import (
+from sympy import Eq, Integer, Symbol
+
+from ..kernel import limits, moments, rules
+from ..kernel.any_dimension import (
     BULK,
     BULK_LEANING,
     POINT,
@@ -13,10 +14,10 @@ from force_diffusion.symbolic.kernel.any_dimension import (
     SURFACE_LEANING,
     value,
 )
-from force_diffusion.symbolic.kernel.theorem import NotProvedError
-from force_diffusion.symbolic.kernel.where import SURFACE as IN_THE_PLANE
-from force_diffusion.symbolic.kernel.where import Where, at_fixed_height
-from force_diffusion.symbolic.symbols import (
+from ..kernel.theorem import NotProvedError
+from ..kernel.where import SURFACE as IN_THE_PLANE
+from ..kernel.where import Where, at_fixed_height
+from ..symbols import (
     Covariance,
     ForceBelow,
     ForceOfLayer,
@@ -35,7 +36,7 @@ from force_diffusion.symbolic.symbols import (
     r,
     sigma,
 )
-from sympy import Eq, Integer, Symbol
+from .attack import attack, told
 
 INSIDE = (j >= 2, j + 2 <= M)
 ANY = Where((j, M), INSIDE, SURFACE, dimension=d)

@@ -1,11 +1,12 @@
 """Attacks on means, variances and covariances, and on leading orders."""
 
 import sympy
-from force_diffusion.symbolic.attacks.attack import BEADS, HERE, attack, told
-from force_diffusion.symbolic.kernel import limits, moments, rules
-from force_diffusion.symbolic.kernel.theorem import Theorem
-from force_diffusion.symbolic.kernel.where import LOADED, SURFACE, Limit, Where, at_fixed_height
-from force_diffusion.symbolic.symbols import (
+from sympy import Eq, Sum, Symbol
+
+from ..kernel import limits, moments, rules
+from ..kernel.theorem import Theorem
+from ..kernel.where import LOADED, SURFACE, Limit, Where, at_fixed_height
+from ..symbols import (
     Covariance,
     DeltaNPlus,
     DeltaR,
@@ -30,7 +31,7 @@ from force_diffusion.symbolic.symbols import (
     sigma,
     z,
 )
-from sympy import Eq, Sum, Symbol
+from .attack import BEADS, HERE, attack, told
 
 SQUARE = sigma**2
 UNKNOWN = Symbol("nu", real=True)

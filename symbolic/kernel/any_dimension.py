@@ -8,16 +8,17 @@ load points along their sum, or leans. What the forces are in the radii is part 
 from dataclasses import replace
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
-from force_diffusion.symbolic.algebra.weights import UndeterminedError
-from force_diffusion.symbolic.kernel import weights_any_dimension
-from force_diffusion.symbolic.kernel.point_load import AXES, Weights
-from force_diffusion.symbolic.kernel.theorem import NotProvedError
-from force_diffusion.symbolic.kernel.where import Loading, Where
-from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.text import text
+
+from .. import symbols as sy
+from ..algebra import affine
+from ..algebra.exact import FIELD, NotExactError, RationalFunction
+from ..algebra.weights import UndeterminedError
+from ..notation import by_name
+from ..printing.text import text
+from . import weights_any_dimension
+from .point_load import AXES, Weights
+from .theorem import NotProvedError
+from .where import Loading, Where
 
 _WORDS = "the same load along the sum of the base vectors"
 SURFACE = Loading(

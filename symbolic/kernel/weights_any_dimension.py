@@ -26,11 +26,12 @@ from functools import lru_cache
 from itertools import pairwise
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction, sum_polynomial
-from force_diffusion.symbolic.algebra.weights import UndeterminedError
-from force_diffusion.symbolic.kernel.where import Where
+
+from .. import symbols as sy
+from ..algebra import affine
+from ..algebra.exact import FIELD, RationalFunction, sum_polynomial
+from ..algebra.weights import UndeterminedError
+from .where import Where
 
 OWN = 1 + (sy.d - 2) * sy.phi
 """b^a·b^a of the reciprocal vectors, times ``BELOW``."""

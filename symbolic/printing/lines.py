@@ -8,10 +8,11 @@ that no line is overfull, which the compilation of the document checks.
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from force_diffusion.symbolic.printing.latex import PaperLatex
-from force_diffusion.symbolic.printing.structure import in_order, is_negative, without_sign
-from force_diffusion.symbolic.printing.text import PaperText
 from sympy import Add, Basic, Eq, Expr, Mul, Sum, Symbol, Tuple
+
+from .latex import PaperLatex
+from .structure import in_order, is_negative, without_sign
+from .text import PaperText
 
 COLUMNS = {1: 322.0, 2: 222.0}
 """Points for a line of a displayed equation, by columns of text: the narrowest of usual classes."""

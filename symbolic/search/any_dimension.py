@@ -12,11 +12,12 @@ from functools import cache
 from itertools import islice
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search import limits
-from force_diffusion.symbolic.search.points import Point, points
+
+from .. import symbols as sy
+from ..kernel.where import Where
+from ..printing.text import text
+from . import limits
+from .points import Point, points
 
 Bead = tuple[int, ...]
 Form = Mapping[Bead, Fraction]

@@ -12,13 +12,14 @@ from functools import cache
 from itertools import pairwise, product
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import explicit
-from force_diffusion.symbolic.as_printed import bits
-from force_diffusion.symbolic.kernel.where import Limit, Where
-from force_diffusion.symbolic.mechanics.lattice import mirror
-from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search.values import WithoutValue
+
+from .. import symbols as sy
+from ..algebra import explicit
+from ..as_printed import bits
+from ..kernel.where import Limit, Where
+from ..mechanics.lattice import mirror
+from ..printing.text import text
+from .values import WithoutValue
 
 HIGHEST_POWER = 20
 DIGITS, MOST_DIGITS, MOST_OF_ROOTS = 100, 4000, 1500

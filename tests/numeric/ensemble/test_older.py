@@ -30,13 +30,6 @@ STORES = {
 }
 
 
-@pytest.fixture(autouse=True)
-def _of_that_version(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(
-        "force_diffusion.numeric.ensemble.scene_key.program_version", lambda: "0.1.0"
-    )
-
-
 def copied(name: str, folder: Path) -> Path:
     return Path(shutil.copy(FOLDER / f"{name}.fd", folder))
 

@@ -376,7 +376,7 @@ def test_enough_events_change_nothing(relaxed: fd.Outcome) -> None:
 
 def test_quantities_are_the_same_under_the_effect() -> None:
     from force_diffusion.numeric.quantities import QUANTITIES
-    from force_diffusion.numeric.quantities.network import NETWORK_QUANTITIES
+    from force_diffusion.numeric.quantities.contacts_that_open import NETWORK_QUANTITIES
 
     assert set(QUANTITIES) == set(NETWORK_QUANTITIES)
     assert all(issubclass(one, Quantity) for one in NETWORK_QUANTITIES.values())  # type: ignore[arg-type]

@@ -57,7 +57,7 @@ def test_a_load_leans_by_the_sums_of_ratios_and_of_their_squares(
     where = Where((j, M), CASES[case], dimension=d)
     layer, height = (one.xreplace(where.solved) for one in (j, M))
     found = squares(layer, height, LOADS[load], where, leaning=True)
-    cosine, size = Fraction(-1, 6), 5
+    dimension, cosine, size = len(ratios) + 1, Fraction(-1, 6), 5
     at = next(at for at in range(1, size) if where.holds({j: at, M: size})) if case != "base" else 0
     both = force_weights(dimension, size, at, cosine, bulk=LOADS[load], ratios=ratios)
     values = {j: at, M: size, d: dimension, phi: cosine, tau_1: sum(ratios)}
