@@ -43,7 +43,7 @@ def force_weights(
     """
     # A weight is its part's factor times n − φ m, with numbers n and m, which are counted.
     Counts = dict[Bead, list[int | Fraction]]
-    parts: tuple[Counts, Counts] = tuple(defaultdict(lambda: [0, 0]) for _ in range(2))
+    parts: tuple[Counts, Counts] = defaultdict(lambda: [0, 0]), defaultdict(lambda: [0, 0])
     carried = (1, *(ratios or (1,) * (dimension - 1)))
 
     def line_sum(to: Counts, bead: Bead, along: int, sign: int | Fraction) -> None:

@@ -98,7 +98,9 @@ class Packing:
         key = ("f", axis, highest, bead)
         if key not in self._known:
             above = _stepped(bead, axis)
-            parts = [(1, self.force(axis, above, highest))] if sum(above) < highest else []
+            parts: list[tuple[int | Fraction, Form]] = []
+            if sum(above) < highest:
+                parts.append((1, self.force(axis, above, highest)))
             for c in range(self.dimension):
                 below = _stepped(above, c, -1)
                 if sum(above) < highest and (carried := self.ordered(c, above)):
@@ -159,7 +161,7 @@ def contact(
         # upwards is along the sum of the base vectors, with which each has the product 1 + 2φ
         up = [(1 / (1 + 2 * cosine), packing.tilt(bead, axis, b)) for b in range(3)]
         change = _sum((1, change), *up)
-    return ordered, change
+    return int(ordered), change
 
 
 def counterexample(statement: sympy.Eq, where: Where, at_most: int | None = None) -> str | None:
