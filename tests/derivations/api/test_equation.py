@@ -78,7 +78,7 @@ STANDARD = {
     "frac", "left", "right", "sum", "delta", "sigma", "phi", "langle", "rangle", "hat", "bf", "rm",
     "cdot", "begin", "end", "approx", "sim", "propto", "Delta", "biggl", "biggr", "quad", "qquad",
     "leq", "overline", "int", "sqrt", "operatorname", "limits", "infty", "nu", "rho", "varepsilon",
-    "pm", "kappa", "mathrm", "mathbf", "times", "psi", "geq", "text",
+    "pm", "kappa", "mathrm", "mathbf", "times", "psi", "tau", "geq", "text",
 }  # fmt: skip
 
 
