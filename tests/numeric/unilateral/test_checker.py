@@ -78,14 +78,19 @@ def test_strict_is_said_of_beads_that_are_held_alone() -> None:
 
 
 @pytest.mark.parametrize(
-    ("load", "contacts", "why"),
+    ("load", "fourth", "contacts", "why"),
     [
-        (["0", "-1"], [[5, 2], [5, 3]], "beads 4 and 5 overlap, or are not shown to be apart"),
-        (["-0.6", "-0.8"], [[5, 2], [5, 4]], "may not be positive"),
+        (
+            ["0", "-1"],
+            "14.2",
+            [[5, 2], [5, 3]],
+            "beads 4 and 5 overlap, or are not shown to be apart",
+        ),
+        (["-0.6", "-0.8"], "14.5", [[5, 2], [5, 4]], "may not be positive"),
     ],
 )
 def test_of_beads_that_touch_without_force_nothing_is_proved(
-    load: list[str], contacts: list[list[int]], why: str
+    load: list[str], fourth: str, contacts: list[list[int]], why: str
 ) -> None:
     """Two beads side by side, each on two of the base, in triangles of sides 3, 4 and 5."""
     packing: Packing = {
@@ -93,7 +98,7 @@ def test_of_beads_that_touch_without_force_nothing_is_proved(
         "fixed": 4,
         "radii": ["0.9"] * 4 + ["4.1"] * 2,
         "loads": [["0", "0"]] * 4 + [["0", "-1"], load],
-        "centres": [[x, "0"] for x in ("0", "6", "8.2", "14.2")] + [["3", "4"], ["11.2", "4"]],
+        "centres": [[x, "0"] for x in ("0", "6", "8.2", fourth)] + [["3", "4"], ["11.2", "4"]],
         "contacts": [[4, 0], [4, 1], *contacts],
     }
     verdict = said(packing)
