@@ -217,7 +217,7 @@ class _Proof:
     def verdict(self, no: Callable[[str], Verdict], rattlers: int) -> Verdict:
         """Prove, or say what fails."""
         gaps = [self.gap(a, b) for a, b in self.contacts.tolist()]
-        worst = max(_upper(g) for g in gaps)
+        worst = _largest(gaps)
         least, pair = self.smallest_gap()
         if worst > OPEN:
             return no(f"the contacts are open or overlap by up to {worst:.2g}")
@@ -245,8 +245,8 @@ class _Proof:
         turned = (off.columns + inverse.columns * radius.columns) * (1 + 1e-9)
         if not (step + moved * within < within and turned < 0.5):
             return no(f"Krawczyk's operator does not map the box into itself: {moved:.2g}")
-        forces, error = self.forces(factors, A, inverse.columns / (1 - turned))
-        smallest = float((forces - error).min())
+        forces, error = self.forces(factors, inverse.columns / (1 - turned))
+        smallest = float((forces * (1 - 1e-15) - error).min())  # they are rounded
         if not smallest > 0:
             k = int(np.argmin(forces))
             a, b = self.contacts[k]
@@ -264,21 +264,31 @@ class _Proof:
             )
         return Verdict(True, "", n, rattlers, within, smallest, gap)
 
-    def forces(self, factors: Any, A: Any, norm: float) -> tuple[Any, float]:
-        """Give forces, and a bound on their error: residuals over the box times ‖A⁻¹‖₁ ≤ norm."""
-        load = np.array([[float(v.mid()) for v in self.loads[b]] for b in self.free]).ravel()
-        forces = -factors.solve(load, trans="T")
-        forces -= factors.solve(load + A.T @ forces, trans="T")
-        rest = {bead: list(self.loads[bead]) for bead in self.free}
-        for (a, b), force, direction in zip(
-            self.contacts.tolist(), forces, self.directions, strict=True
-        ):
-            for bead, sign in ((a, 1), (b, -1)):
-                if bead in rest:
-                    for k in (0, 1):
-                        rest[bead][k] = rest[bead][k] + sign * float(force) * direction[k]
-        residual = max(_upper(v) for pair in rest.values() for v in pair)
-        return forces, norm * residual * (1 + 1e-9)
+    def forces(self, factors: Any, norm: float) -> tuple[Any, float]:
+        """Give forces, and a bound on their error: residuals over the box times ‖A⁻¹‖₁ ≤ norm.
+
+        They are corrected by what they leave, in balls, while that falls.
+        """
+        load = [v for bead in self.free for v in self.loads[bead]]
+        forces = [flint.arb(0)] * len(load)
+        rest, left, before = load, _largest(load), np.inf
+        while left < before / 2:
+            best, before = forces, left
+            step = factors.solve(np.array([-float(v.mid()) for v in rest]), trans="T")
+            forces = [(f + float(s)).mid() for f, s in zip(forces, step, strict=True)]
+            rest = list(load)
+            for (a, b), force, direction in zip(
+                self.contacts.tolist(), forces, self.directions, strict=True
+            ):
+                for bead, sign in ((a, 1), (b, -1)):
+                    if bead in self.column:
+                        for k in (0, 1):
+                            at = self.column[bead] + k
+                            rest[at] = rest[at] + sign * force * direction[k]
+            left = _largest(rest)
+        if left < before:
+            best, before = forces, left
+        return np.array([float(f) for f in best]), norm * before * (1 + 1e-9)
 
     def smallest_gap(self) -> tuple[float, tuple[int, int]]:
         """Give the smallest gap at the centres, of all pairs that are no contacts, rounded down.
@@ -329,6 +339,10 @@ def _inverse(A: Any, factors: Any) -> tuple[_Norms, _Norms]:
     found = np.stack([largest, sums.max(axis=1)], axis=1) * (1 + 1e-9)
     found[~np.isfinite(found)] = np.inf
     return _Norms(*map(float, found[0])), _Norms(*map(float, found[1]))
+
+
+def _largest(balls: list[Any]) -> float:
+    return max(_upper(ball) for ball in balls)
 
 
 def _upper(ball: Any) -> float:

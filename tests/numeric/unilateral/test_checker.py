@@ -77,6 +77,14 @@ def test_strict_is_said_of_beads_that_are_held_alone() -> None:
     assert "1 rattlers, whose places are some of many" in found
 
 
+def test_forces_below_the_rounding_of_others_are_proved() -> None:
+    """The load points at bead 0, but for 1e-18: half of its 5/4 remains for bead 1."""
+    verdict = said(changed("loads", 2, ["-0.6", "-0.800000000000000001"]))
+    assert verdict.proved
+    assert verdict.smallest_force == pytest.approx(0.625e-18)
+    assert not said(changed("loads", 2, ["-0.6", "-0.799999999999999999"])).proved
+
+
 @pytest.mark.parametrize(
     ("load", "fourth", "contacts", "why"),
     [
