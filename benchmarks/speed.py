@@ -304,7 +304,7 @@ def writing() -> Iterator[Line]:
 
 def _sphere_tasks(height: int, width: int) -> tuple[int, dict[str, Callable[[], Any]]]:
     """Give the beads of a packing of spheres, and who deposits and balances it."""
-    from force_diffusion.numeric.mechanics.kernels import Deposition, Descent
+    from force_diffusion.numeric.mechanics.passes import Deposition, Descent
     from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 
     import force_diffusion as fd

@@ -376,10 +376,10 @@ def test_a_radius_that_is_not_positive_is_named_alike(name: str) -> None:
 
 
 def test_a_force_that_is_no_number_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    from force_diffusion.numeric.mechanics import kernels
+    from force_diffusion.numeric.mechanics import passes
 
     made = planned(sections("profile"))
-    monkeypatch.setattr(kernels.Descent, "__call__", lambda *_: None)
+    monkeypatch.setattr(passes.Descent, "__call__", lambda *_: None)
     with pytest.raises(NotReachedError, match="a force is beyond the range of float64"):
         run(cut(made, 4))
 
