@@ -33,7 +33,8 @@ STEP = 0.2
 REACH = 6 * STEP
 # The share of the way to where a gap closes, or a force vanishes, that a step goes at most.
 SHARE = 0.99
-# Steps after which linear programs go on from wherever the path has come.
+# Steps after which linear programs go on from wherever the path has come, as they do where
+# rounding ends it.
 MOST_STEPS = 500
 
 
@@ -55,21 +56,26 @@ def follow(grains: Grains, progress: Callable[[int], None]) -> None:
             forces = np.array([known.get(k, mu / g) for k, g in zip(names, gaps, strict=True)])
         A = grains.jacobian(pairs)
         stiff = A.T @ diags_array(forces / gaps) @ A + HELD * eye_array(grains.unknowns)
-        factors = splu(
-            stiff.tocsc(),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        )
+        try:
+            factors = splu(
+                stiff.tocsc(),
+                permc_spec="MMD_AT_PLUS_A",
+                diag_pivot_thresh=0.0,
+                options={"SymmetricMode": True},
+            )
+        except RuntimeError:  # it is singular, to rounding
+            return
         move = factors.solve(load + A.T @ (mu / gaps))
         opening = A @ move
         pressing = (mu - forces * opening) / gaps - forces
         along = min(_most(gaps, opening), STEP / np.abs(move).max(initial=STEP))
         across = _most(forces, pressing)
-        grains.x = grains.x.copy()
-        grains.x[grains.fixed :] += along * move.reshape(-1, 2)
-        forces = forces + across * pressing
-        gaps = grains.gaps(pairs)
+        x = grains.x.copy()
+        x[grains.fixed :] += along * move.reshape(-1, 2)
+        gaps = grains.gaps(pairs, x)
+        if not gaps.min() > 0:  # by rounding
+            return
+        grains.x, forces = x, forces + across * pressing
         progress(step)
         full = min(along, across) > 0.9
         if full and mu == LAST:

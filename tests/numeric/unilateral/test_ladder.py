@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric.planning.planner import plan
-from force_diffusion.numeric.unilateral import UnfinishedError, relaxation
+from force_diffusion.numeric.unilateral import UnfinishedError, interior_path, relaxation
 from force_diffusion.numeric.unilateral.grains import Grains
 from force_diffusion.numeric.unilateral.interior_path import MOST_STEPS, follow
 from force_diffusion.numeric.unilateral.starts import dropped, in_pockets, start
@@ -80,6 +80,17 @@ def test_an_interior_path_keeps_all_gaps_open_and_lowers_the_load() -> None:
     assert energies[-1] < energies[0]
     gaps = np.sort(found.gaps(found.near(0.1)))
     assert gaps[200] < 1e-5  # of some 250 contacts
+
+
+def test_where_rounding_ends_an_interior_path_programs_go_on(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def singular(*_: Any, **__: Any) -> None:
+        raise RuntimeError("Factor is exactly singular")
+
+    monkeypatch.setattr(interior_path, "splu", singular)
+    (network,) = strip(std=0.03, protocol="interior-path").run().answer.networks
+    assert 0 < network.events < 100  # programs alone
 
 
 def test_where_nothing_moves_no_rung_answered() -> None:
