@@ -57,7 +57,7 @@ def test_programs_that_start_from_a_stretched_lattice_say_so() -> None:
 
 
 def test_an_interior_path_ends_lower_than_programs_from_the_deposited_packing() -> None:
-    """It did in all packings that were compared, by 4 to 24 % of the fall."""
+    """It did in three packings that were compared, by 4 to 24 % of the fall."""
     path = strip(std=0.03, seed=3, protocol="interior-path").run()
     assert rung(path) == "linear programs from the end of an interior path"
     (lower,) = path.answer.networks
