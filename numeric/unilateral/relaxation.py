@@ -18,7 +18,7 @@ from ..mechanics.engine import solve
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.work import Work
-from . import event_driven, linear_programs
+from . import event_driven, interior_path, linear_programs
 from .certificate import Certificate, certify, smallest_gap
 from .grains import Grains, Pairs
 from .linear_programs import NO_FORCE
@@ -38,6 +38,7 @@ class Rung:
     start: Literal[
         "the deposited packing",
         "a stretched lattice",  # where the deposited packing can't be built, or overlaps
+        "the end of an interior path",
         "beads dropped one by one",
         "pockets of the base",
     ]
@@ -52,6 +53,7 @@ _PROGRAMS = Rung("the deposited packing", "linear programs")
 _EVENTS = Rung("the deposited packing", "events")
 PROTOCOLS = {
     "linear-programs": (_PROGRAMS,),
+    "interior-path": (Rung("the end of an interior path", "linear programs"),),
     "event-driven": (_EVENTS,),
     "event-ladder": (_EVENTS, Rung("beads dropped one by one", "events")),
     "ladder": (
@@ -187,8 +189,11 @@ class Search:
         try:
             contacts = self._placed(rung, grains)
             before = grains.energy()
+            if rung.start == "the end of an interior path":
+                interior_path.follow(grains, progress)
             if rung.by == "linear programs":
-                near, forces = linear_programs.relax(grains, progress)
+                steps = events
+                near, forces = linear_programs.relax(grains, lambda n: progress(steps + n))
                 contacts = _bearing(grains, near, forces)
             elif rung.by == "events":
                 if contacts is None:

@@ -77,15 +77,28 @@ def test_strict_is_said_of_beads_that_are_held_alone() -> None:
     assert "1 rattlers, whose places are some of many" in found
 
 
+def test_forces_below_the_rounding_of_others_are_proved() -> None:
+    """The load points at bead 0, but for 1e-18: half of its 5/4 remains for bead 1."""
+    verdict = said(changed("loads", 2, ["-0.6", "-0.800000000000000001"]))
+    assert verdict.proved
+    assert verdict.smallest_force == pytest.approx(0.625e-18)
+    assert not said(changed("loads", 2, ["-0.6", "-0.799999999999999999"])).proved
+
+
 @pytest.mark.parametrize(
-    ("load", "contacts", "why"),
+    ("load", "fourth", "contacts", "why"),
     [
-        (["0", "-1"], [[5, 2], [5, 3]], "beads 4 and 5 overlap, or are not shown to be apart"),
-        (["-0.6", "-0.8"], [[5, 2], [5, 4]], "may not be positive"),
+        (
+            ["0", "-1"],
+            "14.2",
+            [[5, 2], [5, 3]],
+            "beads 4 and 5 overlap, or are not shown to be apart",
+        ),
+        (["-0.6", "-0.8"], "14.5", [[5, 2], [5, 4]], "may not be positive"),
     ],
 )
 def test_of_beads_that_touch_without_force_nothing_is_proved(
-    load: list[str], contacts: list[list[int]], why: str
+    load: list[str], fourth: str, contacts: list[list[int]], why: str
 ) -> None:
     """Two beads side by side, each on two of the base, in triangles of sides 3, 4 and 5."""
     packing: Packing = {
@@ -93,7 +106,7 @@ def test_of_beads_that_touch_without_force_nothing_is_proved(
         "fixed": 4,
         "radii": ["0.9"] * 4 + ["4.1"] * 2,
         "loads": [["0", "0"]] * 4 + [["0", "-1"], load],
-        "centres": [[x, "0"] for x in ("0", "6", "8.2", "14.2")] + [["3", "4"], ["11.2", "4"]],
+        "centres": [[x, "0"] for x in ("0", "6", "8.2", fourth)] + [["3", "4"], ["11.2", "4"]],
         "contacts": [[4, 0], [4, 1], *contacts],
     }
     verdict = said(packing)

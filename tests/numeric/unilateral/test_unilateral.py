@@ -19,7 +19,7 @@ from force_diffusion.numeric.unilateral.starts import must_hold
 
 import force_diffusion as fd
 
-PROTOCOLS = ("linear-programs", "event-driven")
+PROTOCOLS = ("linear-programs", "interior-path", "event-driven")
 
 
 def strip(
