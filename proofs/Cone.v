@@ -118,9 +118,9 @@ Section Cone.
       (fun m => rho (i + j - m - 2)%Z m)) by site.
     unfold Rminus at 1. f_equal.
     - rewrite Rmult_minus_distr_l, !tilt_minus_is by site. rewrite !(Sum_last 1 (j + p)) by site.
-      rewrite !Sum_plus, !Sum_minus, !Sum_scale. same_sums. same_values. ring.
+      normal_form. ring.
     - rewrite Rmult_minus_distr_l, !tilt_plus_is by site. rewrite !(Sum_last 1 (j + q)) by site.
-      rewrite !Sum_plus, !Sum_minus, !Sum_scale. same_sums. same_values. ring.
+      normal_form. ring.
   Qed.
 
   (** ** The sum of squared weights *)

@@ -5,9 +5,7 @@ From ForceDiffusion Require Import Model Sums FirstOrder.
 
 Open Scope R_scope.
 
-(** Whether a site is a bead of the packing: parity and bounds. *)
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
-Ltac site := unfold bead, contact in *; lia.
 Ltac same_sites := repeat (f_equal; try lia).
 
 Section Lattice.
