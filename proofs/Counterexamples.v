@@ -215,15 +215,25 @@ Proof.
   destruct (expands_unique _ _ _ _ _ E D) as [-> ->]. reflexivity.
 Qed.
 
-(** Beside what is true of a large packing: one statistic would be near two numbers. *)
-Ltac disprove_beside T H :=
-  repeat match type of H with ?A -> _ => specialize (H ltac:(something)); specialize (T ltac:(something)) end;
-  let f := fresh in let K := fresh in let g := fresh in let N := fresh in
-  destruct H as (f & K & H); destruct T as (g & N & T);
-  rewrite (linearised_unique _ _ _ K N) in H; clear K N;
+(** Two numbers for one quantity: of the layer that the example is in. *)
+Ltac two_numbers :=
+  repeat match goal with H : _ /\ _ |- _ => destruct H end;
+  repeat match goal with H : ?A -> _ |- _ => specialize (H ltac:(lia)) end;
+  match goal with T : ?x = _, H : ?x = _ |- _ => rewrite T in H; as_numbers H; lra end.
+
+(** One statistic would be near two numbers. *)
+Ltac near_two T H :=
   apply Rabs_def2' in H; apply Rabs_def2' in T;
   match type of T with
   | context [relative_variance ?L ?f] => generalize dependent (relative_variance L f); intros ? H T
   | context [variance ?L ?f] => generalize dependent (variance L f); intros ? H T
   end;
   as_numbers H; as_numbers T; lra.
+
+(** Beside what is true of the same packing. *)
+Ltac disprove_beside T H :=
+  repeat match type of H with ?A -> _ => specialize (H ltac:(something)); specialize (T ltac:(something)) end;
+  let f := fresh in let K := fresh in let g := fresh in let N := fresh in
+  destruct H as (f & K & H); destruct T as (g & N & T);
+  rewrite (linearised_unique _ _ _ K N) in H; clear K N;
+  lazymatch type of H with Rabs _ <= _ => near_two T H | _ => two_numbers end.

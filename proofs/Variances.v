@@ -18,6 +18,30 @@ Proof.
   replace (phi G ^ 2) with (phi G * phi G) by ring. lra.
 Qed.
 
+(** One Δ: a form in three radii of one layer. *)
+Lemma second_difference_variance (sigma : R) (M W : Z) (L : law W M sigma) (i j : Z) :
+  within W M (i - 2) j -> within W M i j -> within W M (i + 2) j ->
+  variance L (fun rho => second_difference rho i j 1) = 6 * sigma ^ 2.
+Proof.
+  intros A B C. assert (J : (0 <= j <= M)%Z) by (unfold within in B; site).
+  pose (form := fun m => if (m =? j)%Z then
+    cons (2, i) (cons (- 1, (i - 2)%Z) (cons (- 1, (i + 2)%Z) nil)) else nil : layer).
+  destruct (form_variance W M sigma L form) with (c := 0) (w := 1)
+    (f := fun rho => second_difference rho i j 1) as [_ V].
+  - intros m Hm. unfold form, inside. destruct (Z.eqb_spec m j) as [->|]; [|apply Forall_nil].
+    repeat (apply Forall_cons; [assumption|]). apply Forall_nil.
+  - intros rho. unfold whole, form.
+    rewrite (Sum_eq 0 M 0 M _ (fun m => on (m =? j)%Z (2 * rho i m - rho (i - 2)%Z m - rho (i + 2)%Z m))); auto.
+    + rewrite Sum_at by site. unfold second_difference, delta_r. ring.
+    + intros m Hm. destruct (m =? j)%Z; cbn [weigh on]; ring.
+  - rewrite V. unfold squares, form.
+    rewrite (Sum_eq 0 M 0 M _ (fun m => on (m =? j)%Z 6)); auto.
+    + rewrite (Sum_at 0 M j (fun _ => 6)) by site. ring.
+    + intros m Hm. destruct (m =? j)%Z; cbn [overlap meet on]; [|reflexivity]. rewrite !Z.eqb_refl.
+      replace (i =? i - 2)%Z with false by lia. replace (i =? i + 2)%Z with false by lia.
+      replace (i - 2 =? i)%Z with false by lia. replace (i - 2 =? i + 2)%Z with false by lia.
+      replace (i + 2 =? i)%Z with false by lia. replace (i + 2 =? i - 2)%Z with false by lia. ring.
+Qed.
 (** A force a (1 + change), the change being given by weights of radii. *)
 Definition linear_force (G : lattice) (M i j : Z) (a : R) (w : weights) (rho : radii) : R :=
   a * (1 + whole M (layers i j w) rho / (2 * r G * (1 - phi G * phi G))).

@@ -23,9 +23,11 @@ from force_diffusion.derivations.coq.words import (
     real,
     vector,
 )
+from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.record import Derivation, ExactCase
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.mechanics.paths import BRANCH_COUNT, IN_CONE
+from force_diffusion.symbolic.mechanics.lattice import mirror, mirrored_relation
+from force_diffusion.symbolic.mechanics.paths import IN_CONE
 
 
 def ranges(derivation: Derivation) -> Iterator[str]:
@@ -160,7 +162,6 @@ FRAMES = {
     9: Frame({**_BELOW, sy.i: 4, sy.j: 4}),
     10: Frame(
         {**_BELOW, sy.i: 5, sy.j: 1, sy.n: 2},
-        conditions=(f"(2 * n = {index(2 * BRANCH_COUNT)})%Z",),
     ),
     11: Frame(_AT),
     12: Frame(_AT, _up_to_variance("29 * IZR M ^ 2"), random=True),
@@ -180,7 +181,7 @@ FRAMES = {
         random=True,
     ),
 }
-EXACT = (13, 14)  # with exact forms in every layer, too
+MIRRORED = (9, 10, 11)  # stated of f⁻, too
 AVERAGES = 15  # the one equation about all layers together
 STATED = (*FRAMES, AVERAGES)
 """Numbers of the equations that can be stated."""
@@ -381,37 +382,67 @@ def _averages(derivation: Derivation, part: int, stated: sympy.Eq) -> str:
 
 
 def statements(derivation: Derivation) -> list[Statement]:
-    """The printed equations of a derivation in Coq, part by part, and the exact forms of variances.
+    """The printed equations of a derivation in Coq, part by part, and what is stated beside them.
 
     Raises:
         NotStatedError: when there are no words for one.
     """
-    printed = [statement(derivation, part) for part in range(len(derivation.printed))]
-    return [*printed, *([exact_statement(derivation)] if derivation.number in EXACT else [])]
+    made = _printed(derivation)
+    if derivation.number in MIRRORED:
+        made += _printed(mirror_image(derivation), mirrored=True)
+    return [*made, *(one(derivation) for one in BESIDE.get(derivation.number, ()))]
+
+
+def _printed(derivation: Derivation, *, mirrored: bool = False) -> list[Statement]:
+    parts = range(len(derivation.printed))
+    return [statement(derivation, part, mirrored=mirrored) for part in parts]
+
+
+def mirror_image(derivation: Derivation) -> Derivation:
+    """The same of the other branch: printed equations and domain."""
+    if derivation.where is None:
+        raise NotStatedError(f"Eq. {derivation.number} has no domain")
+    relations = tuple(map(mirrored_relation, derivation.where.relations))
+    return replace(
+        derivation,
+        printed=tuple(map(mirror, derivation.printed)),
+        where=replace(derivation.where, relations=relations),
+    )
 
 
 def exact_statement(
-    derivation: Derivation, exact: Mapping[str, ExactCase] | None = None
+    derivation: Derivation,
+    exact: Mapping[str, ExactCase] | None = None,
+    at: Mapping[sympy.Symbol, int] | None = None,
 ) -> Statement:
     """State mean and variance of one contact's force in every layer, or others in their place."""
     forms = derivation.exact() if exact is None and derivation.exact else exact or {}
-    printed, load = statement(derivation, 0), _LOADS[derivation.loads[0]]
-    layers: list[tuple[list[str], sympy.Expr]] = []
+    (formula,) = derivation.printed
+    printed, load = statement(derivation, 0, formula, at=at), _LOADS[derivation.loads[0]]
+    layers: dict[tuple[str, ...], sympy.Expr] = {}
     for case in forms.values():
         domain = [_relation(one) for one in case.domain]
         missed = [[_relation(one) for one in other.when] for other in case.missed]
-        layers.append(([*domain, *(f"~ ({_and(one)})" for one in missed)], case.expression))
-        layers += [(one, other.expression) for one, other in zip(missed, case.missed, strict=True)]
+        layers[*domain, *(f"~ ({_and(one)})" for one in missed)] = case.expression
+        layers |= {
+            (*one,): other.expression for one, other in zip(missed, case.missed, strict=True)
+        }
     statistic = _statistic(derivation.printed[0].lhs)
     claims = [
         f"exists f, linearised ({_OF_RHO} f_plus F i j {EXPANSION}) f",
         f"expect L f = {load.mean}",
-        *(f"({' -> '.join(when)} ->\n    {statistic} = {real(is_)})" for when, is_ in layers),
+        *(
+            f"({' -> '.join(when)} ->\n    {statistic} = {real(is_)})"
+            for when, is_ in layers.items()
+        ),
     ]
-    every = " \\/\n  ".join(f"({_and(when)})" for when, _ in layers)
+    every = " \\/\n  ".join(f"({_and(when)})" for when in layers)
+    name = f"{printed.name}_exact"
     return replace(
         printed,
-        name=f"{printed.name}_exact",
+        name=name,
+        disproof=printed.disproof.replace(f"pose proof {printed.name} ", f"pose proof {name} "),
+        beside=None if exact is None else exact_statement(derivation),
         conclusion=" /\\\n    ".join(claims),
         tactic=f"{printed.tactic}_exact",
         companions=(
@@ -421,14 +452,88 @@ def exact_statement(
     )
 
 
+def _nothing_else(derivation: Derivation) -> Statement:
+    """Beside Eqs. 9 and 10: no other contact below a loaded bead bears a force to first order."""
+    load = _LOADS["single"]
+    case = _one_packing(
+        {sy.M: 7, sy.k: 6, sy.l: 6, sy.i: 0, sy.j: 2},
+        (
+            *("bead M k l", "contact M i j", "(j < l)%Z"),
+            "(k - i > l - j \\/ i - k >= l - j)%Z",
+        ),
+        load,
+    )
+    force = sympy.Eq(sy.ForcePlus(sy.i, sy.j), sympy.S.Zero, evaluate=False)
+    return Statement(
+        f"equation_{derivation.number}_else_nothing",
+        case.before(),
+        _to_first_order(force),
+        "prove_nothing_else",
+        (case.companion(),),
+        disproof=case.disproof,
+    )
+
+
+def _second_differences(derivation: Derivation) -> Statement:
+    """Beside Eq. 12: the variance of one Δ."""
+    delta = real(sy.SecondDifference(sy.i, sy.j)).removesuffix(f" {EXPANSION}")
+    window = "within W M (i - 2) j /\\ within W M i j /\\ within W M (i + 2) j"
+    return Statement(
+        f"equation_{derivation.number}_second_difference",
+        ("  forall (sigma : R) (M W : Z) (L : law W M sigma) (i j : Z),", f"  {window} ->"),
+        f"variance L (fun rho => {delta} 1) = 6 * sigma ^ 2",
+        "prove_second_difference",
+        (
+            Companion(
+                "is_about_something",
+                f"forall sigma : R, exists (M W : Z) (L : law W M sigma) (i j : Z), {window}",
+                "intros. destruct (law_exists 3 2 sigma) as [L _]. exists 2%Z, 3%Z, L, 0%Z, 0%Z.\n"
+                "  unfold within, bead; lia.",
+            ),
+        ),
+    )
+
+
+def _maximum(derivation: Derivation) -> Statement:
+    """Beside Eq. 14: the printed form is largest at z = 1/6, and there alone."""
+    (printed,) = derivation.printed
+    here, top = real(printed.rhs), real(printed.rhs.xreplace({sy.z: sympy.Rational(1, 6)}))
+    return Statement(
+        f"equation_{derivation.number}_maximum",
+        (
+            "  forall (G : lattice) (sigma : R) (M j : Z),",
+            "  0 < sigma -> (0 <= j)%Z -> (j < M)%Z ->",
+        ),
+        f"{here} <= {top} /\\\n  ({here} = {top} -> (M = 6 * j)%Z)",
+        "prove_maximum",
+    )
+
+
+BESIDE: dict[Number, tuple[Callable[[Derivation], Statement], ...]] = {
+    10: (_nothing_else,),
+    12: (_second_differences,),
+    13: (exact_statement,),
+    14: (exact_statement, _maximum),
+}
+"""What is stated beside the printed equations, besides their mirror images."""
+
+
 def _and(conditions: Iterable[str]) -> str:
     return " /\\ ".join(conditions)
 
 
-def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = None) -> Statement:
+def statement(
+    derivation: Derivation,
+    part: int,
+    equation: sympy.Eq | None = None,
+    *,
+    mirrored: bool = False,
+    at: Mapping[sympy.Symbol, int] | None = None,
+) -> Statement:
     """State a printed equation of a derivation, or a candidate in its place.
 
-    Hypotheses are those of the printed equation, whatever the candidate says.
+    Hypotheses are those of the printed equation, whatever the candidate says. Of a mirror image
+    the example is mirrored, too; ``at`` are the indices of another one.
 
     Raises:
         NotStatedError: when there are no words for it.
@@ -437,6 +542,7 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
     stated = printed if equation is None else equation
     several = len(derivation.printed) > 1
     name = f"equation_{derivation.number}" + (f"_part_{part + 1}" if several else "")
+    name += "_mirrored" if mirrored else ""
     tactic = f"prove_{derivation.number}"
     if derivation.number == AVERAGES:
         companions = [
@@ -448,6 +554,10 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
     if derivation.number not in FRAMES:
         raise NotStatedError(f"Eq. {derivation.number} has no hypotheses in Model.v yet")
     frame = FRAMES[derivation.number]
+    frame = replace(frame, example={**frame.example, **(at or {})})
+    if mirrored and sy.k in frame.example:
+        across = 2 * frame.example[sy.k] - frame.example[sy.i]
+        frame = replace(frame, example={**frame.example, sy.i: across})
     strange = stated.free_symbols & set(sy.INDICES) - printed.free_symbols - set(frame.example)
     if strange:
         raise NotStatedError(f"{min(map(str, strange))} is no index of Eq. {derivation.number}")

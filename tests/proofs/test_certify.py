@@ -20,13 +20,14 @@ from force_diffusion.derivations.coq.files import Statement, head_of, theory
 from force_diffusion.derivations.coq.folder import ALLOWED, CoqFolder
 from force_diffusion.derivations.coq.packings import packing_statement
 from force_diffusion.derivations.coq.record import Certificate, Verdict
-from force_diffusion.derivations.coq.statements import statement
+from force_diffusion.derivations.coq.statements import exact_statement, statement
 from force_diffusion.derivations.coq.words import NotStatedError
 from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import SEEDS
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
+from force_diffusion.symbolic.search.mutants import mutants
 
 from tests.derivations.test_soundness import FALSE, TRUE, Change
 
@@ -114,6 +115,28 @@ def test_mutants_are_proved_false(coq: CoqFolder, number: int) -> None:
     assert every_seventh.stated
     assert not [one for one in every_seventh.accepted if not one.equivalent]
     assert every_seventh.stated - every_seventh.refuted <= NOT_REFUTED.get(number, 0)
+
+
+def exact_and_changed(number: int) -> Iterator[tuple[str, Statement]]:
+    """One coefficient of one layer's exact form changed, in a packing that has that layer."""
+    forms = load(number).exact()
+    places = {"interior": (6, 3), "base": (5, 0), "base+1": (5, 1), "surface": (5, 4)}
+    assert places.keys() == forms.keys()
+    for name, (height, layer) in places.items():
+        form = forms[name]
+        changes = [*mutants(sympy.Eq(form.quantity, form.expression, evaluate=False))]
+        for one in changes[:: len(changes) // 4]:
+            changed = {**forms, name: replace(form, expression=one.equation.rhs)}
+            at = {sy.M: height, sy.i: layer, sy.j: layer}
+            yield f"{name}: {one.change}", exact_statement(load(number), changed, at)
+
+
+@pytest.mark.parametrize("number", [13, 14])
+def test_another_exact_variance_is_proved_false(coq: CoqFolder, number: int) -> None:
+    changes = dict(enumerate(exact_and_changed(number)))
+    said = answers(coq, f"Exact_{number}", {at: one for at, (_, one) in changes.items()})
+    assert len(said) >= 16
+    assert [changes[at][0] for at, word in said.items() if word is not Answer.REFUTED] == []
 
 
 def stated(cases: list[tuple[int, str, Change]]) -> dict[int, Statement]:
