@@ -1,4 +1,5 @@
-(** The geometry of a packing to first order: what Eqs. 1-5 rest on. *)
+(** The geometry of a packing to first order: displacements are sums of radii along diagonals. That centres and
+    contact directions are differentiable follows, and what Eqs. 1-5 rest on. *)
 
 From Coq Require Import ZArith Reals Lia Lra.
 From ForceDiffusion Require Import Model Sums FirstOrder Lattice.

@@ -1,4 +1,5 @@
-(** The ordered lattice, and the point where a bead rests on two others. *)
+(** Bounds of φ, and the one point where a bead rests on two others. That point is differentiable where its
+    supports are. *)
 
 From Coq Require Import ZArith Reals Lia Lra.
 From ForceDiffusion Require Import Model Sums FirstOrder.

@@ -1,4 +1,5 @@
-(** Finite sums over whole numbers. *)
+(** Finite sums over whole numbers: split, shifted, swapped, bounded. Expressions with sums along diagonals have a
+    normal form, which takes as many steps as there are sums and sites. *)
 
 From Coq Require Import ZArith Reals Lia Lra.
 From ForceDiffusion Require Import Model.
@@ -189,28 +190,28 @@ Ltac elementary_sums :=
 (** ** The normal form of an expression that has sums along diagonals *)
 
 (** The values of h along the diagonal a = c + u b, from layer 1 to n; below layer 1, taken away. *)
-Definition along (h : Z -> Z -> R) (c u n : Z) : R :=
+Definition sum_along (h : Z -> Z -> R) (c u n : Z) : R :=
   Sum 1 n (fun m => h (c + u * m)%Z m) - Sum (n + 1) 0 (fun m => h (c + u * m)%Z m).
 
-Lemma along_step h c u n : along h c u n = along h c u (n - 1) + h (c + u * n)%Z n.
+Lemma along_step h c u n : sum_along h c u n = sum_along h c u (n - 1) + h (c + u * n)%Z n.
 Proof.
-  unfold along. replace (n - 1 + 1)%Z with n by lia. destruct (Z.le_gt_cases 1 n) as [H|H].
+  unfold sum_along. replace (n - 1 + 1)%Z with n by lia. destruct (Z.le_gt_cases 1 n) as [H|H].
   - rewrite (Sum_last 1 n), !(Sum_empty _ 0) by lia. ring.
   - rewrite !(Sum_empty 1), (Sum_first n 0) by lia. ring.
 Qed.
 
-Lemma along_back h c u n : along h c u n = along h c u (n + 1) - h (c + u * (n + 1))%Z (n + 1)%Z.
+Lemma along_back h c u n : sum_along h c u n = sum_along h c u (n + 1) - h (c + u * (n + 1))%Z (n + 1)%Z.
 Proof. rewrite (along_step h c u (n + 1)). replace (n + 1 - 1)%Z with n by lia. ring. Qed.
 
-Lemma along_none h c u : along h c u 0 = 0.
-Proof. unfold along. rewrite !Sum_empty by lia. ring. Qed.
+Lemma along_none h c u : sum_along h c u 0 = 0.
+Proof. unfold sum_along. rewrite !Sum_empty by lia. ring. Qed.
 
 Lemma Sum_along low high f h x y u : (low <= high + 1)%Z -> (forall m, f m = h (x + u * m)%Z (y + m)%Z) ->
-  Sum low high f = along h (x - u * y) u (high + y) - along h (x - u * y) u (low + y - 1).
+  Sum low high f = sum_along h (x - u * y) u (high + y) - sum_along h (x - u * y) u (low + y - 1).
 Proof.
   intros H E.
   assert (A : forall n, (low <= n + 1)%Z ->
-    Sum low n f = along h (x - u * y) u (n + y) - along h (x - u * y) u (low + y - 1)).
+    Sum low n f = sum_along h (x - u * y) u (n + y) - sum_along h (x - u * y) u (low + y - 1)).
   { intros n Hn. replace n with (n + 1 - 1)%Z by lia. revert Hn.
     generalize (n + 1)%Z as k. intros k Hk. pattern k. apply (up_from _ low); [| |exact Hk].
     - rewrite Sum_empty by lia. replace (low - 1 + y)%Z with (low + y - 1)%Z by lia. ring.
@@ -232,13 +233,13 @@ Ltac in_normal_form e E :=
   eassert (E : e = _);
   [transitivity (o + e)%Z; [ring|ring_simplify; reflexivity]|].
 
-(** Every sum as [along], up to a layer without a number added; every site in normal form. *)
-Definition value (h : Z -> Z -> R) (a b : Z) : R := h a b.
-Definition whole_to (h : Z -> Z -> R) (c u n : Z) : R := along h c u n.
+(** Every sum as [sum_along], up to a layer without a number added; every site in normal form. *)
+Definition site_value (h : Z -> Z -> R) (a b : Z) : R := h a b.
+Definition sum_in_normal_form (h : Z -> Z -> R) (c u n : Z) : R := sum_along h c u n.
 
-Lemma along_as h u c c' n n' : c = c' -> n = n' -> along h c u n = along h c' u n'.
+Lemma along_as h u c c' n n' : c = c' -> n = n' -> sum_along h c u n = sum_along h c' u n'.
 Proof. intros -> ->. reflexivity. Qed.
-Lemma value_as (h : Z -> Z -> R) a a' b b' : a = a' -> b = b' -> h a b = value h a' b'.
+Lemma value_as (h : Z -> Z -> R) a a' b b' : a = a' -> b = b' -> h a b = site_value h a' b'.
 Proof. intros -> ->. reflexivity. Qed.
 
 Ltac slope_of f x y :=
@@ -265,7 +266,7 @@ Ltac sums_along :=
 Ltac other_side E := lazymatch type of E with _ = ?x => x end.
 Ltac bounds_in_normal_form :=
   repeat match goal with
-  | |- context [along ?h ?c ?u ?n] =>
+  | |- context [sum_along ?h ?c ?u ?n] =>
       let C := fresh in let N := fresh in
       in_normal_form c C; in_normal_form n N;
       let c' := other_side C in let n' := other_side N in
@@ -276,7 +277,7 @@ Ltac bounds_in_normal_form :=
       | Z.neg _ => rewrite (along_back h c' u n')
       | (_ + Z.pos _)%Z => rewrite (along_step h c' u n')
       | (_ - Z.pos _)%Z => rewrite (along_back h c' u n')
-      | _ => change (along h c' u n') with (whole_to h c' u n')
+      | _ => change (sum_along h c' u n') with (sum_in_normal_form h c' u n')
       end
   end.
 Ltac sites_in_normal_form :=
@@ -284,7 +285,7 @@ Ltac sites_in_normal_form :=
   | |- context [?h ?a ?b] =>
       let T := type of (h a b) in unify T R;
       let A := type of a in unify A Z; let B := type of b in unify B Z;
-      lazymatch h with value _ => fail | whole_to _ _ => fail | _ => idtac end;
+      lazymatch h with site_value _ => fail | sum_in_normal_form _ _ => fail | _ => idtac end;
       let H := fresh in let K := fresh in
       in_normal_form a H; in_normal_form b K;
       let a' := other_side H in let b' := other_side K in

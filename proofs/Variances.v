@@ -37,7 +37,7 @@ Proof.
   - rewrite V. unfold squares, form.
     rewrite (Sum_eq 0 M 0 M _ (fun m => on (m =? j)%Z 6)); auto.
     + rewrite (Sum_at 0 M j (fun _ => 6)) by site. ring.
-    + intros m Hm. destruct (m =? j)%Z; cbn [overlap meet on]; [|reflexivity]. rewrite !Z.eqb_refl.
+    + intros m Hm. destruct (m =? j)%Z; cbn [overlap on_one_radius on]; [|reflexivity]. rewrite !Z.eqb_refl.
       replace (i =? i - 2)%Z with false by lia. replace (i =? i + 2)%Z with false by lia.
       replace (i - 2 =? i)%Z with false by lia. replace (i - 2 =? i + 2)%Z with false by lia.
       replace (i + 2 =? i)%Z with false by lia. replace (i + 2 =? i - 2)%Z with false by lia. ring.

@@ -1,4 +1,5 @@
-(** The forces under surface and bulk loads as weights of single radii, layer by layer. *)
+(** The forces under surface and bulk loads as weights of single radii, layer by layer. What Eq. 12 leaves out of
+    them is small. *)
 
 From Coq Require Import ZArith Reals Lia Lra List.
 From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Forces Random.
@@ -170,7 +171,7 @@ Lemma overlap_is i j w m : overlap (layers i j w m) (layers i j w m) =
   + 2 * (on (m =? j - 1)%Z (w_c w m * w_p w m) + on (m =? j)%Z (w_b w m * w_p w m + w_c w m * w_q w m)
     + on (m =? j + 1)%Z (w_a w m * w_p w m + w_b w m * w_q w m) + on (m =? j + 2)%Z (w_a w m * w_q w m)).
 Proof.
-  unfold layers. cbn [overlap meet]. rewrite !Z.eqb_refl.
+  unfold layers. cbn [overlap on_one_radius]. rewrite !Z.eqb_refl.
   generalize (w_a w m) (w_b w m) (w_c w m) (w_p w m) (w_q w m). intros a b c p q.
   destruct (Z.lt_ge_cases 2 (Z.abs (m - j))) as [H|H].
   - repeat match goal with |- context [(?x =? ?y)%Z] => replace (x =? y)%Z with false by lia end.
