@@ -23,7 +23,8 @@ Qed.
 Section Squares.
   Variable G : lattice.
   Variables i j M : Z.
-  Hypothesis at_contact : (0 <= j < M)%Z.
+  Hypothesis base : (0 <= j)%Z.
+  Hypothesis top : (j < M)%Z.
   Local Notation phi := (phi G).
   Local Notation K := (IZR (M - j)).
   Local Notation over w m := (overlap (layers i j w m) (layers i j w m)).

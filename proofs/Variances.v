@@ -109,7 +109,7 @@ Section Variances.
         exists (f / (2 * n_y G)), (f / (2 * n_y G) * surface_plus G rho M i j). split; [exact Ep|].
         unfold f1, surface_linear, linear_force, whole.
         rewrite <- (surface_in_layers G rho i j ltac:(site) M M) by site. field. lra.
-      - eapply in_units; [exact V|exact (surface_near G j M ltac:(site))|ring].
+      - eapply in_units; [exact V|exact (surface_near G j M ltac:(site) ltac:(site))|ring].
     Qed.
 
     (** Eq. 14: the same. *)
@@ -137,7 +137,7 @@ Section Variances.
           (g / (2 * n_y G) * Sum (j + 1) M (fun l => surface_plus G rho l i j)). split; [exact Ep|].
         unfold f1, bulk_linear, linear_force, whole.
         rewrite <- (bulk_in_layers G rho i j M) by site. field. lra.
-      - eapply in_units; [exact V|exact (bulk_near G j M ltac:(site))|field].
+      - eapply in_units; [exact V|exact (bulk_near G j M ltac:(site) ltac:(site))|field].
     Qed.
 
     (** Eq. 12: the force less the weights of Eq. 12, squared. *)

@@ -502,10 +502,19 @@ def _maximum(derivation: Derivation) -> Statement:
         f"equation_{derivation.number}_maximum",
         (
             "  forall (G : lattice) (sigma : R) (M j : Z),",
-            "  0 < sigma -> (0 <= j)%Z -> (j < M)%Z ->",
+            *("  0 < sigma ->", "  (0 <= j)%Z ->", "  (j < M)%Z ->"),
         ),
         f"{here} <= {top} /\\\n  ({here} = {top} -> (M = 6 * j)%Z)",
         "prove_maximum",
+        (
+            Companion(
+                "is_about_something",
+                "exists (G : lattice) (sigma : R) (M j : Z),\n"
+                "  0 < sigma /\\ (0 <= j)%Z /\\ (j < M)%Z /\\ (M = 6 * j)%Z",
+                "destruct some_lattice as [G _]. exists G, 1, 6%Z, 1%Z.\n"
+                "  repeat split; (lia || lra).",
+            ),
+        ),
     )
 
 

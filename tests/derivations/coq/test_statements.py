@@ -73,7 +73,7 @@ def test_ranges_are_those_of_the_domain() -> None:
 def test_asymptotic_ones_are_stated_of_every_contact() -> None:
     assert list(coq.ranges(load(12))) == []
     for number in (13, 14):
-        (made,) = coq.statements(load(number))
+        made = coq.statement(load(number), 0)
         assert made.about == ("contact M i j", "(0 <= j)%Z", "(j < M)%Z")
         assert all(words in "".join(made.hypotheses) for words in made.about)
 
