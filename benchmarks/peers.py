@@ -75,7 +75,7 @@ class Problem:
         self, realisations: int = 1, *, again: bool = False, carried: bool = False
     ) -> Callable[[], tuple[SolvedPacking, Forces]]:
         """Give a function that solves it by compiled loops; ``again``: in memory that stays."""
-        from force_diffusion.numeric.mechanics.kernels import Deposition, Descent
+        from force_diffusion.numeric.mechanics.passes import Deposition, Descent
         from force_diffusion.numeric.mechanics.sweeps import tell
 
         region, phi = self.region, cosine(self.n_x)

@@ -304,7 +304,7 @@ def writing() -> Iterator[Line]:
 
 def _sphere_tasks(height: int, width: int) -> tuple[int, dict[str, Callable[[], Any]]]:
     """Give the beads of a packing of spheres, and who deposits and balances it."""
-    from force_diffusion.numeric.mechanics.kernels import Deposition, Descent
+    from force_diffusion.numeric.mechanics.passes import Deposition, Descent
     from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 
     import force_diffusion as fd
@@ -376,7 +376,10 @@ def solving() -> Iterator[Line]:
                 matrix, permc_spec="NATURAL"
             ).solve(system.right),
         }
-        spent = in_turn(tasks, 7, process_time, min)
+        peer = tasks.pop("SuperLU")
+        spent = in_turn(tasks, 31, process_time, min)
+        # each right after the other, which empties the caches
+        cold = in_turn({"solve": tasks["solve"], "SuperLU": peer}, 7, process_time, min)
         for name, seconds in spent.items():
             yield Line(f"{name}, {height} × {width}", 1e3 * seconds, " ms")
         over = spent["solve"] - spent["sweep"]
@@ -385,7 +388,9 @@ def solving() -> Iterator[Line]:
         else:
             yield Line("  solve / sweep", spent["solve"] / spent["sweep"], "", "<", 6)
         target = (">", 5) if height == 256 else ("", 0)
-        yield Line("  SuperLU / solve", spent["SuperLU"] / spent["solve"], "", *target)
+        yield Line(f"SuperLU, {height} × {width}", 1e3 * cold["SuperLU"], " ms")
+        yield Line("  solve after it, caches emptied", 1e3 * cold["solve"], " ms")
+        yield Line("  SuperLU / that", cold["SuperLU"] / cold["solve"], "", *target)
 
 
 def first() -> Iterator[Line]:

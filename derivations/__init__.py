@@ -3,6 +3,6 @@
 import sys
 
 if sys.argv[:1] == ["-m"]:  # Python is about to run a module of this package as a program
-    from force_diffusion.derivations.commands.interrupts import end_quietly
+    from .commands.interrupts import end_quietly
 
     end_quietly()

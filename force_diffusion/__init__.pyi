@@ -32,8 +32,8 @@ from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
 from .numeric.studies.cascade.cascade import CascadeStudy as CascadeStudy
 from .numeric.studies.cascade.cascade import cascade as cascade
 from .numeric.studies.cost.cost import cost as cost
-from .numeric.studies.cost.result import CostStudy as CostStudy
+from .numeric.studies.cost.table import CostStudy as CostStudy
 from .numeric.studies.stability.stability import StabilityStudy as StabilityStudy
 from .numeric.studies.stability.stability import stability as stability
-from .numeric.unilateral.checker import Verdict as Verdict
-from .numeric.unilateral.checker import check_packings as check_packings
+from .numeric.unilateral import Verdict as Verdict
+from .numeric.unilateral import check_packings as check_packings

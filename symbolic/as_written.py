@@ -15,10 +15,11 @@ from math import gcd, prod
 from typing import NamedTuple
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.as_printed import minus, power, terms, times, too_large
-from force_diffusion.symbolic.printing.structure import rebuilt
 from sympy import Integer, Rational
+
+from . import symbols as sy
+from .as_printed import minus, power, terms, times, too_large
+from .printing.structure import rebuilt
 
 _BEADS_OWN = (sy.site_r, sy.site_s)
 VOCABULARY = (

@@ -106,12 +106,44 @@ def test_rooms_on_the_ground_floor_are_blind(folder: str, never: tuple[str, ...]
             assert not any(name == one or name.startswith(f"{one}.") for one in never), path
 
 
+def test_contacts_that_open_are_entered_by_one_door() -> None:
+    """What ``numeric/unilateral`` gives to others stands in its stub."""
+    island = "force_diffusion.numeric.unilateral"
+    door = ast.parse((ROOT / "numeric/unilateral/__init__.pyi").read_text(encoding="utf-8"))
+    given = {one.name for node in door.body for one in getattr(node, "names", [])}
+    for folder in ("force_diffusion", "numeric", "derivations", "benchmarks"):
+        for path in (ROOT / folder).rglob("*.py*"):
+            if path.suffix not in {".py", ".pyi"} or "unilateral" in path.parts:
+                continue
+            for name in imported(path):
+                if name.startswith(f"{island}."):
+                    assert name.removeprefix(f"{island}.") in given, (path, name)
+
+
 def test_nothing_imports_a_room_by_its_folder() -> None:
     """In the checkout ``numeric`` can be imported from the current folder; installed it can't."""
     for path in ROOT.rglob("*.py"):
         if ".venv" not in path.parts:
             heads = {name.split(".")[0] for name in imported(path)}
             assert not heads & {"numeric", "symbolic", "derivations"}, path
+
+
+@pytest.mark.parametrize("folder", ["numeric", "symbolic", "derivations"])
+def test_imports_within_a_folder_are_relative(folder: str) -> None:
+    """Tools that don't know below which name the folders are installed follow these, too.
+
+    Files that also run as scripts, one for each equation and theorem, import by full names; so
+    does the source of loops, which is compiled in another place.
+    """
+    copied = ROOT / "numeric" / "mechanics" / "loops.py"
+    for path in sorted((ROOT / folder).rglob("*.py")):
+        runs_alone = path.parent == ROOT / "derivations" / "beyond" or (
+            path.parent == ROOT / "derivations" and path.name.startswith("eq")
+        )
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and not runs_alone and path != copied:
+                parts = (node.module or "").split(".")
+                assert node.level or parts[:2] != ["force_diffusion", folder], path
 
 
 def test_every_room_is_on_the_map() -> None:

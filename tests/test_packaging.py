@@ -4,6 +4,7 @@ import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
+CITATION, CHANGES = ((ROOT / name).read_text("utf-8") for name in ("CITATION.cff", "CHANGELOG.md"))
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 
 
@@ -15,3 +16,10 @@ def test_every_folder_of_the_rooms_is_a_package() -> None:
             inner = module.parent.relative_to(ROOT / room).parts
             found.append(".".join([name, *inner]))
     assert sorted(setuptools["packages"]) == sorted(set(found))
+
+
+def test_one_version_everywhere() -> None:
+    version = PROJECT["project"]["version"]
+    assert f"\nversion: {version}\n" in CITATION
+    newest = next(line for line in CHANGES.splitlines() if line.startswith("## "))
+    assert newest.removeprefix("## ").split(",")[0] == version

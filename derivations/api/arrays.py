@@ -5,14 +5,15 @@ from typing import Any
 
 import numpy as np
 import sympy
-from force_diffusion.derivations.api.evaluation import (
+
+from ..export.prose import both
+from .evaluation import (
     EXACT,
     ArgumentError,
     Evaluation,
     compare_names,
     rounded,
 )
-from force_diffusion.derivations.export.prose import both
 
 
 def evaluate(evaluation: Evaluation, given: Mapping[str, Any]) -> Any:

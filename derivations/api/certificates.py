@@ -13,8 +13,9 @@ from enum import StrEnum
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from force_diffusion.derivations.api.equation import equation
-from force_diffusion.derivations.coq.files import (
+from force_diffusion.symbolic.search.mutants import mutants as made_mutants
+
+from ..coq.files import (
     Statement,
     files_of,
     proof_of,
@@ -22,28 +23,28 @@ from force_diffusion.derivations.coq.files import (
     theory_hash,
     words_of,
 )
-from force_diffusion.derivations.coq.folder import (
+from ..coq.folder import (
     ALLOWED,
     CoqAbsentError,
     CoqFolder,
     Notice,
     axioms_in,
 )
-from force_diffusion.derivations.coq.packings import packing_statement
-from force_diffusion.derivations.coq.record import (
+from ..coq.packings import packing_statement
+from ..coq.record import (
     Certificate,
     Certification,
     Change,
     Changes,
     Verdict,
 )
-from force_diffusion.derivations.coq.statements import statement, statements
-from force_diffusion.derivations.coq.words import NotStatedError
-from force_diffusion.derivations.framework.catalogue import Number, paper
-from force_diffusion.derivations.framework.loading import load
-from force_diffusion.derivations.framework.record import Derivation
-from force_diffusion.derivations.framework.runner import SEEDS
-from force_diffusion.symbolic.search.mutants import mutants as made_mutants
+from ..coq.statements import statement, statements
+from ..coq.words import NotStatedError
+from ..framework.catalogue import Number, paper
+from ..framework.loading import load
+from ..framework.record import Derivation
+from ..framework.runner import SEEDS
+from .equation import equation
 
 MUTANT_LIMIT = 30  # seconds for one changed statement
 IN_ONE_FILE = 20  # changed statements

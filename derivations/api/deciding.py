@@ -5,7 +5,6 @@ from dataclasses import replace
 from typing import Any
 
 import sympy
-from force_diffusion.derivations.export.prose import either
 from force_diffusion.symbolic.as_printed import equation, nodes, too_large
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
@@ -17,6 +16,8 @@ from force_diffusion.symbolic.kernel.decisions import (
 )
 from force_diffusion.symbolic.printing.text import text
 from sympy.logic.boolalg import BooleanAtom
+
+from ..export.prose import either
 
 _HALF = sympy.Rational(1, 2)
 

@@ -5,15 +5,17 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from force_diffusion.derivations.api.equation import equation
-from force_diffusion.derivations.export.document import (
+from force_diffusion.numeric.arithmetic.processes import Start
+from force_diffusion.symbolic.kernel.decisions import Verdict
+
+from ..export.document import (
     DOCUMENT,
     document,
     finding,
     fragment_name,
     statement_latex,
 )
-from force_diffusion.derivations.export.terminal import (
+from ..export.terminal import (
     expected_text,
     mutant_counts,
     outcomes_data,
@@ -22,13 +24,12 @@ from force_diffusion.derivations.export.terminal import (
     tried_text,
     trouble_lines,
 )
-from force_diffusion.derivations.framework.catalogue import Number, modules
-from force_diffusion.derivations.framework.loading import load, with_premises
-from force_diffusion.derivations.framework.own import assert_allowed, assert_shown
-from force_diffusion.derivations.framework.record import Derivation, Outcome
-from force_diffusion.derivations.framework.runner import run_all
-from force_diffusion.numeric.arithmetic.processes import Start
-from force_diffusion.symbolic.kernel.decisions import Verdict
+from ..framework.catalogue import Number, modules
+from ..framework.loading import load, with_premises
+from ..framework.own import assert_allowed, assert_shown
+from ..framework.record import Derivation, Outcome
+from ..framework.runner import run_all
+from .equation import equation
 
 
 @dataclass(frozen=True)

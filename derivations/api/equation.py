@@ -7,32 +7,33 @@ from numbers import Integral
 from typing import Any
 
 import sympy
-from force_diffusion.derivations.api.arrays import evaluate
-from force_diffusion.derivations.api.deciding import decided
-from force_diffusion.derivations.api.evaluation import ArgumentError, Evaluation, Number
-from force_diffusion.derivations.api.exact import ExactForm
-from force_diffusion.derivations.api.formula import Formula, vocabulary
-from force_diffusion.derivations.api.profile import Profile, profile
-from force_diffusion.derivations.api.proof import Proof, Steps
-from force_diffusion.derivations.coq.record import Recorded, recorded
-from force_diffusion.derivations.export.prose import both, either
-from force_diffusion.derivations.export.terminal import statement_text
-from force_diffusion.derivations.framework.catalogue import Number as EquationNumber
-from force_diffusion.derivations.framework.catalogue import (
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.kernel.decisions import Ruling
+from force_diffusion.symbolic.printing.text import text
+
+from ..coq.record import Recorded, recorded
+from ..export.prose import both, either
+from ..export.terminal import statement_text
+from ..framework.catalogue import Number as EquationNumber
+from ..framework.catalogue import (
     allowed,
     cases_of,
     modules,
     number_of,
     theorem_of,
 )
-from force_diffusion.derivations.framework.loading import load, with_premises
-from force_diffusion.derivations.framework.own import assert_allowed, is_own
-from force_diffusion.derivations.framework.record import Derivation, ExactCase
-from force_diffusion.derivations.framework.runner import run, run_all
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.decisions import Ruling
-from force_diffusion.symbolic.printing.text import text
+from ..framework.loading import load, with_premises
+from ..framework.own import assert_allowed, is_own
+from ..framework.record import Derivation, ExactCase
+from ..framework.runner import run, run_all
+from .arrays import evaluate
+from .deciding import decided
+from .evaluation import ArgumentError, Evaluation, Number
+from .exact import ExactForm
+from .formula import Formula, vocabulary
+from .profile import Profile, profile
+from .proof import Proof, Steps
 
 
 class NoSuchFormError(ForceDiffusionError, ValueError):

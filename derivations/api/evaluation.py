@@ -12,12 +12,13 @@ from typing import Any, TypeAlias
 import mpmath
 import sympy
 from flint import fmpq
-from force_diffusion.derivations.export.prose import either
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.mechanics.lattice import kappa_in
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.text import text
+
+from ..export.prose import either
 
 Number: TypeAlias = int | float | Fraction | Decimal
 """What is put in: int, Fraction, Decimal and, at run time, SymPy's Rational are exact."""

@@ -4,18 +4,19 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from force_diffusion.derivations.api.arrays import evaluate
-from force_diffusion.derivations.api.deciding import decided
-from force_diffusion.derivations.api.evaluation import Evaluation
-from force_diffusion.derivations.api.formula import Formula
-from force_diffusion.derivations.export.prose import phrase_latex, pieces
-from force_diffusion.derivations.framework.exactly import rule_on_exact
-from force_diffusion.derivations.framework.record import Derivation, ExactCase
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import j
 from sympy import Basic, Eq, Expr
+
+from ..export.prose import phrase_latex, pieces
+from ..framework.exactly import rule_on_exact
+from ..framework.record import Derivation, ExactCase
+from .arrays import evaluate
+from .deciding import decided
+from .evaluation import Evaluation
+from .formula import Formula
 
 
 def _again(derivation: Derivation, case: str) -> "ExactForm":

@@ -7,14 +7,15 @@ from functools import cached_property
 from typing import Any
 
 import sympy
-from force_diffusion.derivations.api.evaluation import Evaluation
-from force_diffusion.derivations.api.numpy_function import numpy_function
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.code import python_source, sympy_source
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import column_width, latex_body
 from force_diffusion.symbolic.printing.text import text
+
+from .evaluation import Evaluation
+from .numpy_function import numpy_function
 
 
 class Formula(ABC):

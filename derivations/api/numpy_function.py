@@ -10,17 +10,18 @@ from typing import Any
 import mpmath
 import numpy as np
 import sympy
-from force_diffusion.derivations.api.arrays import at_element, shared_shape
-from force_diffusion.derivations.api.evaluation import (
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.mechanics.lattice import kappa_in
+from force_diffusion.symbolic.printing.text import text
+
+from .arrays import at_element, shared_shape
+from .evaluation import (
     TOGETHER,
     ArgumentError,
     Evaluation,
     in_order,
     range_of,
 )
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.mechanics.lattice import kappa_in
-from force_diffusion.symbolic.printing.text import text
 
 Arrays = dict[sympy.Symbol, Any]
 """Float64 arrays of one shape, by symbol."""

@@ -7,23 +7,24 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
 import sympy
-from force_diffusion.derivations import eq04_contact_plus as eq04
-from force_diffusion.derivations import eq05_contact_minus as eq05
-from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.derivations.api.equation import equation
-from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.grounds import Chain, OfBoth
-from force_diffusion.derivations.framework.layered import Case, Layered
-from force_diffusion.derivations.framework.loading import load
-from force_diffusion.derivations.framework.record import Derivation, Witness
-from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.derivations.witnesses.squared_weights import compare, weights_of_forces
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.kernel.where import BULK, SURFACE, Loading
 from force_diffusion.symbolic.symbols import M, j, sigma
+
+from .. import eq04_contact_plus as eq04
+from .. import eq05_contact_minus as eq05
+from .. import eq11_total_force as eq11
+from .. import eq14_bulk_diffusion as eq14
+from ..framework.catalogue import Number
+from ..framework.grounds import Chain, OfBoth
+from ..framework.layered import Case, Layered
+from ..framework.loading import load
+from ..framework.record import Derivation, Witness
+from ..witnesses.draws import SmallPacking
+from ..witnesses.squared_weights import compare, weights_of_forces
+from .equation import equation
 
 _LOADS = {SURFACE: "surface", BULK: "bulk"}
 

@@ -8,8 +8,14 @@ from typing import Any
 
 import numpy as np
 import sympy
-from force_diffusion.derivations.api.arrays import is_several
-from force_diffusion.derivations.api.evaluation import (
+from force_diffusion.numeric.theory.critical_height import critical_height
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.printing.text import text
+
+from ..export.prose import both
+from ..framework.record import Derivation, ExactCase
+from .arrays import is_several
+from .evaluation import (
     TOGETHER,
     ArgumentError,
     Evaluation,
@@ -18,12 +24,7 @@ from force_diffusion.derivations.api.evaluation import (
     in_order,
     read_arguments,
 )
-from force_diffusion.derivations.api.exact import evaluation_of
-from force_diffusion.derivations.export.prose import both
-from force_diffusion.derivations.framework.record import Derivation, ExactCase
-from force_diffusion.numeric.theory.critical_height import critical_height
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.printing.text import text
+from .exact import evaluation_of
 
 PRINTED = "printed"
 """Stands for the printed equation among the names of exact forms."""

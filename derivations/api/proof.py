@@ -4,7 +4,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Self
 
-from force_diffusion.derivations.export.terminal import (
+from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.printing.latex import RELATIONS
+from force_diffusion.symbolic.printing.lines import latex_body
+
+from ..export.terminal import (
     check_text,
     counts_text,
     expected_text,
@@ -14,11 +18,8 @@ from force_diffusion.derivations.export.terminal import (
     steps_text,
     summary_line,
 )
-from force_diffusion.derivations.framework.proving import Shown
-from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome
-from force_diffusion.symbolic.kernel.decisions import Verdict
-from force_diffusion.symbolic.printing.latex import RELATIONS
-from force_diffusion.symbolic.printing.lines import latex_body
+from ..framework.proving import Shown
+from ..framework.record import Check, Derivation, Mutant, Outcome
 
 
 @dataclass(frozen=True)

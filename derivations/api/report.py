@@ -6,9 +6,10 @@ from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 
-from force_diffusion.derivations.api.derived import Derived, derive
 from force_diffusion.numeric.arithmetic.errors import NotReachedError
 from force_diffusion.numeric.arithmetic.processes import Start
+
+from .derived import Derived, derive
 
 
 @dataclass(frozen=True)
@@ -71,8 +72,8 @@ def made(
     deriving: Callable[[Start], Derived], notice: Callable[[str], None], command: str, start: Start
 ) -> Report:
     """Make the page; what is measured by the clock is started first."""
-    from force_diffusion.derivations.export.page import sections
-    from force_diffusion.derivations.export.page.page import page
+    from ..export.page import sections
+    from ..export.page.page import page
 
     measured = [start(part) for part in (sections.cost_part, sections.stability_part)]
     derived = deriving(start)

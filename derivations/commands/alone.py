@@ -3,12 +3,12 @@
 import sys
 from collections.abc import Mapping, Sequence
 
-from force_diffusion.derivations.commands.guard import WRONG_USAGE, guarded
-from force_diffusion.derivations.export.terminal import outcome_text, summary_line
-from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.loading import with_premises
-from force_diffusion.derivations.framework.record import Derivation
-from force_diffusion.derivations.framework.runner import run_all
+from ..export.terminal import outcome_text, summary_line
+from ..framework.catalogue import Number
+from ..framework.loading import with_premises
+from ..framework.record import Derivation
+from ..framework.runner import run_all
+from .guard import WRONG_USAGE, guarded
 
 
 def run_alone(

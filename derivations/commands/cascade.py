@@ -6,12 +6,13 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from force_diffusion.derivations.commands.cli import command_line
-from force_diffusion.derivations.commands.output import Overwrite, out_option, output
-from force_diffusion.derivations.commands.shared import drawn, images, noticing
-from force_diffusion.derivations.export.tables import csv_text
 
 import force_diffusion as fd
+
+from ..export.tables import csv_text
+from .cli import command_line
+from .output import Overwrite, out_option, output
+from .shared import drawn, images, noticing
 
 STATUSES = (
     "Takes a minute by default, and 16 times as long for twice the height. Exit status: "

@@ -7,14 +7,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from force_diffusion.derivations.commands.equations import equation_number
-from force_diffusion.derivations.commands.output import Overwrite, out_option, output
-from force_diffusion.derivations.commands.shared import noticing
 
 import force_diffusion as fd
 
+from .equations import equation_number
+from .output import Overwrite, out_option, output
+from .shared import noticing
+
 if TYPE_CHECKING:
-    from force_diffusion.derivations.coq.record import Certificate
+    from ..coq.record import Certificate
 
 STATUSES = (
     "Takes about two minutes, the first time. Exit status: 0 all accepted, 1 something is not, or "
@@ -42,9 +43,9 @@ def certify(
     overwrite: Overwrite = False,
 ) -> None:
     """Ask Coq, an independent proof assistant, whether it accepts the printed equations."""
-    from force_diffusion.derivations.api.certificates import stated
-    from force_diffusion.derivations.coq.files import files_of, sha256, theory
-    from force_diffusion.derivations.coq.record import RECORD
+    from ..api.certificates import stated
+    from ..coq.files import files_of, sha256, theory
+    from ..coq.record import RECORD
 
     wanted = [equation_number(word) for word in numbers] if numbers else None
     files = theory() | files_of(stated(wanted))
@@ -75,8 +76,8 @@ def certify(
 
 def _line(one: "Certificate") -> str:
     """One line about an equation or a packing, and what is wrong with it."""
-    from force_diffusion.derivations.framework.loading import load
-    from force_diffusion.derivations.framework.runner import SEEDS
+    from ..framework.loading import load
+    from ..framework.runner import SEEDS
 
     name, title = str(one.number), "an exact packing's Taylor coefficients, as fractions"
     if one.number not in SEEDS:

@@ -15,9 +15,10 @@ from importlib import import_module
 from typing import Annotated, Any
 
 import typer
-from force_diffusion.derivations.export.prose import either
 from force_diffusion.numeric.arithmetic.errors import WRONG_INPUT, printable, rule
 from typer.core import TyperGroup
+
+from ..export.prose import either
 
 # Name: (module, what --help says: the first paragraph of the command's docstring).
 COMMANDS = {

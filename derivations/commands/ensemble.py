@@ -9,9 +9,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.derivations.commands.guard import about, in_range, say, tell
-from force_diffusion.derivations.commands.output import Overwrite, out_option, output
-from force_diffusion.derivations.commands.shared import (
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
+from force_diffusion.numeric.scene.combinations import answered, either
+
+import force_diffusion as fd
+
+from ..export.answers import Format
+from ..export.tables import csv_text
+from .guard import about, in_range, say, tell
+from .output import Overwrite, out_option, output
+from .shared import (
     Quiet,
     Written,
     checked,
@@ -20,12 +27,6 @@ from force_diffusion.derivations.commands.shared import (
     warn,
     write,
 )
-from force_diffusion.derivations.export.answers import Format
-from force_diffusion.derivations.export.tables import csv_text
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
-from force_diffusion.numeric.scene.combinations import answered, either
-
-import force_diffusion as fd
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.ensemble.result import Ensemble

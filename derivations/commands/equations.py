@@ -7,23 +7,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from force_diffusion.derivations.commands.cli import STATUSES
-from force_diffusion.derivations.commands.guard import tell
-from force_diffusion.derivations.commands.output import Overwrite, out_option
-from force_diffusion.derivations.framework.catalogue import (
+
+import force_diffusion as fd
+
+from ..framework.catalogue import (
     Number,
     allowed,
     cases_of,
     modules,
     number_of,
 )
-
-import force_diffusion as fd
+from .cli import STATUSES
+from .guard import tell
+from .output import Overwrite, folder_of, out_option
 
 if TYPE_CHECKING:
-    from force_diffusion.derivations.api.equation import Equation
-    from force_diffusion.derivations.api.formula import Formula
-    from force_diffusion.derivations.framework.record import Derivation
+    from ..api.equation import Equation
+    from ..api.formula import Formula
+    from ..framework.record import Derivation
 
 
 class Form(StrEnum):
@@ -64,7 +65,7 @@ def wanted_of(words: Iterable[str]) -> "list[Number | Derivation]":
     found: list[Number | Derivation] = []
     for word in words:
         if word.endswith(".py"):
-            from force_diffusion.derivations.framework.own import derivations_in
+            from ..framework.own import derivations_in
 
             found += derivations_in(Path(word))
         else:
@@ -79,7 +80,7 @@ def blamed(words: Iterable[str]) -> Iterator[None]:
     if not paths:
         yield
         return
-    from force_diffusion.derivations.framework.own import blamed_on
+    from ..framework.own import blamed_on
 
     with blamed_on(*paths):
         yield
@@ -99,14 +100,23 @@ def derive(
         bool, typer.Option("--json", help="Print the results as JSON and nothing else.")
     ] = False,
     columns: Columns = 1,
+    article: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            parser=folder_of,
+            help="Write the article about the equations beyond the paper into this folder, LaTeX "
+            "and figures; it says which of them were proved. Needs matplotlib.",
+        ),
+    ] = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Prove equations and all that they rest on, and check them."""
-    from force_diffusion.derivations.commands import deriving
+    from . import deriving
 
     with blamed(numbers or ()):
         wanted = wanted_of(numbers or ()) or list(modules())
-        status = deriving.derive(wanted, out, as_json, overwrite, columns)
+        status = deriving.derive(wanted, out, as_json, overwrite, columns, article)
         if not status:  # else there is no proof that rests on any
             _tell_of_premises([one for one in wanted if not isinstance(one, int | str)])
     raise typer.Exit(status)
@@ -114,7 +124,7 @@ def derive(
 
 def _tell_of_premises(own: "Iterable[Derivation]") -> None:
     """Say what derivations of one's own rest on and do not name."""
-    from force_diffusion.derivations.framework.own import premises_unnamed
+    from ..framework.own import premises_unnamed
 
     for one in own:
         if unnamed := [f"premise({number!r})" for number in premises_unnamed(one)]:
@@ -167,7 +177,7 @@ def _show(words: list[str], form: Form, exact: bool, at_j: str | None, columns: 
         )
     if at_j is not None and not exact:
         raise typer.BadParameter("goes with --exact only; add it.", param_hint="--at-j")
-    from force_diffusion.derivations.api.equation import NoSuchFormError
+    from ..api.equation import NoSuchFormError
 
     if exact and form is Form.STEPS:
         raise typer.BadParameter(

@@ -5,8 +5,9 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from force_diffusion.derivations.commands.guard import say
-from force_diffusion.derivations.commands.output import Overwrite, copied, folder_of
+
+from .guard import say
+from .output import Overwrite, copied, folder_of
 
 STATUSES = "Exit status: 0 copied, 2 a file there differs, 3 the disk failed, 130 interrupted."
 

@@ -19,7 +19,6 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
-from force_diffusion.derivations.commands.interrupts import INTERRUPTED, MESSAGE, came, heed
 from force_diffusion.numeric.arithmetic.errors import (
     NOT_REACHED,
     WRONG_INPUT,
@@ -27,6 +26,8 @@ from force_diffusion.numeric.arithmetic.errors import (
     NotReachedError,
     printable,
 )
+
+from .interrupts import INTERRUPTED, MESSAGE, came, heed
 
 WRONG_USAGE = WRONG_INPUT
 FAILED_OUTSIDE = NOT_REACHED

@@ -33,9 +33,9 @@ from tempfile import TemporaryFile
 from typing import Annotated, Any
 
 import typer
-from force_diffusion.derivations.commands.cli import command_line
-from force_diffusion.derivations.commands.interrupts import waiting
-from force_diffusion.derivations.export.manifest import (
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
+
+from ..export.manifest import (
     LARGEST,
     MANIFEST,
     PROGRAM,
@@ -44,7 +44,8 @@ from force_diffusion.derivations.export.manifest import (
     Manifest,
     read_manifest,
 )
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
+from .cli import command_line
+from .interrupts import waiting
 
 # Files are written aside under a dot, their name, eight random digits, and this.
 PART = ".fd-part"

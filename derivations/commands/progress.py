@@ -4,9 +4,10 @@ import sys
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, TextIO
 
-from force_diffusion.derivations.export.terminal import summary_line, trouble_lines
-from force_diffusion.derivations.framework.record import Outcome
 from force_diffusion.symbolic.kernel.decisions import Verdict
+
+from ..export.terminal import summary_line, trouble_lines
+from ..framework.record import Outcome
 
 if TYPE_CHECKING:
     from rich.console import Console

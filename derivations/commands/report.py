@@ -4,16 +4,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from force_diffusion.derivations.commands.cli import shell_line
-from force_diffusion.derivations.commands.guard import say
-from force_diffusion.derivations.commands.output import Overwrite, out_option, output
-from force_diffusion.derivations.commands.progress import display
-from force_diffusion.derivations.commands.shared import noticing
-from force_diffusion.derivations.framework.catalogue import modules
+
+from ..framework.catalogue import modules
+from .cli import shell_line
+from .guard import say
+from .output import Overwrite, out_option, output
+from .progress import display
+from .shared import noticing
 
 if TYPE_CHECKING:
-    from force_diffusion.derivations.api.derived import Derived
     from force_diffusion.numeric.arithmetic.processes import Start
+
+    from ..api.derived import Derived
 
 PAGE = "report.html"
 STATUSES = (
@@ -28,9 +30,10 @@ def report(
     overwrite: Overwrite = False,
 ) -> None:
     """Write all results as one HTML page: derivations, checks, figures, costs, stability."""
-    from force_diffusion.derivations.api.report import find_libraries, made
-    from force_diffusion.derivations.commands.deriving import watched
     from force_diffusion.numeric.arithmetic.processes import beside
+
+    from ..api.report import find_libraries, made
+    from .deriving import watched
 
     find_libraries()
     command = shell_line(["force-diffusion", "report", "--out", str(out)])

@@ -9,11 +9,18 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.derivations.commands.cli import command_line, shell_line
-from force_diffusion.derivations.commands.guard import about as named
-from force_diffusion.derivations.commands.guard import in_range, say
-from force_diffusion.derivations.commands.output import Overwrite, out_option, output
-from force_diffusion.derivations.commands.shared import (
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
+from force_diffusion.numeric.scene.combinations import KINDS, answered, either
+
+import force_diffusion as fd
+
+from ..export.answers import Format
+from ..export.tables import csv_text
+from .cli import command_line, shell_line
+from .guard import about as named
+from .guard import in_range, say
+from .output import Overwrite, out_option, output
+from .shared import (
     Quiet,
     Written,
     checked,
@@ -25,13 +32,7 @@ from force_diffusion.derivations.commands.shared import (
     warn,
     write,
 )
-from force_diffusion.derivations.commands.sweep import Seed, Settings, name_of, variants
-from force_diffusion.derivations.export.answers import Format
-from force_diffusion.derivations.export.tables import csv_text
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
-from force_diffusion.numeric.scene.combinations import KINDS, answered, either
-
-import force_diffusion as fd
+from .sweep import Seed, Settings, name_of, variants
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.planning.plan import Plan
@@ -194,7 +195,7 @@ def cost(
 ) -> None:
     """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
     from force_diffusion.numeric.scene.source import source_of
-    from force_diffusion.numeric.studies.cost.result import csv_rows
+    from force_diffusion.numeric.studies.cost.table import csv_rows
 
     command = shell_line(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
     names = ["cost.json", "cost.csv", *images("cost")]

@@ -7,13 +7,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.derivations.commands.guard import tell
-from force_diffusion.derivations.commands.output import Folder
-from force_diffusion.derivations.export import answers
-from force_diffusion.derivations.export.answers import Format
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.figures.library import KINDS
 from force_diffusion.numeric.text import csv_bytes
+
+from ..export import answers
+from ..export.answers import Format
+from .guard import tell
+from .output import Folder
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.planning.plan import Plan

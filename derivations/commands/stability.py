@@ -5,12 +5,13 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from force_diffusion.derivations.commands.cli import shell_line
-from force_diffusion.derivations.commands.output import Overwrite, out_option, output
-from force_diffusion.derivations.commands.shared import drawn, images, noticing
-from force_diffusion.derivations.export.tables import csv_text
 
 import force_diffusion as fd
+
+from ..export.tables import csv_text
+from .cli import shell_line
+from .output import Overwrite, out_option, output
+from .shared import drawn, images, noticing
 
 STATUSES = (
     "Takes about 40 s. Exit status: 0 measured, 2 wrong usage, 3 the disk or a pipe failed, "

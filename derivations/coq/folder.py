@@ -16,10 +16,11 @@ from pathlib import Path
 from tempfile import TemporaryFile
 from zipfile import BadZipFile, ZipFile
 
-from force_diffusion.derivations.coq.files import LIBRARY, imports, sha256, theory_hash
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.arithmetic.machine import user_cache
 from force_diffusion.numeric.arithmetic.processes import ending_with, without_interrupts
+
+from .files import LIBRARY, imports, sha256, theory_hash
 
 WRITTEN_FOR = "Coq 8.16.1"
 INSTALL = "on Debian and Ubuntu: apt-get install coq; elsewhere: https://coq.inria.fr"

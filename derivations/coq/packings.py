@@ -9,9 +9,10 @@ load on one bead.
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
-from force_diffusion.derivations.coq.files import Companion, Statement
-from force_diffusion.derivations.witnesses.draws import SmallPacking, draw
 from force_diffusion.numeric.mechanics import taylor
+
+from ..witnesses.draws import SmallPacking, draw
+from .files import Companion, Statement
 
 Expansion = list[Fraction]
 

@@ -7,11 +7,11 @@ from enum import StrEnum
 from functools import cache
 from typing import Any
 
-from force_diffusion.derivations.coq.files import PROOFS, theory_hash
-from force_diffusion.derivations.coq.statements import statements
-from force_diffusion.derivations.coq.words import NotStatedError
-from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.record import Derivation
+from ..framework.catalogue import Number
+from ..framework.record import Derivation
+from .files import PROOFS, theory_hash
+from .statements import statements
+from .words import NotStatedError
 
 RECORD = "certificate.json"
 

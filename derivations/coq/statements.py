@@ -10,8 +10,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import sympy
-from force_diffusion.derivations.coq.files import Companion, Statement
-from force_diffusion.derivations.coq.words import (
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.mechanics.lattice import mirror, mirrored_relation
+from force_diffusion.symbolic.mechanics.paths import IN_CONE
+
+from ..framework.catalogue import Number
+from ..framework.record import Derivation, ExactCase
+from .files import Companion, Statement
+from .words import (
     EXPANSION,
     FIXED,
     HEIGHT,
@@ -23,11 +29,6 @@ from force_diffusion.derivations.coq.words import (
     real,
     vector,
 )
-from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.record import Derivation, ExactCase
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.mechanics.lattice import mirror, mirrored_relation
-from force_diffusion.symbolic.mechanics.paths import IN_CONE
 
 
 def ranges(derivation: Derivation) -> Iterator[str]:

@@ -4,14 +4,19 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 
-from force_diffusion.derivations.coq.record import recorded
-from force_diffusion.derivations.export.manifest import (
+from force_diffusion.symbolic.kernel.decisions import in_words
+from force_diffusion.symbolic.printing.latex import RELATIONS, latex
+from force_diffusion.symbolic.printing.lines import column_width, latex_body
+
+from ..coq.record import recorded
+from ..framework.record import Derivation, Outcome
+from .manifest import (
     MANIFEST,
     FoundEquation,
     FoundMutants,
 )
-from force_diffusion.derivations.export.prose import prose_latex
-from force_diffusion.derivations.export.terminal import (
+from .prose import prose_latex
+from .terminal import (
     follows_text,
     mutant_counts,
     relation_of,
@@ -19,10 +24,6 @@ from force_diffusion.derivations.export.terminal import (
     tried_counts,
     tried_text,
 )
-from force_diffusion.derivations.framework.record import Derivation, Outcome
-from force_diffusion.symbolic.kernel.decisions import in_words
-from force_diffusion.symbolic.printing.latex import RELATIONS, latex
-from force_diffusion.symbolic.printing.lines import column_width, latex_body
 
 DOCUMENT = "equations.tex"
 

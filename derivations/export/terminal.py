@@ -5,16 +5,17 @@ from collections.abc import Iterable, Mapping, Sequence
 from textwrap import fill
 from typing import Any
 
-from force_diffusion.derivations.coq.record import recorded
-from force_diffusion.derivations.export.manifest import FoundCheck
-from force_diffusion.derivations.export.prose import both
-from force_diffusion.derivations.framework.catalogue import theorem_of
-from force_diffusion.derivations.framework.proving import Shown
-from force_diffusion.derivations.framework.record import Check, Derivation, Mutant, Outcome
-from force_diffusion.derivations.framework.runner import UNLIKE, UNLISTED
 from force_diffusion.symbolic.kernel.decisions import Verdict, in_words
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
+
+from ..coq.record import recorded
+from ..framework.catalogue import theorem_of
+from ..framework.proving import Shown
+from ..framework.record import Check, Derivation, Mutant, Outcome
+from ..framework.runner import UNLIKE, UNLISTED
+from .manifest import FoundCheck
+from .prose import both
 
 _PAIR = re.compile(r"\((\S+), (\S+)\)")
 

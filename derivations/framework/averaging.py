@@ -3,12 +3,13 @@
 from collections.abc import Callable
 
 import sympy
-from force_diffusion.derivations.framework.grounds import By, Proved, Source, known
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel import averages
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import Where
+
+from .grounds import By, Proved, Source, known
 
 
 def _by(rule: Callable[..., Rule], *sources: Source) -> By:

@@ -4,13 +4,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import sympy
-from force_diffusion.derivations.framework.proving import no_statement
-from force_diffusion.derivations.framework.record import (
-    Derivation,
-    ExactCase,
-    in_whole_numbers,
-    proved_by_line,
-)
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel.decisions import (
@@ -27,6 +20,14 @@ from force_diffusion.symbolic.mechanics.lattice import kappa_in
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.search.counterexample import counterexample
 from force_diffusion.symbolic.search.values import WithoutValue
+
+from .proving import no_statement
+from .record import (
+    Derivation,
+    ExactCase,
+    in_whole_numbers,
+    proved_by_line,
+)
 
 _EVERYWHERE: tuple[Any, ...] = (
     sympy.Ge(sy.M, 1, evaluate=False),

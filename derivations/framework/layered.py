@@ -10,18 +10,6 @@ from fractions import Fraction
 from functools import cached_property
 
 import sympy
-from force_diffusion.derivations.framework.grounds import (
-    By,
-    Proved,
-    Source,
-    asymptotic,
-    bounded,
-    facts_of,
-    moment,
-    rewrite,
-)
-from force_diffusion.derivations.framework.proving import Line, Lines, Meaning
-from force_diffusion.derivations.framework.record import Derivation, ExactCase, Missed
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
@@ -32,6 +20,19 @@ from force_diffusion.symbolic.kernel.where import Loading, Where, at_fixed_heigh
 from force_diffusion.symbolic.symbols import LargestShare, M, Moment, j, phi, r, sigma
 from force_diffusion.symbolic.variances.listed import listed, squares, weights
 from force_diffusion.symbolic.variances.variance import CASES, ClosedForm
+
+from .grounds import (
+    By,
+    Proved,
+    Source,
+    asymptotic,
+    bounded,
+    facts_of,
+    moment,
+    rewrite,
+)
+from .proving import Line, Lines, Meaning
+from .record import Derivation, ExactCase, Missed
 
 SCALE = r * (1 - phi**2)
 """What the change of a force over its mean is multiplied by when its weights are shown."""

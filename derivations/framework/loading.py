@@ -5,9 +5,10 @@ from collections.abc import Callable, Iterable
 from importlib import import_module
 from pickle import PicklingError
 
-from force_diffusion.derivations.framework.catalogue import Number, modules
-from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+
+from .catalogue import Number, modules
+from .record import Derivation
 
 
 def load(number: Number) -> Derivation:

@@ -13,13 +13,14 @@ from pathlib import Path
 from types import ModuleType
 
 import sympy
-from force_diffusion.derivations.framework.catalogue import Number, cases_of, modules
-from force_diffusion.derivations.framework.loading import load, with_premises
-from force_diffusion.derivations.framework.proving import Lines
-from force_diffusion.derivations.framework.record import Derivation, Witness
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.printing.latex import RELATIONS
+
+from .catalogue import Number, cases_of, modules
+from .loading import load, with_premises
+from .proving import Lines
+from .record import Derivation, Witness
 
 _MISTAKES = (
     ArithmeticError, AssertionError, AttributeError, LookupError, RuntimeError, TypeError,

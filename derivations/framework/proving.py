@@ -10,7 +10,6 @@ from functools import cached_property
 from typing import Any, Protocol
 
 import sympy
-from force_diffusion.derivations.framework.grounds import By, Proved
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.as_printed import equation, in_place, too_large
@@ -39,6 +38,8 @@ from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.counterexample import counterexample
 from force_diffusion.symbolic.search.values import WithoutValue
 from force_diffusion.symbolic.symbols import ForceMinus, ForcePlus
+
+from .grounds import By, Proved
 
 Meaning = Mapping[Any, Any]
 """What a line writes in short: for a symbol, or for a function of its arguments."""

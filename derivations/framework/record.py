@@ -5,17 +5,6 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 import sympy
-from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.proving import (
-    Line,
-    Lines,
-    Refuted,
-    assumptions,
-    fixes_it,
-    no_statement,
-)
-from force_diffusion.derivations.witnesses.both_sides import Points, compare
-from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
@@ -41,6 +30,18 @@ from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.corpus import Statement, statements
 from force_diffusion.symbolic.search.sources import Form, Source
 from force_diffusion.symbolic.search.values import WithoutValue
+
+from ..witnesses.both_sides import Points, compare
+from ..witnesses.draws import SmallPacking
+from .catalogue import Number
+from .proving import (
+    Line,
+    Lines,
+    Refuted,
+    assumptions,
+    fixes_it,
+    no_statement,
+)
 
 
 class KernelError(ForceDiffusionError, RuntimeError):

@@ -8,10 +8,15 @@ from itertools import chain
 from time import perf_counter
 
 import sympy
-from force_diffusion.derivations.framework.catalogue import Number, modules
-from force_diffusion.derivations.framework.loading import load
-from force_diffusion.derivations.framework.proving import Shown
-from force_diffusion.derivations.framework.record import (
+from force_diffusion.numeric.arithmetic.processes import Start
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of
+from force_diffusion.symbolic.kernel.where import Where
+
+from ..witnesses.draws import draw
+from .catalogue import Number, modules
+from .loading import load
+from .proving import Shown
+from .record import (
     Check,
     Derivation,
     KernelError,
@@ -20,10 +25,6 @@ from force_diffusion.derivations.framework.record import (
     Tried,
     Witness,
 )
-from force_diffusion.derivations.witnesses.draws import draw
-from force_diffusion.numeric.arithmetic.processes import Start
-from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of
-from force_diffusion.symbolic.kernel.where import Where
 
 SEEDS = (20021, 20022, 20023)
 """Seeds of the witnesses' draws, so that two runs check the same packings."""

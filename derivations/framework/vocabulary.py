@@ -3,7 +3,12 @@
 Symbols, what makes an expression as it is printed, the rules, the axioms, and what a derivation is.
 """
 
-from force_diffusion.derivations.framework.grounds import (
+from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
+from force_diffusion.symbolic.as_written import formula, relations
+from force_diffusion.symbolic.kernel import axioms
+from force_diffusion.symbolic.kernel.where import Where
+
+from .grounds import (
     SUPPOSED,
     Beside,
     By,
@@ -34,13 +39,9 @@ from force_diffusion.derivations.framework.grounds import (
     supposing,
     walk,
 )
-from force_diffusion.derivations.framework.layered import UNIT, Layered
-from force_diffusion.derivations.framework.proving import Line, Lines
-from force_diffusion.derivations.framework.record import Claim, Derivation, Witness, on_packings
-from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
-from force_diffusion.symbolic.as_written import formula, relations
-from force_diffusion.symbolic.kernel import axioms
-from force_diffusion.symbolic.kernel.where import Where
+from .layered import UNIT, Layered
+from .proving import Line, Lines
+from .record import Claim, Derivation, Witness, on_packings
 
 __all__ = [
     "SUPPOSED",

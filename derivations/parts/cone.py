@@ -5,19 +5,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import sympy
-from force_diffusion.derivations import eq07_load_split as eq07
-from force_diffusion.derivations import eq09_straight_path as eq09
-from force_diffusion.derivations import eq10_branched_path as eq10
-from force_diffusion.derivations.framework.grounds import Beside
-from force_diffusion.derivations.framework.record import ExactCase, Missed, Piece
-from force_diffusion.derivations.framework.vocabulary import (
-    Where,
-    axioms,
-    equation,
-    minus,
-    terms,
-    times,
-)
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel import rules
 from force_diffusion.symbolic.kernel.rules import Rule
@@ -45,6 +32,20 @@ from force_diffusion.symbolic.symbols import (
     q,
 )
 from sympy import Eq, Rational
+
+from .. import eq07_load_split as eq07
+from .. import eq09_straight_path as eq09
+from .. import eq10_branched_path as eq10
+from ..framework.grounds import Beside
+from ..framework.record import ExactCase, Missed, Piece
+from ..framework.vocabulary import (
+    Where,
+    axioms,
+    equation,
+    minus,
+    terms,
+    times,
+)
 
 ORDERED = f_load / (2 * n_y)
 """Force of the contacts of the ordered packing: those on the legs of the cone."""

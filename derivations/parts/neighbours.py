@@ -6,10 +6,17 @@ from fractions import Fraction
 from functools import cached_property, partial
 
 import sympy
-from force_diffusion.derivations.framework.grounds import Source, facts_of
-from force_diffusion.derivations.framework.proving import Line
-from force_diffusion.derivations.framework.record import ExactCase, Missed
-from force_diffusion.derivations.framework.vocabulary import (
+from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.kernel import moments
+from force_diffusion.symbolic.kernel.where import Loading, at_fixed_height
+from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.symbols import Covariance, M, N, Variance, i, j, m, p, phi, r, sigma
+from sympy import Eq, Ge, Rational
+
+from ..framework.grounds import Source, facts_of
+from ..framework.proving import Line
+from ..framework.record import ExactCase, Missed
+from ..framework.vocabulary import (
     UNIT,
     By,
     Lines,
@@ -23,13 +30,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses import neighbours
-from force_diffusion.symbolic.algebra import explicit
-from force_diffusion.symbolic.kernel import moments
-from force_diffusion.symbolic.kernel.where import Loading, at_fixed_height
-from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import Covariance, M, N, Variance, i, j, m, p, phi, r, sigma
-from sympy import Eq, Ge, Rational
+from ..witnesses import neighbours
 
 COVARIANCES = tuple(
     Symbol(f"C_{place}", f"C_{{{place}}}", f"C{lowered}") for place, lowered in enumerate("₀₁₂")

@@ -12,7 +12,6 @@ from functools import cached_property
 from typing import Any
 
 import sympy
-from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.decisions import (
@@ -20,6 +19,8 @@ from force_diffusion.symbolic.kernel.decisions import (
     Verdict,
     undecided,
 )
+
+from .draws import SmallPacking
 
 Values = Mapping[sympy.Symbol, Fraction | int]
 

@@ -6,14 +6,15 @@ from functools import cache
 from itertools import product
 from typing import TYPE_CHECKING
 
-from force_diffusion.derivations.witnesses import modular
-from force_diffusion.derivations.witnesses.draws import Site, SmallPacking
-from force_diffusion.derivations.witnesses.squared_weights import (
+from force_diffusion.symbolic.kernel.decisions import Ruling
+
+from . import modular
+from .draws import Site, SmallPacking
+from .squared_weights import (
     compare,
     weights_by_layer,
     weights_of_forces,
 )
-from force_diffusion.symbolic.kernel.decisions import Ruling
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.mechanics.taylor import TaylorPacking

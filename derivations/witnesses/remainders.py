@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import mpmath
 import sympy
-from force_diffusion.derivations.witnesses.both_sides import Dual, ExactSolution, Vector, evaluate
-from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
+
+from .both_sides import Dual, ExactSolution, Vector, evaluate
+from .draws import SmallPacking
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.mechanics.small_packing import (

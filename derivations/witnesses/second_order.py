@@ -13,13 +13,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import sympy
-from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.derivations.witnesses.squared_weights import compare
 from force_diffusion.numeric.arithmetic.systems import Series
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.variances.variance import ClosedForm, packings, value_at
+
+from .draws import SmallPacking
+from .squared_weights import compare
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.mechanics.taylor import TaylorPacking

@@ -23,7 +23,7 @@ from ..mechanics.problem import Problem, Route
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.base import ContactQuantity, first_order_std
-from ..quantities.network import NetworkQuantity
+from ..quantities.contacts_that_open import NetworkQuantity
 from ..scene.checks import refuse
 from ..scene.scene import Scene
 from ..scene.sections import SceneError

@@ -22,10 +22,11 @@ FIGURES = {
         "figure3", "Theory against exact simulation, surface load", "comparison", 400
     ),
     "4": Entry(
-        "figure4", "Mean and fluctuation of the response to an isolated load", "response", 4000
+        "figure4", "Mean and fluctuation of the response to an isolated load", "point_load", 4000
     ),
     "pf": Entry("pf", "P(f) against the Gaussian", "distribution", 4000),
     "chains": Entry("chains", "Force chains", "chains"),
+    "B1": Entry("figureB1", "What a contact force depends on, and paths of a point load", "paths"),
     "B2": Entry(
         "figureB2", "Fluctuation of the forces under a load at an angle", "directions", 400
     ),
@@ -41,7 +42,7 @@ FIGURES = {
     "B11": Entry(
         "figureB11", "Diffusion of forces in two, three and four dimensions", "dimensions"
     ),
-    "B12": Entry("figureB12", "Covariance of forces along a diagonal", "layers", 1000),
+    "B12": Entry("figureB12", "Covariance of forces along a diagonal", "along_a_diagonal", 1000),
     "B13": Entry("figureB13", "Diffusion of forces in packings of spheres", "spheres", 100),
     "B15": Entry(
         "figureB15", "What the load of either branch gives to a mean force", "sharing"

@@ -179,9 +179,10 @@ def _measure(found: Gaps, packing: "SolvedPacking", steps: Steps, phi: Fraction,
 @lru_cache(maxsize=64)
 def _pairs(region: Region, steps: Steps) -> tuple[Array, Array]:
     """Give the runs of ``loops.gaps`` of one kind of pairs, and each layer's first one."""
-    from . import kernels
+    from .kernels import MOST
+    from .runs import pairs_of
 
-    runs = kernels.pairs_of(region, [steps], kernels.MOST)
+    runs = pairs_of(region, [steps], MOST)
     return runs, np.searchsorted(runs[:, 0], region.starts)
 
 

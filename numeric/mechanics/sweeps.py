@@ -18,7 +18,8 @@ from ..arithmetic.systems import FLOAT64, Array
 from ..disorder import compiled as drawing
 from ..disorder.radii import ArrayRadii, DrawnRadii, Radii
 from ..lattice.layers import Region, Rows
-from .kernels import Deposition, Descent, kernels, numbers, told
+from .kernels import kernels, numbers
+from .passes import Deposition, Descent, told
 from .problem import Problem, Solved
 from .sweep import Loads, SolvedPacking
 

@@ -21,7 +21,7 @@ from ..quantities import quantity_of
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
-from . import segments
+from . import division
 from .memory import COMPILED, PLAN_LAYER, TooLargeError, memory, refuse_memory, size
 from .methods import TOUCHING, choose, initial_bits, usual_method
 from .plan import ALGORITHMS, Method, Plan, Skipped, steps_of
@@ -169,10 +169,10 @@ class _Asked:
         layers = 0 if quantity.single and not beads else packing.height + 1
         nothing, rows = Region(packing.width, Rows()), layers * PLAN_LAYER
         needed = memory(quantity, nothing, beads, 1, FLOAT64, text=self.text)
-        if needed + rows > self.limit and segments.suits(self.scene, self.tolerance):
+        if needed + rows > self.limit and division.suits(self.scene, self.tolerance):
             height = packing.height
             widest = min(packing.width or 2 * height + 2, -(-2 * beads // (height + 1)))
-            needed = min(needed, segments.division(widest, height, packing.dimension, 0).bytes)
+            needed = min(needed, division.division(widest, height, packing.dimension, 0).bytes)
         refuse_memory(self.scene, needed + rows, self.limit)
 
     def _theory(self, region: Region, *, unloaded: bool) -> tuple[Radii, Route]:
@@ -215,11 +215,11 @@ class _Asked:
         if method.carries or method.system.dtype is not object:
             refuse_beyond_floats(scene, problem.radii, problem.load)
         needed, cut, because = self._memory(method), None, ""
-        if needed > self.limit or problem.region.beads > segments.QUICKER:
-            cut = segments.cut(problem, method, scene, self.tolerance, self.limit)
+        if needed > self.limit or problem.region.beads > division.QUICKER:
+            cut = division.cut(problem, method, scene, self.tolerance, self.limit)
         if cut is not None:
-            because = segments.why(needed, self.limit)
-            needed = segments.memory(cut, quantity, text=self.text)
+            because = division.why(needed, self.limit)
+            needed = division.memory(cut, quantity, text=self.text)
             problem = cut
         refuse_memory(scene, needed, self.limit)
         skipped = tuple(Skipped(*one) for one in self.skipped.items())

@@ -15,9 +15,9 @@ from ..lattice.branch import Site
 from ..lattice.layers import Rows, full_layer
 from ..lattice.naming import Naming
 from ..mechanics.loads import LoadSpec
+from ..scene.files import TableError, read_array, read_loads, read_radii
 from ..scene.scene import Scene
 from ..scene.sections import GivenRadii, SceneError
-from ..scene.tables import TableError, read_array, read_loads, read_radii
 
 # Powers of two by which a unit of length may differ from r.
 FARTHEST_UNIT = 100

@@ -7,8 +7,8 @@ from .base import Quantity
 from .base_reactions import BaseReactions
 from .contact import ContactForce
 from .contact_forces import ContactForces
+from .contacts_that_open import NETWORK_QUANTITIES
 from .histogram import histogram_of
-from .network import NETWORK_QUANTITIES
 from .positions import Positions
 from .profile import Profile
 from .response import Response

@@ -9,7 +9,7 @@ from ..arithmetic.systems import Array, NumberSystem
 from ..lattice.layers import Region
 from ..mechanics.problem import Problem, Solved
 from ..scene.scene import Scene
-from ..statistics.histogram import histogram
+from ..statistics.bins import histogram
 from .base import (
     ContactQuantity,
     Listed,

@@ -18,11 +18,11 @@ from ..mechanics.work import ESTIMATE, Work
 from ..planning.plan import Plan, plan_lines
 from ..quantities.answer import Answer
 from ..scene.source import source_of
-from ..statistics import histogram
+from ..statistics import bins
 from ..tables import SHOWN, Row, html_table, rows_of
 from ..text import rows_of_text, text_of
 from ..theory.critical_height import critical_height
-from ..unilateral.network import Network
+from ..unilateral import Network
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -124,7 +124,7 @@ class Outcome:
     def text(self) -> dict[str, Array]:
         """The columns of the answer as text, see ``numeric.text``: decimals with known digits."""
         if self.answer.bins is not None:
-            rows = histogram.printed(self.answer.bins)
+            rows = bins.printed(self.answer.bins)
             return {name: text_of([row[name] for row in rows]) for name in ("low", "high", "count")}
         system, table = self.plan.system, self.answer.table
         with system.active():
@@ -315,7 +315,8 @@ def _network_data(found: Network) -> dict[str, Any]:
         "energy_fall": found.fall,
         "smallest_gap": found.smallest_gap,
         "kantorovich": found.kantorovich,
-        "rest": "as deposited: no contact pulls" if not found.events else "a strict local minimum",
+        "rung": found.rung,
+        "rest": found.rest,
     }
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
-from .first_order import std_of_spheres, stds_of_discs
+from .stds import std_of_spheres, stds_of_discs
 
 # A typical packing has tension: the chance of none, exp(−number), is below one half.
 TYPICAL = math.log(2)

@@ -10,9 +10,10 @@ import operator
 from collections.abc import Mapping
 
 import sympy
-from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
-from force_diffusion.symbolic.algebra.signs import never_zero
-from force_diffusion.symbolic.symbols import INDICES
+
+from ..symbols import INDICES
+from .exact import FIELD, NotExactError, RationalFunction
+from .signs import never_zero
 
 Affine = tuple[int, ...]
 """Coefficients of INDICES, then the constant."""

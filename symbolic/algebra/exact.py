@@ -13,7 +13,8 @@ from typing import Any, Self
 
 import sympy
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
-from force_diffusion.symbolic.symbols import INDICES, PARAMETERS, M, d, n_x, n_y, phi
+
+from ..symbols import INDICES, PARAMETERS, M, d, n_x, n_y, phi
 
 Polynomial = Any  # flint's fmpq_mpoly, which ships no types
 

@@ -10,7 +10,8 @@ from functools import lru_cache
 from math import prod
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
+
+from .. import symbols as sy
 
 Weights = dict[tuple[str, int, int], Fraction]
 """Weight of each lattice quantity (family, i, j); ("", 0, 0) is the constant term."""

@@ -16,9 +16,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import sympy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.affine import Affine
-from force_diffusion.symbolic.algebra.exact import (
+
+from . import affine
+from .affine import Affine
+from .exact import (
     FIELD,
     LAYER,
     NotExactError,

@@ -5,13 +5,9 @@ from functools import lru_cache
 from typing import Protocol
 
 import sympy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.affine import Affine
-from force_diffusion.symbolic.algebra.bases import LINE_SUM, Basis
-from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
-from force_diffusion.symbolic.algebra.linear_forms import LinearForm
-from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.symbols import (
+
+from ..printing.text import text
+from ..symbols import (
     INDICES,
     Braces,
     DeltaNMinus,
@@ -21,6 +17,11 @@ from force_diffusion.symbolic.symbols import (
     SecondDifference,
     SiteFunction,
 )
+from . import affine
+from .affine import Affine
+from .bases import LINE_SUM, Basis
+from .exact import FIELD, NotExactError, RationalFunction
+from .linear_forms import LinearForm
 
 Vector = tuple[LinearForm, LinearForm]
 

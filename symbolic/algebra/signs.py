@@ -9,9 +9,10 @@ shown to have one sign has none.
 from functools import cache
 
 import sympy
-from force_diffusion.symbolic.algebra.exact import Domain, NotExactError
-from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.symbols import d, n_x, n_y, phi, z
+
+from ..notation import by_name
+from ..symbols import d, n_x, n_y, phi, z
+from .exact import Domain, NotExactError
 
 Symbols = tuple[sympy.Symbol, ...]
 

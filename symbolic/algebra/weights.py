@@ -13,16 +13,17 @@ from itertools import pairwise
 from typing import Protocol
 
 import sympy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.affine import Affine
-from force_diffusion.symbolic.algebra.exact import (
+
+from . import affine
+from .affine import Affine
+from .exact import (
     FIELD,
     LAYER,
     NotExactError,
     RationalFunction,
     sum_polynomial,
 )
-from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm, Ray, Site
+from .linear_forms import CONSTANT, LinearForm, Ray, Site
 
 
 class Order(Protocol):

@@ -9,19 +9,21 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import sympy
-from force_diffusion.symbolic.algebra.exact import NotExactError
-from force_diffusion.symbolic.as_printed import equation, times
-from force_diffusion.symbolic.kernel import axioms, rules
-from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.theorem import (
+from sympy import Eq, Integer, Pow, Sum
+
+from ..algebra.exact import NotExactError
+from ..as_printed import equation, times
+from ..kernel import axioms, rules
+from ..kernel.rules import Rule
+from ..kernel.theorem import (
     NotProvedError,
     Supposition,
     Theorem,
     check,
     made,
 )
-from force_diffusion.symbolic.kernel.where import LOADED, SURFACE, Where
-from force_diffusion.symbolic.symbols import (
+from ..kernel.where import LOADED, SURFACE, Where
+from ..symbols import (
     DeltaR,
     DeltaX,
     ForceMinus,
@@ -37,7 +39,6 @@ from force_diffusion.symbolic.symbols import (
     p,
     q,
 )
-from sympy import Eq, Integer, Pow, Sum
 
 REFUSALS = (NotProvedError, NotExactError)
 """How the kernel refuses."""

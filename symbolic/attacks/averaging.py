@@ -1,11 +1,12 @@
 """Attacks on means, variances and covariances, and on leading orders."""
 
 import sympy
-from force_diffusion.symbolic.attacks.attack import BEADS, HERE, attack, told
-from force_diffusion.symbolic.kernel import limits, moments, rules
-from force_diffusion.symbolic.kernel.theorem import Theorem
-from force_diffusion.symbolic.kernel.where import LOADED, SURFACE, Limit, Where, at_fixed_height
-from force_diffusion.symbolic.symbols import (
+from sympy import Eq, Sum, Symbol
+
+from ..kernel import limits, moments, rules
+from ..kernel.theorem import Theorem
+from ..kernel.where import LOADED, SURFACE, Limit, Where, at_fixed_height
+from ..symbols import (
     Covariance,
     DeltaNPlus,
     DeltaR,
@@ -30,7 +31,7 @@ from force_diffusion.symbolic.symbols import (
     sigma,
     z,
 )
-from sympy import Eq, Sum, Symbol
+from .attack import BEADS, HERE, attack, told
 
 SQUARE = sigma**2
 UNKNOWN = Symbol("nu", real=True)
@@ -103,7 +104,7 @@ for tried, of, right, where, false, refused in (
     ("neighbours times a radius", HERE * _summed(HERE), 0, MANY, "it is no first order",
      "not a rational function"),
     ("neighbours where every index has a meaning", _summed(HERE), N,
-     MANY.also(indices=(p, q)), "none is left for their distance", "no index is left"),
+     MANY.also(indices=(n, p, q)), "none is left for their distance", "no index is left"),
     ("every second bead, taken for neighbours", Sum(TWO.xreplace({i: i + 4 * m}), (m, 0, N - 1)),
      4 * N - 2, MANY, "it is 2Nσ²", "leaves the lattice diagonals"),
     ("a covariance left out", _summed(TWO + DeltaR(i + 4, j)), 9 * N - 4, THREE,

@@ -1,12 +1,13 @@
 """Attacks on what is said of orders: largest weights and shares, what is dropped, slopes."""
 
 import sympy
-from force_diffusion.symbolic.as_printed import equation, times
-from force_diffusion.symbolic.attacks.attack import BEADS, HERE, attack, told
-from force_diffusion.symbolic.kernel import limits, rules
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Supposition, Theorem
-from force_diffusion.symbolic.kernel.where import SURFACE, Where, at_fixed_height, in_a_layer
-from force_diffusion.symbolic.symbols import (
+from sympy import Derivative, Eq, Pow, Rational, Sum, Symbol
+
+from ..as_printed import equation, times
+from ..kernel import limits, rules
+from ..kernel.theorem import NotProvedError, Supposition, Theorem
+from ..kernel.where import SURFACE, Where, at_fixed_height, in_a_layer
+from ..symbols import (
     DeltaR,
     ForceMinus,
     ForcePlus,
@@ -27,7 +28,7 @@ from force_diffusion.symbolic.symbols import (
     q,
     z,
 )
-from sympy import Derivative, Eq, Pow, Rational, Sum, Symbol
+from .attack import BEADS, HERE, attack, told
 
 UNKNOWN = Symbol("nu", real=True)
 HEIGHTS = Where.of(j >= 2, j + 2 <= M, loading=SURFACE)

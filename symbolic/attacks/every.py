@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from force_diffusion.symbolic.attacks import (  # noqa: F401 - each adds its own to ATTACKS
+from . import (  # noqa: F401 - each adds its own to ATTACKS
     any_dimension,
     averaging,
     comparing,
@@ -18,7 +18,7 @@ from force_diffusion.symbolic.attacks import (  # noqa: F401 - each adds its own
     supposing,
     tracing,
 )
-from force_diffusion.symbolic.attacks.attack import ATTACKS, REFUSALS, Attack
+from .attack import ATTACKS, REFUSALS, Attack
 
 
 def succeeded() -> Iterator[Attack]:

@@ -3,14 +3,15 @@
 from collections.abc import Callable
 
 import sympy
-from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.attacks.attack import ONE, another, attack, displaced, steps
-from force_diffusion.symbolic.kernel import axioms, rules
-from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.theorem import Supposition, Theorem
-from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.symbols import DeltaR, M, k, l, p, q
 from sympy import Eq, Integer
+
+from ..as_printed import equation
+from ..kernel import axioms, rules
+from ..kernel.rules import Rule
+from ..kernel.theorem import Supposition, Theorem
+from ..kernel.where import Where
+from ..symbols import DeltaR, M, k, l, p, q
+from .attack import ONE, another, attack, displaced, steps
 
 # induct: what is said of the origin is false but for 0
 

@@ -1,11 +1,12 @@
 """Attacks on sums of squares: radii that two sums along the lattice may share."""
 
 import sympy
-from force_diffusion.symbolic.attacks.attack import BEADS, attack, told
-from force_diffusion.symbolic.kernel import moments
-from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.symbols import DeltaR, Variance, i, j, k, l, m, sigma
 from sympy import Sum
+
+from ..kernel import moments
+from ..kernel.where import Where
+from ..symbols import DeltaR, Variance, i, j, k, l, m, sigma
+from .attack import BEADS, attack, told
 
 
 def _below(across: sympy.Expr, layer: sympy.Expr, slope: int) -> sympy.Expr:

@@ -3,33 +3,20 @@
 from dataclasses import replace
 
 import sympy
-from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.attacks.attack import (
-    ABOVE,
-    AT_LOAD,
-    BEADS,
-    BELOW,
-    COUNTED,
-    HERE,
-    IN_TWO,
-    ON_LOADED,
-    ON_SURFACE,
-    ONE,
-    another,
-    attack,
-    told,
-)
-from force_diffusion.symbolic.kernel import axioms, rules
-from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.theorem import Supposition, Theorem
-from force_diffusion.symbolic.kernel.where import (
+from sympy import Eq, Integer, Sum
+
+from ..as_printed import equation
+from ..kernel import axioms, rules
+from ..kernel.rules import Rule
+from ..kernel.theorem import Supposition, Theorem
+from ..kernel.where import (
     BULK_TILTED,
     ENTERING,
     SURFACE,
     SURFACE_TILTED,
     Where,
 )
-from force_diffusion.symbolic.symbols import (
+from ..symbols import (
     DeltaR,
     DeltaX,
     Dot,
@@ -55,7 +42,21 @@ from force_diffusion.symbolic.symbols import (
     site_s,
     t,
 )
-from sympy import Eq, Integer, Sum
+from .attack import (
+    ABOVE,
+    AT_LOAD,
+    BEADS,
+    BELOW,
+    COUNTED,
+    HERE,
+    IN_TWO,
+    ON_LOADED,
+    ON_SURFACE,
+    ONE,
+    another,
+    attack,
+    told,
+)
 
 # cases
 

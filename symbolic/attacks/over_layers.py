@@ -6,25 +6,20 @@ from functools import cache
 from typing import Any
 
 import sympy
-from force_diffusion.symbolic.as_printed import equation, power, terms, times
-from force_diffusion.symbolic.attacks.attack import (
-    HERE,
-    ROOT,
-    attack,
-    only_supposed,
-    told,
-)
-from force_diffusion.symbolic.kernel import averages, moments, rules
-from force_diffusion.symbolic.kernel.axioms import FORCE, GAUSSIAN_BELOW, GAUSSIAN_FORCES, SQUARE
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem, made
-from force_diffusion.symbolic.kernel.where import (
+from sympy import Derivative, Eq, Expr, Integer, Integral, Pow, Rational, S, Sum, Symbol, erfc, sqrt
+
+from ..as_printed import equation, power, terms, times
+from ..kernel import averages, moments, rules
+from ..kernel.axioms import FORCE, GAUSSIAN_BELOW, GAUSSIAN_FORCES, SQUARE
+from ..kernel.theorem import NotProvedError, Theorem, made
+from ..kernel.where import (
     AT_FIXED_RATIO,
     SURFACE,
     Where,
     at_fixed_height,
     at_large_height,
 )
-from force_diffusion.symbolic.symbols import (
+from ..symbols import (
     Covariance,
     DeltaR,
     M,
@@ -42,7 +37,13 @@ from force_diffusion.symbolic.symbols import (
     sigma,
     z,
 )
-from sympy import Derivative, Eq, Expr, Integer, Integral, Pow, Rational, S, Sum, Symbol, erfc, sqrt
+from .attack import (
+    HERE,
+    ROOT,
+    attack,
+    only_supposed,
+    told,
+)
 
 Premise = Callable[[], Theorem]
 Premises = Callable[[], Theorem | tuple[Theorem, ...]]

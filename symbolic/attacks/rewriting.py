@@ -1,30 +1,13 @@
 """Attacks on ``rewrite``, ``follows``, ``along`` and ``order``."""
 
 import sympy
-from force_diffusion.symbolic.as_printed import times
-from force_diffusion.symbolic.attacks.attack import (
-    ABOVE,
-    AT_BASE,
-    AT_LOAD,
-    BEADS,
-    HERE,
-    IN_TWO,
-    NO_SITE,
-    ON_LOADED,
-    ON_SURFACE,
-    ONE,
-    ORIGIN,
-    TOP,
-    attack,
-    no_force,
-    over_itself,
-    over_no_force,
-    told,
-)
-from force_diffusion.symbolic.kernel import axioms, rules
-from force_diffusion.symbolic.kernel.theorem import Theorem
-from force_diffusion.symbolic.kernel.where import LOADED, LOADED_VERTICALLY, PASSING, SURFACE, Where
-from force_diffusion.symbolic.symbols import (
+from sympy import Eq, Integer, Pow, Sum
+
+from ..as_printed import times
+from ..kernel import axioms, rules
+from ..kernel.theorem import Theorem
+from ..kernel.where import LOADED, LOADED_VERTICALLY, PASSING, SURFACE, Where
+from ..symbols import (
     DeltaR,
     DeltaX,
     Dot,
@@ -53,7 +36,25 @@ from force_diffusion.symbolic.symbols import (
     site_r,
     site_s,
 )
-from sympy import Eq, Integer, Pow, Sum
+from .attack import (
+    ABOVE,
+    AT_BASE,
+    AT_LOAD,
+    BEADS,
+    HERE,
+    IN_TWO,
+    NO_SITE,
+    ON_LOADED,
+    ON_SURFACE,
+    ONE,
+    ORIGIN,
+    TOP,
+    attack,
+    no_force,
+    over_itself,
+    over_no_force,
+    told,
+)
 
 # rewrite: normal forms, and what is put in
 

@@ -4,15 +4,16 @@ from collections.abc import Callable
 from functools import cache
 
 import sympy
-from force_diffusion.symbolic.as_printed import terms, times
-from force_diffusion.symbolic.attacks.attack import BEADS, HERE, attack, only_supposed, told
-from force_diffusion.symbolic.kernel import axioms, moments, rules
-from force_diffusion.symbolic.kernel.any_dimension import SURFACE as IN_ANY_DIMENSION
-from force_diffusion.symbolic.kernel.mean_balance import mean_below
-from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
-from force_diffusion.symbolic.kernel.where import LOADED, PASSING, POINT, SURFACE, Loading, Where
-from force_diffusion.symbolic.symbols import (
+from sympy import Eq, Expr, Pow, S, Symbol
+
+from ..as_printed import terms, times
+from ..kernel import axioms, moments, rules
+from ..kernel.any_dimension import SURFACE as IN_ANY_DIMENSION
+from ..kernel.mean_balance import mean_below
+from ..kernel.rules import Rule
+from ..kernel.theorem import NotProvedError, Theorem
+from ..kernel.where import LOADED, PASSING, POINT, SURFACE, Loading, Where
+from ..symbols import (
     DeltaNMinus,
     DeltaNPlus,
     DeltaR,
@@ -44,7 +45,7 @@ from force_diffusion.symbolic.symbols import (
     site_r,
     site_s,
 )
-from sympy import Eq, Expr, Pow, S, Symbol
+from .attack import BEADS, HERE, attack, only_supposed, told
 
 UNKNOWN = Symbol("nu", real=True)
 FORCE = ForcePlus(i, j) / f_load

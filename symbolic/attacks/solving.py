@@ -1,24 +1,13 @@
 """Attacks on ``solve`` and ``below``."""
 
 import sympy
-from force_diffusion.symbolic.as_printed import minus, terms
-from force_diffusion.symbolic.attacks.attack import (
-    ABOVE,
-    AT_LOAD,
-    BEADS,
-    HERE,
-    NO_SITE,
-    ON_LOADED,
-    ON_SURFACE,
-    attack,
-    no_force,
-    over_itself,
-    told,
-)
-from force_diffusion.symbolic.kernel import axioms, rules
-from force_diffusion.symbolic.kernel.theorem import Theorem
-from force_diffusion.symbolic.kernel.where import SURFACE, Where
-from force_diffusion.symbolic.symbols import (
+from sympy import Eq
+
+from ..as_printed import minus, terms
+from ..kernel import axioms, rules
+from ..kernel.theorem import Theorem
+from ..kernel.where import SURFACE, Where
+from ..symbols import (
     DeltaNMinus,
     DeltaNPlus,
     DeltaR,
@@ -44,7 +33,19 @@ from force_diffusion.symbolic.symbols import (
     site_r,
     site_s,
 )
-from sympy import Eq
+from .attack import (
+    ABOVE,
+    AT_LOAD,
+    BEADS,
+    HERE,
+    NO_SITE,
+    ON_LOADED,
+    ON_SURFACE,
+    attack,
+    no_force,
+    over_itself,
+    told,
+)
 
 # solve
 

@@ -4,19 +4,20 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import sympy
-from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.attacks.attack import BEADS, HERE, ON_SURFACE, attack, told
-from force_diffusion.symbolic.kernel import limits, moments, rules
-from force_diffusion.symbolic.kernel.disproofs import Disproof, other_leading_order
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Supposition, Theorem
-from force_diffusion.symbolic.kernel.where import (
+from sympy import Eq
+
+from ..as_printed import equation
+from ..kernel import limits, moments, rules
+from ..kernel.disproofs import Disproof, other_leading_order
+from ..kernel.theorem import NotProvedError, Supposition, Theorem
+from ..kernel.where import (
     POINT,
     SURFACE,
     Limit,
     Where,
     inside_cone,
 )
-from force_diffusion.symbolic.symbols import (
+from ..symbols import (
     Covariance,
     DeltaR,
     ForcePlus,
@@ -34,7 +35,7 @@ from force_diffusion.symbolic.symbols import (
     q,
     sigma,
 )
-from sympy import Eq
+from .attack import BEADS, HERE, ON_SURFACE, attack, told
 
 SQUARE = sigma**2
 TWO_LAYERS = Where.of(j >= 0, l >= 0, Eq(k, i))

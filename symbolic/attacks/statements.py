@@ -4,14 +4,15 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import UNKNOWNS
-from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.attacks.attack import BEADS, HERE, ONE, attack, checked, displaced
-from force_diffusion.symbolic.kernel import axioms
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem, check
-from force_diffusion.symbolic.kernel.where import ENTERING, Where
-from force_diffusion.symbolic.symbols import (
+from sympy import Sum
+
+from .. import symbols as sy
+from ..algebra.exact import UNKNOWNS
+from ..as_printed import equation
+from ..kernel import axioms
+from ..kernel.theorem import NotProvedError, Theorem, check
+from ..kernel.where import ENTERING, Where
+from ..symbols import (
     DeltaR,
     DeltaX,
     Variance,
@@ -33,7 +34,7 @@ from force_diffusion.symbolic.symbols import (
     site_r,
     site_s,
 )
-from sympy import Sum
+from .attack import BEADS, HERE, ONE, attack, checked, displaced
 
 # what is a statement
 

@@ -1,20 +1,12 @@
 """Attacks on ``suppose``: what rests on it is no theorem until its induction has ended."""
 
-from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.attacks.attack import (
-    BEADS,
-    HERE,
-    ON_SURFACE,
-    ONE,
-    ORIGIN,
-    attack,
-    displaced,
-    told,
-)
-from force_diffusion.symbolic.kernel import axioms, rules
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Supposition, Theorem
-from force_diffusion.symbolic.kernel.where import SURFACE, Where
-from force_diffusion.symbolic.symbols import (
+from sympy import Eq, Expr, Integer
+
+from ..as_printed import equation
+from ..kernel import axioms, rules
+from ..kernel.theorem import NotProvedError, Supposition, Theorem
+from ..kernel.where import SURFACE, Where
+from ..symbols import (
     ForcePlus,
     Load,
     M,
@@ -29,7 +21,16 @@ from force_diffusion.symbolic.symbols import (
     site_r,
     site_s,
 )
-from sympy import Eq, Expr, Integer
+from .attack import (
+    BEADS,
+    HERE,
+    ON_SURFACE,
+    ONE,
+    ORIGIN,
+    attack,
+    displaced,
+    told,
+)
 
 ANY_NUMBER = Where((q,))
 

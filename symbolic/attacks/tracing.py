@@ -1,12 +1,13 @@
 """Attacks on ``reach``, ``walk``, ``inverse`` and ``differentiate``."""
 
 import sympy
-from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.attacks.attack import COUNTED, NO_SITE, ONE, ROOT, attack, told
-from force_diffusion.symbolic.kernel import axioms, rules
-from force_diffusion.symbolic.kernel.theorem import Theorem
-from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.symbols import (
+from sympy import Eq, Integer, Pow, Rational, Sum
+
+from ..as_printed import equation, minus, terms, times
+from ..kernel import axioms, rules
+from ..kernel.theorem import Theorem
+from ..kernel.where import Where
+from ..symbols import (
     DeltaX,
     Dot,
     L_minus,
@@ -28,7 +29,7 @@ from force_diffusion.symbolic.symbols import (
     spacing,
     z,
 )
-from sympy import Eq, Integer, Pow, Rational, Sum
+from .attack import COUNTED, NO_SITE, ONE, ROOT, attack, told
 
 # reach, walk, inverse, differentiate
 

@@ -1,29 +1,38 @@
 """Moments of contact forces in any dimension, to first order in the radii.
 
 Every bead rests on d others, along base vectors of equal mutual dot product φ, −1/d < φ < ½, and a
-load points along their sum. What the forces are in the radii is part of what is trusted:
+load points along their sum, or leans. What the forces are in the radii is part of what is trusted:
 ``weights_any_dimension`` and ``point_load`` say it, and sum squares.
 """
 
 from dataclasses import replace
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError, RationalFunction
-from force_diffusion.symbolic.algebra.weights import UndeterminedError
-from force_diffusion.symbolic.kernel import weights_any_dimension
-from force_diffusion.symbolic.kernel.point_load import AXES, Weights
-from force_diffusion.symbolic.kernel.theorem import NotProvedError
-from force_diffusion.symbolic.kernel.where import Loading, Where
-from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.text import text
+
+from .. import symbols as sy
+from ..algebra import affine
+from ..algebra.exact import FIELD, NotExactError, RationalFunction
+from ..algebra.weights import UndeterminedError
+from ..notation import by_name
+from ..printing.text import text
+from . import weights_any_dimension
+from .point_load import AXES, Weights
+from .theorem import NotProvedError
+from .where import Loading, Where
 
 _WORDS = "the same load along the sum of the base vectors"
 SURFACE = Loading(
     "surface, in any dimension", f"each bead of the surface j = M carries {_WORDS}", (sy.M,)
 )
 BULK = Loading("bulk, in any dimension", f"each bead above the base carries {_WORDS}", (sy.M,))
+_LEANS = "the same load −Σ_a L^a n^a, τ_n = Σ_(a≠1) (L^a/L^1)ⁿ"
+SURFACE_LEANING = Loading(
+    "surface leaning, in any dimension", f"each bead of the surface j = M carries {_LEANS}", (sy.M,)
+)
+BULK_LEANING = Loading(
+    "bulk leaning, in any dimension", f"each bead above the base carries {_LEANS}", (sy.M,)
+)
+LAYERED = (SURFACE, BULK, SURFACE_LEANING, BULK_LEANING)
 POINT = Loading(
     "point, in any dimension",
     "one bead of layer l carries a load along the sum of the base vectors, no other a load",
@@ -67,7 +76,7 @@ def _of(one: sy.Moment, forms: list[Linear], where: Where) -> RationalFunction:
         for force, factor in forces.items():
             found = found + factor * FIELD.constant(_ordered(force, where))
         return found
-    of = _of_layers if where.loading in (SURFACE, BULK) else _below_a_load
+    of = _of_layers if where.loading in LAYERED else _below_a_load
     found = of(forms[0], where)
     if isinstance(one, sy.Shift):
         raise NotProvedError("second order is not known in any dimension")
@@ -115,7 +124,7 @@ def _exists(force: sympy.Expr, where: Where) -> None:
     if isinstance(force, sy.ForceOfLayer):
         (layer,) = force.args
         within = [layer, sy.M - 1 - layer]
-        fits = loading in (SURFACE, BULK)
+        fits = loading in LAYERED
     else:
         axis, *steps = force.args
         if axis not in map(sympy.Integer, (1, 2, 3)):
@@ -137,7 +146,11 @@ def _of_layers(form: Linear, where: Where) -> RationalFunction:
     for force, factor in form[1].items():
         layer, height = (sympy.expand(one.xreplace(where.solved)) for one in (force.args[0], sy.M))
         geometry = replace(where, loading=None, limit=None, dimension=sy.d)
-        squares = weights_any_dimension.squares(layer, height, where.loading == BULK, geometry)
+        bulk, leaning = (
+            where.loading in both
+            for both in ((BULK, BULK_LEANING), (SURFACE_LEANING, BULK_LEANING))
+        )
+        squares = weights_any_dimension.squares(layer, height, bulk, geometry, leaning)
         if where.dimension != sy.d:
             squares = squares.substitute({sy.d: FIELD.constant(where.dimension)}).reduced()
         total = total + factor**2 * squares

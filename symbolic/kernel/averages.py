@@ -10,24 +10,25 @@ from math import lcm
 from operator import mul
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import (
+
+from .. import symbols as sy
+from ..algebra.exact import (
     FIELD,
     UNKNOWNS,
     Domain,
     RationalFunction,
 )
-from force_diffusion.symbolic.algebra.signs import sign
-from force_diffusion.symbolic.as_printed import equation, in_place
-from force_diffusion.symbolic.kernel.axioms import GAUSSIAN_BELOW, GAUSSIAN_FORCES
-from force_diffusion.symbolic.kernel.limits import FIXED, even, leading, limit_of, order
-from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.sums import Sums, layer_by_layer
-from force_diffusion.symbolic.kernel.surds import surd
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem, applies, check, made
-from force_diffusion.symbolic.kernel.where import AT_FIXED_RATIO, Limit, Where
-from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.text import text
+from ..algebra.signs import sign
+from ..as_printed import equation, in_place
+from ..notation import by_name
+from ..printing.text import text
+from .axioms import GAUSSIAN_BELOW, GAUSSIAN_FORCES
+from .limits import FIXED, even, leading, limit_of, order
+from .rules import Rule
+from .sums import Sums, layer_by_layer
+from .surds import surd
+from .theorem import NotProvedError, Theorem, applies, check, made
+from .where import AT_FIXED_RATIO, Limit, Where
 
 _HALF = sympy.S.Half
 _NOTHING = sympy.S.Zero

@@ -8,12 +8,13 @@ its radii is assumed with it. The lattice, the base vectors n^± = (±n_x, n_y) 
 from functools import cache
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.as_printed import equation, terms
-from force_diffusion.symbolic.kernel.theorem import Theorem, made
-from force_diffusion.symbolic.kernel.where import Loading, Where
-from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import i, j, n_minus, n_plus, r, site_r, site_s
+
+from .. import symbols as sy
+from ..as_printed import equation, terms
+from ..notation import Symbol
+from ..symbols import i, j, n_minus, n_plus, r, site_r, site_s
+from .theorem import Theorem, made
+from .where import Loading, Where
 
 _ANY_BEAD = Where.of(j >= 0)
 

@@ -11,10 +11,11 @@ from enum import StrEnum
 from fractions import Fraction
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import explicit
-from force_diffusion.symbolic.algebra.exact import Domain, NotExactError, RationalFunction
-from force_diffusion.symbolic.notation import by_name
+
+from .. import symbols as sy
+from ..algebra import explicit
+from ..algebra.exact import Domain, NotExactError, RationalFunction
+from ..notation import by_name
 
 
 class Verdict(StrEnum):

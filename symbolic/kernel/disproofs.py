@@ -4,11 +4,12 @@ from collections.abc import Callable
 from dataclasses import InitVar, dataclass
 
 import sympy
-from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel.limits import leading, limit_of, order, read
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
-from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.printing.text import text
+
+from ..as_printed import equation
+from ..printing.text import text
+from .limits import leading, limit_of, order, read
+from .theorem import NotProvedError, Theorem
+from .where import Where
 
 _MADE_HERE = object()
 

@@ -9,13 +9,14 @@ written in words that no procedure reads is left undecided.
 from collections.abc import Collection
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import Domain, NotExactError
-from force_diffusion.symbolic.algebra.signs import never_zero
-from force_diffusion.symbolic.as_printed import in_place
-from force_diffusion.symbolic.kernel.decisions import Ruling, not_a_statement, undecided
-from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.text import text
+
+from .. import symbols as sy
+from ..algebra.exact import Domain, NotExactError
+from ..algebra.signs import never_zero
+from ..as_printed import in_place
+from ..notation import by_name
+from ..printing.text import text
+from .decisions import Ruling, not_a_statement, undecided
 
 SUMMATION = (sy.m, sy.n)
 """The indices that a candidate may sum over: no derivation puts anything in for them."""

@@ -8,23 +8,26 @@ from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.exact import (
+
+from .. import symbols as sy
+from ..algebra import affine
+from ..algebra.exact import (
     FIELD,
     LAYER,
     NotExactError,
     Polynomial,
     RationalFunction,
 )
-from force_diffusion.symbolic.algebra.linear_forms import LinearForm
-from force_diffusion.symbolic.algebra.reading import Reader
-from force_diffusion.symbolic.algebra.signs import never_zero
-from force_diffusion.symbolic.algebra.weights import Pieces
-from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel.moments import in_the_radii, pieces, value, without_moments
-from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.theorem import (
+from ..algebra.linear_forms import LinearForm
+from ..algebra.reading import Reader
+from ..algebra.signs import never_zero
+from ..algebra.weights import Pieces
+from ..as_printed import equation
+from ..notation import by_name
+from ..printing.text import text
+from .moments import in_the_radii, pieces, value, without_moments
+from .rules import Rule
+from .theorem import (
     FORCES,
     Facts,
     NotProvedError,
@@ -33,9 +36,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     flat,
     made,
 )
-from force_diffusion.symbolic.kernel.where import Limit, Where
-from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.text import text
+from .where import Limit, Where
 
 _NEVER = 10**9  # no order is as large
 FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}

@@ -7,11 +7,13 @@ f⁻ are the mirror image.
 """
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
-from force_diffusion.symbolic.kernel import axioms, moments, second_order
-from force_diffusion.symbolic.kernel.rules import BRANCHES, Rule, instance
-from force_diffusion.symbolic.kernel.theorem import (
+
+from .. import symbols as sy
+from ..algebra.exact import FIELD, RationalFunction
+from ..printing.text import text
+from . import axioms, moments, second_order
+from .rules import BRANCHES, Rule, instance
+from .theorem import (
     Facts,
     NotProvedError,
     Theorem,
@@ -21,8 +23,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     made,
     put_in,
 )
-from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.printing.text import text
+from .where import Where
 
 
 def mean_below(*facts: Theorem | tuple[Theorem, ...]) -> Rule:

@@ -13,20 +13,23 @@ from functools import lru_cache, partial
 from math import gcd
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.exact import FIELD, UNKNOWNS, NotExactError, RationalFunction
-from force_diffusion.symbolic.algebra.linear_forms import CONSTANT, LinearForm
-from force_diffusion.symbolic.algebra.weights import (
+
+from .. import symbols as sy
+from ..algebra import affine
+from ..algebra.exact import FIELD, UNKNOWNS, NotExactError, RationalFunction
+from ..algebra.linear_forms import CONSTANT, LinearForm
+from ..algebra.weights import (
     Pieces,
     UndeterminedError,
     sum_of_products,
     take_apart,
 )
-from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel import any_dimension, second_order
-from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.theorem import (
+from ..as_printed import equation
+from ..notation import by_name
+from ..printing.text import text
+from . import any_dimension, second_order
+from .rules import Rule
+from .theorem import (
     Facts,
     Normal,
     NotProvedError,
@@ -36,9 +39,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     made,
     put_in,
 )
-from force_diffusion.symbolic.kernel.where import LATTICE, Where
-from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.text import text
+from .where import LATTICE, Where
 
 _KNOWN = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS} - {sy.epsilon}
 _RADII = (sy.DeltaR, sy.SecondDifference)
@@ -295,7 +296,7 @@ class _Neighbours:
             sympy.expand(one.xreplace(where.solved)) for one in (self.count, *self.alone)
         )
         near = _in_order([one for one in places if _reached(one, count, where)], where)
-        spare = [one for one in (sy.p, sy.q) if one not in where.indices]
+        spare = [one for one in (sy.p, sy.q, sy.n) if one not in where.indices]
         if not spare:
             raise NotProvedError("no index is left for the distance of two neighbours")
         apart, beads = spare[0], self._of_beads(where)

@@ -13,12 +13,13 @@ from collections.abc import Iterator
 from itertools import combinations
 
 import sympy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.affine import Affine
-from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
-from force_diffusion.symbolic.algebra.weights import UndeterminedError
-from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.symbols import phi
+
+from ..algebra import affine
+from ..algebra.affine import Affine
+from ..algebra.exact import FIELD, RationalFunction
+from ..algebra.weights import UndeterminedError
+from ..symbols import phi
+from .where import Where
 
 Bead = tuple[Affine, Affine, Affine]
 AXES = (0, 1, 2)

@@ -9,13 +9,16 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import permutations
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.bases import LINE_SUM, Basis
-from force_diffusion.symbolic.algebra.exact import FIELD, UNKNOWNS, RationalFunction
-from force_diffusion.symbolic.algebra.linear_forms import LinearForm
-from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel.theorem import (
+
+from .. import symbols as sy
+from ..algebra import affine
+from ..algebra.bases import LINE_SUM, Basis
+from ..algebra.exact import FIELD, UNKNOWNS, RationalFunction
+from ..algebra.linear_forms import LinearForm
+from ..as_printed import equation
+from ..mechanics import lattice
+from ..printing.text import text
+from .theorem import (
     Normal,
     NotProvedError,
     Supposition,
@@ -30,9 +33,7 @@ from force_diffusion.symbolic.kernel.theorem import (
     made,
     put_in,
 )
-from force_diffusion.symbolic.kernel.where import LATTICE, Where
-from force_diffusion.symbolic.mechanics import lattice
-from force_diffusion.symbolic.printing.text import text
+from .where import LATTICE, Where
 
 Rule = Callable[[sympy.Eq, Where], Theorem]
 """Proves a statement on a domain.

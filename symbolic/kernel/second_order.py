@@ -14,18 +14,19 @@ for. It follows from means of products of two X₁, which are covariances:
 from collections.abc import Callable
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction, sum_polynomial
-from force_diffusion.symbolic.kernel.theorem import Facts, NotProvedError, said_of
-from force_diffusion.symbolic.kernel.where import (
+
+from .. import symbols as sy
+from ..algebra import affine
+from ..algebra.exact import FIELD, RationalFunction, sum_polynomial
+from ..printing.text import text
+from .theorem import Facts, NotProvedError, said_of
+from .where import (
     BULK,
     BULK_TILTED,
     SURFACE,
     SURFACE_TILTED,
     Where,
 )
-from force_diffusion.symbolic.printing.text import text
 
 Value = Callable[[sy.Moment, Where], RationalFunction]
 """Works out a moment to leading order."""

@@ -7,21 +7,22 @@ for the same ends, and lies between 0 and the number of its terms, as k ≥ 1.
 from collections.abc import Mapping, Sequence
 
 import sympy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.affine import Affine
-from force_diffusion.symbolic.algebra.exact import (
+
+from ..algebra import affine
+from ..algebra.affine import Affine
+from ..algebra.exact import (
     FIELD,
     UNKNOWNS,
     NotExactError,
     RationalFunction,
     sum_polynomial,
 )
-from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel.rules import instance
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem, placed
-from force_diffusion.symbolic.kernel.where import Mapped, Where
-from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.symbols import SiteFunction
+from ..as_printed import equation
+from ..printing.text import text
+from ..symbols import SiteFunction
+from .rules import instance
+from .theorem import NotProvedError, Theorem, placed
+from .where import Mapped, Where
 
 Ends = tuple[Affine, Affine]
 

@@ -7,7 +7,8 @@ from collections import defaultdict
 from math import gcd
 
 import sympy
-from force_diffusion.symbolic.algebra.exact import NotExactError
+
+from ..algebra.exact import NotExactError
 
 HIGHEST_POWER, MOST_BITS = 40, 100
 """Of what is read: longer numbers take for ever to be factored."""

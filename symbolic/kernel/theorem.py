@@ -12,16 +12,17 @@ from dataclasses import InitVar, dataclass
 from functools import cached_property, lru_cache
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.bases import CARTESIAN, LINE_SUM, Basis
-from force_diffusion.symbolic.algebra.exact import UNKNOWNS, NotExactError, RationalFunction
-from force_diffusion.symbolic.algebra.linear_forms import LinearForm
-from force_diffusion.symbolic.algebra.reading import Reader
-from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel.where import Mapped, Where
-from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.text import text
+
+from .. import symbols as sy
+from ..algebra import affine
+from ..algebra.bases import CARTESIAN, LINE_SUM, Basis
+from ..algebra.exact import UNKNOWNS, NotExactError, RationalFunction
+from ..algebra.linear_forms import LinearForm
+from ..algebra.reading import Reader
+from ..as_printed import equation
+from ..notation import by_name
+from ..printing.text import text
+from .where import Mapped, Where
 
 SUMMATION = (sy.m, sy.n)
 """The indices that a statement may sum over."""

@@ -13,14 +13,15 @@ from itertools import product
 from math import gcd
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.affine import Affine
-from force_diffusion.symbolic.algebra.exact import Domain, NotExactError
-from force_diffusion.symbolic.algebra.signs import sign
-from force_diffusion.symbolic.mechanics import lattice
-from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.text import text
+
+from .. import symbols as sy
+from ..algebra import affine
+from ..algebra.affine import Affine
+from ..algebra.exact import Domain, NotExactError
+from ..algebra.signs import sign
+from ..mechanics import lattice
+from ..notation import by_name
+from ..printing.text import text
 
 Mapped = Mapping[sympy.Basic, sympy.Expr]
 """What is put in for symbols."""

@@ -8,10 +8,11 @@ direction: n⁺·δn⁺ = n⁻·δn⁻ = 0 by Eqs. 4 and 5. The strength ε mult
 from dataclasses import dataclass
 
 import sympy
-from force_diffusion.symbolic.algebra.exact import Domain
-from force_diffusion.symbolic.as_printed import equation, terms
-from force_diffusion.symbolic.notation import Symbol, by_name, raised
-from force_diffusion.symbolic.symbols import (
+
+from ..algebra.exact import Domain
+from ..as_printed import equation, terms
+from ..notation import Symbol, by_name, raised
+from ..symbols import (
     DeltaNMinus,
     DeltaNPlus,
     Dot,

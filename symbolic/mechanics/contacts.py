@@ -7,8 +7,9 @@ respect to the strength ε of the disorder, at ε = 0.
 from dataclasses import dataclass
 
 import sympy
-from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import (
+
+from ..notation import Symbol
+from ..symbols import (
     DeltaR,
     DeltaX,
     Dot,

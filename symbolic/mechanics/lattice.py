@@ -1,8 +1,9 @@
 """The ordered lattice: base vectors as Cartesian columns, and the mirror image of an equation."""
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.symbols import n_x, n_y
+
+from .. import symbols as sy
+from ..symbols import n_x, n_y
 
 N_PLUS = sympy.ImmutableMatrix([n_x, n_y])
 N_MINUS = sympy.ImmutableMatrix([-n_x, n_y])

@@ -5,7 +5,8 @@ down along n⁺, then, if it branches, q steps along n⁻. A contact is named by
 """
 
 import sympy
-from force_diffusion.symbolic.symbols import i, j, k, l, n, p, q
+
+from ..symbols import i, j, k, l, n, p, q
 
 ENTRY = (k - 1, l - 1)
 """Lower bead of the contact through which the force comes in."""

@@ -7,10 +7,11 @@ where ρ is the sum of both δr, and δn⁺ = ν b⁻ with ν = n⁻·δn⁺.
 from functools import cache
 
 import sympy
-from force_diffusion.symbolic.mechanics.contacts import radii
-from force_diffusion.symbolic.mechanics.lattice import N_PLUS
-from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import epsilon, n_x, n_y, phi, r, t
+
+from ..notation import Symbol
+from ..symbols import epsilon, n_x, n_y, phi, r, t
+from .contacts import radii
+from .lattice import N_PLUS
 
 B_PLUS = sympy.ImmutableMatrix([1 / (2 * n_x), 1 / (2 * n_y)])
 B_MINUS = sympy.ImmutableMatrix([-1 / (2 * n_x), 1 / (2 * n_y)])

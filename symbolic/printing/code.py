@@ -1,9 +1,10 @@
 """Expressions as code: SymPy source in the names of ``symbolic.symbols``, and plain Python."""
 
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.printing.structure import rebuilt
 from sympy import Basic, Rational, Sum, Symbol
 from sympy.printing.str import StrPrinter
+
+from .. import symbols as sy
+from .structure import rebuilt
 
 _FUNCTIONS = (*sy.SiteFunction.__subclasses__(), sy.Dot, sy.MatrixTimes)
 _VALUES = (sy.M, sy.z, *sy.INDICES, *sy.PARAMETERS, *sy.VECTORS)

@@ -3,9 +3,10 @@
 import re
 from typing import Any
 
-from force_diffusion.symbolic.printing.structure import StructuredPrinter
 from sympy import Expr, Sum
 from sympy.printing.latex import LatexPrinter
+
+from .structure import StructuredPrinter
 
 RELATIONS = {"=": "=", "≈": r"\approx", "∼": r"\sim", "∝": r"\propto"}
 """LaTeX of the signs between the two sides of a printed equation."""

@@ -10,9 +10,10 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from typing import Any
 
-from force_diffusion.symbolic import symbols as sy
 from sympy import Add, Basic, Expr, Integer, MatrixBase, Mul, Pow, Rational, Sum, Symbol
 from sympy.printing.printer import Printer
+
+from .. import symbols as sy
 
 
 def rebuilt(expr: Basic) -> Basic:

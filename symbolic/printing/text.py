@@ -3,10 +3,11 @@
 import re
 from typing import Any
 
-from force_diffusion.symbolic.notation import raised
-from force_diffusion.symbolic.printing.structure import StructuredPrinter
 from sympy import Expr, Sum, Symbol
 from sympy.printing.str import StrPrinter
+
+from ..notation import raised
+from .structure import StructuredPrinter
 
 _ONE_FACTOR = re.compile(r"[\w⁺⁻⟨⟩]+(_\([^()]*\))?|\([^()]*\)\w?|√\w+")
 _INDEX = re.compile(r"_\([^()]*\)|Σ\([^()]*\)")

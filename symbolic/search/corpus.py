@@ -10,12 +10,14 @@ from dataclasses import dataclass
 from itertools import product
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search import variations
-from force_diffusion.symbolic.search.sources import (
+from sympy import Add, Mul, Pow, Rational, Sum
+
+from .. import symbols as sy
+from ..kernel.where import Where
+from ..notation import by_name
+from ..printing.text import text
+from . import variations
+from .sources import (
     Made,
     Source,
     Zeros,
@@ -25,7 +27,6 @@ from force_diffusion.symbolic.search.sources import (
     put_in,
     times,
 )
-from sympy import Add, Mul, Pow, Rational, Sum
 
 Rule = Callable[[Source], Made]
 

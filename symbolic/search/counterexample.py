@@ -7,12 +7,13 @@ from functools import cache, lru_cache
 from itertools import islice, product
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.as_printed import nodes
-from force_diffusion.symbolic.kernel.where import LATTICE, Loading, Where
-from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search import any_dimension, limits
-from force_diffusion.symbolic.search.dual import (
+
+from .. import symbols as sy
+from ..as_printed import nodes
+from ..kernel.where import LATTICE, Loading, Where
+from ..printing.text import text
+from . import any_dimension, limits
+from .dual import (
     NOWHERE,
     Dual,
     Number,
@@ -20,7 +21,7 @@ from force_diffusion.symbolic.search.dual import (
     Vector,
     Weights,
 )
-from force_diffusion.symbolic.search.packing import (
+from .packing import (
     AbsentError,
     BelowError,
     Geometry,
@@ -28,8 +29,8 @@ from force_diffusion.symbolic.search.packing import (
     Packing,
     given,
 )
-from force_diffusion.symbolic.search.points import Point, points
-from force_diffusion.symbolic.search.values import (
+from .points import Point, points
+from .values import (
     Budget,
     Evaluator,
     NoSumError,
@@ -82,6 +83,8 @@ class World:
             sy.L_plus: plus,
             sy.L_minus: minus,
             sy.t: minus / plus,
+            sy.tau_1: minus / plus,
+            sy.tau_2: (minus / plus) ** 2,
             sy.kappa: 1 / (4 * x * x * y * y),
             sy.N: self.neighbours,
         }

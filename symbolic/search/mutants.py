@@ -10,9 +10,10 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.mechanics.lattice import MIRRORED_FUNCTIONS, MIRRORED_SYMBOLS
-from force_diffusion.symbolic.printing.text import text
+
+from .. import symbols as sy
+from ..mechanics.lattice import MIRRORED_FUNCTIONS, MIRRORED_SYMBOLS
+from ..printing.text import text
 
 SIGN, TERM, NUMBER, BOUND, INDEX, SYMBOL = (
     "sign flipped",

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache, cached_property
 
-from force_diffusion.symbolic.search.dual import (
+from .dual import (
     NOWHERE,
     ZERO,
     Dual,

@@ -12,9 +12,10 @@ from math import prod
 from random import Random
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.kernel.where import LATTICE, Where
+
+from .. import symbols as sy
+from ..algebra import affine
+from ..kernel.where import LATTICE, Where
 
 Point = dict[sympy.Symbol, int]
 

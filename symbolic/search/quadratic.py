@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 
-from force_diffusion.symbolic.search.dual import NOWHERE, ZERO, Dual, TooLargeError, Vector
-from force_diffusion.symbolic.search.packing import Given, Site
+from .dual import NOWHERE, ZERO, Dual, TooLargeError, Vector
+from .packing import Given, Site
 
 HIGHEST = 6
 Series = tuple[Fraction, Fraction, Fraction]

@@ -5,11 +5,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.text import text
 from sympy import Add, Eq, Mul, Pow, Rational, Sum
+
+from .. import symbols as sy
+from ..kernel.where import Where
+from ..notation import by_name
+from ..printing.text import text
 
 Change = Callable[[sympy.Expr], sympy.Expr]
 Made = Iterator[tuple[str, sympy.Eq]]

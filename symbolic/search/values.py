@@ -9,10 +9,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search import quadratic
-from force_diffusion.symbolic.search.dual import (
+
+from .. import symbols as sy
+from ..printing.text import text
+from . import quadratic
+from .dual import (
     NOWHERE,
     ZERO,
     Dual,
@@ -21,7 +22,7 @@ from force_diffusion.symbolic.search.dual import (
     Vector,
     Weights,
 )
-from force_diffusion.symbolic.search.packing import AbsentError, Packing
+from .packing import AbsentError, Packing
 
 HIGHEST_POWER = 64
 MOST_TERMS = 1000

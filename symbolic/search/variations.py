@@ -8,15 +8,17 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.mechanics.lattice import kappa_in
-from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search.counterexample import counterexample
-from force_diffusion.symbolic.search.points import points
-from force_diffusion.symbolic.search.sources import (
+from sympy import Add, Pow, Rational, Sum
+
+from .. import symbols as sy
+from ..algebra import affine
+from ..kernel.where import Where
+from ..mechanics.lattice import kappa_in
+from ..notation import by_name
+from ..printing.text import text
+from .counterexample import counterexample
+from .points import points
+from .sources import (
     Change,
     Made,
     Source,
@@ -26,7 +28,6 @@ from force_diffusion.symbolic.search.sources import (
     put_in,
     times,
 )
-from sympy import Add, Pow, Rational, Sum
 
 _MILLIONTH = Rational(1, 10**6)
 _FEW = 3  # points at the edge of a domain at which a statement is looked at

@@ -3,9 +3,10 @@
 from dataclasses import dataclass
 
 import sympy
-from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction, sum_polynomial
-from force_diffusion.symbolic.symbols import M, j, k
-from force_diffusion.symbolic.variances.variance import ClosedForm, value_at
+
+from ..algebra.exact import FIELD, RationalFunction, sum_polynomial
+from ..symbols import M, j, k
+from .variance import ClosedForm, value_at
 
 
 @dataclass(frozen=True)

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import sympy
-from force_diffusion.symbolic.algebra import affine
-from force_diffusion.symbolic.algebra.affine import Affine
-from force_diffusion.symbolic.algebra.exact import LAYER, RationalFunction
-from force_diffusion.symbolic.algebra.weights import Order, Pieces, Run
-from force_diffusion.symbolic.as_printed import power, terms, times
-from force_diffusion.symbolic.symbols import DeltaR, M, j, m
+
+from ..algebra import affine
+from ..algebra.affine import Affine
+from ..algebra.exact import LAYER, RationalFunction
+from ..algebra.weights import Order, Pieces, Run
+from ..as_printed import power, terms, times
+from ..symbols import DeltaR, M, j, m
 
 
 @dataclass(frozen=True)

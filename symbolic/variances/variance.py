@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import sympy
-from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.algebra.exact import RationalFunction
-from force_diffusion.symbolic.symbols import M, j
+
+from ..algebra.affine import Region
+from ..algebra.exact import RationalFunction
+from ..symbols import M, j
 
 
 @dataclass(frozen=True)

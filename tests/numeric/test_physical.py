@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric.mechanics import engine
-from force_diffusion.numeric.planning import segments
+from force_diffusion.numeric.planning import division
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run.running import run
@@ -176,7 +176,7 @@ def test_segments_find_what_they_can_and_say_what_stays_open(
         ask=fd.Ask(quantity="profile"),
     )
     whole = plan(asked)
-    parts = segments.cut(whole.problem, whole.method, whole.scene, None)
+    parts = division.cut(whole.problem, whole.method, whole.scene, None)
     assert parts is not None
     try:
         found = run(whole).physical

@@ -3,12 +3,13 @@
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
 
-from force_diffusion.derivations.export.prose import formula_latex, pieces
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import latex_body, width
 from markupsafe import Markup, escape
 from math_core import LatexToMathML
 from sympy import Basic
+
+from ..prose import formula_latex, pieces
 
 # A browser breaks no line within a formula: longer ones in a sentence are set in pieces.
 INLINE_POINTS = 110.0
@@ -77,35 +78,20 @@ def display(formulas: Sequence[Basic], relation: str = "=") -> Markup:
     return mathml(latex_body(formulas, RELATIONS[relation]), display=True)
 
 
-def number(value: float | Decimal | None) -> Markup:
-    """A number for a table: powers of ten are written as such, nothing is a dash.
+def number(value: float | Decimal | None) -> str:
+    """A number for a table or a sentence: powers of ten are written as such, nothing is a dash.
 
     >>> print(number(1.5e-16), number(12), number(Decimal("-2.5")), number(1e-6), number(None))
-    1.50·10<sup>−16</sup> 12 −2.5 10<sup>−6</sup> –
+    1.50·10⁻¹⁶ 12 −2.5 10⁻⁶ –
     """
     if value is None:
-        return Markup("–")
+        return "–"
     digits, power = _in_tens(value)
-    if not power:
-        return escape(digits)
-    return Markup("{}10<sup>{}</sup>").format(_factor(digits), power)
-
-
-def plain_number(value: float | Decimal) -> str:
-    """The same within a sentence.
-
-    >>> plain_number(1.5e-16)
-    '1.50·10⁻¹⁶'
-    """
-    digits, power = _in_tens(value)
-    return f"{_factor(digits)}10{power.translate(_RAISED)}" if power else digits
+    factor = "" if digits in ("1", "1.00") else f"{digits}·"
+    return f"{factor}10{power.translate(_RAISED)}" if power else digits
 
 
 _RAISED = str.maketrans("0123456789−", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
-
-
-def _factor(digits: str) -> str:
-    return "" if digits in ("1", "1.00") else f"{digits}·"
 
 
 def _in_tens(value: float | Decimal) -> tuple[str, str]:

@@ -11,22 +11,23 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from force_diffusion.derivations.coq.record import recorded
-from force_diffusion.derivations.export.document import READING, sentence, statement_latex
-from force_diffusion.derivations.export.page.html import display, prose, symbol
-from force_diffusion.derivations.export.page.parts import Part
-from force_diffusion.derivations.export.page.proof_graph import proof_graph
-from force_diffusion.derivations.export.prose import both
-from force_diffusion.derivations.export.terminal import (
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from ...coq.record import recorded
+from ...framework.record import Check, Derivation, Outcome
+from ..document import READING, sentence, statement_latex
+from ..prose import both
+from ..terminal import (
     expected_text,
     mutant_counts,
     relation_of,
     tried_counts,
     tried_text,
 )
-from force_diffusion.derivations.framework.record import Check, Derivation, Outcome
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
-from markupsafe import Markup
+from .html import display, prose, symbol
+from .parts import Part
+from .proof_graph import proof_graph
 
 _HERE = Path(__file__).parent
 _SIZE = "0.00 MB"

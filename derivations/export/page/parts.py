@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any
 
-from force_diffusion.derivations.export.page.html import number, prose
-from force_diffusion.derivations.export.tables import csv_text
-from markupsafe import Markup
+from markupsafe import Markup, escape
+
+from ..tables import csv_text
+from .html import number, prose
 
 ONE_COLUMN = 360.0
 """Points: narrower drawings are for one column."""
@@ -34,25 +35,24 @@ class Data:
 
 @dataclass(frozen=True)
 class Table:
-    """Rows under headings; cells are numbers or words, None where nothing applies."""
+    """Rows by the names of their columns; cells are numbers or words, None where none applies."""
 
     caption: str
-    headings: tuple[str, ...]
-    rows: tuple[tuple[Any, ...], ...]
+    rows: Sequence[Mapping[str, Any]]
     data: Data | None = None
 
     @property
     def columns(self) -> list[tuple[str, bool]]:
         """Every heading, and whether numbers stand below it."""
-        numeric = [
-            any(_cell(row[place])[0] for row in self.rows) for place in range(len(self.headings))
+        return [
+            (name.replace("_", " "), any(_cell(row[name])[0] for row in self.rows))
+            for name in (self.rows[0] if self.rows else {})
         ]
-        return list(zip(self.headings, numeric, strict=True))
 
     @property
     def cells(self) -> list[list[tuple[bool, Markup]]]:
         """Every cell, and whether it holds a number."""
-        return [[_cell(value) for value in row] for row in self.rows]
+        return [[_cell(value) for value in row.values()] for row in self.rows]
 
 
 @dataclass(frozen=True)
@@ -102,5 +102,5 @@ def csv_data(name: str, rows: Sequence[Mapping[str, Any]]) -> Data:
 
 def _cell(value: Any) -> tuple[bool, Markup]:
     if value is None or isinstance(value, int | float | Decimal):
-        return True, number(value)
+        return True, escape(number(value))
     return False, prose(str(value))

@@ -2,9 +2,10 @@
 
 from collections.abc import Mapping, Sequence
 
-from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.record import Outcome
 from markupsafe import Markup
+
+from ...framework.catalogue import Number
+from ...framework.record import Outcome
 
 _COLUMN, _ROW, _RADIUS = 56, 64, 17
 

@@ -23,8 +23,8 @@ from ...scene.scene import Scene
 from ...scene.sections import SceneError
 from .of_profile import study_ensemble
 from .reference import BEYOND, CertifiedReference, IncomparableError
-from .result import CostStudy
 from .rows import Reference, Way, marked
+from .table import CostStudy
 from .ways import Notice, answer, measured, systems, why_not_plain, with_geometry
 
 _FAILURES = (UnbuildableError, UndecidedError, NotStandingError, RadiusError, IncomparableError)

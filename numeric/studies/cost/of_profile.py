@@ -30,8 +30,8 @@ from ...planning.plan import Plan, Skipped
 from ...quantities.base import Table
 from ...scene.scene import Scene
 from .reference import decimal, exactly
-from .result import CostStudy
 from .rows import Reference, Way, marked
+from .table import CostStudy
 from .ways import Notice, answer, measured, systems, with_geometry
 
 # Realisations that the correction and the scatter are estimated from: at least, at most.

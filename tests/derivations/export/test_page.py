@@ -27,7 +27,11 @@ PART = Part(
     command="force-diffusion part '<x>'",
     figures=(Figure(b"<svg xmlns='http://www.w3.org/2000/svg'/>", 'alt "1"', "What it shows."),),
     tables=(
-        Table("Two rows", ("name", "value"), (("a", 1.5e-9), ("b", None)), Data("t.csv", "a,b\n")),
+        Table(
+            "Two rows",
+            [{"name": "a", "value": 1.5e-9}, {"name": "b", "value": None}],
+            Data("t.csv", "a,b\n"),
+        ),
     ),
 )
 
@@ -100,7 +104,7 @@ def test_a_part_is_escaped_and_carries_its_data() -> None:
     assert "A part &lt;b&gt;" in text
     assert "&#39;&lt;x&gt;&#39;" in text
     assert 'alt="alt &#34;1&#34;"' in text
-    assert '<td class="number">1.50·10<sup>−9</sup></td>' in text
+    assert '<td class="number">1.50·10⁻⁹</td>' in text
     assert 'href="data:text/csv;base64,YSxiCg==" download="t.csv"' in text
 
 

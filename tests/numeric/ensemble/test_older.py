@@ -26,15 +26,8 @@ SMALL = scene({**PROFILE, "packing": {"height": 2, "width": 3}})
 STORES = {
     "profile": (SMALL, 20, 45, True),
     "histogram": (scene(CASES["histogram of all"]), 20, 45, True),
-    "unilateral": (strip(), 3, 6, False),
+    "unilateral": (strip(protocol="linear-programs"), 3, 6, False),
 }
-
-
-@pytest.fixture(autouse=True)
-def _of_that_version(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(
-        "force_diffusion.numeric.ensemble.scene_key.program_version", lambda: "0.1.0"
-    )
 
 
 def copied(name: str, folder: Path) -> Path:

@@ -248,7 +248,7 @@ def test_a_file_of_another_version(
 ) -> None:
     path = tmp_path / "ensemble.fd"
     path.write_bytes(sound)
-    monkeypatch.setattr("force_diffusion.numeric.ensemble.scene_key.program_version", lambda: "9.9")
+    monkeypatch.setattr("force_diffusion.numeric.ensemble.scene_key.SINCE", "9.9")
     with pytest.raises(StoreError, match=r"version.force-diffusion is .*, here 9.9"):
         open_store(path, ensemble_key(M))
 

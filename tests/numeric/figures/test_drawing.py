@@ -7,9 +7,9 @@ import pytest
 
 pytest.importorskip("matplotlib")
 from force_diffusion.numeric.figures import (
+    along_a_diagonal,
     drawing,
     faces,
-    layers,
     mean_forces,
     neighbours,
     notation,
@@ -62,7 +62,7 @@ def test_figure_b7_has_labels_on_both_axes() -> None:
 
 
 def test_lines_of_figure_b12_are_in_its_legend() -> None:
-    (axes,) = drawn(layers.figure(FEW).picture).axes
+    (axes,) = drawn(along_a_diagonal.figure(FEW).picture).axes
     assert len([name for name in names(axes) if "Eq. (B12)" in name or "leading" in name]) == 2
 
 

@@ -13,6 +13,7 @@ import pytest
 from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.figures import (
+    along_a_diagonal,
     chains,
     comparison,
     diffusion,
@@ -20,13 +21,13 @@ from force_diffusion.numeric.figures import (
     directions,
     distribution,
     faces,
-    layers,
     mean_forces,
     mean_response,
     neighbours,
     notation,
     packings,
-    response,
+    paths,
+    point_load,
     sharing,
     spheres,
     stress,
@@ -165,40 +166,40 @@ def test_figure_4_conserves_the_load() -> None:
     )
     for answer, number in packings.solved(plan, range(3)):
         # every layer bears the whole load, exactly
-        for change in response.vertical(plan, answer, number):
+        for change in point_load.vertical(plan, answer, number):
             assert change.sum(axis=1) == pytest.approx(np.zeros(3), abs=1e-16)
 
 
 @pytest.fixture(scope="module")
-def figure4() -> response.Response:
-    return response.simulated(Options(realisations=400))
+def figure4() -> point_load.Response:
+    return point_load.simulated(Options(realisations=400))
 
 
 def on_layer(values: Any, j: int) -> Any:
     """The beads of a layer, from the left leg of the cone to the right one."""
-    return values[j == response.LAYER]
+    return values[j == point_load.LAYER]
 
 
-def test_figure_4_does_not_depend_on_the_horizontal_position(figure4: response.Response) -> None:
-    for j in range(1, response.APEX - 1):
+def test_figure_4_does_not_depend_on_the_horizontal_position(figure4: point_load.Response) -> None:
+    for j in range(1, point_load.APEX - 1):
         inside = on_layer(figure4.variance, j)[1:-1]
         assert inside == pytest.approx(np.full(inside.shape, inside[0]), rel=1e-12)
         # Eq. 16 is the leading order in l + j: here it is off by no more than 2/(l + j)
         printed = on_layer(figure4.printed, j)[0]
-        assert inside[0] == pytest.approx(printed, rel=2 / (response.APEX + j))
+        assert inside[0] == pytest.approx(printed, rel=2 / (point_load.APEX + j))
         if len(inside) > 1:
             single = on_layer(figure4.one_contact, j)[1:-1]
             assert (np.diff(single) < -0.5).all()
     assert figure4.cuts.deviation() <= 1
-    off = np.abs(figure4.mean - 0.5)[response.LEG]
-    assert (off < 5 * figure4.standard_error[response.LEG]).all()
+    off = np.abs(figure4.mean - 0.5)[point_load.LEG]
+    assert (off < 5 * figure4.standard_error[point_load.LEG]).all()
     ratio = figure4.below_apex_over_base(figure4.variance)
     assert ratio == pytest.approx(1.84, abs=0.03)
 
 
-def test_figure_4_agrees_with_the_weights_of_all_radii(figure4: response.Response) -> None:
+def test_figure_4_agrees_with_the_weights_of_all_radii(figure4: point_load.Response) -> None:
     """The engine's own weights, legs of the cone included."""
-    l = response.APEX  # noqa: E741
+    l = point_load.APEX  # noqa: E741
     plan = planned("response", height=l, width=None, seed=1, load=PointLoad(at=(0, l)))
     weights = impulses(plan)
     packing, forces = weights.packing, forces_of(weights)
@@ -220,9 +221,9 @@ def test_figure_4_agrees_with_the_weights_of_all_radii(figure4: response.Respons
 
 
 @pytest.mark.parametrize(("i", "j"), [(0, 8), (5, 3), (-7, 1)])
-def test_figure_4_agrees_with_line_sums(i: int, j: int, figure4: response.Response) -> None:
+def test_figure_4_agrees_with_line_sums(i: int, j: int, figure4: point_load.Response) -> None:
     """The weights of the upper right contact of a bead, one radius at a time, by line sums."""
-    load = LoadSpec("point", response.APEX, None, at=(0, response.APEX))
+    load = LoadSpec("point", point_load.APEX, None, at=(0, point_load.APEX))
     contact = (i, j, "+")
     strength = load.strength(N_X, FLOAT64)
     above, below = first_order.crossing_layers(contact, load)
@@ -245,7 +246,7 @@ def test_figure_4_agrees_with_line_sums(i: int, j: int, figure4: response.Respon
             system=FLOAT64,
         )
         square += float(change) ** 2
-    q = (i + response.APEX - j) // 2
+    q = (i + point_load.APEX - j) // 2
     assert on_layer(figure4.one_contact, j)[q] == pytest.approx(NY**2 * square, rel=1e-12)
 
 
@@ -316,7 +317,7 @@ def test_figures_of_another_spacing_and_disorder_are_those_of_its_theory() -> No
     assert one.deviation(comparison.curves(6)[0]) > 1
     assert one.deviation(comparison.curves(6, Medium(std=1e-3))[0]) > 1
     narrow, paper = (
-        response.simulated(Options(realisations=300, spacing=spacing)).cuts
+        point_load.simulated(Options(realisations=300, spacing=spacing)).cuts
         for spacing in (Fraction(21, 10), usual)
     )
     assert narrow.deviation() <= 1
@@ -373,13 +374,13 @@ def test_figure_b7_finds_theory_within_the_band_and_a_wrong_one_outside() -> Non
 
 
 def test_figure_b12_finds_theory_within_the_band_and_a_wrong_one_outside() -> None:
-    found = layers.figure(Options(realisations=400))
+    found = along_a_diagonal.figure(Options(realisations=400))
     (one,) = found.comparisons
     assert one.deviation() <= 1
     assert one.deviation(1.2 * one.theory) > 1
     table = columns(found, "figureB12")
-    assert list(zip(table["j"], table["l"], strict=True)) == layers.PAIRS
-    farthest = len(layers.UPPER[layers.LOWER[0]]) - 1
+    assert list(zip(table["j"], table["l"], strict=True)) == along_a_diagonal.PAIRS
+    farthest = len(along_a_diagonal.UPPER[along_a_diagonal.LOWER[0]]) - 1
     assert table["covariance_simulated"][farthest] > 0.1  # 20 layers higher, by far not zero
 
 
@@ -446,6 +447,16 @@ def test_figure_b13_holds_spheres_to_theory_and_would_not_to_that_of_discs(
     wrong = replace(one, theory=spheres.exact(spheres.CASES[0]))
     assert wrong.deviation() > 10
     assert "outside" in wrong.verdict()
+
+
+def test_the_weights_of_figure_b1_add_up_to_eq_13(monkeypatch: pytest.MonkeyPatch) -> None:
+    M, j = 2000, 600
+    monkeypatch.setattr(paths, "HEIGHT", M)
+    monkeypatch.setattr(paths, "LAYER", j)
+    beside = ((m - j + aside, m) for m in range(M + 1) for aside in range(-4, 5))
+    squares = sum(paths.weight(i, m) ** 2 for i, m in beside)
+    z = j / M
+    assert squares == pytest.approx(2 * M**3 * (1 - z) ** 2 * (2 * z + 1), rel=2 / M)
 
 
 def test_figure_b19_holds_faces_to_theory_and_the_inside_to_zero() -> None:

@@ -32,7 +32,7 @@ pytest.importorskip("numba")
 import numba
 from force_diffusion.numeric.arithmetic import compiling
 from force_diffusion.numeric.disorder import compiled as drawing
-from force_diffusion.numeric.mechanics import kernels, local, sweeps
+from force_diffusion.numeric.mechanics import kernels, local, passes, sweeps
 from numba.extending import intrinsic
 
 # Between the directions at which beads of the ordered packing overlap, for d = 2 and 3.
@@ -108,7 +108,7 @@ def test_every_bit_is_that_of_the_same_source_on_numpy(
     own = rows_in(region, rho, carried=carried)
     solved = outcome(sweep.deposit, phi, region, own, CARRYING if carried else FLOAT64)
     with FLOAT64.active():
-        deposition = kernels.Deposition(phi, region, carried=carried)
+        deposition = passes.Deposition(phi, region, carried=carried)
         block = deposition(rho)
     assert (block is None) == (solved is None)
     assume(block is not None)
@@ -119,7 +119,7 @@ def test_every_bit_is_that_of_the_same_source_on_numpy(
             continue  # Dekker's product has parts that are too small for a float
         own = slice(number * part, (number + 1) * part)
         most = deposition.most[:, own]
-        told = kernels.told(phi, region, rho[:, number : number + 1], block[:, own], most)
+        told = passes.told(phi, region, rho[:, number : number + 1], block[:, own], most)
         above = np.arange(part)[None, :, None] >= d  # of the base δn are no numbers
         there = np.arange(region.beads) >= above * region.rows[0].count
         sizes = np.where(there, np.abs(block[:, own, : region.beads]), 0)
@@ -135,7 +135,7 @@ def test_every_bit_is_that_of_the_same_source_on_numpy(
                     for a, b in zip(mine, usual, strict=True):
                         assert np.array_equal(a, getattr(b, name) if carried else b)
     forces = outcome(sweep.sweep_down, solved, rows, loads)
-    descent = kernels.Descent(region, rows, loads, carried=carried)
+    descent = passes.Descent(region, rows, loads, carried=carried)
     g = descent(block)
     assert (g is None) == (forces is None)
     if g is None or forces is None:
@@ -157,11 +157,11 @@ def test_gaps_are_those_of_numpy(phi: Fraction, case: tuple[Region, Rows], seed:
     region, _ = case
     rng = np.random.default_rng(seed)
     rho = rng.uniform(-1, 1, (2, 1, region.beads)) * 10.0 ** rng.uniform(-9, -1)
-    deposition = kernels.Deposition(phi, region)
+    deposition = passes.Deposition(phi, region)
     block = deposition(rho)
     assume(block is not None)
     assert block is not None
-    compiled = kernels.told(phi, region, rho[:, :1], block, deposition.most)
+    compiled = passes.told(phi, region, rho[:, :1], block, deposition.most)
     usual = outcome(sweep.deposit, phi, region, rows_in(region, rho, carried=False), FLOAT64)
     layers = range(region.top + 1)
     a, b = gaps.gaps(compiled, layers), gaps.gaps(usual, layers)
@@ -387,13 +387,13 @@ def test_an_answer_stays_when_the_next_one_takes_its_memory(
     at.append(5)
     load = Load(kind="point", at=at) if quantity == "response" else Load()
     blocks = []
-    real = kernels.Deposition.__call__
+    real = passes.Deposition.__call__
 
-    def seen(self: kernels.Deposition, *arguments: Any) -> Any:
+    def seen(self: passes.Deposition, *arguments: Any) -> Any:
         blocks.append(self.block)
         return real(self, *arguments)
 
-    monkeypatch.setattr(kernels.Deposition, "__call__", seen)
+    monkeypatch.setattr(passes.Deposition, "__call__", seen)
 
     def made(seed: int) -> dict[str, Any]:
         return Scene(

@@ -13,8 +13,8 @@ from force_diffusion.numeric.disorder.radii import RadiusError
 from force_diffusion.numeric.mechanics.sweep import NotStandingError, UnbuildableError
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run import read_scene, run
+from force_diffusion.numeric.scene.files import TableError
 from force_diffusion.numeric.scene.sections import Disorder, SceneError
-from force_diffusion.numeric.scene.tables import TableError
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
 from force_diffusion.numeric.arithmetic.foreign import ForeignFileError, read_numbers
+from force_diffusion.numeric.scene.files import TableError
 from force_diffusion.numeric.scene.sections import SceneError
-from force_diffusion.numeric.scene.tables import TableError
 from force_diffusion.numeric.unilateral import checker
 from hypothesis import given
 from hypothesis import strategies as st

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.scene.tables import TableError
+from force_diffusion.numeric.scene.files import TableError
 
 import force_diffusion as fd
 

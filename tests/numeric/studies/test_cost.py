@@ -13,8 +13,8 @@ from force_diffusion.numeric.scene.sections import SceneError
 from force_diffusion.numeric.studies import timing
 from force_diffusion.numeric.studies.cost.cost import cost
 from force_diffusion.numeric.studies.cost.reference import BEYOND, decimal
-from force_diffusion.numeric.studies.cost.result import CostStudy, csv_rows
 from force_diffusion.numeric.studies.cost.rows import Way, marked, pareto
+from force_diffusion.numeric.studies.cost.table import CostStudy, csv_rows
 from force_diffusion.numeric.studies.cost.ways import answer, systems, why_not_plain
 from hypothesis import given
 from hypothesis import strategies as st

@@ -16,10 +16,10 @@ from ..lattice.layers import Region, Rows, whole
 from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved
-from ..statistics.histogram import histogram
+from ..statistics.bins import histogram
 from ..statistics.moments import root
 from ..statistics.ratios import moments
-from ..unilateral.network import Network, Relaxed
+from ..unilateral import Network, Relaxed
 from .base import RATIO, Gatherer, Listed, Table, column
 from .histogram import DEFAULT_BINS
 
