@@ -20,14 +20,19 @@ from force_diffusion.derivations.coq.files import Statement, head_of, theory
 from force_diffusion.derivations.coq.folder import ALLOWED, CoqFolder
 from force_diffusion.derivations.coq.packings import packing_statement
 from force_diffusion.derivations.coq.record import Certificate, Verdict
-from force_diffusion.derivations.coq.statements import exact_statement, statement
+from force_diffusion.derivations.coq.statements import (
+    exact_statement,
+    mirror_image,
+    statement,
+    statements,
+)
 from force_diffusion.derivations.coq.words import NotStatedError
 from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import SEEDS
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.search.mutants import mutants
+from force_diffusion.symbolic.search.mutants import NUMBER, SIGN, mutants
 
 from tests.derivations.test_soundness import FALSE, TRUE, Change
 
@@ -137,6 +142,44 @@ def test_another_exact_variance_is_proved_false(coq: CoqFolder, number: int) -> 
     said = answers(coq, f"Exact_{number}", {at: one for at, (_, one) in changes.items()})
     assert len(said) >= 16
     assert [changes[at][0] for at, word in said.items() if word is not Answer.REFUTED] == []
+
+
+@pytest.mark.parametrize("number", [9, 10, 11])
+def test_mutants_of_mirror_images_are_proved_false(coq: CoqFolder, number: int) -> None:
+    image = mirror_image(load(number))
+    every = [
+        statement(image, 0, one.equation, mirrored=True)
+        for one in mutants(image.printed[0])
+        if one.kind in (SIGN, NUMBER)
+    ]
+    said = answers(coq, f"Mirrored_{number}", dict(enumerate(every)))
+    assert len(said) > 5
+    assert {*said.values()} == {Answer.REFUTED}
+
+
+@pytest.mark.parametrize(
+    ("name", "true", "false"),
+    [
+        ("equation_10_else_nothing", "(k - i > l - j", "(k - i >= l - j"),
+        ("equation_10_else_nothing", "i - k >= l - j)", "i - k >= l - j - 2)"),
+        ("equation_12_second_difference", "6 * sigma", "5 * sigma"),
+        ("equation_14_maximum", "M = 6 * j", "M = 7 * j"),
+        ("equation_13_exact", "f_load / (2 * n_y G)", "f_load / (2 * n_x G)"),
+    ],
+)
+def test_what_is_stated_beside_is_not_accepted_otherwise(
+    coq: CoqFolder, name: str, true: str, false: str
+) -> None:
+    number = int(name.split("_")[1])
+    (made,) = (one for one in statements(load(number)) if one.name == name)
+    assert true in made.proposition
+    changed = replace(
+        made,
+        hypotheses=tuple(line.replace(true, false) for line in made.hypotheses),
+        conclusion=made.conclusion.replace(true, false),
+        companions=(),
+    )
+    assert ask(coq, changed).verdict is Verdict.NOT_ACCEPTED
 
 
 def stated(cases: list[tuple[int, str, Change]]) -> dict[int, Statement]:
