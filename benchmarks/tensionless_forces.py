@@ -16,9 +16,7 @@ from force_diffusion.numeric.arithmetic.systems import Array
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.statistics.ratios import moments
-from force_diffusion.numeric.unilateral.grains import Grains
-from force_diffusion.numeric.unilateral.network import UnfinishedError
-from force_diffusion.numeric.unilateral.relaxation import balanced, settle, start
+from force_diffusion.numeric.unilateral import Grains, UnfinishedError, balanced, settle, start
 from scipy.sparse.linalg import splu
 
 import force_diffusion as fd
@@ -61,7 +59,7 @@ def measured(load: fd.Load, spacing: float, M: int, of_critical: float, packings
             packing=fd.Packing(height=M, width=2 * M, spacing=spacing),
             disorder=fd.Disorder(kind="uniform", relative_std=std, seed=number),
             load=load,
-            effects=fd.Effects(contacts="unilateral"),
+            effects=fd.Effects(contacts="unilateral", protocol="linear-programs"),
             ask=fd.Ask(quantity="contact_forces"),
         )
         problem = plan(scene).problem

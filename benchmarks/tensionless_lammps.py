@@ -22,8 +22,7 @@ from against_lammps import in_child
 from force_diffusion.numeric.arithmetic.systems import Array
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.planner import plan
-from force_diffusion.numeric.unilateral.grains import Grains
-from force_diffusion.numeric.unilateral.relaxation import balanced, settle, start
+from force_diffusion.numeric.unilateral import Grains, balanced, settle, start
 
 import force_diffusion as fd
 
@@ -125,7 +124,7 @@ def main() -> int:
     scene = fd.Scene(
         packing=fd.Packing(height=options.height, width=options.width, allow_images=True),
         disorder=fd.Disorder(kind="uniform", relative_std=options.relative_std, seed=options.seed),
-        effects=fd.Effects(contacts="unilateral"),
+        effects=fd.Effects(contacts="unilateral", protocol="linear-programs"),
         ask=fd.Ask(quantity="contact_forces"),
     )
     problem = plan(scene).problem

@@ -402,7 +402,7 @@ DERIVATION = Derivation(
         "paper expects a much lower M*. With Gaussian forces M* divided by the cube root of "
         "8c ln M, c > 1, is enough for a square packing, to leading order: a logarithm, not "
         "another power of σ/r. The bound on the variance is decided, by which 1/2σ_f² is at least "
-        "2c ln M there; Chernoff's inequality, P(f < 0) ≤ exp(−1/2σ_f²) = M^(−2c) for each of the "
+        "2c ln M there; Chernoff's inequality, P(f<0) ≤ exp(−1/2σ_f²) = M^(−2c) for each of the "
         "M² contacts, is quoted.",
     ),
 )

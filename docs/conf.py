@@ -9,6 +9,7 @@ from typing import Any
 
 import math_core
 from docutils import nodes
+from force_diffusion.derivations.export import article
 
 project = "force-diffusion"
 release = installed(project)
@@ -66,8 +67,15 @@ def _bars(_app: Any, _what: str, _name: str, _of: Any, _options: Any, lines: lis
     lines[:] = [re.sub(r"\|(\w+)\|", r"\\|\1\\|", line) for line in lines]
 
 
+def _article(_app: Any, name: str, source: list[str]) -> None:
+    """Put the article in the place of its page."""
+    if name == "background/beyond":
+        source[0] = article.page(article.source())
+
+
 def setup(app: Any) -> None:
-    """Make MathML of all formulas."""
+    """Make MathML of all formulas, and the page of the article."""
+    app.connect("source-read", _article)
     app.connect("autodoc-process-docstring", _bars)
     app.add_html_math_renderer(
         "mathml",

@@ -35,5 +35,5 @@ from .numeric.studies.cost.cost import cost as cost
 from .numeric.studies.cost.table import CostStudy as CostStudy
 from .numeric.studies.stability.stability import StabilityStudy as StabilityStudy
 from .numeric.studies.stability.stability import stability as stability
-from .numeric.unilateral.checker import Verdict as Verdict
-from .numeric.unilateral.checker import check_packings as check_packings
+from .numeric.unilateral import Verdict as Verdict
+from .numeric.unilateral import check_packings as check_packings

@@ -29,7 +29,7 @@ GOOD = {
     "load.at": ["[0, 0, 3]", "[0, 4]", "[1, 1]", "[0, 0]", "[0, 0, 0]", "[0, 2]"],
     "effects.geometry": ['"ordered"', '"exact"', '"first-order"'],
     "effects.contacts": ['"unilateral"', '"bilateral"'],
-    "effects.protocol": ['"linear-programs"', '"event-driven"'],
+    "effects.protocol": ['"ladder"', '"linear-programs"', '"event-ladder"', '"event-driven"'],
     "effects.most_events": ["1", "3", "1000"],
     "effects.most_seconds": ["1e-3", "0.5", "60"],
     "effects.stop_at_tension": ["true", "false"],

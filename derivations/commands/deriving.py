@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 from force_diffusion.numeric.arithmetic.errors import printable
 from force_diffusion.numeric.arithmetic.processes import Start, beside
 
+from ..export.prose import both
 from ..export.terminal import tried_counts, tried_text
 from ..framework.catalogue import Number, modules
 from ..framework.loading import load, with_premises
+from .cli import command_line
 from .output import output
 from .progress import Silence, display
 
@@ -38,17 +40,49 @@ def watched(
         return derive_with(start, numbers, watch.checking, watch.finished)
 
 
+def article_files() -> list[str]:
+    """Names of what the article is made of. Raises ``MissingLibraryError``: it has figures."""
+    from force_diffusion.numeric.figures.library import drawing
+    from force_diffusion.numeric.figures.names import FIGURES
+
+    from ..export.article import ARTICLE, figures_of, source
+
+    with drawing():
+        pass
+    return [ARTICLE, *(f"{FIGURES[name].file}.pdf" for name in figures_of(source()))]
+
+
+def written_article(found: "Derived", watch: Silence) -> dict[str, str | bytes]:
+    """The article and its figures, by file name; it says what was found."""
+    from force_diffusion.numeric.figures.catalogue import begun
+
+    from ..export.article import ARTICLE, Plate, article, figures_of, source, verdicts
+
+    markdown, command = source(), command_line()
+    files: dict[str, str | bytes] = {}
+    plates = {}
+    with watch.showing():
+        for name in figures_of(markdown):
+            made = begun(name, command=command, kinds=("pdf",), notice=watch.checking)()
+            (file,) = (own for own in made.files if own.endswith(".pdf"))
+            files[file] = made.files[file]
+            plates[name] = Plate(file, made.wide, tuple(made.lines))
+    return {ARTICLE: article(markdown, plates, verdicts(found.outcomes, found.counts())), **files}
+
+
 def derive(
     numbers: "Sequence[Number | Derivation]",
     out: Path | None,
     as_json: bool,
     overwrite: bool = False,
     columns: int = 1,
+    article: Path | None = None,
 ) -> int:
     """Derive these equations and their premises: 0 if all are proved, else 1.
 
-    The output folder is looked at before the first proof, so that a wrong one costs no time. The
-    document in it is also about the equations that an earlier run has left there.
+    The output folders are looked at before the first proof, so that a wrong one costs no time. The
+    document in ``out`` is also about the equations that an earlier run has left there; the folder
+    ``article`` gets the article, which says what this run has proved.
     """
     from ..export.document import (
         DOCUMENT,
@@ -59,11 +93,16 @@ def derive(
 
     derivations = premises_first(numbers)
     names = [*map(fragment_name, derivations), DOCUMENT]
-    with output(out, "derive", names, overwrite) as folder:
+    with (
+        output(out, "derive", names, overwrite) as folder,
+        output(article, "derive --article", article_files() if article else (), overwrite) as paper,
+    ):
         watch = display(len(derivations), as_json=as_json)
         many = len(derivations) >= WORTH_ANOTHER_PROCESS
         with beside() if many else nullcontext() as start:
             found = watched(numbers, watch, start)
+        if paper:
+            paper.write(written_article(found, watch))
         if folder:
             parts = {
                 earlier.number: (load(earlier.number), earlier)
@@ -80,7 +119,8 @@ def derive(
             )
     if on := tried_text(tried_counts(found.outcomes)):
         watch.summary(on)
-    watch.summary(f"{found.counts()}." + (f" Written to {printable(str(out))}." if out else ""))
+    folders = [printable(str(one)) for one in (out, article) if one]
+    watch.summary(f"{found.counts()}." + (f" Written to {both(folders)}." if folders else ""))
     if as_json:
         print(json.dumps(found.data(), indent=2), flush=True)
     return 0 if found.proved else 1

@@ -19,7 +19,7 @@ from ..framework.catalogue import (
 )
 from .cli import STATUSES
 from .guard import tell
-from .output import Overwrite, out_option
+from .output import Overwrite, folder_of, out_option
 
 if TYPE_CHECKING:
     from ..api.equation import Equation
@@ -100,6 +100,15 @@ def derive(
         bool, typer.Option("--json", help="Print the results as JSON and nothing else.")
     ] = False,
     columns: Columns = 1,
+    article: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            parser=folder_of,
+            help="Write the article about the equations beyond the paper into this folder, LaTeX "
+            "and figures; it says which of them were proved. Needs matplotlib.",
+        ),
+    ] = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Prove equations and all that they rest on, and check them."""
@@ -107,7 +116,7 @@ def derive(
 
     with blamed(numbers or ()):
         wanted = wanted_of(numbers or ()) or list(modules())
-        status = deriving.derive(wanted, out, as_json, overwrite, columns)
+        status = deriving.derive(wanted, out, as_json, overwrite, columns, article)
         if not status:  # else there is no proof that rests on any
             _tell_of_premises([one for one in wanted if not isinstance(one, int | str)])
     raise typer.Exit(status)

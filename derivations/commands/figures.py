@@ -137,29 +137,23 @@ def figures(
                 "scene, FILE.toml.",
                 param_hint="WHICH",
             )
-    chosen = None if heights is None else _heights(heights)
-    if chosen is not None and "3" not in wanted:
-        raise typer.BadParameter("goes with figure 3 only; add 3.", param_hint="--heights")
-    if realisations is not None and not set(OF_ENSEMBLES) & set(wanted):
-        *first, last = OF_ENSEMBLES
-        raise typer.BadParameter(
-            f"goes with figures {', '.join(first)} and {last} only; the others draw no ensemble.",
-            param_hint="--realisations",
-        )
-    if seed is not None and len(scenes) == len(wanted):
-        raise typer.BadParameter(
-            "is of the paper's figures; a scene has its own, disorder.seed.", param_hint="--seed"
-        )
     own = {
         "spacing": (_number("--spacing", spacing), OWN_SPACING),
         "relative_std": (_number("--relative-std", relative_std), OWN_STD),
     }
-    for key, (value, those) in own.items():
+    limited = {"heights": (heights, ("3",)), "realisations": (realisations, OF_ENSEMBLES), **own}
+    for key, (value, those) in limited.items():
         if value is not None and not set(those) & set(wanted):
+            add = those[0] if len(those) == 1 else "one of them"
             raise typer.BadParameter(
-                f"goes with figures {', '.join(those)} only; add one of them.",
+                f"goes with figure{'s' * (len(those) > 1)} {', '.join(those)} only; add {add}.",
                 param_hint=f"--{key.replace('_', '-')}",
             )
+    chosen = None if heights is None else _heights(heights)
+    if seed is not None and len(scenes) == len(wanted):
+        raise typer.BadParameter(
+            "is of the paper's figures; a scene has its own, disorder.seed.", param_hint="--seed"
+        )
     for model in beside or []:
         if model not in MODELS:
             raise typer.BadParameter(
@@ -175,13 +169,16 @@ def figures(
     with drawing():  # or leave before anything is solved
         pass
 
-    words = ["force-diffusion", "figures", *wanted]
-    words += [] if heights is None else ["--heights", heights]
-    words += [] if realisations is None else ["--realisations", str(realisations)]
     seed = 1 if seed is None else seed
-    words += [] if len(scenes) == len(wanted) else ["--seed", str(seed)]
-    words += [] if spacing is None else ["--spacing", spacing]
-    words += [] if relative_std is None else ["--relative-std", relative_std]
+    given = {
+        "--heights": heights,
+        "--realisations": realisations,
+        "--seed": None if len(scenes) == len(wanted) else seed,
+        "--spacing": spacing,
+        "--relative-std": relative_std,
+    }
+    words = ["force-diffusion", "figures", *wanted]
+    words += [str(one) for pair in given.items() if pair[1] is not None for one in pair]
     words += [word for model in beside or [] for word in ("--with", model)]
     command = shell_line([*words, "--out", str(out)])
     stems = [scenes.get(name) or FIGURES[name].file for name in wanted]

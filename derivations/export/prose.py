@@ -2,7 +2,7 @@
 
 import re
 import unicodedata
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 _MATHS = {
     "−": "-", "±": r"\pm ", "∓": r"\mp ", "·": r"\cdot ", "×": r"\times ", "…": r"\ldots ",
@@ -47,6 +47,7 @@ _FLOAT = re.compile(r"(?<![A-Za-z0-9.])(\d(?:\.\d+)?)e([+-]\d+)(?![A-Za-z0-9])")
 _CLOSED_LATE = re.compile(r"\$([^$]+)\$\)")
 _OPENED_EARLY = re.compile(r"\(\$([^$]+)\$")
 _COORDINATES = re.compile(r"\(\$([^$]+)\$, \$([^$]+)\$\)")
+_MARKED = re.compile(r"([\\`*_$<\[\]])")  # what Markdown reads as markup
 _SYMBOLIC = re.compile(
     "[" + re.escape("".join([*_MATHS, *_RAISED, *_LOWERED, *_WORDS])) + "_^=+*/<>|0-9]"
 )
@@ -76,7 +77,7 @@ def _is_mathematics(word: str) -> bool:
     """Whether a word is a symbol or a formula rather than English."""
     if re.fullmatch(r"[b-zB-HJ-Z]", word):
         return True
-    if re.fullmatch(r"B\d+", word):  # an equation's number
+    if re.fullmatch(r"[BT]\d+", word):  # the name of an equation or of a theorem
         return False
     letters = re.findall(r"[A-Za-z]+", _INDEXED.sub("", _NAMES.sub("", word)))
     return bool(_SYMBOLIC.search(word)) and all(len(run) <= 2 for run in letters)
@@ -122,7 +123,12 @@ def _set_mathematics(word: str) -> str:
     return _NAMES.sub(r"\\\1 ", word)
 
 
-def _set_text(word: str) -> str:
+def text_latex(word: str) -> str:
+    r"""Characters as they are, in LaTeX for text.
+
+    >>> print(text_latex("50 % of f_load"))
+    50 \% of f\_load
+    """
     return "".join(
         _TEXT.get(character)
         or (character if character.isascii() else f"${_set_mathematics(character)}$")
@@ -187,11 +193,25 @@ def prose_latex(words: str) -> str:
     >>> print(prose_latex("Eq. 2 for j ≥ 1: δr_(i−1,j) is a length & n⁺ a unit vector."))
     Eq. 2 for $j \geq  1$: $\delta r_{i-1,j}$ is a length \& $\hat{\mathbf{n}}^{+}$ a unit vector.
     """
+    return _set(words, text_latex)
+
+
+def prose_markdown(words: str) -> str:
+    r"""A sentence as Markdown with mathematics between dollars, as notebooks show it.
+
+    >>> print(prose_markdown("Eq. 2 for j ≥ 1 and 3 neighbours [as printed]"))
+    Eq. 2 for $j \geq  1$ and 3 neighbours \[as printed\]
+    """
+    return _set(words, lambda word: _MARKED.sub(r"\\\1", word))
+
+
+def _set(words: str, text: Callable[[str], str]) -> str:
+    """A sentence with mathematics between dollars, and the ``text`` of all else."""
     done = []
     for before, formula, after in pieces(words):
         plain = len(formula) == 1 and formula[0].isdecimal()
-        text = formula[0] if plain else f"${formula_latex(formula)}$" if formula else ""
-        done.append(f"{_set_text(before)}{text}{_set_text(after)}")
+        inner = formula[0] if plain else f"${formula_latex(formula)}$" if formula else ""
+        done.append(f"{text(before)}{inner}{text(after)}")
     return _with_brackets(" ".join(done))
 
 

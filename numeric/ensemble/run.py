@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
 from ..statistics.confidence import Rule, looks
-from ..unilateral.network import UnfinishedError
+from ..unilateral import UnfinishedError
 from .estimates import Estimates
 from .measure import Measurement
 from .result import Ensemble

@@ -23,6 +23,8 @@ def ensemble_key(m: Measurement) -> dict[str, Any]:
     sections["packing"]["spacing"] = scene.spacing
     if scene.ask.layers is None:  # as in stores that were made before there were any
         del sections["ask"]["layers"]
+    if scene.effects.contacts == "bilateral":  # its default then
+        sections["effects"]["protocol"] = "linear-programs"
     if scene.load.file is not None:  # its content counts, not its name
         loads = m.problem.load.single.items()
         forces = sorted((list(site), list(map(str, force))) for site, force in loads)

@@ -24,7 +24,7 @@ from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Work
 from ..quantities.contacts_that_open import NetworkQuantity
 from ..statistics.moments import by_halves
-from ..unilateral.network import Relaxed, UnfinishedError
+from ..unilateral import Relaxed, UnfinishedError
 from .measure import Measurement
 
 # What is raised for a packing that is left out.
@@ -294,7 +294,7 @@ def _at_rest(m: Measurement, quantity: NetworkQuantity, number: int) -> tuple[Ar
     Gives its samples, their sums and those of their squares, (3, groups), and counts (1, B + 2).
     What the protocol raises is passed on.
     """
-    from ..unilateral.relaxation import packings  # SciPy's solvers take 35 MB
+    from ..unilateral import packings  # SciPy's solvers take 35 MB
 
     for bits in BITS:
         system = Balls(bits)

@@ -9,7 +9,7 @@ from ..arithmetic.systems import Array, as_floats
 from ..planning.plan import Plan
 from ..scene.checks import refuse
 from ..scene.sections import SceneError
-from ..unilateral.network import Network
+from ..unilateral import Network
 from .library import drawing
 
 if TYPE_CHECKING:

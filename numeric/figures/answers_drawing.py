@@ -12,7 +12,7 @@ from ..mechanics.problem import Route
 from ..planning.plan import Plan
 from ..quantities.base import first_order_std
 from ..scene.sections import SceneError
-from ..unilateral.network import Network
+from ..unilateral import Network
 from . import specification as spec
 from .elements import base, cone, point_load, surface_load
 

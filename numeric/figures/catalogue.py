@@ -36,12 +36,14 @@ class PaperFigure:
         files: PNG, SVG, PDF and CSV by file name; the CSV files hold what is drawn.
         facts: verdicts and parameters, as JSON can hold them.
         lines: the verdicts in words.
+        wide: as wide as a page of a journal, not as a column.
     """
 
     title: str
     files: dict[str, str | bytes]
     facts: dict[str, Any]
     lines: list[str]
+    wide: bool = False
 
     def _repr_png_(self) -> bytes:
         return next(bytes(f) for f in self.files.values() if isinstance(f, bytes))  # PNG is first
@@ -155,7 +157,7 @@ def _finished(name: str, data: Figure, made_by: str, kinds: Sequence[str]) -> Pa
             **style.images(lambda: draw(data.picture), file, title, made_by, kinds),
             **{f"{own}.csv": csv_file(table, title, made_by) for own, table in data.tables.items()},
         }
-    return PaperFigure(title, files, dict(data.facts), list(data.says))
+    return PaperFigure(title, files, dict(data.facts), list(data.says), data.picture.page)
 
 
 def _chosen(name: str, spacing: Any, relative_std: Any) -> tuple[Fraction | None, float | None]:

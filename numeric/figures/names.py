@@ -26,6 +26,7 @@ FIGURES = {
     ),
     "pf": Entry("pf", "P(f) against the Gaussian", "distribution", 4000),
     "chains": Entry("chains", "Force chains", "chains"),
+    "B1": Entry("figureB1", "What a contact force depends on, and paths of a point load", "paths"),
     "B2": Entry(
         "figureB2", "Fluctuation of the forces under a load at an angle", "directions", 400
     ),

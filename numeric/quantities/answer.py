@@ -18,7 +18,7 @@ from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import ESTIMATE, Work
 from ..statistics.bins import counted, edges_between
-from ..unilateral.network import Network, Relaxed, UnfinishedError
+from ..unilateral import Network, Relaxed, UnfinishedError
 from .base import RATIO, Quantity, Table
 from .histogram import Histogram
 from .parts import Part, joined
@@ -185,7 +185,7 @@ class _Whole:
         asked, done = self.asked, 0
         problem, realisations, work = asked.problem, asked.realisations, asked.work
         if problem.route == Route.UNILATERAL:
-            from ..unilateral.relaxation import packings as relaxed  # SciPy's solvers take 35 MB
+            from ..unilateral import packings as relaxed  # SciPy's solvers take 35 MB
 
             solved_all = relaxed(problem, realisations, asked.system, work)
         else:

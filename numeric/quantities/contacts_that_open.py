@@ -19,7 +19,7 @@ from ..mechanics.problem import Problem, Solved
 from ..statistics.bins import histogram
 from ..statistics.moments import root
 from ..statistics.ratios import moments
-from ..unilateral.network import Network, Relaxed
+from ..unilateral import Network, Relaxed
 from .base import RATIO, Gatherer, Listed, Table, column
 from .histogram import DEFAULT_BINS
 

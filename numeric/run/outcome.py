@@ -22,7 +22,7 @@ from ..statistics import bins
 from ..tables import SHOWN, Row, html_table, rows_of
 from ..text import rows_of_text, text_of
 from ..theory.critical_height import critical_height
-from ..unilateral.network import Network
+from ..unilateral import Network
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -315,7 +315,8 @@ def _network_data(found: Network) -> dict[str, Any]:
         "energy_fall": found.fall,
         "smallest_gap": found.smallest_gap,
         "kantorovich": found.kantorovich,
-        "rest": "as deposited: no contact pulls" if not found.events else "a strict local minimum",
+        "rung": found.rung,
+        "rest": found.rest,
     }
 
 

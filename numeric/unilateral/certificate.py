@@ -5,7 +5,8 @@ Kantorovich: where β = ‖A⁻¹‖, K bounds the change of the Jacobian A a un
 h = β² K |g| ≤ 1/2, an exact solution lies within 2 β |g|, one alone near there. Its forces, of
 AᵀF + load = 0, are enclosed from residuals. If all of them are positive and all other gaps too, and
 no bead outside of the backbone bears a load, the packing is a strict local minimum of the load's
-energy: gaps serve as coordinates there, the energy rises with each of them, and A can be inverted.
+energy in the backbone's coordinates: gaps serve as coordinates there, the energy rises with each of
+them, and A can be inverted. Of beads that touch without force nothing can be proved in this way.
 
 Norms are bounded from floating-point inverses whose own error is bounded: rounding to nearest, at
 most 2⁻⁵³ an operation.
@@ -100,12 +101,14 @@ def smallest_gap(x: Array, known: Frame, touching: Pairs) -> float:
     ``UnfinishedError`` unless no bead lies below the base and all those gaps are positive.
     """
     fixed = len(known.base)
+    radii = as_floats(known.radii)
+    grains = Grains(as_floats(x), radii, float(known.period), np.zeros(x.shape), fixed)
     fallen = [k for k in range(fixed, len(x)) if not x[k, 1] > known.base[0, 1]]
     if fallen:
         more = f", and {len(fallen) - 1} more" if len(fallen) > 1 else ""
-        raise UnfinishedError(f"bead {fallen[0]} fell through the base{more}")
-    radii = as_floats(known.radii)
-    grains = Grains(as_floats(x), radii, float(known.period), np.zeros(x.shape), fixed)
+        raise UnfinishedError(
+            f"bead {fallen[0]} fell through the base{more}: {grains.hole_and_smallest()}"
+        )
     near = grains.near(FAR, base=True)
     others = near[~np.isin(grains.named(near), grains.named(touching))]
     gaps = grains.gaps(others)
@@ -117,7 +120,7 @@ def smallest_gap(x: Array, known: Frame, touching: Pairs) -> float:
     if not smallest > 0:
         a, b = others[int(np.argmin(gaps))]
         raise UnfinishedError(
-            f"beads {a} and {b} overlap, or can't be told from touching: "
+            f"degenerate: beads {a} and {b} overlap, or can't be told from touching without force: "
             f"the gap is {gaps.min():.2g} r"
         )
     return smallest

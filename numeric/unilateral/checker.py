@@ -4,8 +4,11 @@ A file holds radii, loads, centres and contacts. By Krawczyk's operator in balls
 NumPy's, an exact packing is shown to touch at these contacts within a distance ρ of the centres;
 its forces are enclosed and shown to be positive, and all other gaps too, those between beads of
 the base included. No other bead bears a load, radii are positive, and no bead lies below the base.
-Then the packing is a strict local minimum of the load's energy. All pairs of beads are looked at,
-one by one; with a period above four radii one image of each is enough.
+Then the packing is a strict local minimum of the load's energy in the coordinates of the beads
+that contacts hold. Of all others it is shown that they touch nothing, and not how far they could
+go. A contact that bears no force, and beads that touch without one, can't be proved: no enclosure
+tells zero from what is next to it. All pairs of beads are looked at, one by one; with a period
+above four radii one image of each is enough.
 """
 
 import json
@@ -27,6 +30,7 @@ BITS = 256
 LARGEST = 1e100  # of all numbers: beyond, products of floats end
 LARGEST_FILE = 100_000_000
 MATRICES = 9  # doubles for each pair of contacts, at once; of 2400 contacts 8.2 were measured
+UNPROVABLE = "(of beads that touch without force nothing can be proved)"
 Number = Annotated[str, Field(pattern=r"^-?[0-9]{1,400}(\.[0-9]{1,400})?(e-?[0-9]{1,4})?$")]
 Bead = Annotated[int, Field(ge=0)]
 
@@ -55,10 +59,11 @@ class _File(BaseModel):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What was found of one packing; ``proved`` says that it is a strict local minimum.
+    """What was found of one packing.
 
-    ``within``: ρ, in units of the file; ``smallest_force`` and ``smallest_gap``: certified lower
-    bounds; ``rattlers``: beads without contacts, which may lie anywhere near where they are.
+    ``proved`` says that it is a strict local minimum in the coordinates of the beads that contacts
+    hold. ``within``: ρ, in units of the file; ``smallest_force`` and ``smallest_gap``: certified
+    lower bounds; ``rattlers``: beads without contacts, whose places are some of many.
     """
 
     proved: bool
@@ -79,8 +84,9 @@ class Verdict:
             return f"NOT proved: {self.why}"
         return (
             f"proved: an exact packing within {self.within:.2g} of these centres is a strict local "
-            f"minimum; {self.contacts} contacts, all forces above {self.smallest_force:.3g}, all "
-            f"other gaps above {self.smallest_gap:.3g}; {self.rattlers} rattlers"
+            f"minimum in the coordinates of beads that contacts hold; {self.contacts} contacts, "
+            f"all forces above {self.smallest_force:.3g}, all other gaps above "
+            f"{self.smallest_gap:.3g}; {self.rattlers} rattlers, whose places are some of many"
         )
 
 
@@ -247,13 +253,18 @@ class _Proof:
         if not smallest > 0:
             k = int(np.argmin(forces))
             a, b = self.contacts[k]
-            return no(f"the force between beads {a} and {b}, {forces[k]:.3g}, may not be positive")
+            return no(
+                f"the force between beads {a} and {b}, {forces[k]:.3g}, may not be positive "
+                + UNPROVABLE
+            )
         below = self.below(within)
         if below is not None:
             return no(f"bead {below} lies below the base, or is not shown to lie above it")
         gap, pair = self.smallest_gap(within)
         if not gap > 0:
-            return no(f"beads {pair[0]} and {pair[1]} overlap, or are not shown to be apart")
+            return no(
+                f"beads {pair[0]} and {pair[1]} overlap, or are not shown to be apart " + UNPROVABLE
+            )
         return Verdict(True, "", n, rattlers, within, smallest, gap)
 
     def forces(self, R: Any, middle: Any, columns: float) -> tuple[Any, float]:

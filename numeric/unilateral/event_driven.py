@@ -59,11 +59,12 @@ class _Motion:
     opened: int
     opens: bool  # or it closes again
     rate: float  # of the energy, negative
+    forces: Array  # of all rows
     velocity: Array  # of all coordinates that may change, for a unit rate of the gap
 
 
-def relax(grains: Grains, supports: Pairs, progress: Callable[[int], None]) -> tuple[Pairs, int]:
-    """Move ``grains`` until no contact of the basis pulls; gives that basis and the events.
+def relax(grains: Grains, supports: Pairs, progress: Callable[[int], None]) -> tuple[Pairs, Array]:
+    """Move ``grains`` until no contact of the basis pulls; gives its contacts, and their forces.
 
     ``supports``: pairs at zero gap, as many as unknowns. Raises ``UnfinishedError``.
     """
@@ -73,7 +74,7 @@ def relax(grains: Grains, supports: Pairs, progress: Callable[[int], None]) -> t
     for event in range(limit):
         motion, slack = _motion(grains, basis)
         if motion.rate >= -slack:
-            return basis.pairs[~basis.held], event
+            return basis.pairs[~basis.held], motion.forces[~basis.held]
         met: Array | None = None
         steps = 0
         while met is None and motion.rate < -slack:
@@ -117,7 +118,7 @@ def _motion(grains: Grains, basis: _Basis, before: _Motion | None = None) -> tup
         velocity, unit = -velocity, -unit
     slack = SLACK if before is None else HOLD
     rate = float(forces[opened] * unit[opened])
-    motion = _Motion(factors, opened, bool(unit[opened] > 0), rate, velocity)
+    motion = _Motion(factors, opened, bool(unit[opened] > 0), rate, forces, velocity)
     return motion, slack * float(np.abs(forces).max())
 
 

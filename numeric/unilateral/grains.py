@@ -88,8 +88,18 @@ class Grains:
             return splu(self.jacobian(pairs)[:, place].tocsc())
         except RuntimeError:
             raise UnfinishedError(
-                "the contacts are not independent: their Jacobian is singular"
+                "degenerate: the contacts are not independent, their Jacobian is singular"
             ) from None
+
+    def hole_and_smallest(self) -> str:
+        """Compare the widest hole of the base with the smallest bead, in words."""
+        base, spacing = self.radii[: self.fixed], self.period / self.fixed
+        hole = float((spacing - base - np.roll(base, -1)).max()) / 2
+        smallest = float(self.radii[self.fixed :].min())
+        return (
+            f"the widest hole of the base lets radii up to {hole:.3g} r through, and the smallest "
+            f"bead has {smallest:.3g} r"
+        )
 
     def rate(self, pair: Array, moves: Array, x: Array) -> float:
         """Give the derivative of one pair's gap along moves of all coordinates that may change."""

@@ -21,6 +21,8 @@ TRUST = 0.8
 # The energy of the load, relative to its own scale, that a program must gain for another to follow.
 GAIN = 1e-12
 MOST_PROGRAMS = 400
+# Programs over which the fall of beads that don't come to rest is averaged.
+LATE = 100
 # Gaps up to this are constraints; a move ends where it would close another one.
 CLOSE = 0.8
 # Where fewer contacts than this are new, the simplex method goes on from the last vertex: it costs
@@ -36,13 +38,13 @@ class MissingSolverError(ForceDiffusionError, ImportError):
     """The solver of linear programs is not installed."""
 
 
-def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array, int]:
+def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array]:
     """Move ``grains``, which must not overlap, until they rest.
 
-    Gives near pairs, the force of each, and the number of programs. Raises ``UnfinishedError``, and
+    Gives near pairs, and the force of each. Raises ``UnfinishedError``, and
     ``MissingSolverError`` without highspy.
     """
-    scale, start = float(np.abs(grains.weights).sum()), grains.x
+    scale, gains = float(np.abs(grains.weights).sum()), []
     programs, by_simplex, bore = _Programs(grains), False, np.array([])
     for program in range(1, MOST_PROGRAMS + 1):
         pairs, move, forces = programs.solve(by_simplex)
@@ -50,6 +52,7 @@ def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array
         grains.x = grains.x.copy()
         grains.x[grains.fixed :] += move.reshape(-1, 2)
         gain = before - grains.energy()
+        gains.append(gain)
         # the solver is exact to about 1e-9 of what it minimises
         if gain < -1e-7 * scale:
             raise UnfinishedError(
@@ -58,17 +61,26 @@ def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array
         progress(program)
         at_rest = gain < GAIN * scale
         if at_rest and by_simplex:
-            return pairs, forces, program
+            return pairs, forces
         bear = grains.named(pairs[forces > NO_FORCE * forces.max(initial=0)])
         by_simplex = at_rest or len(np.setdiff1d(bear, bore)) < FEW
         bore = bear
-    moved = float(np.abs(grains.x - start)[grains.fixed :].max(axis=1).mean())
-    through = int(np.count_nonzero(grains.x[:, 1] < grains.x[: grains.fixed, 1].min()))
-    raise UnfinishedError(
-        f"beads still move after {MOST_PROGRAMS} linear programs, by {moved:.3g} r in the mean so "
-        + (f"far, and {through} fell through the base" if through else "far")
-        + ": perhaps nothing holds them"
-    )
+    raise UnfinishedError(_still_moving(grains, np.array(gains) / np.hypot(*grains.load.T).sum()))
+
+
+def _still_moving(grains: Grains, falls: Array) -> str:
+    """Say how beads move on; ``falls``: of a loaded bead a program in the mean, along the load."""
+    loaded = grains.fixed + np.flatnonzero(grains.load[grains.fixed :].any(axis=1))
+    height = float(grains.x[loaded, 1].mean())
+    late = float(falls[-LATE:].mean())
+    through = int(np.count_nonzero(grains.x[loaded, 1] < grains.x[: grains.fixed, 1].min()))
+    verdict = f"sliding: after {len(falls)} linear programs"
+    if through:
+        verdict = (
+            f"fell through the base: {through} beads that bear loads, of {len(loaded)}; "
+            f"{grains.hole_and_smallest()}; after {len(falls)} linear programs"
+        )
+    return f"{verdict} a loaded bead falls by {late:.2g} r a program, at y = {height:.3g} r"
 
 
 @dataclass
@@ -100,8 +112,8 @@ class _Programs:
             import highspy
         except ImportError:
             raise MissingSolverError(
-                'protocol = "linear-programs" needs highspy, "force-diffusion[unilateral]"; '
-                'protocol = "event-driven" does without'
+                'protocols "ladder" and "linear-programs" need highspy, '
+                '"force-diffusion[unilateral]"; protocol = "event-driven" does without'
             ) from None
         program = highspy.HighsLp()
         program.num_col_, program.num_row_ = A.shape[1], A.shape[0]

@@ -48,7 +48,8 @@ class Network:
     Bead number j W + q is (i, j) of the lattice, i = 2q + j mod 2, where it was deposited.
     ``pairs``: the contacts that bear force, (contacts, 2), with ``forces``; ``x``: (N, 2), of which
     those of ``rattlers`` are any place without overlap. ``events``: contacts that opened one after
-    the other, or programs; 0 where the deposited packing has no tension. ``fall``: of the energy.
+    the other, or programs; ``fall``: of the energy. ``rung``: which way of the protocol answered;
+    empty where the deposited packing has no tension, and nothing moved.
     """
 
     width: int
@@ -61,6 +62,14 @@ class Network:
     smallest_gap: float
     frame: Frame
     kantorovich: float | None = None
+    rung: str = ""
+
+    @property
+    def rest(self) -> str:
+        """Say what is proved of where beads rest."""
+        if not self.rung:
+            return "as deposited: no contact pulls"
+        return "a strict local minimum in the coordinates of beads that contacts hold"
 
     def pushes(self) -> Array:
         """Give the force of each contact on its first bead, (contacts, 2); the other way back."""

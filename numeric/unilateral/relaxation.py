@@ -3,30 +3,63 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from time import process_time
+from typing import Literal
 
 import numpy as np
 from scipy.optimize import linprog
 
 from ..arithmetic.decimals import short
 from ..arithmetic.errors import UndecidedError
-from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats
+from ..arithmetic.systems import Array, Balls, NumberSystem
 from ..disorder.radii import rows_of
-from ..lattice.branch import Branch
-from ..lattice.layers import Region, column, whole
+from ..lattice.layers import column, whole
 from ..mechanics import plain
 from ..mechanics.engine import solve
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route, Solved
-from ..mechanics.sweep import UnbuildableError
 from ..mechanics.work import Work
 from . import event_driven, linear_programs
 from .certificate import Certificate, certify, smallest_gap
 from .grains import Grains, Pairs
 from .linear_programs import NO_FORCE
 from .network import Frame, Network, Relaxed, UnfinishedError
+from .starts import dropped, in_pockets, lattice_contacts, loads_of, must_hold, sites, start
 
 # Gaps up to this, in units of r, may be contacts after the linear programs.
 NEARLY = 1e-5
+# Forces that are this small, as a share of the largest, are never told from zero.
+ZERO = 1e-60
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One way to where beads rest: a ``start``, and what moves them from there."""
+
+    start: Literal[
+        "the deposited packing",
+        "a stretched lattice",  # where the deposited packing can't be built, or overlaps
+        "beads dropped one by one",
+        "pockets of the base",
+    ]
+    by: Literal["linear programs", "events", "nothing"]
+
+    def __str__(self) -> str:
+        """Name it."""
+        return self.start if self.by == "nothing" else f"{self.by} from {self.start}"
+
+
+_PROGRAMS = Rung("the deposited packing", "linear programs")
+_EVENTS = Rung("the deposited packing", "events")
+PROTOCOLS = {
+    "linear-programs": (_PROGRAMS,),
+    "event-driven": (_EVENTS,),
+    "event-ladder": (_EVENTS, Rung("beads dropped one by one", "events")),
+    "ladder": (
+        _PROGRAMS,
+        Rung("beads dropped one by one", "linear programs"),
+        Rung("pockets of the base", "nothing"),
+    ),
+}
 
 
 @dataclass
@@ -39,6 +72,11 @@ class RelaxedPacking:
     rattlers: Array
     events: int
     fall: float
+    rung: Rung
+
+
+class GivenUpError(UnfinishedError):
+    """What the user allows was not enough: no other rung is tried."""
 
 
 def packings(
@@ -56,167 +94,132 @@ def packings(
 
 def _one(problem: Problem, realisation: int, system: Balls, work: Work) -> Relaxed:
     if realisation not in work.kept:
-        work.kept[realisation] = settle(problem, realisation, work)
-    settled = work.kept[realisation]
-    if settled is None:
-        return _as_deposited(problem, realisation, system)
-    with work.timed("certify"):
-        return Relaxed(
-            system, None, None, None, network=_certified(problem, realisation, settled, system)
-        )
+        work.kept[realisation] = Search(problem, realisation, work)
+    search: Search = work.kept[realisation]
+    while settled := search.settled(work):
+        try:
+            with work.timed("certify"):
+                network = _certified(problem, realisation, settled, system)
+        except UnfinishedError as error:
+            search.refuse(settled.rung, error)
+        else:
+            return Relaxed(system, None, None, None, network=network)
+    return _as_deposited(problem, realisation, system)
 
 
 def settle(problem: Problem, realisation: int, work: Work) -> RelaxedPacking | None:
     """Let beads come to rest; None where the deposited packing has neither tension nor overlap."""
-    grains, supports, overlaps = start(problem, realisation)
-    for row in problem.region.rows:
-        work.did("radii", row)
-        work.did("balanced", row)
-    shown, begin = work.progress, process_time()
-
-    def progress(events: int) -> None:
-        if shown is not None:
-            shown(f"{problem.protocol}: {events}", 0)
-        most, seconds = problem.most_events, problem.most_seconds
-        if most is not None and events > most:
-            raise UnfinishedError(f"not at rest after effects.most_events = {most}")
-        if seconds is not None and process_time() - begin > seconds:
-            raise UnfinishedError(
-                f"not at rest after effects.most_seconds = {short(seconds)}; events: {events}"
-            )
-
-    if supports is not None and not overlaps:
-        forces = balanced(grains, supports)
-        if forces.min() >= -event_driven.SLACK * np.abs(forces).max():
-            return None
-    _must_hold(grains)
-    before = grains.energy()
-    with work.timed("relax"):
-        if problem.protocol == "event-driven":
-            if supports is None or overlaps:
-                raise UnfinishedError(
-                    "the deposited packing "
-                    + ("can't be built" if supports is None else f"has {overlaps} overlaps")
-                    + ', and protocol = "event-driven" starts from it: choose "linear-programs"'
-                )
-            contacts, events = event_driven.relax(grains, supports, progress)
-            forces = balanced(grains, contacts)
-            bearing = forces > NO_FORCE * forces.max()
-            contacts = contacts[bearing]
-        else:
-            near, forces, events = linear_programs.relax(grains, progress)
-            contacts = _bearing(grains, near, forces)
-    free = np.arange(grains.fixed, len(grains.radii))
-    touched = np.isin(free, contacts)
-    backbone, rattlers = free[touched], free[~touched]
-    if len(contacts) != 2 * len(backbone):
-        raise UnfinishedError(
-            f"{len(contacts)} contacts bear force and their beads have {2 * len(backbone)} "
-            "coordinates: a strict minimum needs as many; some force may be exactly zero"
-        )
-    _close(grains, contacts, backbone)
-    _free(grains, rattlers)
-    return RelaxedPacking(grains, contacts, backbone, rattlers, events, before - grains.energy())
+    return Search(problem, realisation, work).settled(work)
 
 
-def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None, int]:
-    """Deposit the beads; a stretched lattice, and no supports, where some can't be deposited."""
-    width, height = problem.width, problem.height
-    assert width is not None
-    region = whole(width, height)
-    rho = rows_of(problem.radii, region.rows, [realisation], FLOAT64)
-    radii = np.concatenate([1 + row for row in rho])
-    nx, ny = (float(n) for n in plain.axes(problem.n_x, FLOAT64))
-    load = as_floats(_load(problem, region, FLOAT64))
-    i = np.concatenate([row.first + 2 * np.arange(row.count) for row in region.rows])
-    j = np.repeat(np.arange(height + 1), width)
-    grains = Grains(np.zeros((len(radii), 2)), radii, 4 * nx * width, load, width)
-    supports = _supports(width, height)
-    try:
-        deposited = replace(problem, route=Route.EXACT, needs_forces=False, region=region)
-        with np.errstate(all="ignore"):
-            packing = solve(deposited, [realisation], FLOAT64, Work()).packing
-        assert packing is not None
-        plus, minus = (np.concatenate(list(c)) for c in (packing.c.plus, packing.c.minus))
-        grains.x = np.stack(
-            [2 * nx * i + (plus - minus) / (2 * nx), 2 * ny * j + (plus + minus) / (2 * ny)], axis=1
-        )
-        near = grains.near(0.1)
-        others = near[~np.isin(grains.named(near), grains.named(supports))]
-        overlaps = int(np.count_nonzero(grains.gaps(others) < 1e-9))
-        if not overlaps or problem.protocol == "event-driven":
-            return grains, supports, overlaps
-    except UnbuildableError:
-        pass
-    if radii.min() <= 0:
-        raise UnbuildableError((0, 0), "a radius is not positive")
-    apart = 2 * float(radii.max()) * (1 + 1e-9)
-    if apart >= 8 * nx:
-        raise UnfinishedError(
-            "no start without overlaps is known: some radius is the spacing or more"
-        )
-    rise, turn = np.sqrt(max(apart**2 - (2 * nx) ** 2, (2 * ny) ** 2)), np.zeros(width)
-    if apart >= 4 * nx:  # neighbours in a layer would overlap: every second one is a step higher
-        turn[1::2] = 1
-        turn[-1] += width % 2 * 2  # the first follows the last
-        rise = apart * (1 + turn.max())
-    lift = np.where(j > 0, apart * np.tile(turn, height + 1), 0)
-    grains.x = np.stack([2 * nx * i, rise * j + lift], axis=1)
-    return grains, None, 0
+class Search:
+    """The rungs of a protocol for one packing, one after the other, until one answers.
 
-
-def _must_hold(grains: Grains) -> None:
-    """Raise where beads of the base overlap, or can't push sideways as much as the load does.
-
-    A bead that touches a bead of the base is at its side the further the smaller it is, until it
-    touches the next one too; between those two none can fall through.
+    What a rung found is kept until a proof refuses it. Raises ``UnfinishedError`` where nothing can
+    stand, or no rung is left.
     """
-    base, s = grains.radii[: grains.fixed], grains.period / grains.fixed
-    wide = base + np.roll(base, -1) >= s
-    if wide.any():
-        q = int(np.argmax(wide))
-        raise UnfinishedError(
-            f"no packing can stand: beads {q} and {(q + 1) % grains.fixed} of the base overlap"
-        )
-    smallest = grains.radii[grains.fixed :].min()
-    one = base + smallest
-    sines = []
-    for other in (np.roll(one, 1), np.roll(one, -1)):
-        if (one + other <= s).any():
-            return
-        sines.append((s**2 + one**2 - other**2) / (2 * s * one))
-    side, up = grains.load[grains.fixed :].sum(axis=0)
-    lean, most = np.arctan2(abs(side), -up), np.arcsin(np.max(sines))
-    if lean > most + 1e-9:
-        raise UnfinishedError(
-            f"no packing can stand: the load leans by {np.degrees(lean):.4g}° to the vertical, and "
-            f"beads of the base hold others against {np.degrees(most):.4g}° at most"
-        )
 
+    def __init__(self, problem: Problem, realisation: int, work: Work) -> None:
+        self.problem = problem
+        self.grains, self.supports, self.overlaps = start(problem, realisation)
+        for row in problem.region.rows:
+            work.did("radii", row)
+            work.did("balanced", row)
+        self.events, self.seconds = 0, 0.0
+        self.refused: list[tuple[Rung, UnfinishedError]] = []
+        self.found: RelaxedPacking | None = None
+        self.as_deposited = False
+        if self.supports is not None and not self.overlaps:
+            forces = balanced(self.grains, self.supports)
+            self.as_deposited = forces.min() >= -event_driven.SLACK * np.abs(forces).max()
+        if not self.as_deposited:
+            must_hold(self.grains)
 
-def _supports(width: int, height: int) -> Pairs:
-    """List the contacts of the lattice: each bead above the base with its two supports."""
-    pairs = [
-        (j * width + q, (j - 1) * width + column(2 * q + j % 2 - branch.side, j - 1, width))
-        for j in range(1, height + 1)
-        for q in range(width)
-        for branch in Branch
-    ]
-    return np.array(pairs)
+    def settled(self, work: Work) -> RelaxedPacking | None:
+        """Give where beads rest by the first rung that answers; None as for ``settle``."""
+        rungs = PROTOCOLS[self.problem.protocol]
+        while self.found is None and not self.as_deposited:
+            if len(self.refused) == len(rungs):
+                raise self._nothing_left()
+            rung = rungs[len(self.refused)]
+            if rung == _PROGRAMS and self.supports is None:
+                rung = replace(rung, start="a stretched lattice")
+            with work.timed("relax"):
+                try:
+                    self.found = self._at_rest(rung, work)
+                except GivenUpError:
+                    raise
+                except UnfinishedError as error:
+                    self.refuse(rung, error)
+        return self.found
 
+    def refuse(self, rung: Rung, error: UnfinishedError) -> None:
+        """Note why a rung has no answer; the next one is tried."""
+        self.refused.append((rung, error))
+        self.found = None
 
-def _load(problem: Problem, region: Region, system: NumberSystem) -> Array:
-    """Give the Cartesian loads of all beads, (N, 2)."""
-    nx, ny = plain.axes(problem.n_x, system)
-    rows = region.rows
-    loads = problem.load.on(rows, problem.load.strength(problem.n_x, system), system)
-    zero = system.number(problem.n_x * 0)
-    out = np.full((len(rows) * rows[0].count, 2), zero, dtype=system.dtype)
-    for j, (plus, minus) in enumerate(zip(loads.plus, loads.minus, strict=True)):
-        if plus is not None:
-            own = slice(j * rows[0].count, (j + 1) * rows[0].count)
-            out[own, 0], out[own, 1] = (minus - plus) * nx, -(plus + minus) * ny
-    return out
+    def _nothing_left(self) -> UnfinishedError:
+        more = "none is known, and none is proved to be impossible"
+        if len(self.refused) == 1:
+            more = 'protocol = "ladder", or "event-ladder", tries more ways'
+        tried = "; ".join(f"{rung}: {error}" for rung, error in self.refused)
+        return UnfinishedError(f"no packing was found ({more}). {tried}")
+
+    def _at_rest(self, rung: Rung, work: Work) -> RelaxedPacking:
+        """Go one way."""
+        problem, begin, events = self.problem, process_time() - self.seconds, 0
+
+        def progress(now: int) -> None:
+            nonlocal events
+            events = now
+            if work.progress is not None:
+                work.progress(f"{rung}: {events}", 0)
+            most, seconds = problem.most_events, problem.most_seconds
+            if most is not None and self.events + events > most:
+                raise GivenUpError(f"not at rest after effects.most_events = {most}")
+            if seconds is not None and process_time() - begin > seconds:
+                raise GivenUpError(
+                    f"not at rest after effects.most_seconds = {short(seconds)}; "
+                    f"events: {self.events + events}"
+                )
+
+        grains = replace(self.grains)
+        try:
+            contacts = self._placed(rung, grains)
+            before = grains.energy()
+            if rung.by == "linear programs":
+                near, forces = linear_programs.relax(grains, progress)
+                contacts = _bearing(grains, near, forces)
+            elif rung.by == "events":
+                if contacts is None:
+                    wrong = f"has {self.overlaps} overlaps" if self.overlaps else "can't be built"
+                    raise UnfinishedError(f"the deposited packing {wrong}, and events start there")
+                contacts, forces = event_driven.relax(grains, contacts, progress)
+                contacts = contacts[forces > NO_FORCE * forces.max()]
+        finally:
+            self.events, self.seconds = self.events + events, process_time() - begin
+        assert contacts is not None
+        free = np.arange(grains.fixed, len(grains.radii))
+        touched = np.isin(free, contacts)
+        backbone, rattlers = free[touched], free[~touched]
+        if len(contacts) != 2 * len(backbone):
+            raise UnfinishedError(
+                f"degenerate: {len(contacts)} contacts bear force and their beads have "
+                f"{2 * len(backbone)} coordinates: a strict minimum needs as many; some force may "
+                "be exactly zero"
+            )
+        _close(grains, contacts, backbone)
+        _free(grains, rattlers)
+        fall = before - grains.energy()
+        return RelaxedPacking(grains, contacts, backbone, rattlers, events, fall, rung)
+
+    def _placed(self, rung: Rung, grains: Grains) -> Pairs | None:
+        """Put beads where a rung starts; give contacts that are closed, if all can be."""
+        if rung.start == "beads dropped one by one":
+            return dropped(grains, sites(self.problem))
+        if rung.start == "pockets of the base":
+            return in_pockets(grains)
+        return None if self.overlaps else self.supports
 
 
 def balanced(grains: Grains, contacts: Pairs, backbone: Array | None = None) -> Array:
@@ -246,7 +249,7 @@ def _bearing(grains: Grains, pairs: Pairs, forces: Array) -> Pairs:
             found, best = k + 1, sizes[k] / following
     if found is None:
         raise UnfinishedError(
-            "the linear programs ended where no rigid set of contacts bears force"
+            "degenerate: the linear programs ended where no rigid set of contacts bears force"
         )
     return np.asarray(candidates[:found])
 
@@ -264,7 +267,7 @@ def _close(grains: Grains, contacts: Pairs, backbone: Array) -> None:
         grains.x[grains.fixed :] -= move.reshape(-1, 2)
         if not np.abs(move).max() < 1:
             break
-    raise UnfinishedError("the contacts that bear force can't all be closed at once")
+    raise UnfinishedError("degenerate: the contacts that bear force can't all be closed at once")
 
 
 def _free(grains: Grains, rattlers: Array) -> None:
@@ -299,7 +302,7 @@ def _frame(problem: Problem, realisation: int, system: Balls) -> Frame:
         np.concatenate([1 + row for row in rho]),
         _base(problem, system),
         system.number(4 * problem.n_x * problem.width),
-        _load(problem, region, system),
+        loads_of(problem, region, system),
     )
 
 
@@ -312,12 +315,17 @@ def _certified(
     if not all(force > 0 for force in found.forces):
         if any(force < 0 for force in found.forces):
             raise UnfinishedError("a contact of the settled packing pulls")
+        largest = max(float(force.mid()) for force in found.forces)
+        if any(abs(force) < ZERO * largest for force in found.forces if not force > 0):
+            raise UnfinishedError(
+                f"degenerate: a contact bears less than {ZERO:g} of the largest force, if any"
+            )
         raise UndecidedError("the enclosures are too wide to tell whether all forces are positive")
     smallest = smallest_gap(found.x, known, contacts)
     assert problem.width is not None
     return Network(
         problem.width, found.x, contacts, found.forces, settled.rattlers, settled.events,
-        settled.fall, smallest, known, found.kantorovich,
+        settled.fall, smallest, known, found.kantorovich, str(settled.rung),
     )  # fmt: skip
 
 
@@ -367,7 +375,7 @@ def _as_deposited(problem: Problem, realisation: int, system: Balls) -> Relaxed:
     free = np.arange(width, (problem.height + 1) * width)
     rattlers = free[~np.isin(free, pairs_array)]
     known = _frame(problem, realisation, system)
-    smallest = smallest_gap(x, known, _supports(width, problem.height))
+    smallest = smallest_gap(x, known, lattice_contacts(width, problem.height))
     network = Network(
         width, x, pairs_array, out[bearing], rattlers, 0, 0.0, smallest, known
     )  # fmt: skip

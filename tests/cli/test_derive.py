@@ -9,12 +9,15 @@ import signal
 import subprocess
 import sys
 import textwrap
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 from force_diffusion.derivations.commands.output import Folder
 from force_diffusion.derivations.export.manifest import read_manifest
+from force_diffusion.numeric.figures.catalogue import PaperFigure
+from force_diffusion.numeric.figures.names import FIGURES
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
 from force_diffusion.__main__ import main
@@ -135,6 +138,55 @@ def test_a_part_of_them_again_loses_nothing(made_up, tmp_path: Path, capsys) -> 
     manifest = read_manifest(out)
     assert manifest is not None
     assert [found.number for found in manifest.equations] == [1]
+
+
+@pytest.fixture
+def drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Figures that take no time."""
+
+    def begun(name: str, **_: Any) -> Callable[[], PaperFigure]:
+        file = f"{FIGURES[name].file}.pdf"
+        return lambda: PaperFigure(name, {file: b"%PDF", "x.csv": ""}, {}, ["all inside"])
+
+    monkeypatch.setattr("force_diffusion.numeric.figures.catalogue.begun", begun)
+
+
+def test_the_article_says_what_was_derived(made_up, drawn, tmp_path: Path, capsys) -> None:
+    out, paper = tmp_path / "out", tmp_path / "paper"
+    command = ["derive", "2", "--out", str(out), "--article", str(paper)]
+    assert main(command) == 0
+    assert f"2 proved. Written to {out} and {paper}." in capsys.readouterr().out
+    first = {path.name: path.read_bytes() for path in paper.iterdir()}
+    assert {"article.tex", "figureB2.pdf", "manifest.json"} < set(first)
+    assert "x.csv" not in first
+    article = " ".join(first["article.tex"].decode().split())
+    assert "derived 2 equations: 2 proved. Not derived in it:" in article
+    assert "equations.tex" in {path.name for path in out.iterdir()}
+    assert main(command) == 0
+    assert {path.name: path.read_bytes() for path in paper.iterdir()} == first
+    assert main(["derive", "2", "--article", str(out)]) == 0  # beside the equations
+    assert {"article.tex", "eq02.tex"} < {path.name for path in out.iterdir()}
+
+
+def test_an_article_that_can_not_be_written_costs_no_proof(
+    made_up, drawn, tmp_path, capsys
+) -> None:
+    (tmp_path / "article.tex").write_text("mine")
+    assert main(["derive", "2", "--article", str(tmp_path)]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert "article.tex' is there" in printed.err
+
+
+def test_an_article_without_what_draws_costs_no_proof(
+    made_up, tmp_path, monkeypatch, capsys
+) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    assert main(["derive", "2", "--article", str(tmp_path / "new")]) == 3
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert "force-diffusion[plots]" in printed.err
+    assert not (tmp_path / "new").exists()
 
 
 def test_what_a_manifest_says_is_no_latex(made_up, tmp_path: Path) -> None:

@@ -30,7 +30,9 @@ def test_run_writes_packings_that_are_proved_again(
     scene.write_text(SCENE)
     assert main(["run", str(scene), "--out", str(out)]) == 0
     data = json.loads((out / "result.json").read_text())
-    assert data["networks"][0]["rest"] == "a strict local minimum"
+    assert data["networks"][0]["rest"] == (
+        "a strict local minimum in the coordinates of beads that contacts hold"
+    )
     capsys.readouterr()
     assert main(["check-packings", str(out / "packings.json")]) == 0
     assert capsys.readouterr().out.startswith("packing 0: proved")

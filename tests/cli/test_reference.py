@@ -6,7 +6,6 @@ import re
 from pathlib import Path
 
 import pytest
-from force_diffusion.derivations.framework.catalogue import THEOREMS, modules
 
 import force_diffusion as fd
 from force_diffusion import derivation
@@ -124,20 +123,6 @@ def test_every_equation_stands_on_its_page_under_its_title() -> None:
     page = (REFERENCE / "equations.md").read_text(encoding="utf-8")
     titles = re.findall(r"^## (.*)\n\n```.*\n:tags:.*\n\nshow\((\d+)\)$", page, re.MULTILINE)
     assert titles == [(f"Eq. {n}: {fd.equation(n).title}", str(n)) for n in range(1, 17)]
-
-
-def test_every_equation_beyond_the_paper_stands_on_its_page() -> None:
-    page = (REFERENCE.parent / "background" / "beyond.md").read_text(encoding="utf-8")
-    titles = re.findall(r"^## Eq\. (B\d+): (.*)$", page, re.MULTILINE)
-    own = [number for number in modules() if isinstance(number, str)]
-    assert titles == [(number, fd.equation(number).title) for number in own]
-    assert re.findall(r'^show\("(B\d+)"\)$', page, re.MULTILINE) == own
-
-
-def test_every_theorem_is_in_the_table() -> None:
-    page = (REFERENCE.parent / "background" / "beyond.md").read_text(encoding="utf-8")
-    rows = re.findall(r"^\| (T\d): (.*) \| (.*) \|$", page, re.MULTILINE)
-    assert rows == [(one.name, one.title, ", ".join(one.cases)) for one in THEOREMS]
 
 
 def test_every_command_is_told(capsys) -> None:

@@ -1,6 +1,6 @@
 """How far Eqs. 13 and 14 are valid: order σ⁴ of the variance, measured; its leading order, fitted.
 
-What docs/background/beyond.md says of it. Nothing of this is proved.
+What docs/background/validity.md says of it. Nothing of this is proved.
 """
 
 from fractions import Fraction

@@ -24,7 +24,7 @@ from ...mechanics.work import Work
 from ...planning.planner import plan
 from ...scene.scene import Scene
 from ...scene.sections import Ask, BulkLoad, Disorder, Effects, Packing, SurfaceLoad
-from ...unilateral.network import UnfinishedError
+from ...unilateral import UnfinishedError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -184,7 +184,7 @@ def _all_opened(
 
 def _opened(load: str, height: int, number: int, protocol: Protocol) -> Cascade | None:
     """Find σ, open the contact, and compare."""
-    from ...unilateral.relaxation import balanced, settle, start
+    from ...unilateral import balanced, settle, start
 
     low, high = Fraction(0), Fraction(1, 2)
     while high - low > JUST / 10 * high:

@@ -26,7 +26,7 @@ SMALL = scene({**PROFILE, "packing": {"height": 2, "width": 3}})
 STORES = {
     "profile": (SMALL, 20, 45, True),
     "histogram": (scene(CASES["histogram of all"]), 20, 45, True),
-    "unilateral": (strip(), 3, 6, False),
+    "unilateral": (strip(protocol="linear-programs"), 3, 6, False),
 }
 
 

@@ -26,6 +26,7 @@ from force_diffusion.numeric.figures import (
     neighbours,
     notation,
     packings,
+    paths,
     point_load,
     sharing,
     spheres,
@@ -446,6 +447,16 @@ def test_figure_b13_holds_spheres_to_theory_and_would_not_to_that_of_discs(
     wrong = replace(one, theory=spheres.exact(spheres.CASES[0]))
     assert wrong.deviation() > 10
     assert "outside" in wrong.verdict()
+
+
+def test_the_weights_of_figure_b1_add_up_to_eq_13(monkeypatch: pytest.MonkeyPatch) -> None:
+    M, j = 2000, 600
+    monkeypatch.setattr(paths, "HEIGHT", M)
+    monkeypatch.setattr(paths, "LAYER", j)
+    beside = ((m - j + aside, m) for m in range(M + 1) for aside in range(-4, 5))
+    squares = sum(paths.weight(i, m) ** 2 for i, m in beside)
+    z = j / M
+    assert squares == pytest.approx(2 * M**3 * (1 - z) ** 2 * (2 * z + 1), rel=2 / M)
 
 
 def test_figure_b19_holds_faces_to_theory_and_the_inside_to_zero() -> None:

@@ -70,6 +70,42 @@ def test_what_stands_is_proved() -> None:
         assert said(bead).rattlers == 1
 
 
+def test_strict_is_said_of_beads_that_are_held_alone() -> None:
+    """The bead in the air could go anywhere, at no cost."""
+    found = str(said(more()))
+    assert "a strict local minimum in the coordinates of beads that contacts hold" in found
+    assert "1 rattlers, whose places are some of many" in found
+
+
+@pytest.mark.parametrize(
+    ("load", "contacts", "why"),
+    [
+        (["0", "-1"], [[5, 2], [5, 3]], "beads 4 and 5 overlap, or are not shown to be apart"),
+        (["-0.6", "-0.8"], [[5, 2], [5, 4]], "may not be positive"),
+    ],
+)
+def test_of_beads_that_touch_without_force_nothing_is_proved(
+    load: list[str], contacts: list[list[int]], why: str
+) -> None:
+    """Two beads side by side, each on two of the base, in triangles of sides 3, 4 and 5."""
+    packing: Packing = {
+        "period": "30",
+        "fixed": 4,
+        "radii": ["0.9"] * 4 + ["4.1"] * 2,
+        "loads": [["0", "0"]] * 4 + [["0", "-1"], load],
+        "centres": [[x, "0"] for x in ("0", "6", "8.2", "14.2")] + [["3", "4"], ["11.2", "4"]],
+        "contacts": [[4, 0], [4, 1], *contacts],
+    }
+    verdict = said(packing)
+    assert not verdict.proved
+    assert why in verdict.why
+    assert "of beads that touch without force nothing can be proved" in verdict.why
+    packing["centres"] = [*packing["centres"][:2], ["9", "0"], ["15", "0"], ["3", "4"], ["12", "4"]]
+    packing["contacts"] = [[4, 0], [4, 1], [5, 2], [5, 3]]
+    packing["loads"][5] = ["0", "-1"]
+    assert said(packing).proved  # a little further apart
+
+
 @pytest.mark.parametrize(
     ("packing", "why"),
     [

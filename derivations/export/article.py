@@ -1,0 +1,329 @@
+r"""The article about the theorems beyond the paper, from one source: LaTeX, and a page of the site.
+
+The source is ``beyond.md`` beside this module, in Markdown. Beside words it holds what only the
+code knows: ``{{…}}`` is a number that ``quoted`` computes, a fence ``{statement} B5`` a printed
+equation, ``{step} B5 some words`` the formula of the one step of its derivation that has these
+words, the fence ``{exact-forms}`` all exact forms, and ``![…](B5)`` figure B5, whose caption is the
+paragraph below, in italics. Dashes below the head of a table say how wide its columns are.
+"""
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from importlib.resources import files
+from textwrap import indent
+
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.numeric.figures.names import FIGURES
+from force_diffusion.symbolic.printing.latex import RELATIONS
+from force_diffusion.symbolic.printing.lines import column_width, latex_body
+from markdown_it import MarkdownIt
+from markdown_it.tree import SyntaxTreeNode as Node
+from mdit_py_plugins.dollarmath import dollarmath_plugin
+from sympy import Basic, Eq
+
+from ..framework.catalogue import THEOREMS, modules, number_of
+from ..framework.loading import load
+from ..framework.record import Derivation, Outcome
+from .document import sentence, statement_latex
+from .prose import phrase_latex, pieces, prose_latex, prose_markdown, text_latex
+from .quoted import quoted
+from .terminal import relation_of
+
+ARTICLE = "article.tex"
+COLUMNS = 2
+
+_HEAD = r"""\documentclass[aps,pre,twocolumn,nofootinbib,floatfix]{revtex4-2}
+\usepackage{amsmath,amssymb,array,graphicx}
+\emergencystretch=3em
+\raggedbottom
+\hyphenation{iso-static}
+\newenvironment{theorem}{\par\medskip\noindent\ignorespaces}{\par\medskip}
+\begin{document}
+"""
+_HEADINGS = "title", "section", "subsection"
+_QUOTE = re.compile(r"\{\{(.*?)\}\}", re.DOTALL)
+_IMAGE = re.compile(r"^!\[([^]]*)\]\((\w+)\)\n\n", re.MULTILINE)
+_MADE = re.compile(r"^(> |)```(\{(?:statement|step|exact-forms)\}.*)\n(?:> |)```$", re.MULTILINE)
+_BEFORE_DISPLAY = re.compile(r"\n\n(?=\\renewcommand\{\\theequation\}|\\begin\{equation\*\})")
+_DASHES = re.compile(r"^[|-]+$", re.MULTILINE)
+_LABEL = re.compile(r"\b(B\d+)\b")
+
+
+class ArticleError(ForceDiffusionError, ValueError):
+    """The source of the article has something that can't be written; the message names it."""
+
+
+@dataclass(frozen=True)
+class Plate:
+    """A figure of the article: its file, whether it is a page wide, what was found."""
+
+    file: str
+    wide: bool
+    says: tuple[str, ...] = ()
+
+
+def source() -> str:
+    """Give the source of the article."""
+    beside = files("force_diffusion.derivations.export")
+    return (beside / "beyond.md").read_text(encoding="utf-8")
+
+
+def figures_of(markdown: str) -> list[str]:
+    """Give the names of the figures, in their order. Raises ``ArticleError`` for an unknown one."""
+    names = [name for _, name in _IMAGE.findall(markdown)]
+    for name in names:
+        if name not in FIGURES:
+            raise ArticleError(f"the article shows figure {name}; there are {', '.join(FIGURES)}")
+    return names
+
+
+def own_equations() -> list[str]:
+    """Give the labels of all equations beyond the paper, theorem by theorem."""
+    return [label for theorem in THEOREMS for label in theorem.cases]
+
+
+def _filled(markdown: str, run: str) -> str:
+    """Put numbers in; ``run`` is said of the derivations that were run."""
+
+    def value(found: re.Match[str]) -> str:
+        words = found[1].strip()
+        try:
+            return run if words == "run" else quoted(words)
+        except LookupError:
+            raise ArticleError(f"the article quotes '{words}', which nothing computes") from None
+
+    return _QUOTE.sub(value, markdown)
+
+
+def page(markdown: str) -> str:
+    """The article as MyST, for the site; its figures lie in ``../figures``."""
+    figures_of(markdown)
+    run = (
+        "This page derives nothing: `force-diffusion derive` does, `derive T4` all equations of a "
+        "theorem, and `show B1 --as steps` prints the steps of one."
+    )
+    filled = _filled(markdown, run)
+    filled = _IMAGE.sub(
+        lambda one: f"![{one[1]}](../figures/{FIGURES[one[2]].file}.png)\n\n**Figure {one[2]}.** ",
+        filled,
+    )
+    return _MADE.sub(
+        lambda one: indent(_made(one[2], columns=1).strip(), one[1], lambda _: True), filled
+    )
+
+
+def _made(info: str, columns: int) -> str:
+    """What a fence stands for, as Markdown. Raises ``ArticleError`` where that is nothing."""
+    match info.split(maxsplit=2):
+        case ["{exact-forms}"]:
+            return "\n".join(_forms(load(label), columns) for label in own_equations())
+        case ["{statement}", label] if number := number_of(label):
+            derivation = load(number)
+            return f"({label})\n\n" + _shown(derivation.printed, derivation.relation, columns)
+        case ["{step}", label, words] if label in modules():
+            derivation = load(label)
+            found = [one for one in derivation.steps() if words in one.reason]
+            if len(found) == 1:
+                return _shown((found[0].formula,), relation_of(derivation, found[0]), columns)
+            raise ArticleError(f"{len(found)} steps of Eq. {label} say '{words}'; it has to be one")
+    raise ArticleError(f"the article has a fence '{info}', which nothing makes")
+
+
+def _shown(lines: Sequence[Basic], relation: str, columns: int) -> str:
+    return _display(latex_body(lines, RELATIONS[relation], column_width(columns)))
+
+
+def _display(latex: str) -> str:
+    return f"$$\n{latex}\n$$\n\n"
+
+
+def _forms(derivation: Derivation, columns: int) -> str:
+    said = [
+        f"### Eq. {derivation.number}: {derivation.title}\n\n*Assumed:* "
+        f"{prose_markdown(sentence('; '.join(derivation.assumptions)))}\n\n"
+    ]
+    exact = derivation.exact() if derivation.exact else {}
+    for name, form in exact.items():
+        line = Eq(form.quantity, form.expression, evaluate=False)
+        said += [f"`{name}`:\n\n", _placed(line, form.validity, columns)]
+    missed = {
+        _placed(Eq(form.quantity, one.expression, evaluate=False), one.where, columns)
+        for form in exact.values()
+        for one in form.missed
+    }
+    if missed:
+        said += ["In place of these, where it holds:\n\n", *sorted(missed)]
+    return "".join(said)
+
+
+def _placed(line: Eq, where: str, columns: int) -> str:
+    """A formula with where it holds; in words, if that begins so."""
+    symbol = next(pieces(where))[1]
+    told = phrase_latex(f"for {where}" if symbol else where)
+    return _display(latex_body((line,), "=", column_width(columns), told))
+
+
+def article(markdown: str, plates: Mapping[str, Plate], run: str) -> str:
+    """The article as LaTeX for revtex4-2, with these figures; raises ``ArticleError``.
+
+    ``run`` is said of the derivations that were run.
+    """
+    figures_of(markdown)
+    body = _BEFORE_DISPLAY.sub("\n", _Writer(plates).written(_filled(markdown, run)))
+    return f"{_HEAD}{body}\n\\end{{document}}\n"
+
+
+@dataclass
+class _Writer:
+    """Markdown as LaTeX: a method for each construct, and an error for any other."""
+
+    plates: Mapping[str, Plate]
+    section: str = ""
+
+    def written(self, markdown: str) -> str:
+        parser = MarkdownIt("commonmark").enable("table").use(dollarmath_plugin)
+        return self._all(Node(parser.parse(markdown)))
+
+    def _all(self, node: Node) -> str:
+        children = iter(node.children)
+        return "".join(
+            self._figure(image, next(children, None)) if (image := _image(one)) else self._one(one)
+            for one in children
+        )
+
+    def _one(self, node: Node) -> str:
+        write: Callable[[Node], str] | None = getattr(self, f"_{node.type}", None)
+        if write is None:
+            place = f" in line {node.map[0] + 1}" if node.map else ""
+            raise ArticleError(f"the article has a {node.type}{place}, which has no LaTeX here")
+        return write(node)
+
+    def _heading(self, node: Node) -> str:
+        title, level = self._all(node), int(node.tag[1])
+        if level > len(_HEADINGS):
+            raise ArticleError(f"the heading '{title}' of the article is of level {level}, below 3")
+        before = "\\end{abstract}\n\\maketitle\n" if self.section == "Abstract" else ""
+        if level == 1:
+            return f"\\{_HEADINGS[0]}{{{title}}}\n\\author{{The force-diffusion developers}}\n"
+        if level == 2:
+            self.section = title
+        if title == "Abstract":
+            return "\\begin{abstract}\n"
+        if title == "References":
+            return before
+        if title.startswith("Appendix: "):
+            title = title.removeprefix("Appendix: ")
+            before += "\\label{end}\\appendix\n"
+        return f"{before}\\{_HEADINGS[level - 1]}{{{title[:1].upper()}{title[1:]}}}\n"
+
+    def _paragraph(self, node: Node) -> str:
+        return f"{self._all(node)}\n\n"
+
+    def _figure(self, name: str, below: Node | None) -> str:
+        parts = below.children[0].children if below and below.type == "paragraph" else []
+        if [one.type for one in parts] != ["em"]:
+            raise ArticleError(f"figure {name} has no caption below it, in italics")
+        plate = self.plates[name]
+        kind = "figure*" if plate.wide else "figure"
+        found = " ".join(prose_latex(sentence(line)) for line in plate.says)
+        return (
+            f"\\begin{{{kind}}}\n\\renewcommand{{\\thefigure}}{{{name}}}\n\\centering\n"
+            f"\\includegraphics{{{plate.file}}}\n\\caption{{{self._all(parts[0])} {found}}}\n"
+            f"\\end{{{kind}}}\n"
+        )
+
+    def _inline(self, node: Node) -> str:
+        return self._all(node)
+
+    def _text(self, node: Node) -> str:
+        words = prose_latex(node.content).replace("Eq. ", "Eq.~").replace("Eqs. ", "Eqs.~")
+        return _LABEL.sub(r"\\ref{eq:fd\1}", words)
+
+    def _softbreak(self, _: Node) -> str:
+        return "\n"
+
+    def _em(self, node: Node) -> str:
+        return f"\\emph{{{self._all(node)}}}"
+
+    def _strong(self, node: Node) -> str:
+        return f"\\textbf{{{self._all(node)}}}"
+
+    def _code_inline(self, node: Node) -> str:
+        return f"\\texttt{{{text_latex(node.content)}}}"
+
+    def _math_inline(self, node: Node) -> str:
+        return f"${node.content}$"
+
+    def _math_block(self, node: Node) -> str:
+        return f"\\begin{{equation*}}\n{node.content.strip()}\n\\end{{equation*}}\n"
+
+    def _blockquote(self, node: Node) -> str:
+        return f"\\begin{{theorem}}\n{self._all(node)}\\end{{theorem}}\n"
+
+    def _bullet_list(self, node: Node) -> str:
+        return self._list("itemize", "\\item ", node)
+
+    def _ordered_list(self, node: Node) -> str:
+        if self.section != "References":
+            return self._list("enumerate", "\\item ", node)
+        items = "".join(
+            f"\\bibitem{{{place}}} {self._all(one)}"
+            for place, one in enumerate(node.children, start=1)
+        )
+        return f"\\begin{{thebibliography}}{{9}}\n{items}\\end{{thebibliography}}\n"
+
+    def _list(self, kind: str, mark: str, node: Node) -> str:
+        items = "".join(f"{mark}{self._all(one).strip()}\n" for one in node.children)
+        return f"\\begin{{{kind}}}\n{items}\\end{{{kind}}}\n\n"
+
+    def _fence(self, node: Node) -> str:
+        kind, _, more = node.info.partition(" ")
+        if kind == "{table}":
+            return self._captioned(self.written(more).strip(), node.content)
+        if kind == "{statement}" and (number := number_of(more)):
+            shown = statement_latex(load(number), COLUMNS)
+            return f"\\renewcommand{{\\theequation}}{{{number}}}\n{shown}"
+        return self.written(_made(node.info, COLUMNS))
+
+    def _captioned(self, caption: str, markdown: str) -> str:
+        if not (below := _DASHES.search(markdown)):
+            raise ArticleError(f"the table '{caption}' of the article has no line of dashes")
+        dashes = [len(one) for one in below[0].strip("|").split("|")]
+        columns = "".join(
+            f">{{\\raggedright\\arraybackslash}}p{{\\dimexpr {one / sum(dashes):.3f}\\textwidth"
+            "-2\\tabcolsep}"
+            for one in dashes
+        )
+        return (
+            f"\\begin{{table*}}\n\\caption{{{caption}}}\n\\begin{{tabular}}{{{columns}}}\n"
+            f"\\hline\\hline\n{self.written(markdown)}\\hline\\hline\n"
+            "\\end{tabular}\n\\end{table*}\n"
+        )
+
+    def _table(self, node: Node) -> str:
+        return self._all(node)
+
+    def _thead(self, node: Node) -> str:
+        return f"{self._all(node)}\\hline\n"
+
+    _tbody = _table
+
+    def _tr(self, node: Node) -> str:
+        return " & ".join(self._all(cell) for cell in node.children) + " \\\\[2pt]\n"
+
+
+def _image(node: Node) -> str:
+    """The name of the figure that is all of a paragraph; else nothing."""
+    parts = node.children[0].children if node.type == "paragraph" else []
+    return str(parts[0].attrs["src"]) if [one.type for one in parts] == ["image"] else ""
+
+
+def verdicts(outcomes: Sequence[Outcome], counts: str) -> str:
+    """What the run that writes the article has derived; ``counts``: how many, in words."""
+    found = {one.derivation.number for one in outcomes}
+    left = [label for label in own_equations() if label not in found]
+    return (
+        f"In the run that wrote this text the program derived {len(found)} equations: {counts}."
+        + (f" Not derived in it: {', '.join(left)}." if left else "")
+    )

@@ -1,0 +1,10 @@
+from .checker import Verdict as Verdict
+from .checker import check_packings as check_packings
+from .grains import Grains as Grains
+from .network import Network as Network
+from .network import Relaxed as Relaxed
+from .network import UnfinishedError as UnfinishedError
+from .relaxation import balanced as balanced
+from .relaxation import packings as packings
+from .relaxation import settle as settle
+from .starts import start as start
