@@ -66,7 +66,7 @@ THEOREMS = (
     ),
     Theorem("T9", "response in three dimensions", "t9_spheres_response", ("B19",)),
 )
-"""The theorems beyond the paper; T3, how far Eq. 13 is valid, is not proved yet."""
+"""The theorems beyond the paper; T3, how far Eq. 13 is valid, is fitted, and not proved yet."""
 
 
 @cache

@@ -1,0 +1,110 @@
+"""How far Eqs. 13 and 14 are valid: order σ⁴ of the variance, measured; its leading order, fitted.
+
+What docs/background/validity.md says of it. Nothing of this is proved.
+"""
+
+from fractions import Fraction
+from itertools import product
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.mechanics import taylor
+
+import force_diffusion as fd
+from tests.derivations.fourth_order import bulk_leading, other_laws, surface_leading, variances
+
+N = (Fraction(3, 5), Fraction(4, 5))
+PHI = Fraction(7, 25)
+ANOTHER = -0.3
+"""No φ that the fit has seen: it was made at −1/8, 0, 7/25 and 2/5."""
+
+
+def by_taylor(height: int, layer: int, load: str) -> tuple[Fraction, Fraction]:
+    """The orders σ² and σ⁴ as fractions, of one radius or two at a time."""
+    width = 2 * height + 3
+    beads = [(2 * q + j % 2, j) for j, q in product(range(height + 1), range(width))]
+    loads = {
+        bead: (Fraction(0), -2 * N[1])
+        for bead in beads
+        if bead[1] == height or (load == "bulk" and bead[1])
+    }
+
+    def change(rho: dict[tuple[int, int], Fraction]) -> list[Fraction]:
+        solved = taylor.solve(width, height, n=N, rho=rho, loads=loads, order=3)
+        found = solved.force(layer % 2, layer, "+")
+        return [one / found[0] for one in found]
+
+    single = {bead: change({bead: Fraction(1)}) for bead in beads}
+    weights = {bead: one[1] for bead, one in single.items()}
+    squares = sum((one[2] ** 2 for one in single.values()), Fraction(0))
+    for a, one in enumerate(beads):
+        for other in beads[:a]:
+            both = change({one: Fraction(1), other: Fraction(1)})[2]
+            squares += (both - single[one][2] - single[other][2]) ** 2 / 2
+    # T is trilinear: what w + e and w − e have beyond twice w is 6 T(w, e, e)
+    alone, third = change(weights)[3], Fraction(0)
+    for bead in beads:
+        for sign in (1, -1):
+            third += change({**weights, bead: weights[bead] + sign})[3] - alone
+    return sum((w**2 for w in weights.values()), Fraction(0)), 2 * squares + third
+
+
+@pytest.mark.parametrize("load", ["surface", "bulk"])
+@pytest.mark.parametrize(("height", "layer"), [(1, 0), (2, 0), (2, 1)])
+def test_floats_are_the_exact_coefficients(load: str, height: int, layer: int) -> None:
+    found = variances(height, float(PHI), load == "bulk")[layer]
+    exact = by_taylor(height, layer, load)
+    assert found == pytest.approx(tuple(map(float, exact)), rel=1e-11)  # a few hundred roundings
+
+
+@pytest.mark.parametrize(("number", "bulk"), [(13, False), (14, True)])
+def test_the_first_order_is_that_of_the_equations(number: int, bulk: bool) -> None:
+    stated = fd.equation(number).profile(M=6, phi=0.3, sigma=1, r=1)
+    found = [second for second, _ in variances(6, 0.3, bulk)]
+    assert found == pytest.approx([float(one) for one in stated.values], rel=1e-11)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("bulk", [False, True])
+def test_the_leading_order_is_as_fitted_at_another_cosine(bulk: bool) -> None:
+    """From the fourth layer to the third below the surface it is one polynomial, of degree 4.
+
+    Under a bulk load it is so times (M − j)², of degree 6, and has few of the powers.
+    """
+    powers = (
+        [(a, b) for a in range(7) for b in range(min(3, 7 - a)) if b < 2 or a in (2, 4)]
+        if bulk
+        else [(a, b) for a in range(5) for b in range(5 - a)]
+    )
+    sites = [(height, j) for height in range(7, 14) for j in range(4, height - 2)]
+    assert len(sites) == 28
+    values = np.array([variances(height, ANOTHER, bulk)[j][1] for height, j in sites])
+    if bulk:
+        values *= [(height - j) ** 2 for height, j in sites]
+    base = [(height - j if bulk else height, j) for height, j in sites]
+    table = np.array([[float(m) ** a * float(j) ** b for a, b in powers] for m, j in base])
+    scale = np.abs(values)[:, None]
+    columns = np.abs(table / scale).max(axis=0)
+    found, *_ = np.linalg.lstsq(table / scale / columns, values / scale[:, 0], rcond=None)
+    left = table / columns @ found / values - 1
+    assert np.abs(left).max() < 1e-11  # 28 values, 15 coefficients
+    degree = 6 if bulk else 4
+    of = {power: one / unit for power, one, unit in zip(powers, found, columns, strict=True)}
+    highest = [of[a, b] for a, b in sorted(powers, reverse=True) if a + b == degree]
+    stated = (bulk_leading if bulk else surface_leading)(ANOTHER)
+    expected = [one / (1 - ANOTHER**2) ** 4 for one in stated]
+    assert highest == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize(("bulk", "degree"), [(False, 3), (True, 5)])
+@pytest.mark.parametrize("layer", [0, 4])
+def test_what_other_laws_of_the_radii_add_grows_as_the_cube_of_the_height(
+    bulk: bool, degree: int, layer: int
+) -> None:
+    """In a fixed layer it is a polynomial in M, under a bulk load over (M − j)²."""
+    heights = np.arange(7, 9 + degree)
+    values = np.array([other_laws(height, float(PHI), bulk)[layer] for height in heights])
+    if bulk:
+        values *= (heights - layer)[:, None] ** 2
+    assert (np.diff(values, n=degree, axis=0) > 1).all()
+    assert np.abs(np.diff(values, n=degree + 1, axis=0)).max() < 1e-10 * values.max()
